@@ -13,16 +13,16 @@
 #include "bench/random_checkpoints.h"
 #include "model/core/grid.h"
 #include "model/core/threads.h"
-#include "model/engine/samplers.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
+#include "model/engine/samplers.h"
 #include "model/flow/flow_tokens.h"
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
 
-/// Transitions of both engines, and beside them what limits them: the bare matrix products of the same shapes, and
-/// memory. All on one thread, in CPU time of that thread, so that a machine that does something
-/// else besides disturbs less; quote ratios of one run.
+/// Transitions of both engines, and beside them what limits them: the bare matrix products of the
+/// same shapes, and memory. All on one thread, in CPU time of that thread, so that a machine that
+/// does something else besides disturbs less; quote ratios of one run.
 ///
 /// `default` is the model that ships, a continuous flow that samples a transition at once; `paper`
 /// has paper F's size and random weights, and makes one frame after another. Where a GPU answers,
@@ -189,12 +189,11 @@ void Register(Models* models) {
   }
   // By the clock: the thread waits for the GPU.
   if (TorchDevices().cuda_devices > 0) {
-    benchmark::RegisterBenchmark("paper/cuda/torch",
-                                 [=](benchmark::State& state) {
-                                   Transitions(
-                                       state,
-                                       models->Get(model, "torch", {Device::Kind::kCuda, 0}), {});
-                                 })
+    benchmark::RegisterBenchmark(
+        "paper/cuda/torch",
+        [=](benchmark::State& state) {
+          Transitions(state, models->Get(model, "torch", {Device::Kind::kCuda, 0}), {});
+        })
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
   }

@@ -41,9 +41,10 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
          "auto, the fastest of them here. Replicas that take over each other's dances must agree.")
       ->envname("CHOREO_ENGINE")
       ->capture_default_str();
-  app.add_option("--max-waiting", config.max_waiting,
-                 "Transitions of GenerateTransition that may be in progress or wait, for each model: "
-                 "candidates, not calls. Those beyond are refused (RESOURCE_EXHAUSTED).")
+  app.add_option(
+         "--max-waiting", config.max_waiting,
+         "Transitions of GenerateTransition that may be in progress or wait, for each model: "
+         "candidates, not calls. Those beyond are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
   app.add_option("--max-streams", config.max_streams,

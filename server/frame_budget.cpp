@@ -22,7 +22,8 @@ std::string Percent(double share) { return std::to_string(std::lround(100 * shar
 
 }  // namespace
 
-void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const std::string& address) {
+void FrameBudget::TakeDance(const void* call, const SampleQueue& model,
+                            const std::string& address) {
   Take(call, {&model, address, model.model().fps});
 }
 

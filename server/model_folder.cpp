@@ -117,7 +117,7 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
 }
 
 std::optional<Server::Samplers> ModelFolder::Look(const std::filesystem::path& file, Files* files,
-                                                 Faults* faults) const {
+                                                  Faults* faults) const {
   try {
     const auto before = served_.find(file);
     if (before != served_.end() && StampOf(file) == before->second.stamp &&

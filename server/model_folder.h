@@ -62,7 +62,7 @@ class ModelFolder {
   /// Notes in `files` what it has, or in `faults` why it cannot be used; engines where these are
   /// not served already.
   std::optional<Server::Samplers> Look(const std::filesystem::path& file, Files* files,
-                                      Faults* faults) const;
+                                       Faults* faults) const;
   /// Of files at fault, notes what is served of them as before; once all others have been looked
   /// at, which have the right of way.
   void GoOn(const Faults& faults, Files* files) const;

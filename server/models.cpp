@@ -31,9 +31,7 @@ void AddTo(std::map<std::string, Models::Figures>& all, const std::string& name,
   if (!is_new) Add(more, &at->second);
 }
 
-Models::Figures FiguresOf(const SampleQueue& queue) {
-  return {queue.stats(), queue.histograms()};
-}
+Models::Figures FiguresOf(const SampleQueue& queue) { return {queue.stats(), queue.histograms()}; }
 
 }  // namespace
 

@@ -92,7 +92,7 @@ class Reloader {
 };
 
 std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& folder,
-                                     const ModelFolder::Loader& load) {
+                                      const ModelFolder::Loader& load) {
   const LeaveAtOnce leave;
   if (!config.models.empty()) return folder.Load();
   std::vector<Server::Samplers> models;

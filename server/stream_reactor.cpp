@@ -99,8 +99,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
     FromReport(report, summary->mutable_report());
-    FillTiming(static_cast<double>(report.frames) / queue_->model().fps,
-               summary->mutable_timing());
+    FillTiming(static_cast<double>(report.frames) / queue_->model().fps, summary->mutable_timing());
     outbox().Send(std::move(response));
     End(grpc::Status::OK);
   }

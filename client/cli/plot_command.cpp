@@ -169,8 +169,8 @@ void Run(PlotOptions& options) {
                                           : "goes with beats, not with " + options.of);
   }
   if (beats && options.motions.size() > 1) {
-    throw InvalidArgument("motions", std::to_string(options.motions.size()) +
-                                         ", but beats are plotted of one");
+    throw InvalidArgument(
+        "motions", std::to_string(options.motions.size()) + ", but beats are plotted of one");
   }
   if (beats && !options.labels.empty())
     throw InvalidArgument("--label", "lines of beats have names of their own");

@@ -51,9 +51,8 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
 void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, AskedTransition* asked) {
   const std::optional<RequiredSpeed> speed = run.required_speed();
   if (!speed || !speed->TooFast()) return;
-  asked->warnings.push_back(IntervalTooShort(model.skeleton, asked->key_id,
-                                             asked->request.first_frame, asked->request.frames,
-                                             *speed));
+  asked->warnings.push_back(IntervalTooShort(
+      model.skeleton, asked->key_id, asked->request.first_frame, asked->request.frames, *speed));
 }
 
 }  // namespace choreo

@@ -23,10 +23,11 @@
 
 namespace choreo {
 
-/// The chain of transitions behind a DanceStream: has what the timeline plans sampled one transition
-/// after the other, each as soon as it is known where it begins, and hands frames out as they are
-/// granted, as their music comes and as the sink takes them. Thread-safe. Lock order: the chain's
-/// before the queue's and the audio feed's; the sink is called under none. Kept alive by its jobs.
+/// The chain of transitions behind a DanceStream: has what the timeline plans sampled one
+/// transition after the other, each as soon as it is known where it begins, and hands frames out as
+/// they are granted, as their music comes and as the sink takes them. Thread-safe. Lock order: the
+/// chain's before the queue's and the audio feed's; the sink is called under none. Kept alive by
+/// its jobs.
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
@@ -65,7 +66,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   // Called without mutex_: acts with it held, then goes on with the dance.
   void Act(const std::function<void()>& act) noexcept;
   // Hands out what may go out, and tells the sink: `most` frames and ends of transitions at most.
-  // One thread at a time does; what others come for it hands out, too. True where there may be more.
+  // One thread at a time does; what others come for it hands out, too. True where there may be
+  // more.
   bool HandOut(int most);
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }

@@ -161,8 +161,8 @@ void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const 
                   whose + ", is not a finite pose");
 }
 
-// The frames that come next. A long plan is put on its feet piece by piece, so that nobody waits for
-// all of it.
+// The frames that come next. A long plan is put on its feet piece by piece, so that nobody waits
+// for all of it.
 void TransitionRun::PutOnFeet() {
   const auto from = plan_.begin() + std::ssize(frames_);
   const bool ends = std::distance(from, plan_.end()) <= kFootworkFrames;
@@ -211,8 +211,7 @@ void TransitionRun::TellArrival() {
   const PoseError raw =
       ComparePoses(model_->skeleton, drawn_.poses.back(), spec_.target->pose, mask);
   const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
-  arrival_result_ =
-      ArrivalResult{raw.position_m, final.position_m, final.angle_deg, correction_m_};
+  arrival_result_ = ArrivalResult{raw.position_m, final.position_m, final.angle_deg, correction_m_};
 }
 
 Eigen::Vector3d TransitionRun::StageAfter(size_t frames) const {

@@ -116,8 +116,8 @@ class TransitionRun {
   Pose world_;             // the newest frame, whose signs are kept
 
   std::unique_ptr<Sampling> sampling_;
-  Plan drawn_;               // once it is sampled
-  std::vector<Pose> plan_;   // canonical, steered; those of frames_ stand on their feet
+  Plan drawn_;              // once it is sampled
+  std::vector<Pose> plan_;  // canonical, steered; those of frames_ stand on their feet
   Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset
   std::vector<DanceFrame> frames_;
   std::optional<ArrivalResult> arrival_result_;

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/asked_transition.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
-#include "model/dance/asked_transition.h"
 
 namespace choreo {
 
@@ -145,7 +145,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   const std::shared_ptr<Impl> group_;
   const TransitionRequest request_;
   const double deadline_ = PlaybackClock();
-  std::optional<TransitionRun> run_;       // of the worker's thread until it is sampled
+  std::optional<TransitionRun> run_;  // of the worker's thread until it is sampled
   std::atomic<bool> is_sampled_ = false;
 
   std::mutex mutex_;  // of what follows

@@ -39,8 +39,8 @@ class GroupSink {
 /// frozen motion), then the candidate's number. Without a target nothing is steered.
 void RankCandidates(std::vector<CandidateReport>& candidates);
 
-/// GenerateTransition: has the candidates of one transition sampled, as bulk, and hands their frames
-/// out as the sink takes them. Candidate 0 is what DanceStream dances for the same interval.
+/// GenerateTransition: has the candidates of one transition sampled, as bulk, and hands their
+/// frames out as the sink takes them. Candidate 0 is what DanceStream dances for the same interval.
 /// Destruction cancels. Thread-safe. The queue must outlive it.
 class TransitionGroup {
  public:

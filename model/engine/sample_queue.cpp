@@ -266,11 +266,10 @@ SampleQueue::Reservation SampleQueue::ReserveBulk(int transitions) {
   const int most = impl_->options.max_bulk;
   const std::lock_guard lock(bulk->mutex);
   if (bulk->reserved + transitions > most) {
-    throw Error(ErrorCode::kResourceExhausted, "",
-                std::to_string(bulk->reserved) +
-                    " transitions are in progress or wait already; with " +
-                    std::to_string(transitions) + " more there would be more than " +
-                    std::to_string(most));
+    throw Error(
+        ErrorCode::kResourceExhausted, "",
+        std::to_string(bulk->reserved) + " transitions are in progress or wait already; with " +
+            std::to_string(transitions) + " more there would be more than " + std::to_string(most));
   }
   Reservation reservation(nullptr, [bulk, transitions](void*) {
     const std::lock_guard again(bulk->mutex);

@@ -54,8 +54,8 @@ class SampleQueue {
   };
   struct Stats {
     int workers = 0;
-    int active = 0;   ///< jobs that a worker has begun
-    int waiting = 0;  ///< jobs that none has begun
+    int active = 0;                        ///< jobs that a worker has begun
+    int waiting = 0;                       ///< jobs that none has begun
     uint64_t frames = 0, transitions = 0;  ///< made so far
     /// How often a worker's jobs have failed in a row for no fault of theirs; the largest of all.
     int failures = 0;

@@ -218,8 +218,9 @@ Factory LoadInbetweener(const Safetensors& content, const std::filesystem::path&
   info.default_temperature = 0;
   info.deterministic = true;
   return [info, model = checkpoint.model] {
-    return std::make_unique<AutoregressiveFlowSampler>(
-        info, model->config(), "cpu", [model] { return std::make_unique<InbetweenerTile>(model, 1); });
+    return std::make_unique<AutoregressiveFlowSampler>(info, model->config(), "cpu", [model] {
+      return std::make_unique<InbetweenerTile>(model, 1);
+    });
   };
 }
 
@@ -272,8 +273,8 @@ void SetTorchThreads(int threads) {
 }
 
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& path,
-                                                   std::span<const Device> devices,
-                                                   EngineKind kind, const std::string& kernels) {
+                                                   std::span<const Device> devices, EngineKind kind,
+                                                   const std::string& kernels) {
   std::map<Device, Factory> loaded;
   std::vector<std::unique_ptr<Sampler>> samplers;
   for (const Device& device : devices) {

@@ -9,8 +9,8 @@
 #include "model/engine/engine_choice.h"
 #include "model/engine/sampler.h"
 
-/// Makes the samplers that run the continuous flow and paper F's (model/flow), and paper C's network
-/// (model/controllers); the checkpoint says which. This header is free of torch.
+/// Makes the samplers that run the continuous flow and paper F's (model/flow), and paper C's
+/// network (model/controllers); the checkpoint says which. This header is free of torch.
 ///
 /// A row's bits don't depend on the rows beside it. That is verified of our own kernels when
 /// samplers are made, with random rows in every place; where it doesn't hold, slower kernels are

@@ -38,8 +38,8 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
   return others;
 }
 
-// What computes a model, from the kernels at the end of its fingerprint. Of float32 the instructions
-// don't matter.
+// What computes a model, from the kernels at the end of its fingerprint. Of float32 the
+// instructions don't matter.
 std::string EngineOf(const ModelInfo& model, EngineKind kind) {
   const size_t packed = model.fingerprint.find("/packed ");
   if (packed == std::string::npos) return "torch";

@@ -78,8 +78,8 @@ std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
   std::vector<Danced> all;
   for (const EvalWindow& window :
        ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip)) {
-    TransitionRequest& request = requests.emplace_back(RequestOf(
-        model, set, window, one.frames, evaluation.options.temperature, requests.size()));
+    TransitionRequest& request = requests.emplace_back(
+        RequestOf(model, set, window, one.frames, evaluation.options.temperature, requests.size()));
     request.target = KeyOf(one, model.skeleton, request);
     all.push_back({{.fps = model.fps, .frames = RealPoses(set, window, one.frames, kFramesBefore)},
                    request.target,

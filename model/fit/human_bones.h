@@ -29,8 +29,8 @@ struct HumanBones {
 /// Unity's, Unreal's mannequin, Rigify's, iClone's (CC_Base_), Daz's and Poser's, 3ds Max's Biped,
 /// ASF's, LeftHip-LeftKnee-LeftAnkle, Bandai Namco's, DeepMotion's, OptiTrack's, iPi's, Blender's
 /// metarig, MakeHuman's, MMD's (Japanese and English), Rokoko's, Xsens', ARKit's, Kinect's, Cats',
-/// mocopi's, Maya's Advanced Skeleton, Second Life's, and SMPL's. Where none of them is whole, the same without separators, capitals and the numbers that
-/// exporters append ("Hips_012"). Pure.
+/// mocopi's, Maya's Advanced Skeleton, Second Life's, and SMPL's. Where none of them is whole, the
+/// same without separators, capitals and the numbers that exporters append ("Hips_012"). Pure.
 HumanBones FindHumanBones(const std::vector<std::string>& names);
 
 /// All that HumanBones may hold: up to spine6 and neck3.

@@ -66,7 +66,7 @@ TEST(Validation, MasksFitTheSkeletonAndAskForSomething) {
 TEST(Validation, ConfigsNameFieldValueAndLimit) {
   const FakeSampler sampler;
   const auto refusal = [&sampler](const std::function<void(DanceConfig&)>& spoil,
-                                 ErrorCode code = ErrorCode::kInvalidArgument) {
+                                  ErrorCode code = ErrorCode::kInvalidArgument) {
     DanceConfig config;
     spoil(config);
     return Refusal([&] { config.Validate(sampler.model()); }, code);

@@ -51,8 +51,8 @@ std::vector<std::vector<float>> Heard(const ModelInfo& model) {
 }
 
 TEST(AutoregressiveFlowTest, GivesTheNetworkTheMusicOfHistoryAndFrame) {
-  EXPECT_THAT(Heard(Model(true)),
-              ElementsAre(ElementsAre(4, 4, 4, 4, 4, 4, 7, 7), ElementsAre(4, 4, 4, 4, 7, 7, 8, 8)));
+  EXPECT_THAT(Heard(Model(true)), ElementsAre(ElementsAre(4, 4, 4, 4, 4, 4, 7, 7),
+                                              ElementsAre(4, 4, 4, 4, 7, 7, 8, 8)));
 }
 
 TEST(AutoregressiveFlowTest, KeepsMusicFromANetworkThatLearntWithout) {

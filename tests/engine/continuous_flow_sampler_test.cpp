@@ -6,8 +6,8 @@
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
 #include "model/dance/transition.h"
-#include "model/engine/samplers.h"
 #include "model/engine/packed/kernels.h"
+#include "model/engine/samplers.h"
 #include "model/flow/flow_sampler.h"
 #include "model/motion/kinematics.h"
 #include "tests/engine/sampled.h"
@@ -102,8 +102,7 @@ TEST_F(ContinuousFlowSamplerTest, KernelsAgree) {
   const auto add = [&](const PackedKernels* kernels, double most) {
     const Device cpu;
     others.emplace_back(
-        std::move(MakeSamplers(path_, {&cpu, 1}, EngineKind::kAuto, kernels->name).front()),
-        most);
+        std::move(MakeSamplers(path_, {&cpu, 1}, EngineKind::kAuto, kernels->name).front()), most);
   };
   for (const PackedKernels* kernels : PackedKernelsHere()) add(kernels, 2e-4);
   for (const PackedKernels* kernels : Bf16KernelsHere()) add(kernels, 0.1);

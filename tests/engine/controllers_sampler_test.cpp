@@ -66,8 +66,7 @@ TEST_F(ControllersSamplerTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
   for (uint64_t seed = 1; seed <= 8; ++seed)
     specs.push_back(Spec(seed, 8 + static_cast<int>(seed)));
   const std::vector<Plan> plans = SampleInTurn(sampler_.get(), specs);
-  for (size_t i = 0; i < specs.size(); ++i)
-    ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
+  for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
 }
 
 TEST_F(ControllersSamplerTest, NeitherSeedNorTemperatureNorMusicChangeIt) {

@@ -48,8 +48,7 @@ TEST_F(InbetweenerTileTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
   for (uint64_t seed = 1; seed <= 6; ++seed)
     specs.push_back(RandomSpec(sampler_->model(), seed, 8 + static_cast<int>(seed)));
   const std::vector<Plan> plans = SampleInTurn(sampler_.get(), specs);
-  for (size_t i = 0; i < specs.size(); ++i)
-    ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
+  for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
 }
 
 TEST_F(InbetweenerTileTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikelihood) {

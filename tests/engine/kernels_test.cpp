@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
-#include "model/engine/samplers.h"
 #include "model/engine/packed/kernels.h"
+#include "model/engine/samplers.h"
 #include "tests/engine/sampled.h"
 
 /// Which instructions the packed engine is told to use.

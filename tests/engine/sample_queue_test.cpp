@@ -163,7 +163,8 @@ TEST_F(SampleQueueTest, StoppedItEndsAllAndTakesNone) {
   Close(queue, held);
   queue.SubmitBulk(waiting);
   queue.Stop();
-  ExpectError(ErrorCode::kUnavailable, "takes no new jobs", [&] { queue.Submit(Job("late", 1, 0)); });
+  ExpectError(ErrorCode::kUnavailable, "takes no new jobs",
+              [&] { queue.Submit(Job("late", 1, 0)); });
   gate.set_value();
   EXPECT_EQ(waiting->Result()->code(), ErrorCode::kUnavailable);
   EXPECT_TRUE(queue.WaitUntilIdle(std::chrono::seconds(30)));

@@ -126,8 +126,7 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
       ASSERT_LT((pose.root_position - expected.pose.root_position).norm(), 1e-5) << t;
       ASSERT_LT((pose.rotations - expected.pose.rotations).norm(), 1e-5) << t;
       for (size_t foot = 0; foot < 4; ++foot) {
-        ASSERT_NEAR(plan.contacts[at][foot], std::clamp(expected.contacts[foot], 0.0F, 1.0F),
-                    1e-5);
+        ASSERT_NEAR(plan.contacts[at][foot], std::clamp(expected.contacts[foot], 0.0F, 1.0F), 1e-5);
       }
       ASSERT_NEAR(plan.log_likelihoods[at], result.log_likelihood.item<float>(), 2e-3) << t;
     }

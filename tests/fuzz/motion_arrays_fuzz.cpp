@@ -16,8 +16,8 @@ constexpr std::array kKeys = {"root_positions",  "rotations",   "fps",        "p
                               "mocap_framerate", "root_orient", "pose_body",  "global_orient",
                               "body_pose",       "transl",      "betas",      "jaw_pose",
                               "joints"};
-constexpr std::array<int64_t, 19> kExtents = {0, 1, 2, 3,  24, 25,  72,  156, 165, 4,
-                                              6, 9, 21, 63, 144, 216, 22, 88, 96};
+constexpr std::array<int64_t, 19> kExtents = {0, 1, 2,  3,  24,  25,  72, 156, 165, 4,
+                                              6, 9, 21, 63, 144, 216, 22, 88,  96};
 
 NpyArray MakeArray(fuzz::Decisions& decisions) {
   NpyArray array;

@@ -9,7 +9,8 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
-/// However a call ends, all that it had comes back: its place, its transitions, threads and descriptors.
+/// However a call ends, all that it had comes back: its place, its transitions, threads and
+/// descriptors.
 namespace choreo::cleanup_test {
 
 using std::chrono::milliseconds;

@@ -128,7 +128,8 @@ TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
   server->SetModels({"fake"}, std::move(fresh));
   dance();
   const std::string of_fake = R"({model="fake"})";
-  ExpectEventually([&] { return Figure("choreo_workers" + of_fake) == 1; }, "the former one is gone");
+  ExpectEventually([&] { return Figure("choreo_workers" + of_fake) == 1; },
+                   "the former one is gone");
   EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 42);
   EXPECT_EQ(Figure("choreo_transition_seconds_count" + of_fake), 2);
   EXPECT_EQ(Figure("choreo_load" + of_fake), 0);

@@ -18,9 +18,7 @@ using ::testing::HasSubstr;
 class HeldSampler final : public FakeSampler {
  public:
   explicit HeldSampler(const std::atomic<bool>& held) : held_(held) {}
-  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
-    held_.wait(true);
-  }
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override { held_.wait(true); }
 
  private:
   const std::atomic<bool>& held_;

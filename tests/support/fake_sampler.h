@@ -28,8 +28,7 @@ inline const std::array<std::string, kBodyParts> kTellingJoints = {
 /// the first number of a telling joint's rotation is the velocity factor asked of the joint's part.
 class FakeSampler : public Sampler {
  public:
-  explicit FakeSampler(std::string device = "fake:0",
-                       const Skeleton& skeleton = Skeleton::Smpl24())
+  explicit FakeSampler(std::string device = "fake:0", const Skeleton& skeleton = Skeleton::Smpl24())
       : Sampler({}, std::move(device)) {
     model_.name = "fake";
     model_.fingerprint = "fake-1";
