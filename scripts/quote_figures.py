@@ -7,7 +7,9 @@ printed.json has the papers' own.
 
 Two kinds of quotation, each up to <!-- end -->:
     <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    all rows of a table, and what is wanted of them (wanted.json); COLUMN=VALUE
-                                                        leaves only rows that have it, "wanted" those of which something is wanted
+                                                        leaves only rows that have it, COLUMN~PART those that have a part
+                                                        like it, "wanted" those of which something is wanted; FILE+FILE has the
+                                                        methods of both
     <!-- figure: FILE TABLE | ROW | COLUMN -->          one figure; ROW is the row's first column
 """
 import json
@@ -17,15 +19,19 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURES = ROOT / "docs/figures"
-PAGES = ("docs/results.md", "docs/weight.md", "docs/papers.md")
+PAGES = ("docs/results.md", "docs/weight.md", "docs/papers.md", "docs/papers_ablations.md")
 WANTED = json.loads((FIGURES / "wanted.json").read_text())
 
 
-def rows_of(file, table):
-    for candidate in json.loads((FIGURES / f"{file}.json").read_text())["tables"]:
-        if candidate["name"] == table:
-            return candidate["rows"]
-    sys.exit(f"quote_figures.py: {file}.json has no table {table}")
+def rows_of(files, table):
+    rows = []
+    for file in files.split("+"):
+        found = [one["rows"] for one in json.loads((FIGURES / f"{file}.json").read_text())["tables"] if one["name"] == table]
+        if not found:
+            sys.exit(f"quote_figures.py: {file}.json has no table {table}")
+        known = [row.get("method") for row in rows]
+        rows += [row for row in found[0] if not rows or row["method"] not in known]
+    return rows
 
 
 def show(value):
@@ -42,15 +48,20 @@ def cell(row, column):
     return show(row[column])
 
 
+def has(row, kept):
+    column, how, value = re.fullmatch(r"(\w+)([=~])(.*)", kept).groups()
+    return row.get(column) == value if how == "=" else value in row.get(column, "")
+
+
 def table(place, *columns):
     file, name = place.split()
     wanted = WANTED.get(name, {})
-    only = dict(column.split("=") for column in columns if re.fullmatch(r"\w+=[\w ]+", column))
+    filters = [column for column in columns if re.fullmatch(r"\w+[=~][\w ,]+", column)]
     only_wanted = "wanted" in columns
-    columns = [column for column in columns if column != "wanted" and not re.fullmatch(r"\w+=[\w ]+", column)]
+    columns = [column for column in columns if column != "wanted" and column not in filters]
     lines = [columns + (["wanted"] if wanted else [])]
     for row in rows_of(file, name):
-        if any(row.get(column) != value for column, value in only.items()) or (only_wanted and row[columns[0]] not in wanted):
+        if not all(has(row, kept) for kept in filters) or (only_wanted and row[columns[0]] not in wanted):
             continue
         lines.append([cell(row, column) for column in columns] + ([wanted.get(row[columns[0]], "")] if wanted else []))
     lines.insert(1, ["---"] * len(lines[0]))

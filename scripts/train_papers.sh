@@ -111,7 +111,7 @@ evaluate() {
   local f=(--paper --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --split test --lengths 30 60 90
     --windows 6 --long-dances 14 --long-frames 600)
   measure paper-f paper_f "${f[@]}" --best-of 10 "${baselines[@]}" "${shipped[@]}"
-  measure harvey harvey_f "${f[@]}" --best-of 1 --baseline interpolation  # it draws nothing
+  measure harvey harvey_f "${f[@]}" --best-of 1 --no-encoder --baseline interpolation  # it draws nothing
   measure paper-f paper_f_calm "${f[@]}" --best-of 3 --long-dances 6 --temperature 0.6 --no-encoder --baseline interpolation
   beside f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
   measure f-full f_ablations "${f[@]}" --best-of 3 --long-dances 6 --baseline interpolation "${others[@]}"

@@ -213,7 +213,6 @@ Factory LoadFlow(const Safetensors& content, const std::filesystem::path& path,
 Factory LoadInbetweener(const Safetensors& content, const std::filesystem::path& path) {
   const InbetweenerCheckpoint checkpoint = ParseInbetweener(content, path.string());
   ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
-  info.audio_features = 0;  // it hears no music
   info.hears_music = false;
   info.default_temperature = 0;
   info.deterministic = true;
