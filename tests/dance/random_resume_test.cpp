@@ -145,7 +145,7 @@ TEST(RandomResume, HearsAsMuchOfLongMusicAsBefore) {
       const double swell = std::sin(0.5 * static_cast<double>(i) / 22050 + seed);
       dance.samples[i] *= static_cast<float>(std::max(0.0, 0.6 + swell));
     }
-    ResumeEverywhere(*scheduler, seed, std::move(dance), 1800, &counts);
+    ResumeEverywhere(*queue, seed, std::move(dance), 1800, &counts);
   }
   EXPECT_GT(counts.later, 40U);
   EXPECT_GT(counts.heard, 40U);
