@@ -85,7 +85,7 @@ TEST_F(PlotCommandTest, DrawsBeatsOfTheBodyAndOfTheSong) {
   WriteWav(folder_ / "song.wav", std::vector<float>(8 * 22050));
   ASSERT_EQ(Plot("beats " + At("sway.npz") + " --song " + At("song.wav")).code, 0);
   EXPECT_LT(Drawn(kInk), ink - 500) << "silence has no beats";
-  EXPECT_EQ(Drawn(kFirstLine), line);
+  EXPECT_NEAR(Drawn(kFirstLine), line, 10);
 }
 
 TEST_F(PlotCommandTest, SaysWhatDoesNotFit) {
