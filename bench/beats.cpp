@@ -51,7 +51,7 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   feed.Push(mono, 0, [] {});
   MusicBeats music(30, {}, std::nullopt, &feed);
   for (int64_t from = 0; from + kUsualFrames <= feed.ready(); from += kUsualFrames) {
-    music.Around(from, from + kUsualFrames);
+    music.Begin(music.For(from, from + kUsualFrames), from);
     for (int64_t frame = from; frame < from + kUsualFrames; ++frame) music.Of(frame);
   }
   return music.told();

@@ -19,6 +19,7 @@
 #include "model/flow/flow_tokens.h"
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/pose_codec.h"
 
 /// Transitions of both engines, and beside them what limits them: the bare matrix products of the
 /// same shapes, and memory. All on one thread, in CPU time of that thread, so that a machine that

@@ -61,7 +61,7 @@ class Load {
  public:
   explicit Load(const Options& options)
       : options_(options),
-        client_({.addresses = {server_.address()}}),
+        client_({.addresses = {server_->address()}}),
         song_(options.song.empty()
                   ? ClickSong(options.seconds, 44100, 1)
                   : cli::AudioFor(cli::ReadMusic(options.song, options.seconds).audio,
@@ -98,10 +98,10 @@ class Load {
     for (const int addresses : options_.addresses) {
       for (const int streams : options_.streams) {
         if (streams < addresses) continue;
-        const double cpu = CpuSeconds(server_.process());
+        const double cpu = CpuSeconds(server_->process());
         Lateness lateness = Live(streams, 0.1, 0.1, addresses);
         const size_t admitted = lateness.first_ms.size();
-        const double cost = (CpuSeconds(server_.process()) - cpu) /
+        const double cost = (CpuSeconds(server_->process()) - cpu) /
                             (static_cast<double>(admitted) * options_.seconds);
         std::printf("| %d | %d | %zu | %zu | ", streams, addresses, admitted,
                     lateness.refused_ms.size());
@@ -138,7 +138,7 @@ class Load {
         "\n| dances at once, music known ahead | frames/s | frames/s of the server's CPU "
         "time |\n|---|---|---|\n");
     for (const int streams : {1, 8, 32}) {
-      const double cpu = CpuSeconds(server_.process());
+      const double cpu = CpuSeconds(server_->process());
       const Clock::time_point start = Clock::now();
       std::atomic<int64_t> frames = 0;
       Together(streams, [&](int i) {
@@ -146,7 +146,7 @@ class Load {
       });
       const auto count = static_cast<double>(frames.load());
       std::printf("| %d | %.0f | %.0f |\n", streams, count / Since(start),
-                  count / (CpuSeconds(server_.process()) - cpu));
+                  count / (CpuSeconds(server_->process()) - cpu));
       std::fflush(stdout);
     }
   }
@@ -187,7 +187,7 @@ class Load {
     const auto samples = size_t{kFrames} * kFeatureHop;
     for (int minute = 1; minute <= kMinutes; ++minute) {
       // As a player would, but faster: a minute of music is sent when the minute before was danced.
-      const double before = CpuSeconds(server_.process());
+      const double before = CpuSeconds(server_->process());
       for (Stream& stream : streams) {
         const size_t ahead = minute == 1 ? size_t{kModelSampleRate} : 0;
         const auto next = std::span(song.samples).subspan(stream.sent);
@@ -204,7 +204,7 @@ class Load {
         }
       }
       if (minute > 1 && minute < kMinutes) continue;
-      const double used = CpuSeconds(server_.process()) - before;
+      const double used = CpuSeconds(server_->process()) - before;
       std::printf("| %d | %.3f | %.0f |\n", minute, 1000 * used / (kStreams * kFrames),
                   Mebibytes());
       std::fflush(stdout);
@@ -243,7 +243,7 @@ class Load {
   int64_t AskForTransitions(int frames, int candidates, const std::atomic<bool>& over) const {
     // What is in progress when the dance is over is given up.
     const client::Client client(
-        {.addresses = {server_.address()}, .deadline_s = options_.seconds + 1, .retry_s = 0});
+        {.addresses = {server_->address()}, .deadline_s = options_.seconds + 1, .retry_s = 0});
     int64_t made = 0;
     while (!over) {
       try {
@@ -265,7 +265,7 @@ class Load {
   int64_t AskWithoutTime(int calls, const std::atomic<bool>& over) const {
     constexpr int kCallers = 50;
     const client::Client client(
-        {.addresses = {server_.address()}, .deadline_s = 1e-3, .retry_s = 0});
+        {.addresses = {server_->address()}, .deadline_s = 1e-3, .retry_s = 0});
     Together(kCallers, [&](int) {
       for (int i = 0; i < calls / kCallers && !over; ++i) {
         try {
@@ -282,8 +282,8 @@ class Load {
     std::vector<std::unique_ptr<Relay>> relays;
     std::vector<client::Client> clients;
     for (int i = 0; i < addresses; ++i) {
-      if (i > 0) relays.push_back(std::make_unique<Relay>(server_.address(), 1 + i));
-      client::Options options{.addresses = {i > 0 ? relays.back()->address() : server_.address()}};
+      if (i > 0) relays.push_back(std::make_unique<Relay>(server_->address(), 1 + i));
+      client::Options options{.addresses = {i > 0 ? relays.back()->address() : server_->address()}};
       // Who is refused without a time to come back is not asked, and fails.
       options.before_retry = [] {
         throw Error(ErrorCode::kResourceExhausted, "", "is to come back later");
@@ -331,11 +331,11 @@ class Load {
   }
 
   double Mebibytes() const {
-    return static_cast<double>(ResidentBytes(server_.process())) / (1 << 20);
+    return static_cast<double>(ResidentBytes(server_->process())) / (1 << 20);
   }
 
   Options options_;
-  cli::LocalServer server_;
+  const std::unique_ptr<cli::LocalServer> server_ = cli::LocalServer::Start("");
   client::Client client_;
   client::Audio song_;
 };

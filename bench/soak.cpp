@@ -80,7 +80,7 @@ class Soak {
       clients.emplace_back([this] { BeGreedy(); });
       while (!IsOver()) {
         std::this_thread::sleep_for(seconds(1));
-        server_.RequireRunning();
+        server_->RequireRunning();
         samples_.push_back({MinutesSince(start_), Mebibytes()});
       }
     }
@@ -100,11 +100,11 @@ class Soak {
     int64_t threads = 0, descriptors = 0;
   };
 
-  client::Options ClientOptions() const { return {.addresses = {server_.address()}}; }
+  client::Options ClientOptions() const { return {.addresses = {server_->address()}}; }
   bool IsOver() const { return MinutesSince(start_) >= options_.minutes; }
-  Usage Now() const { return {Threads(server_.process()), Descriptors(server_.process())}; }
+  Usage Now() const { return {Threads(server_->process()), Descriptors(server_->process())}; }
   double Mebibytes() const {
-    return static_cast<double>(ResidentBytes(server_.process())) / (1 << 20);
+    return static_cast<double>(ResidentBytes(server_->process())) / (1 << 20);
   }
   // Sleeps, but not beyond the end.
   void Wait(milliseconds time) const {
@@ -138,7 +138,7 @@ class Soak {
   void Crash() {
     std::minstd_rand random(1);
     while (!IsOver()) {
-      std::string name = "soak", option = "--dance-at", address = server_.address();
+      std::string name = "soak", option = "--dance-at", address = server_->address();
       char* arguments[] = {name.data(), option.data(), address.data(), nullptr};
       pid_t process = 0;
       if (posix_spawn(&process, "/proc/self/exe", nullptr, nullptr, arguments, environ) != 0) {
@@ -210,7 +210,7 @@ class Soak {
   }
 
   const Options options_;
-  cli::LocalServer server_;
+  const std::unique_ptr<cli::LocalServer> server_ = cli::LocalServer::Start("");
   const client::Audio song_ = ClickSong(kSong_s, kRate, 1);
   Clock::time_point start_;
   std::vector<Sample> samples_;
