@@ -47,6 +47,7 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   std::vector<std::shared_ptr<Job>> TakeJobs();
 
   SampleQueue& queue_;
+  const SampleQueue::Reservation room_;
   const ModelInfo& model_;
   const int64_t first_frame_;
   GroupRequest request_;  // without its samples, once they are heard
@@ -55,7 +56,6 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   Mailbox<GroupSink> mailbox_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
-  SampleQueue::Reservation room_;
 
   std::mutex mutex_;                        // of what follows
   std::vector<std::shared_ptr<Job>> jobs_;  // until all are done, or cancelled
@@ -158,6 +158,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
 TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
                             std::shared_ptr<GroupSink> sink)
     : queue_(queue),
+      room_(queue.ReserveBulk(request.candidates)),  // first: who finds none costs nothing else
       model_(queue.model()),
       first_frame_(request.FirstFrame()),
       request_(std::move(request)),
@@ -200,7 +201,6 @@ void TransitionGroup::Impl::Begin() {
   if (path && path->frames.back() < first_frame_)
     asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
 
-  room_ = queue_.ReserveBulk(request_.candidates);
   // All candidates ask for the same: what is wrong with it, or worth a warning, the first one says.
   std::optional<TransitionRun> run(std::in_place, model_, transition);
   WarnOfSpeed(model_, *run, &asked);
