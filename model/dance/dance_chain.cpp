@@ -216,8 +216,7 @@ void DanceChain::Fail(Job& job, const Error& failure) {
   if (!job.sampled()) {
     job.Fail(failure);  // told when all before it is handed out
   } else if (failure.code() != ErrorCode::kUnavailable) {
-    mailbox_.PostError(
-        failure);  // the sink's; whatever becomes of the queue, what is there goes out
+    mailbox_.PostError(failure);  // the sink's. A queue that closes takes back no sampled frames.
   }
 }
 

@@ -107,7 +107,7 @@ class ControlRun : public TrainingRun {
            std::to_string(options().longest) +
            " frames at 30 fps. It hears no music and is deterministic. Away from the keys it knows "
            "how fast limbs should be better than where: postures are those of a mean dancer. Feet "
-           "slide without the foot lock.";
+           "slide without footwork.";
   }
 
  private:

@@ -229,7 +229,7 @@ class FlowMatchingRun : public TrainingRun {
   std::string Limits() const override {
     return "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
            " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. Feet slide "
-           "without the foot lock. What the data lacks (lying, acrobatics, props, partners) it "
+           "without footwork. What the data lacks (lying, acrobatics, props, partners) it "
            "can't do.";
   }
 

@@ -171,7 +171,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
   EXPECT_NEAR(high.poses[100].root_position.y(), 1.2, 1e-5);
 }
 
-// The foot lock plans a transition's last steps to where the key has its feet. A key that says
+// Footwork plans a transition's last steps to where the key has its feet. A key that says
 // nothing of where it is stands where the path leads.
 TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
   const Skeleton& skeleton = Skeleton::Smpl24();
