@@ -17,8 +17,8 @@
 #include "model/audio/decode.h"
 #include "model/audio/made_song.h"
 #include "model/dance/dance_stream.h"
-#include "model/engine/samplers.h"
 #include "model/metrics/joint_track.h"
+#include "model/samplers/samplers.h"
 
 namespace choreo::bench {
 namespace {

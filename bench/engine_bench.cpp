@@ -15,11 +15,11 @@
 #include "model/core/threads.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
-#include "model/engine/samplers.h"
 #include "model/flow/flow_tokens.h"
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_codec.h"
+#include "model/samplers/samplers.h"
 
 /// Transitions of both engines, and beside them what limits them: the bare matrix products of the
 /// same shapes, and memory. All on one thread, in CPU time of that thread, so that a machine that

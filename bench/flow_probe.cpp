@@ -7,8 +7,8 @@
 
 #include "model/core/random.h"
 #include "model/core/safetensors.h"
-#include "model/engine/packed/flow.h"
 #include "model/motion/skeleton_json.h"
+#include "model/papers/samplers/packed_flow.h"
 
 namespace choreo {
 namespace {

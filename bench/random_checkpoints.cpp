@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "model/controllers/checkpoint.h"
-#include "model/flow/checkpoint.h"
 #include "model/flow/continuous_flow.h"
-#include "model/flow/inbetweener.h"
+#include "model/papers/networks/controllers_checkpoint.h"
+#include "model/papers/networks/flow_checkpoint.h"
+#include "model/papers/networks/inbetweener.h"
 
 namespace choreo {
 namespace {

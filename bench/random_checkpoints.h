@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "model/controllers/controllers_config.h"
 #include "model/flow/continuous_flow_config.h"
-#include "model/flow/flow_config.h"
 #include "model/motion/skeleton.h"
+#include "model/papers/networks/controllers_config.h"
+#include "model/papers/networks/flow_config.h"
 
 /// Checkpoints with weights drawn at random, the same for the same seed: they dance nothing, but
 /// every path computes. Their cards say so. For tests and benchmarks.

@@ -22,7 +22,7 @@ foreach(source ${sources})
 endforeach()
 string(SHA256 hash "${text}")
 string(SUBSTRING ${hash} 0 16 hash)
-file(WRITE ${OUTPUT} "#include \"model/engine/samplers.h\"
+file(WRITE ${OUTPUT} "#include \"model/engine/loading.h\"
 
 namespace choreo {
 

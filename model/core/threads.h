@@ -32,7 +32,7 @@ inline constexpr int kMaxMathThreads = 1024;  ///< of one matrix product
 
 /// Sets how many threads one matrix product uses, in every BLAS and OpenMP runtime loaded. Throws
 /// Error(kInvalidArgument) unless threads is in [1, kMaxMathThreads]. LibTorch's own pools are the
-/// business of engine/samplers.h.
+/// business of model/samplers/samplers.h.
 void SetMathThreads(int threads);
 
 /// From here on, denormal results and operands count as zero on the calling thread and on threads

@@ -6,9 +6,9 @@
 
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
-#include "model/engine/samplers.h"
 #include "model/evaluation/interpolation_sampler.h"
 #include "model/metrics/song_beats.h"
+#include "model/samplers/samplers.h"
 
 namespace choreo {
 namespace {

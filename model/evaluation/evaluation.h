@@ -99,14 +99,6 @@ struct Evaluation {
 ///   keys_SET         every method: how far it misses keys, raw and as served
 std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
 
-/// Paper F's tables, of every method raw (without arrival and footwork) and as served, each at
-/// its own temperature unless one is asked for:
-///   paper_l2p_SET     Table 2: mean of EvalOptions::best_of samples
-///   paper_dances_SET  Table 1: long dances with keys each 100 frames
-///   paper_beats_SET   Table 4; of sets with music
-std::vector<Table> EvaluatePaperTransitions(const Evaluation& evaluation);
-std::vector<Table> EvaluatePaperDances(const Evaluation& evaluation);
-
 /// liveliness_l2p_SET of every judged method: L2P over interpolation's at temperature 0, at the
 /// served one, and of the best of EvalOptions::best_of samples there.
 std::vector<Table> EvaluateNearness(const Evaluation& evaluation);

@@ -1,15 +1,16 @@
 #pragma once
 
-#include <filesystem>
+#include <torch/nn/module.h>
+#include <torch/types.h>
+
 #include <string>
 
 #include "model/core/safetensors.h"
 #include "model/flow/checkpoint_file.h"
-#include "model/flow/flow_model.h"
 
 /// Checkpoints: safetensors with everything inside that is needed to dance - weights,
 /// configuration, skeleton, normalisation - and the model card (data, terms, training command,
-/// figures). A content hash guards the whole.
+/// figures). A content hash guards the whole. Here is what those of all networks share.
 namespace choreo {
 
 template <typename Model>
@@ -18,20 +19,6 @@ struct CheckpointOf {
   std::string card;      ///< JSON text
   std::string hash;      ///< 128-bit content hash, hex
 };
-using Checkpoint = CheckpointOf<FlowModel>;
-
-/// Of a file that has been read; `name` is what errors call it. Throws Error(kInvalidArgument) for
-/// another format version, a wrong hash, or tensors that do not fit the configuration; the message
-/// says which.
-Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
-
-/// Writes atomically; returns the content hash. `card` is JSON. `weights`: what the network's
-/// tensors are to be.
-std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
-                           const nlohmann::json& card);
-/// The network as it is.
-std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
-                           const nlohmann::json& card);
 
 /// One tensor by name, and back into one of its shape.
 void ExportTensor(const std::string& name, const torch::Tensor& value, Safetensors* content);
@@ -42,7 +29,8 @@ void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module);
 
-/// What `file` holds, whose tensors are in `content`. Throws as ParseCheckpoint does.
+/// What `file` holds, whose tensors are in `content`. Throws Error(kInvalidArgument) for tensors
+/// that do not fit the configuration; the message says which.
 template <typename Model, typename Config>
 CheckpointOf<Model> TakeUp(const CheckpointFile& file, const Safetensors& content) {
   CheckpointOf<Model> checkpoint{.model = Model(file.Get<Config>("config"), file.skeleton()),

@@ -66,7 +66,8 @@ std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model,
 /// Checkpoints of it, as those of the other networks (model/flow/checkpoint.h).
 using ContinuousFlowCheckpoint = CheckpointOf<ContinuousFlow>;
 bool HoldsContinuousFlow(const Safetensors& content);
-/// `name` is what errors call it. Throws as ParseCheckpoint does.
+/// `name` is what errors call it. Throws Error(kInvalidArgument) for another format version, a
+/// wrong hash, or tensors that do not fit the configuration; the message says which.
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name);
 /// Writes atomically; returns the content hash. `weights` holds the tensors by name.
 std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,

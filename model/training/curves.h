@@ -15,7 +15,7 @@ struct LossFigure {
   double value = 0, gradient = 0;
 };
 
-using LossFigures = std::map<std::string, LossFigure>;  ///< by the term's name (losses.h)
+using LossFigures = std::map<std::string, LossFigure>;  ///< by the term's name (loss_terms.h)
 
 /// What else a run reports, in the order of its columns.
 using NamedFigures = std::vector<std::pair<std::string, double>>;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "model/flow/continuous_flow.h"
-#include "model/training/losses.h"
+#include "model/training/loss_terms.h"
 #include "model/training/window_body.h"
 
 namespace choreo {

@@ -3,16 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
-
-#include "model/controllers/controllers_config.h"
-#include "model/flow/flow_config.h"
-
-namespace CLI {
-class App;
-}
 
 namespace choreo {
 
@@ -21,29 +15,9 @@ inline constexpr std::array kComparedFrames{10, 30, 60, 90};
 /// The same of paper C's network (paper C, Tables 2-4).
 inline constexpr std::array kControlledFrames{10, 50, 100, 150};
 
-/// Of paper F's flows, the presets `paper`, `paper-f` and `ablation`.
-struct FlowOptions {
-  int flow_steps = 0, hidden = 0;  ///< K, width of the LSTMs; 0: the preset's
-  int condition_width = -1;        ///< of the shared encoding, 0: none; -1: the preset's
-  double rollout_share = 1;        ///< of a step's windows, that are sampled for L_key and L_feet
-  int64_t rollout_from = 0;  ///< step at which L_key and L_feet begin; before it samples are noise
-  double rollout_loss = 0;   ///< weight of the sampled way's distance from the real one, ours
-  double temperature = 1;    ///< at which it is served unless asked otherwise
-  double dequantise = 0.05;  ///< noise of the likelihood's features, share of their spread
-  bool no_innovations = false;  ///< draws features as the paper does, whatever the preset
-  bool no_keys = false, no_time_embedding = false, forward_embedding = false;  ///< Table 1
-};
-
-/// Of paper C's network, the preset `controllers-paper`: what is left out (Tables 2-4).
-struct ControllersOptions {
-  double truth_decay = 0.99995;  ///< of the real frames' share of what is fed back, a step
-  bool residual = false;         ///< ControllersConfig::residual, ours
-  bool no_absolute_position = false, no_relative_position = false;
-  bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
-};
-
 /// One training run. Everything that makes it is here or in the data: the same options give the
-/// same checkpoint on one machine.
+/// same checkpoint on one machine. Those of the papers' presets know more
+/// (model/papers/training/paper_options.h).
 struct TrainOptions {
   std::string preset = "default";
   std::string name;                         ///< as servers list the model; empty: the preset's
@@ -64,37 +38,57 @@ struct TrainOptions {
   double clip = 1;     ///< most that a step's gradient may measure; 0: it is never clipped
   double tempo = 0.5;  ///< share of the windows danced faster or slower
   uint64_t seed = 1;
-  int shortest = 5, longest = 100;  ///< N of the windows, frames; of all but the continuous flow
-  bool no_key_loss = false;         ///< of both, too
-  FlowOptions flow;
-  ControllersOptions controllers;
 
-  bool IsControllers() const { return preset == ControllersConfig::kPreset; }
-  bool IsInbetweener() const { return preset == kInbetweenerPreset; }
-  bool IsContinuousFlow() const { return preset == "default"; }
+  virtual ~TrainOptions() = default;
   /// What a stranger types to train the same: folders by their names alone.
-  std::string Command() const;
+  virtual std::string Command() const;
   /// What must not change when a run is resumed: all of Command() but names and places.
-  std::string Fixed() const;
+  virtual std::string Fixed() const;
   /// Throws Error(kInvalidArgument) naming the option.
-  void Validate() const;
+  virtual void Validate() const;
 };
 
-/// Trains paper F's flow (`paper`, `paper-f`, `ablation`), showing a progress bar. Writes
-/// run/state.safetensors (resumable to the bit after a kill at any time), curves.csv, plots of it,
-/// and checkpoint.safetensors with its card, at each report and at the end. Throws
-/// Error(kInvalidArgument) naming the option that can't be used.
-void TrainFlow(const TrainOptions& options);
-/// The same of the baseline of both papers, on the windows of TrainFlow and on the CPU.
-void TrainInbetweener(const TrainOptions& options);
-/// The same of paper C's network, on a curriculum of lengths.
-void TrainControllers(const TrainOptions& options);
-/// The same of the continuous flow. Its checkpoint has the moving average of the weights.
-void TrainContinuousFlow(const TrainOptions& options);
+/// Throws Error(kInvalidArgument, option) unless it is `good`: "VALUE, but it must be LIMIT".
+void Require(bool good, const char* option, const std::string& value, const std::string& limit);
 
-/// `choreo-lab train`. `read_device`: the device ("cpu", "cuda:N") that the text of --device stands
-/// for; throws Error for one that is not there.
-void AddTrainCommand(CLI::App& app,
-                     const std::function<std::string(const std::string&)>& read_device);
+/// Calls `visit(option, value, what)` of each option of every preset, --preset and --from aside,
+/// that a run must keep.
+void VisitFixed(auto& options, auto&& visit) {
+  visit("--steps", options.steps, "Steps of the run");
+  visit("--batch", options.batch, "Windows a step");
+  visit("--rate", options.rate, "Peak learning rate");
+  visit("--clip", options.clip, "Norm that gradients are clipped to; 0: never");
+  visit("--tempo", options.tempo,
+        "Share of the windows that are danced up to a third faster or slower");
+  visit("--seed", options.seed, "Same seed, data and machine: same checkpoint");
+}
+/// The same of the preset `default` alone.
+void VisitFixedOfDefault(auto& options, auto&& visit) {
+  visit("--keep-statistics", options.keep_statistics,
+        "With --from: what that measured of its data stays, and what it does not know is measured");
+}
+
+/// Writes options down as they are typed: a visitor for VisitFixed.
+class OptionText {
+ public:
+  void operator()(const char* option, const auto& value, const char* /*what*/) {
+    if constexpr (!std::is_same_v<decltype(value), const bool&>) {
+      values_ << ' ' << option << ' ' << value;
+    } else if (value) {
+      flags_ += std::string(" ") + option;
+    }
+  }
+  std::string Text() const { return values_.str() + flags_; }
+
+ private:
+  std::ostringstream values_;
+  std::string flags_;
+};
+
+/// Trains the continuous flow, showing a progress bar. Writes run/state.safetensors (resumable to
+/// the bit after a kill at any time), curves.csv, plots of it, and checkpoint.safetensors, which
+/// has the moving average of the weights, with its card, at each report and at the end. Throws
+/// Error(kInvalidArgument) naming the option that can't be used.
+void TrainContinuousFlow(const TrainOptions& options);
 
 }  // namespace choreo

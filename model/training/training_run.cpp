@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "model/core/grid.h"
@@ -26,25 +27,38 @@ double RateAt(double peak, int64_t step, int64_t steps) {
   return peak * warm * (kLastRate + (1 - kLastRate) * 0.5 * (1 + std::cos(M_PI * progress)));
 }
 
+// Options by name, of a text as TrainOptions::Fixed; those of flags are empty.
+std::map<std::string, std::string> OptionsOf(const std::string& text) {
+  std::map<std::string, std::string> options;
+  std::istringstream words(text);
+  std::string option;
+  for (std::string word; words >> word;) {
+    if (word.starts_with("--")) {
+      options[option = word];
+    } else {
+      options[option] = word;
+    }
+  }
+  return options;
+}
+
+// Whether a run that was started as `before` goes on as `now`. Earlier versions also wrote down
+// what the preset has no use for, at its default.
+bool IsSameRun(const std::string& before, const std::string& now) {
+  const auto started = OptionsOf(before), asked = OptionsOf(now);
+  for (const auto& [option, value] : asked) {
+    const auto found = started.find(option);
+    if (found == started.end() || found->second != value) return false;
+  }
+  return std::ranges::all_of(started, [&](const auto& item) {
+    return !item.second.empty() || asked.contains(item.first);
+  });
+}
+
 }  // namespace
 
 int WindowsOf(int batch, int frames) {
   return std::max(8, batch * kUsualFrames / std::max(frames, kUsualFrames / 3));
-}
-
-int DrawnLength(const TrainOptions& options, Random* random) {
-  const double u = random->Uniform();
-  const double place = random->Uniform() < 0.5 ? u * u : u;
-  return options.shortest + static_cast<int>(place * (options.longest - options.shortest + 1));
-}
-
-MotionVariation VariationOf(const TrainOptions& options, bool keys) {
-  return {.mirror = true,
-          .drop_key = keys ? 0.1 : 1.0,
-          .drop_audio = 0.15,
-          .partial_key = keys ? 0.1 : 0.0,
-          .tempo = options.tempo,
-          .hold_history = 0.05};
 }
 
 TrainingRun::TrainingRun(const TrainOptions& options, const TrainingClips& clips)
@@ -212,7 +226,7 @@ void TrainingRun::Load() {
                 "the run was started from another checkpoint" +
                     (base.empty() ? " or from none" : " (hash " + base + ")"));
   }
-  if (state.metadata.at("options") != options_.Fixed()) {
+  if (!IsSameRun(state.metadata.at("options"), options_.Fixed())) {
     throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                 "the run was started as\n  " + state.metadata.at("options") + "\nnot as\n  " +
                     options_.Fixed());

@@ -15,8 +15,7 @@
 #include "model/training/adam.h"
 #include "model/training/clip_split.h"
 #include "model/training/curves.h"
-#include "model/training/losses.h"
-#include "model/training/motion_batch.h"
+#include "model/training/loss_terms.h"
 #include "model/training/trainer.h"
 
 namespace choreo {
@@ -36,7 +35,7 @@ class TrainingRun {
   void Go();
 
  protected:
-  /// The clips outlive the run.
+  /// Options and clips outlive the run.
   TrainingRun(const TrainOptions& options, const TrainingClips& clips);
   /// Has `network` trained, which is complete and outlives the run. Makes the run's folder and
   /// takes up what it holds. Throws Error(kFailedPrecondition) for a run that was started on other
@@ -92,7 +91,7 @@ class TrainingRun {
   void Save();
   void Load();
 
-  TrainOptions options_;
+  const TrainOptions& options_;
   const std::vector<PreparedClip>& train_;
   std::string data_hash_;
   nlohmann::json base_;  // what the run went on from: its hash and card
@@ -106,8 +105,8 @@ class TrainingRun {
 };
 
 /// A run of the class `Run`, which is made of options and clips.
-template <typename Run>
-void TrainBy(const TrainOptions& options) {
+template <typename Run, typename Options>
+void TrainBy(const Options& options) {
   options.Validate();
   const TrainingClips clips = {LoadClips(options.data, options.splits, kTrainGroup),
                                LoadClips(options.data, options.splits, kValidationGroup)};
@@ -120,10 +119,5 @@ inline constexpr uint64_t kValidationSeed = 20240607;
 /// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of
 /// longer ones, at most three times as many short ones, at least 8.
 int WindowsOf(int batch, int frames);
-/// How many frames a step's windows have, from shortest to longest. Short transitions are common in
-/// use and cheap: half of the draws are quadratic towards the short end.
-int DrawnLength(const TrainOptions& options, Random* random);
-/// What is varied where paper F's flows learn, and who is compared with them.
-MotionVariation VariationOf(const TrainOptions& options, bool keys);
 
 }  // namespace choreo

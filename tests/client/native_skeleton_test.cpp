@@ -7,12 +7,12 @@
 #include "client/choreo_client.h"
 #include "client/cli/choreography.h"
 #include "client/cli/pose_library.h"
-#include "model/engine/samplers.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
+#include "model/papers/training/paper_options.h"
+#include "model/samplers/samplers.h"
 #include "model/training/prepare.h"
 #include "model/training/prepared_clip.h"
-#include "model/training/trainer.h"
 #include "server/server.h"
 #include "tests/client/test_music.h"
 #include "tests/support/expect_error.h"
@@ -56,7 +56,7 @@ class NativeSkeletonTest : public testing::Test {
   void Serve(const std::string& preset) {
     const std::filesystem::path data = folder_ / "data";
     std::ofstream(data / "splits.json") << R"({"tang2018": {"validation": ["DANCE_C_3"]}})";
-    TrainOptions train;
+    PaperOptions train;
     train.preset = preset;
     train.data = {data};
     train.splits = data / "splits.json";

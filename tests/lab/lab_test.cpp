@@ -219,7 +219,8 @@ TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
     EXPECT_EQ(outcome.code, 1) << options;
     EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: " + why)) << options;
   }
-  // A card's command has all options: those that are not used may stand there at their defaults.
+  // Cards of earlier versions have all options: those that are not used may stand at their
+  // defaults.
   const Outcome typed =
       Lab("train --run typed --preset controllers-paper --hidden 0 --steps 1 --batch 4" + kData +
               " --shortest 5 --longest 20",

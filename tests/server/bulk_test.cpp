@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-#include "model/engine/samplers.h"
+#include "model/samplers/samplers.h"
 #include "tests/server/fixture.h"
 
 /// A real server, real clients, and the kernels and checkpoint that are served: what long calls do

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "model/core/safetensors.h"
-#include "model/flow/checkpoint.h"
+#include "model/papers/networks/flow_checkpoint.h"
 
 namespace choreo {
 

@@ -1,0 +1,69 @@
+#include "model/engine/loading.h"
+
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/core/math_library.h"
+#include "model/engine/packed/matrix.h"
+
+namespace choreo {
+namespace {
+
+// What this machine and this engine have, fastest first.
+std::vector<KernelSet> KernelSetsHere(EngineKind kind) {
+  std::vector<KernelSet> sets;
+  if (kind != EngineKind::kPacked) {
+    for (const PackedKernels* bf16 : Bf16KernelsHere())
+      sets.push_back({PackedKernelsHere().front(), bf16});
+  }
+  if (kind == EngineKind::kPackedBf16) return sets;
+  for (const PackedKernels* kernels : PackedKernelsHere()) sets.push_back({kernels, kernels});
+  return sets;
+}
+
+}  // namespace
+
+std::optional<KernelSet> ChooseKernels(const EngineRequest& request) {
+  const auto& [device, kind, name] = request;
+  const bool on_cpu = device.kind == Device::Kind::kCpu;
+  if (kind == EngineKind::kTorch || (kind == EngineKind::kAuto && !on_cpu)) return std::nullopt;
+  if (!on_cpu)
+    throw InvalidArgument("engine", "packed computes on the CPU, not on " + device.name());
+  const std::vector<KernelSet> here = KernelSetsHere(kind);
+  if (here.empty()) {
+    throw InvalidArgument("engine", "packed-bf16 needs a CPU with AVX512-BF16, which this is not");
+  }
+  std::string known;
+  bool found = false;
+  for (const KernelSet& set : here) {
+    known += (known.empty() ? "" : ", ") + std::string(set.products->name);
+    if (!name.empty() && name != set.products->name) continue;
+    found = true;
+    if (RowsAreIndependent(*set.exact) && RowsAreIndependent(*set.products)) return set;
+    std::clog << "choreo: with " << set.products->name << " a row's bits depend on its batch\n";
+  }
+  if (!found) throw InvalidArgument("kernels", '"' + name + "\" is none of " + known);
+  throw Error(ErrorCode::kInternal, "", "no kernel of the packed engine keeps rows apart here");
+}
+
+std::string FingerprintOf(const std::string& name, const std::string& hash,
+                          const std::string& kernels) {
+  return name + "/" + hash + "/choreo " CHOREO_VERSION + ", " + BuildIdentity() + ", " +
+         MathLibrary() + "/" + kernels;
+}
+
+std::string LicenceOf(const std::string& card) {
+  const auto json = nlohmann::json::parse(card, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() ? json.value("licence", "") : "";
+}
+
+VelocityReference MedianReference(const std::array<double, kBodyParts>& factors) {
+  VelocityReference median{.name = "median"};
+  std::ranges::copy(factors, median.factors.begin());
+  return median;
+}
+
+}  // namespace choreo

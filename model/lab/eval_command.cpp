@@ -1,0 +1,242 @@
+#include "model/lab/eval_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "model/core/error.h"
+#include "model/core/limits.h"
+#include "model/core/progress.h"
+#include "model/core/rounded.h"
+#include "model/engine/engine_choice.h"
+#include "model/evaluation/contest.h"
+#include "model/evaluation/eval_report.h"
+#include "model/evaluation/motion_encoder.h"
+#include "model/evaluation/paired_sheets.h"
+#include "model/papers/tables/paper_tables.h"
+
+namespace choreo {
+namespace {
+
+using Evaluate = std::vector<Table> (*)(const Evaluation&);
+
+// In the order in which they are told.
+constexpr Evaluate kPaperControls[] = {EvaluateControls};
+constexpr Evaluate kControls[] = {EvaluateControls, EvaluateMultipliers, EvaluateRepetition,
+                                  EvaluateDrawnPaths};
+constexpr Evaluate kLiveliness[] = {EvaluateLiveliness, EvaluateStyles, EvaluateNearness};
+constexpr Evaluate kPaper[] = {EvaluatePaperTransitions, EvaluatePaperDances};
+constexpr Evaluate kAll[] = {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition,
+                             EvaluateDrawnPaths, EvaluateLiveliness,  EvaluateStyles,
+                             EvaluateNearness,   EvaluateTransitions, EvaluateLongDances,
+                             EvaluateEncoded,    EvaluateStress};
+
+struct Arguments {
+  ContestOptions contest;
+  std::vector<std::filesystem::path> data;
+  std::filesystem::path splits;
+  std::string split = "validation";
+  std::filesystem::path json;
+  EvalOptions options;
+  float temperature = -1;
+  std::span<const Evaluate> tables = kAll;
+  bool controls = false;  // tables of controls alone, whose lengths are their own
+  bool encode = true, sheets = false;
+};
+
+void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
+                        const std::vector<int>& lengths) {
+  for (const ClipSet& set : sets) {
+    for (const int frames : lengths) {
+      if (!ChooseWindows(set, history, frames, 1).empty()) continue;
+      std::fprintf(stderr,
+                   "choreo-lab: --lengths: no clip of %s has %d frames behind a history of %d, so "
+                   "there are no rows\n",
+                   set.name.c_str(), frames, history);
+    }
+  }
+}
+
+void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& lengths) {
+  const int longest = std::ranges::max(lengths);
+  for (const Method& method : methods) {
+    // The other engines have the limit of the judged one, and names that nobody gave them.
+    if (!method.Judged()) continue;
+    const ModelInfo& model = method.sampler->model();
+    if (longest <= model.max_transition_frames) continue;
+    const std::string option = &method == &methods.back() ? "--model" : "--other " + method.name;
+    throw InvalidArgument("--lengths", std::to_string(longest) + " frames are more than the " +
+                                           std::to_string(model.max_transition_frames) + " that " +
+                                           option + " (" + model.name + ") takes");
+  }
+}
+
+// CLI::Range lets NaN pass.
+std::string CheckTemperature(const std::string& text) {
+  float value = 0;
+  if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= kMaxTemperature) return "";
+  return "'" + text + "' is not a number from 0 to " + Rounded(kMaxTemperature);
+}
+
+std::string Summary(const Arguments& arguments, const Contest& contest) {
+  // Of the fingerprint the model's part; builds differ, figures hardly.
+  const std::string& print = contest.judged().model().fingerprint;
+  char temperature[32];
+  std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);
+  return "Model " + print.substr(0, print.find('/', print.find('/') + 1)) + ", " + arguments.split +
+         " clips, temperature " + temperature +
+         " unless a row says otherwise. Engine: " + contest.stepped_by + ".";
+}
+
+std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
+                              const MotionEncoder* encoder, const std::vector<ClipSet>& training,
+                              const Arguments& arguments) {
+  std::vector<Table> tables;
+  ProgressBar progress("evaluating", 0);
+  for (size_t i = 0; i < sets.size(); ++i) {
+    const ClipSet& set = sets[i];
+    const Runner runner([&](int frames) { progress.Advance(frames, "frames, " + set.name); });
+    const Evaluation evaluation{set,    contest.methods, arguments.options,
+                                runner, encoder,         training.empty() ? nullptr : &training[i]};
+    for (const Evaluate evaluate : arguments.tables)
+      std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
+  }
+  progress.Finish();
+  // Every table says it of itself: they get quoted one by one.
+  for (Table& table : tables)
+    table.note += (table.note.empty() ? "Engine: " : " Engine: ") + contest.stepped_by + ".";
+  return tables;
+}
+
+void EvaluateAll(Arguments arguments) {
+  // What can be refused is refused before the long work.
+  SetNames(arguments.data);
+  if (!arguments.json.empty()) CheckReportPath(arguments.json);
+  const Contest contest = MakeContest(arguments.contest);
+  const ModelInfo& model = contest.judged().model();
+  EvalOptions& options = arguments.options;
+  if (arguments.controls && !model.root_path)
+    throw InvalidArgument("--controls", model.name + " takes none");
+  if (!arguments.controls) CheckLengths(contest.methods, options.lengths);
+  options.own_temperatures = arguments.temperature < 0;
+  options.temperature = arguments.temperature >= 0 ? arguments.temperature
+                                                   : static_cast<float>(model.default_temperature);
+  const auto sets = LoadSets(arguments.data, arguments.splits, arguments.split, model.skeleton);
+  std::vector<ClipSet> training;
+  if (!arguments.controls) {
+    WarnOfEmptyLengths(sets, model.history_frames, options.lengths);
+    training = LoadSets(arguments.data, arguments.splits, kTrainGroup, model.skeleton);
+  }
+  std::optional<MotionEncoder> encoder;
+  if (arguments.encode && (std::ranges::count(arguments.tables, &EvaluateEncoded) > 0 ||
+                           std::ranges::count(arguments.tables, &EvaluatePaperDances) > 0))
+    encoder.emplace(training);
+  const std::vector<Table> tables =
+      MakeTables(sets, contest, encoder ? &*encoder : nullptr, training, arguments);
+  const std::string summary = Summary(arguments, contest);
+  std::printf("%s\n", summary.c_str());
+  for (const Table& table : tables) std::printf("\n%s", ToMarkdown(table).c_str());
+  if (arguments.json.empty()) return;
+  WriteReport(arguments.json,
+              {{"model", model.name},
+               {"fingerprint", model.fingerprint},
+               {"split", arguments.split},
+               {"temperature", options.temperature},
+               {"engine", contest.stepped_by},
+               {"summary", summary}},
+              tables);
+  if (!arguments.sheets) return;
+  for (const ClipSet& set : sets)
+    DrawPairedSheets(set, contest.methods.back(), options.temperature, arguments.json);
+}
+
+}  // namespace
+
+void AddEvalCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  EvalOptions& options = arguments->options;
+  CLI::App* command =
+      app.add_subcommand("eval", "Measure a model on held-out clips, as it is served");
+  command->add_option("--model", arguments->contest.model, "Checkpoint")->required();
+  command
+      ->add_option("--data", arguments->data,
+                   "Folders written by `choreo-lab prepare`: each is a set with tables of its own")
+      ->required();
+  command->add_option("--splits", arguments->splits, "Which clip trains, validates, tests (JSON)")
+      ->required();
+  command->add_option("--other", arguments->contest.others,
+                      "NAME=CHECKPOINT: a row for another model, danced just as the first");
+  command->add_option("--json", arguments->json,
+                      "Also write the figures here, and plots beside it");
+  command
+      ->add_flag("--sheets", arguments->sheets,
+                 "Also draw each clip beside the dance through its poses, next to the JSON; which "
+                 "of the two is which stands in a text file")
+      ->needs("--json");
+  command->add_flag("!--no-encoder", arguments->encode,
+                    "No FID, variability and diversity, for which an encoder is learnt from the "
+                    "training clips of the data");
+  command
+      ->add_option_function<std::string>(
+          "--controls",
+          [arguments](const std::string& which) {
+            arguments->controls = true;
+            arguments->tables = kPaperControls;
+            if (which == "all") arguments->tables = kControls;
+          },
+          "all | paper: only the tables of controls, or of those paper C's alone; they have "
+          "lengths of their own")
+      ->check(CLI::IsMember({"all", "paper"}));
+  command
+      ->add_flag_callback(
+          "--liveliness", [arguments] { arguments->tables = kLiveliness; },
+          "Only the tables that tell whether the dance lives")
+      ->excludes("--controls");
+  command
+      ->add_flag_callback(
+          "--paper", [arguments] { arguments->tables = kPaper; },
+          "Only paper F's tables, of every row raw and as served, at its own temperature")
+      ->excludes("--controls")
+      ->excludes("--liveliness");
+  command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
+      ->check(CheckTemperature);
+  command->option_defaults()->always_capture_default();
+  command->add_option("--split", arguments->split,
+                      "Which of them is measured: validation | test | any other group of clips "
+                      "that the file names, such as test_unseen_genre");
+  command
+      ->add_option("--baseline", arguments->contest.baselines,
+                   "Further rows of the tables: \"real\" by real, \"interpolation\" and "
+                   "\"interpolation, footwork\" by interpolation, \"model without keys\" by "
+                   "music_only")
+      ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
+  command->add_option("--name", arguments->contest.name, "What the rows of --model are called");
+  command
+      ->add_option("--engine", arguments->contest.engine,
+                   EngineKindNames() +
+                       "; packed is float32 on any CPU; networks that draw nothing are run by "
+                       "torch all the same")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
+  command
+      ->add_option("--lengths", options.lengths,
+                   "Frames of the transitions, at most as many as every model takes: 150 of the "
+                   "preset default")
+      ->check(CLI::Range(1, kMaxTransitionFrames));
+  const auto count = [&](const char* name, int& value, int least, int most, const char* what) {
+    command->add_option(name, value, what)->take_last()->check(CLI::Range(least, most));
+  };
+  count("--windows", options.windows_per_clip, 1, 100000, "Transitions a clip and length");
+  count("--best-of", options.best_of, 0, 1000, "Samples a transition, of which the nearest counts");
+  count("--long-dances", options.long_seeds, 0, 100000, "Long dances of each kind; 0: none");
+  count("--long-frames", options.long_frames, 60, 100000, "Frames of a long dance");
+  count("--free-dances", options.free_dances, 0, 100000,
+        "Dances without keys in the table of liveliness; 0: none");
+  command->callback([arguments] { EvaluateAll(*arguments); });
+}
+
+}  // namespace choreo

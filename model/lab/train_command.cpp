@@ -1,0 +1,115 @@
+#include "model/lab/train_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <string_view>
+#include <type_traits>
+
+#include "model/core/error.h"
+#include "model/core/limits.h"
+#include "model/papers/training/paper_options.h"
+#include "model/training/trainer.h"
+
+namespace choreo {
+namespace {
+
+constexpr const char* kDefaultPreset = "default";
+constexpr std::string_view kPresets[] = {
+    kDefaultPreset, "paper", "paper-f", "ablation", ControllersConfig::kPreset, kInbetweenerPreset};
+constexpr const char* kPresetNames = "default, paper, paper-f, ablation, controllers-paper, harvey";
+
+// VisitFixed of all presets: `visit(option, value, is_used, what)`; `is_used`: this one has a use
+// for it.
+void VisitAll(auto& options, auto&& visit) {
+  const bool continuous = options.preset == kDefaultPreset;
+  VisitFixed(options, [&](const char* option, auto& value, const char* what) {
+    visit(option, value, true, what);
+  });
+  VisitFixedOfDefault(options, [&](const char* option, auto& value, const char* what) {
+    visit(option, value, continuous, what);
+  });
+  VisitFixedOfPapers(options, [&](const char* option, auto& value, bool is_used, const char* what) {
+    visit(option, value, is_used && !continuous, what);
+  });
+}
+
+}  // namespace
+
+void AddTrainCommand(CLI::App& app,
+                     const std::function<std::string(const std::string&)>& read_device) {
+  auto options = std::make_shared<PaperOptions>();
+  CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
+  command
+      ->add_option("--preset", options->preset,
+                   "default | paper | paper-f (the same, of a twentieth) | ablation (smaller "
+                   "still) | controllers-paper | harvey (the baseline of both papers)")
+      ->capture_default_str()
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            return std::ranges::find(kPresets, name) != std::end(kPresets)
+                       ? std::string()
+                       : "'" + name + "' is not one of " + kPresetNames;
+          },
+          ""));
+  command->add_option("--name", options->name,
+                      "What servers call the model; default: the preset's name");
+  command
+      ->add_option("--served-temperature", options->flow.temperature,
+                   "What a flow is sampled at unless a dance asks otherwise; a finished run is "
+                   "written anew with it")
+      ->check(CLI::Range(0.0, kMaxTemperature))
+      ->capture_default_str();
+  command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
+      ->required();
+  command->add_option("--splits", options->splits, "Which clip trains, validates, tests (JSON)")
+      ->required();
+  command->add_option("--from", options->from,
+                      "Checkpoint whose network the run starts from (same preset)");
+  command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
+      ->required();
+  command->option_defaults()->always_capture_default();
+  command->add_option("--device", options->device,
+                      "auto | cpu | cuda:N; controllers and the baseline train on the CPU");
+  command->add_option("--report-every", options->report_every, "Steps between reports");
+  command->add_option("--stop-after", options->stop_after,
+                      "Leave after this many steps of the run, to be resumed; 0: to the end");
+  command->add_flag("--resume", options->resume, "Go on from the run's saved state");
+  VisitAll(*options, [&](const char* option, auto& value, bool, const char* what) {
+    if constexpr (std::is_same_v<decltype(value), bool&>) {
+      command->add_flag(option, value, what);
+    } else {
+      command->add_option(option, value, what);
+    }
+  });
+  command->get_option("--seed")->check(CLI::NonNegativeNumber);
+  command->callback([command, options, read_device] {
+    VisitAll(*options, [&](const char* option, const auto& value, bool is_used, const char*) {
+      const CLI::Option& given = *command->get_option(option);
+      // A card names all options, those that are not used at their defaults: it can be typed.
+      if (is_used || given.empty() || given.results().front() == given.get_default_str()) return;
+      const bool flag = std::is_same_v<decltype(value), const bool&>;
+      throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
+                                        " of the preset " + options->preset);
+    });
+    const bool small = options->IsControllers() || options->IsInbetweener();
+    if (small && options->device == "auto") options->device = "cpu";
+    options->device = read_device(options->device);
+    if (small && options->device != "cpu") {
+      throw InvalidArgument("--device", options->device + ", but the preset " + options->preset +
+                                            " trains on the CPU");
+    }
+    if (options->IsControllers()) {
+      TrainControllers(*options);
+    } else if (options->IsInbetweener()) {
+      TrainInbetweener(*options);
+    } else if (options->preset == kDefaultPreset) {
+      TrainContinuousFlow(TrainOptions(*options));
+    } else {
+      TrainFlow(*options);
+    }
+  });
+}
+
+}  // namespace choreo

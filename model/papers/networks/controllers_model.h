@@ -1,0 +1,101 @@
+#pragma once
+
+#include <torch/nn/module.h>
+#include <torch/nn/modules/activation.h>
+#include <torch/nn/modules/container/sequential.h>
+#include <torch/nn/modules/linear.h>
+#include <torch/nn/modules/rnn.h>
+#include <torch/nn/pimpl.h>
+#include <torch/types.h>
+
+#include <tuple>
+#include <vector>
+
+#include "model/motion/skeleton.h"
+#include "model/papers/networks/controlled_frames.h"
+#include "model/papers/networks/controllers_config.h"
+#include "model/papers/networks/window_controller.h"
+
+namespace choreo {
+
+/// Everything about a transition that does not depend on what came out so far, of all N frames.
+/// Tensors are [batch, N, ...]; Narrow gives some of the frames.
+///
+/// A frame is what the decoders say, added to `root`, `ahead` and `joints`: the canonical frame's
+/// origin at the pelvis' height, its heading and the mean posture; of a residual network the path
+/// and interpolation.
+struct ControlledGiven {
+  torch::Tensor root;           ///< [batch, N, 3]
+  torch::Tensor ahead;          ///< [batch, N, 2]
+  torch::Tensor ramp;           ///< [batch, N, 1] how much of what they say counts, [0, 1]
+  torch::Tensor joints;         ///< [batch, N, joints - 1, 3]
+  torch::Tensor path_window;    ///< [batch, N, window, 3]
+  torch::Tensor factor_window;  ///< [batch, N, window, 5]
+  torch::Tensor path_memory, factor_memory;  ///< what the controllers' encoders make of them
+  torch::Tensor code;                        ///< [batch, N, width] what is added at the second LSTM
+  torch::Tensor target_joints;               ///< [batch, 1, joints - 1, 3]
+  torch::Tensor target_facing;               ///< [batch, 1, 2]
+  torch::Tensor end;                         ///< [batch, 1, 3] of the path
+  torch::Tensor has_target;                  ///< [batch, 1, 1]
+  torch::Tensor target;  ///< [batch, 1, encoding] of the target, unless it is residual
+
+  ControlledGiven Narrow(int64_t first, int64_t count) const;
+};
+
+/// Frames of the network, and the velocities it states beside them: [batch, n, joints, 3], the
+/// root's and the others' from the root, metres a frame, axes the scene's.
+struct ControlledOutput {
+  FrameTensors frames;
+  torch::Tensor velocities;
+};
+
+/// Hidden and cell state of both LSTMs; none stands for zeros.
+struct ControllersState {
+  torch::optional<std::tuple<torch::Tensor, torch::Tensor>> first, second;
+};
+
+/// The network of paper C (Section 3.2, Figure 2).
+class ControllersModelImpl : public torch::nn::Module {
+ public:
+  ControllersModelImpl(const ControllersConfig& config, const Skeleton& skeleton);
+
+  const ControllersConfig& config() const { return config_; }
+  const Skeleton& skeleton() const { return skeleton_; }
+  /// Frames before the first one that Walk looks at.
+  int lead() const { return config_.window / 2 + 1; }
+  /// [5, joints], as FactorsOf takes them.
+  const torch::Tensor& shares() const { return shares_; }
+
+  /// Mean and spread of real joints [joints - 1, 3] and of velocity factors [5].
+  void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
+                        const torch::Tensor& factor_std);
+
+  ControlledGiven Prepare(const ControlledTransition& transition);
+  /// n frames. `walked`: the lead() frames before the first of them, then all but the last one of
+  /// them, as they were taken to be (real ones, emitted ones).
+  ControlledOutput Walk(const ControlledGiven& given, const FrameTensors& walked,
+                        ControllersState* state);
+  /// Each frame seeing what came out before it, from the history on.
+  FrameTensors RollOut(const ControlledTransition& transition);
+
+ private:
+  torch::Tensor EncodeTarget(const ControlledGiven& given, const FrameTensors* now);
+  FrameTensors Compose(const ControlledGiven& given, const torch::Tensor& joints,
+                       const torch::Tensor& turn, const torch::Tensor& root) const;
+
+  ControllersConfig config_;
+  Skeleton skeleton_;
+  int64_t others_;                        // joints but the root
+  double place_;                          // metres from given.root that count as one
+  torch::Tensor joint_mean_, joint_std_;  // [joints - 1, 3]
+  torch::Tensor factor_std_, shares_;     // [5], [5, joints]
+
+  WindowController path_controller_, factor_controller_;
+  torch::nn::Sequential state_encoder_{nullptr}, velocity_encoder_{nullptr},
+      target_controller_{nullptr}, state_decoder_{nullptr}, root_decoder_{nullptr};
+  torch::nn::Linear position_code_{nullptr};
+  torch::nn::LSTM first_{nullptr}, second_{nullptr};
+};
+TORCH_MODULE(ControllersModel);
+
+}  // namespace choreo

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "model/flow/checkpoint.h"
+#include "model/papers/networks/flow_model.h"
+
+/// Checkpoints of paper F's flow, as those of the other networks (model/flow/checkpoint.h).
+namespace choreo {
+
+using Checkpoint = CheckpointOf<FlowModel>;
+
+/// Of a file that has been read; `name` is what errors call it. Throws Error(kInvalidArgument) for
+/// another format version, a wrong hash, or tensors that do not fit the configuration; the message
+/// says which.
+Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
+
+/// Writes atomically; returns the content hash. `card` is JSON. `weights`: what the network's
+/// tensors are to be.
+std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
+                           const nlohmann::json& card);
+/// The network as it is.
+std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
+                           const nlohmann::json& card);
+
+}  // namespace choreo

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "model/engine/sampler.h"
+#include "model/papers/networks/controllers_model.h"
+
+namespace choreo {
+
+/// The controllers network (model/papers/networks): a slice is a frame. It is deterministic: seed,
+/// candidate and temperature change nothing, and it hears no music. Made by paper_samplers.h.
+class ControllersSampler : public Sampler {
+ public:
+  ControllersSampler(ModelInfo info, ControllersModel network);
+
+ protected:
+  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+
+ private:
+  ControllersModel network_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,86 @@
+#include "model/papers/samplers/paper_samplers.h"
+
+#include <memory>
+
+#include "model/flow/torch_kernels.h"
+#include "model/papers/networks/controllers_checkpoint.h"
+#include "model/papers/networks/flow_checkpoint.h"
+#include "model/papers/networks/inbetweener.h"
+#include "model/papers/samplers/autoregressive_flow.h"
+#include "model/papers/samplers/controllers_sampler.h"
+#include "model/papers/samplers/inbetweener_tile.h"
+#include "model/papers/samplers/packed_flow.h"
+#include "model/papers/samplers/torch_tile.h"
+
+namespace choreo {
+namespace {
+
+// It is small: whatever samples flows elsewhere, this runs on the CPU.
+SamplerFactory LoadControllers(const Safetensors& content, const std::string& name) {
+  const ControllersCheckpoint checkpoint = ParseControllers(content, name);
+  ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
+  info.audio_features = 0;  // it hears no music
+  info.hears_music = false;
+  info.default_temperature = 0;
+  info.deterministic = true;
+  info.root_path = true;
+  info.velocity_factors = checkpoint.model->config().velocity_factors;
+  info.velocity_references = {MedianReference(checkpoint.median_factors)};
+  return [info, model = checkpoint.model] {
+    return std::make_unique<ControllersSampler>(info, model);
+  };
+}
+
+// As small, and run likewise.
+SamplerFactory LoadInbetweener(const Safetensors& content, const std::string& name) {
+  const InbetweenerCheckpoint checkpoint = ParseInbetweener(content, name);
+  ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
+  info.hears_music = false;
+  info.default_temperature = 0;
+  info.deterministic = true;
+  return [info, model = checkpoint.model] {
+    return std::make_unique<AutoregressiveFlowSampler>(info, model->config(), "cpu", [model] {
+      return std::make_unique<InbetweenerTile>(model, 1);
+    });
+  };
+}
+
+SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
+                        const EngineRequest& request) {
+  const Checkpoint checkpoint = ParseCheckpoint(content, name);
+  FlowModel model = checkpoint.model;
+  const FlowConfig& config = model->config();
+  AutoregressiveFlowSampler::MakeTile tile;
+  std::string kernels;
+  if (const auto set = ChooseKernels(request)) {
+    kernels = set->Name();
+    const auto packed = std::make_shared<const PackedFlow>(content, config, model->skeleton(),
+                                                           *set->exact, *set->products);
+    tile = [packed] { return std::make_unique<PackedTile>(packed, 1); };
+  } else {
+    const torch::Device there(request.device.name());
+    model->to(there);
+    const auto weights =
+        std::make_shared<TorchWeights>(TorchWeights{model, model->InverseWeights(), there});
+    kernels = TorchKernels(weights->device);
+    tile = [weights] { return std::make_unique<TorchTile>(weights, 1); };
+  }
+  ModelInfo info = InfoOf(checkpoint, kernels);
+  info.audio_features = config.audio_features;
+  info.hears_music = config.hears_music;
+  info.default_temperature = config.temperature;
+  return [info, config, device = request.device.name(), tile] {
+    return std::make_unique<AutoregressiveFlowSampler>(info, config, device, tile);
+  };
+}
+
+}  // namespace
+
+SamplerFactory LoadPaperModel(const Safetensors& content, const std::string& name,
+                              const EngineRequest& request) {
+  if (HoldsControllers(content)) return LoadControllers(content, name);
+  if (HoldsInbetweener(content)) return LoadInbetweener(content, name);
+  return LoadFlow(content, name, request);
+}
+
+}  // namespace choreo

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/core/random.h"
+#include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
+#include "model/papers/networks/controlled_frames.h"
+#include "model/training/prepared_clip.h"
+
+namespace choreo {
+
+/// A batch of windows of real motion with the controls that it would have been asked for by.
+struct ControlBatch {
+  ControlledTransition transition;
+  FrameTensors truth;     ///< the N frames
+  torch::Tensor factors;  ///< [batch, N, 5] that the windows should have: the real ones, scaled
+                          ///< where the controls are
+  torch::Tensor weight;   ///< [batch] how far the real motion is the answer to these controls
+};
+
+/// Clips as the controllers network sees them, in memory: turned, at several tempi, and mirrored.
+/// Immutable after construction.
+class ControlClips {
+ public:
+  explicit ControlClips(const std::vector<PreparedClip>& clips);
+
+  /// What training varies, each a probability. All zero: real windows with their own controls.
+  struct Variation {
+    double mirror = 0;
+    double tempo = 0;  ///< danced faster or slower
+    double no_target = 0;
+    double smooth_path = 0;     ///< the path is only what a hand would draw of it
+    double smooth_factors = 0;  ///< the factors are their means over a while
+    double scale_factors = 0;   ///< the factors are 0.5 to 1.5 times the real ones
+  };
+  /// Draws `batch` windows of N = `frames` behind `history` frames.
+  ControlBatch Draw(int batch, int history, int frames, const Variation& variation,
+                    Random* random) const;
+
+  /// Frames of the longest window that Draw finds at the clips' own tempo.
+  int64_t Longest() const;
+  /// The median of each velocity factor over all frames, metres a frame.
+  std::array<double, kBodyParts> MedianFactors() const;
+
+ private:
+  struct Track {
+    int64_t frames = 0;
+    // Row-major: [frames, ...]
+    std::vector<float> root, heading, joints, contacts, factors;
+  };
+  Track MakeTrack(const PreparedClip& clip, double tempo, bool mirrored) const;
+  const Track& At(size_t clip, size_t tempo, bool mirrored) const {
+    return tracks_[(clip * tempi_ + tempo) * 2 + (mirrored ? 1 : 0)];
+  }
+
+  Skeleton skeleton_;
+  size_t clips_ = 0, tempi_ = 0;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace choreo

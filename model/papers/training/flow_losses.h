@@ -1,0 +1,43 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include "model/flow/torch_kinematics.h"
+#include "model/papers/networks/flow_model.h"
+#include "model/papers/training/motion_batch.h"
+#include "model/training/loss_terms.h"
+
+/// Training losses of paper F's flow and the baseline.
+namespace choreo {
+
+/// Features plus noise of `share` of their spread, so that binary contacts, derived velocities and
+/// joints that never move can't make the density unbounded.
+torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features, double share);
+
+/// L_flows of one batch (Eq. 6), nats a frame, mean over frames; of features that are
+/// dequantised by `noise`.
+LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
+                         const torch::Tensor& static_condition, double noise);
+
+/// What counts how much of a sampled roll-out (Eq. 8); a term of no weight is left out.
+struct RolloutWeights {
+  double key = 0.5, feet = 0.1;
+  double way = 0;  ///< ours
+};
+
+/// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`:
+/// |FK(x'_N) - FK(key)|, mean over joints, decimetres; |c' - c|, mean over feet and frames; ours:
+/// the distance of all frames from the real ones, which keeps roll-outs from wandering off.
+LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
+                      const torch::Tensor& static_condition, double temperature,
+                      const RolloutWeights& weights);
+
+/// Of N frames the last alone.
+TrajectoryTensors LastFrame(const TrajectoryTensors& poses);
+
+/// L2P of paper F's Table 2: distance of global joint positions, mean over joints and frames,
+/// metres. [batch]
+torch::Tensor JointDistance(const TorchKinematics& kinematics, const TrajectoryTensors& a,
+                            const TrajectoryTensors& b);
+
+}  // namespace choreo

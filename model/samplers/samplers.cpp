@@ -1,0 +1,120 @@
+#include "model/samplers/samplers.h"
+
+#include <torch/cuda.h>
+#include <torch/torch.h>
+
+#include <map>
+#include <utility>
+
+#include "model/core/error.h"
+#include "model/core/printable.h"
+#include "model/core/threads.h"
+#include "model/engine/continuous_flow_sampler.h"
+#include "model/engine/loading.h"
+#include "model/engine/packed/continuous_flow.h"
+#include "model/flow/continuous_flow.h"
+#include "model/flow/torch_kernels.h"
+#include "model/papers/samplers/paper_samplers.h"
+
+namespace choreo {
+namespace {
+
+SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string& name,
+                                  const EngineRequest& request) {
+  const ContinuousFlowCheckpoint checkpoint = ParseContinuousFlow(content, name);
+  const ContinuousFlowConfig& config = checkpoint.model->config();
+  const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
+  std::shared_ptr<const FlowNetwork> network;
+  std::string kernels;
+  if (const auto set = ChooseKernels(request)) {
+    kernels = set->Name();
+    network = std::make_shared<const PackedFlowNetwork>(
+        content, config, checkpoint.model->skeleton(), *set->exact, *set->products);
+  } else {
+    const torch::Device there(request.device.name());
+    kernels = TorchKernels(there);
+    network = MakeTorchFlowNetwork(checkpoint.model, there);
+  }
+  ModelInfo info = InfoOf(checkpoint, kernels);
+  info.hears_music = false;  // but its beats
+  info.default_temperature = config.temperature;
+  info.max_temperature = kMaxFlowTemperature;
+  info.root_path = info.velocity_factors = true;
+  info.velocity_references = {MedianReference(config.median_factors)};
+  info.styles = config.styles;
+  info.footwork = config.plan.footwork;
+  return [info, device = request.device.name(), parts, network] {
+    return std::make_unique<ContinuousFlowSampler>(info, device, parts, network);
+  };
+}
+
+constexpr uintmax_t kMostBytes = uintmax_t{1} << 30;  // of a checkpoint
+
+void CheckName(const std::string& name, const std::filesystem::path& path) {
+  if (!name.empty() && name.size() <= kMostNameBytes && Printable(name) == name) return;
+  throw InvalidArgument(
+      path.string(), "the model's name, \"" + Printable(name.substr(0, kMostNameBytes)) +
+                         "\", is not 1 to " + std::to_string(kMostNameBytes) + " printable bytes");
+}
+
+// Every error says which file it is about.
+SamplerFactory Load(const std::filesystem::path& path, const EngineRequest& request) try {
+  const c10::InferenceMode inference;
+  // Exact float32 everywhere: bits before speed.
+  at::globalContext().setAllowTF32CuBLAS(false);
+  at::globalContext().setAllowTF32CuDNN(false);
+  at::globalContext().setDeterministicCuDNN(true);
+  // Whoever may put a file there must not take the memory of who serves.
+  std::error_code none;
+  if (const auto bytes = std::filesystem::file_size(path, none); !none && bytes > kMostBytes) {
+    throw InvalidArgument(path.string(), std::to_string(bytes) + " bytes, the limit is " +
+                                             std::to_string(kMostBytes));
+  }
+  const Safetensors content = ReadSafetensors(path);
+  return HoldsContinuousFlow(content) ? LoadContinuousFlow(content, path.string(), request)
+                                      : LoadPaperModel(content, path.string(), request);
+} catch (const Error& error) {
+  if (std::string_view(error.what()).find(path.string()) != std::string_view::npos) throw;
+  throw Error(error.code(), path.string(), error.what());
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorCode::kResourceExhausted, path.string(), "there is no memory for it");
+}
+
+}  // namespace
+
+AvailableDevices TorchDevices() {
+  return {.cuda_build = at::hasCUDA(),
+          .cuda_devices = static_cast<int>(torch::cuda::device_count())};
+}
+
+void SetTorchThreads(int threads) {
+  SetMathThreads(threads);
+  at::set_num_threads(threads);
+}
+
+std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& path,
+                                                   std::span<const Device> devices, EngineKind kind,
+                                                   const std::string& kernels) {
+  std::map<Device, SamplerFactory> loaded;
+  std::vector<std::unique_ptr<Sampler>> samplers;
+  for (const Device& device : devices) {
+    const auto [here, is_new] = loaded.try_emplace(device);
+    if (is_new) here->second = Load(path, {device, kind, kernels});
+    samplers.push_back(here->second());
+    CheckName(samplers.back()->model().name, path);
+  }
+  return samplers;
+}
+
+Heeded HeededBy(const Sampler& sampler) {
+  // Who draws nothing is no flow.
+  return {.kind = !sampler.model().deterministic,
+          .kernels = sampler.model().fingerprint.find(kPackedPrefix) != std::string::npos};
+}
+
+std::unique_ptr<Sampler> MakeSampler(const std::filesystem::path& checkpoint, const Device& device,
+                                     EngineKind kind) {
+  return std::move(MakeSamplers(checkpoint, {&device, 1}, kind).front());
+}
+
+}  // namespace choreo

@@ -1,0 +1,62 @@
+#include "model/papers/samplers/autoregressive_flow.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/motion/kinematics.h"
+
+namespace choreo::autoregressive_flow_test {
+
+using testing::Each;
+using testing::ElementsAre;
+
+ModelInfo Model(bool hears_music) {
+  ModelInfo model;
+  model.skeleton = Skeleton::Smpl24();
+  model.history_frames = 3;
+  model.audio_features = 2;
+  model.hears_music = hears_music;
+  return model;
+}
+
+/// Notes what the network is given of the music, frame by frame, and draws zeros.
+class ListeningTile : public FlowTile {
+ public:
+  explicit ListeningTile(std::vector<std::vector<float>>* heard) : heard_(heard) {}
+  void Begin(int, Eigen::MatrixXf) override {}
+  void Run(std::span<FlowRow> rows) override {
+    heard_->emplace_back(rows[0].audio.begin(), rows[0].audio.end());
+    EXPECT_EQ(rows[0].frame, static_cast<int>(heard_->size()) - 1);
+    std::ranges::fill(rows[0].features, 0.0F);
+  }
+
+ private:
+  std::vector<std::vector<float>>* heard_;
+};
+
+// What the network is given of music that is 4 in the history, then 7 and 8.
+std::vector<std::vector<float>> Heard(const ModelInfo& model) {
+  std::vector<std::vector<float>> heard;
+  AutoregressiveFlowSampler sampler(model, {}, "cpu",
+                                    [&] { return std::make_unique<ListeningTile>(&heard); });
+  TransitionSpec spec;
+  spec.frames = 2;
+  spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
+  spec.has_audio = true;
+  spec.audio_history = Eigen::MatrixXf::Constant(model.audio_features, model.history_frames, 4);
+  spec.audio_rows = Eigen::MatrixXf::Constant(model.audio_features, 2, 7);
+  spec.audio_rows.col(1).setConstant(8);
+  EXPECT_EQ(sampler.Sample(spec).poses.size(), 2U);
+  return heard;
+}
+
+TEST(AutoregressiveFlowTest, GivesTheNetworkTheMusicOfHistoryAndFrame) {
+  EXPECT_THAT(Heard(Model(true)), ElementsAre(ElementsAre(4, 4, 4, 4, 4, 4, 7, 7),
+                                              ElementsAre(4, 4, 4, 4, 7, 7, 8, 8)));
+}
+
+TEST(AutoregressiveFlowTest, KeepsMusicFromANetworkThatLearntWithout) {
+  EXPECT_THAT(Heard(Model(false)), ElementsAre(Each(0), Each(0)));
+}
+
+}  // namespace choreo::autoregressive_flow_test

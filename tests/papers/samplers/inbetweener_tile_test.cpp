@@ -1,0 +1,76 @@
+#include "model/papers/samplers/inbetweener_tile.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/random_checkpoints.h"
+#include "model/dance/transition.h"
+#include "model/motion/kinematics.h"
+#include "model/samplers/samplers.h"
+#include "tests/samplers/sampled.h"
+
+namespace choreo::inbetweener_tile_test {
+
+// The baseline as a sampler.
+class InbetweenerTileTest : public testing::Test {
+ protected:
+  InbetweenerTileTest() {
+    SetTorchThreads(1);
+    FlowConfig config = FlowConfig::Preset(kInbetweenerPreset);
+    config.hidden = 16;
+    path_ = std::filesystem::path(testing::TempDir()) /
+            ("inbetweener_" + std::to_string(getpid()) + ".safetensors");
+    WriteRandomInbetweener(path_, config, Skeleton::Smpl24(), 3);
+    sampler_ = MakeSampler(path_, {});
+  }
+  ~InbetweenerTileTest() override { std::filesystem::remove(path_); }
+
+  std::filesystem::path path_;
+  std::unique_ptr<Sampler> sampler_;
+};
+
+TEST_F(InbetweenerTileTest, TellsThatItIsDeterministicAndHearsNothing) {
+  const ModelInfo& model = sampler_->model();
+  EXPECT_EQ(model.name, "harvey");
+  EXPECT_TRUE(model.deterministic);
+  EXPECT_FALSE(model.hears_music);
+  EXPECT_FALSE(model.root_path);
+  EXPECT_FALSE(HeededBy(*sampler_).kind);
+}
+
+TEST_F(InbetweenerTileTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
+  std::vector<TransitionSpec> specs;
+  for (uint64_t seed = 1; seed <= 6; ++seed)
+    specs.push_back(RandomSpec(sampler_->model(), seed, 8 + static_cast<int>(seed)));
+  const std::vector<Plan> plans = SampleInTurn(sampler_.get(), specs);
+  for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
+}
+
+TEST_F(InbetweenerTileTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikelihood) {
+  TransitionSpec spec = RandomSpec(sampler_->model(), 1);
+  const Plan once = sampler_->Sample(spec);
+  EXPECT_TRUE(once.log_likelihoods.empty());
+  spec.seed = 99;
+  spec.candidate = 5;
+  spec.temperature = 0.5F;
+  ExpectSameBits(once, sampler_->Sample(spec));
+}
+
+TEST_F(InbetweenerTileTest, DancesOnTheServedPipeline) {
+  TransitionRequest request;
+  request.frames = 30;
+  Pose there = RestPose(sampler_->model().skeleton);
+  there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
+  request.target = Target{there, {}};
+  const TransitionRun run = DanceTransition(*sampler_, request);
+  ASSERT_EQ(run.frames().size(), 30U);
+  ASSERT_TRUE(run.arrival());
+  EXPECT_LT(run.arrival()->final_error_m, 0.001);
+}
+
+}  // namespace choreo::inbetweener_tile_test

@@ -1,0 +1,52 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "model/core/error.h"
+#include "model/engine/packed/kernels.h"
+#include "model/samplers/samplers.h"
+#include "tests/samplers/sampled.h"
+
+/// Which instructions the packed engine is told to use.
+namespace choreo::kernels_test {
+
+using testing::HasSubstr;
+
+std::string Fingerprint(const SmallCheckpoint& checkpoint, const std::string& kernels,
+                        EngineKind kind = EngineKind::kAuto) {
+  const Device cpu;
+  return MakeSamplers(checkpoint.path(), {&cpu, 1}, kind, kernels).front()->model().fingerprint;
+}
+
+TEST(KernelsTest, AreThoseThatAreNamed) {
+  const SmallCheckpoint checkpoint(Shape::kEncoded);
+  for (const PackedKernels* kernels : PackedKernelsHere()) {
+    EXPECT_THAT(Fingerprint(checkpoint, kernels->name),
+                HasSubstr("/packed " + std::string(kernels->name)));
+  }
+  for (const PackedKernels* bf16 : Bf16KernelsHere()) {
+    EXPECT_THAT(Fingerprint(checkpoint, bf16->name),
+                HasSubstr("/packed " + std::string(bf16->name)));
+  }
+  if (!Bf16KernelsHere().empty()) {
+    EXPECT_EQ(Fingerprint(checkpoint, Bf16KernelsHere().front()->name),
+              Fingerprint(checkpoint, "", EngineKind::kPackedBf16));
+  }
+}
+
+TEST(KernelsTest, ThatAreNotHereAreNamed) {
+  const SmallCheckpoint checkpoint(Shape::kEncoded);
+  const auto refusal = [&](const std::string& kernels, EngineKind kind) -> std::string {
+    try {
+      return Fingerprint(checkpoint, kernels, kind);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refusal("sse9", EngineKind::kAuto), HasSubstr("kernels: \"sse9\" is none of "));
+  EXPECT_THAT(refusal("sse9", EngineKind::kAuto), HasSubstr("portable"));
+  EXPECT_THAT(refusal("avx512_bf16", EngineKind::kPacked),
+              HasSubstr("kernels: \"avx512_bf16\" is none of "));
+}
+
+}  // namespace choreo::kernels_test
