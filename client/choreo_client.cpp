@@ -62,6 +62,7 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   }
   for (const Pose& pose : request.after) *out.add_after() = ToProto(pose);
   out.set_candidates(static_cast<uint32_t>(request.candidates));
+  if (request.rank_by == RankBy::kLikelihood) out.set_rank_by(v1::RANK_BY_LIKELIHOOD);
   if (AreAsked(config.controls)) *out.mutable_controls() = ToProto(config.controls);
   return out;
 }

@@ -117,6 +117,9 @@ struct DanceResult {
   int resumes = 0;
 };
 
+/// What candidates are ranked by: steering, support and skating, or likelihood alone.
+enum class RankBy { kQuality, kLikelihood };
+
 /// One transition, alone.
 struct TransitionRequest {
   DanceConfig config = {};  ///< its audio format is taken from `audio`
@@ -129,6 +132,7 @@ struct TransitionRequest {
       0;  ///< number of its first sample, counted from the start of the music
   std::vector<Pose> after = {};  ///< frames to lead into, at most 60
   int candidates = 1;            ///< 1 to kMaxCandidates
+  RankBy rank_by = RankBy::kQuality;
 };
 
 struct TransitionCandidate {

@@ -151,6 +151,7 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
     added.styles = {model.styles().begin(), model.styles().end()};
     added.takes_music = !model.takes_no_music();
     added.deterministic = model.deterministic();
+    added.likelihood = model.likelihood();
     added.audio_lead_s = model.audio_lead_s();
     added.latency_frames = model.latency_frames();
     // Servers before 0.2 do not tell their models' limits.

@@ -29,6 +29,7 @@ struct ModelDescription {
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< that DanceConfig::style may name
   bool takes_music = true;               ///< false: it refuses audio
+  bool likelihood = false;               ///< reports have one, by which candidates can be ranked
   bool deterministic = false;  ///< seed and temperature change nothing; rests without a key ahead
   double audio_lead_s = 0;     ///< music that a transition wants before its first frame
   int latency_frames = 0;      ///< how far the music must be ahead of the frame that is made

@@ -206,6 +206,17 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   request.frames = message.frames();
   request.candidates = std::max(
       1, static_cast<int>(CheckedIn(message.candidates(), 0, kMaxCandidates, "candidates")));
+  switch (message.rank_by()) {
+    case v1::RANK_BY_UNSPECIFIED:
+    case v1::RANK_BY_QUALITY:
+      break;
+    case v1::RANK_BY_LIKELIHOOD:
+      request.rank_by = RankBy::kLikelihood;
+      break;
+    default:
+      throw InvalidArgument("rank_by",
+                            std::to_string(message.rank_by()) + " is no RankBy; 0 to 2 are");
+  }
   if (message.has_target()) {
     request.target =
         ToTarget(message.target(), message.has_target_mask() ? &message.target_mask() : nullptr,

@@ -195,6 +195,7 @@ void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
     added->mutable_speeds()->Add(reference.factors.begin(), reference.factors.end());
   }
   out->set_deterministic(model.deterministic);
+  out->set_likelihood(model.likelihood);
   out->mutable_styles()->Add(model.styles.begin(), model.styles.end());
   out->set_takes_no_music(!TakesMusic(model));
   if (out->takes_no_music()) return;

@@ -40,6 +40,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   out["controls"] = model.controls;
   out["takes_music"] = model.takes_music;
   out["deterministic"] = model.deterministic;
+  out["likelihood"] = model.likelihood;
   out["styles"] = model.styles;
   out["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
@@ -105,6 +106,7 @@ void PrintControls(const client::ModelDescription& model) {
   if (!model.takes_music) std::printf("  takes no music\n");
   if (model.deterministic)
     std::printf("  deterministic: --seed, --temperature and --candidates change nothing\n");
+  if (model.likelihood) std::printf("  likelihood (--rank-by likelihood)\n");
   for (const std::string& control : model.controls)
     std::printf("  control: %s\n", control == "root_path"          ? "root path (--path)"
                                    : control == "velocity_factors" ? "velocity factors (--velocity)"

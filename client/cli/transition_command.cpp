@@ -31,6 +31,7 @@ struct TransitionOptions {
   std::string song;
   double at_s = 0;
   int candidates = 1;
+  std::string rank_by = "quality";
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
@@ -94,6 +95,7 @@ void Run(const TransitionOptions& options) {
   request.frames = options.frames;
   // More of a deterministic model would all be the same.
   request.candidates = model.deterministic ? 1 : options.candidates;
+  if (options.rank_by == "likelihood") request.rank_by = client::RankBy::kLikelihood;
   const NamedPose to = ReadPose(options.to, model.skeleton);
   client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it
@@ -153,6 +155,13 @@ void AddTransitionCommand(CLI::App& program) {
           "--candidates", options->candidates,
           "Alternatives; the best is FILE, the others are FILE.2.npz and so on. " + kOfChance)
       ->check(WholeNumberFrom(1, kMaxCandidates))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--rank-by", options->rank_by,
+          "quality (steering, support, skating) | likelihood (of models that have one, see "
+          "`choreo info`): which alternative is the best.")
+      ->check(CLI::IsMember({"quality", "likelihood"}))
       ->capture_default_str();
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);

@@ -70,9 +70,13 @@ struct DanceConfig : DanceStart {
   void Validate(const ModelInfo& model) const;
 };
 
+/// What candidates are ranked by: RankCandidates, or likelihood alone, of models that have one.
+enum class RankBy { kQuality, kLikelihood };
+
 /// GenerateTransition: one transition, several candidates of it, ranked.
 struct GroupRequest : DanceStart {
-  int candidates = 1;       ///< 1..kMaxCandidates, numbered from 0
+  int candidates = 1;  ///< 1..kMaxCandidates, numbered from 0
+  RankBy rank_by = RankBy::kQuality;
   int frames = 0;           ///< 1..min(kMaxTransitionFrames, the model's longest)
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
   std::optional<Target> target;

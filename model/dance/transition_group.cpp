@@ -14,17 +14,18 @@
 
 namespace choreo {
 
-void RankCandidates(std::vector<CandidateReport>& candidates) {
+void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by) {
   constexpr double kSteeredStep = 0.01;  // metres
   constexpr double kSkateStep = 0.01;
   constexpr double kSupportStep = 0.05;  // three frames of two seconds
-  std::ranges::sort(candidates, {}, [](const CandidateReport& report) {
+  std::ranges::sort(candidates, {}, [by](const CandidateReport& report) {
     const QualityReport& quality = report.quality;
+    const double unlikely = -quality.mean_log_likelihood.value_or(0);
+    if (by == RankBy::kLikelihood) return std::tuple(0.0, 0.0, 0.0, unlikely, report.candidate);
     const double steered = quality.keys.empty() ? 0 : quality.keys.front().arrival.correction_m;
     const double unsupported = 1 - quality.support.value_or(1);
     return std::tuple(std::floor(steered / kSteeredStep), std::floor(unsupported / kSupportStep),
-                      std::floor(quality.skate_ratio / kSkateStep),
-                      -quality.mean_log_likelihood.value_or(0), report.candidate);
+                      std::floor(quality.skate_ratio / kSkateStep), unlikely, report.candidate);
   });
 }
 
@@ -262,7 +263,7 @@ void TransitionGroup::Impl::Done(CandidateReport report) {
   reports_.push_back(std::move(report));
   if (std::ssize(reports_) < request_.candidates) return;
   done.swap(jobs_);
-  RankCandidates(reports_);
+  RankCandidates(reports_, request_.rank_by);
   if (const auto warning = controls_.SpeedsMissed(reports_.front().quality)) Warn(*warning);
   mailbox_.PostLast([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }

@@ -33,11 +33,12 @@ class GroupSink {
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Best first: by how far arrival steered it (ArrivalResult::correction_m, which a miss of the key
-/// is part of) in steps of 1 cm, then the share of frames without support in steps of 5 %, then
-/// skate ratio in steps of 1 %, then likelihood, of models that have one (alone it would favour
-/// frozen motion), then the candidate's number. Without a target nothing is steered.
-void RankCandidates(std::vector<CandidateReport>& candidates);
+/// Best first. By quality: how far arrival steered it (ArrivalResult::correction_m, which a miss of
+/// the key is part of) in steps of 1 cm, then the share of frames without support in steps of 5 %,
+/// then skate ratio in steps of 1 %, then likelihood, of models that have one, then the candidate's
+/// number. Without a target nothing is steered. By likelihood: that alone (it favours calm motion),
+/// then the number.
+void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy::kQuality);
 
 /// GenerateTransition: has the candidates of one transition sampled, as bulk, and hands their
 /// frames out as the sink takes them. Candidate 0 is what DanceStream dances for the same interval.

@@ -42,6 +42,7 @@ struct ModelInfo {
   /// False: rows change nothing.
   bool hears_music = true;
   bool deterministic = false;     ///< seed, candidate and temperature change nothing
+  bool likelihood = false;        ///< plans have exact ones (Plan::log_likelihoods)
   bool root_path = false;         ///< takes Controls::root_path
   bool velocity_factors = false;  ///< takes Controls::velocity_factors
   /// The first one, "median", is the default. At least one where velocity factors are taken.

@@ -36,6 +36,24 @@ TEST_F(CommandTest, MovesFromPoseToPose) {
   }
 }
 
+TEST_F(CommandTest, AlternativesAreRankedByLikelihoodWhereThatIsAsked) {
+  const auto move = [&](const std::string& by) {
+    return Choreo(
+        "transition --from contrapposto --to kick --frames 40 --temperature 1 "
+        "--candidates 8 --out " +
+        At("t.npz") + " --report " + At("best.json") + " --rank-by " + by + Server());
+  };
+  const auto best = [&](const std::string& by) {
+    const Outcome outcome = move(by);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return nlohmann::json::parse(std::ifstream(folder_ / "best.json"))
+        .at("log_likelihood")
+        .get<double>();
+  };
+  EXPECT_GT(best("likelihood"), best("quality"));
+  EXPECT_EQ(move("luck").code, 2);
+}
+
 // Only what the frames hear is sent: a song may be longer than a message.
 TEST_F(CommandTest, ATransitionHearsItsPartOfALongSong) {
   WriteClicks(folder_ / "song.wav", 200);  // 16.8 MiB of samples

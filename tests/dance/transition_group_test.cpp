@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "tests/dance/dances.h"
+#include "tests/support/expect_error.h"
 
 namespace choreo::transition_group_test {
 
@@ -124,6 +125,44 @@ TEST(TransitionGroup, RanksBySteeringThenSkateThenLikelihood) {
   order.clear();
   for (const CandidateReport& one : list) order.push_back(one.candidate);
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(TransitionGroup, RanksByLikelihoodAloneWhereThatIsAsked) {
+  const auto report = [](int candidate, double steered, std::optional<double> likelihood) {
+    CandidateReport made;
+    made.candidate = candidate;
+    made.quality.keys.resize(1);
+    made.quality.keys[0].arrival.correction_m = steered;
+    made.quality.mean_log_likelihood = likelihood;
+    return made;
+  };
+  std::vector<CandidateReport> list = {report(0, 0, 3), report(1, 0.2, 9), report(2, 0.1, 9)};
+  RankCandidates(list, RankBy::kLikelihood);
+  std::vector<int> order;
+  for (const CandidateReport& one : list) order.push_back(one.candidate);
+  EXPECT_EQ(order, (std::vector<int>{1, 2, 0}));
+  RankCandidates(list);
+  EXPECT_EQ(list.front().candidate, 0);
+}
+
+TEST(TransitionGroup, AGroupIsRankedAsItAsksAndAModelWithoutLikelihoodRefuses) {
+  const auto queue = FakeQueue(2);
+  GroupRequest request = RandomRequest(1);
+  request.candidates = 6;
+  request.temperature = 1.0F;
+  request.rank_by = RankBy::kLikelihood;
+  const auto sink = Generate(*queue, request);
+  ASSERT_TRUE(sink->ranked);
+  for (size_t i = 1; i < sink->ranked->size(); ++i) {
+    EXPECT_GE(*(*sink->ranked)[i - 1].quality.mean_log_likelihood,
+              *(*sink->ranked)[i].quality.mean_log_likelihood);
+  }
+  ModelInfo without = queue->model();
+  without.likelihood = false;
+  ExpectError(ErrorCode::kInvalidArgument,
+              "rank_by: RANK_BY_LIKELIHOOD, but \"fake\" has no likelihood; RANK_BY_QUALITY is "
+              "possible",
+              [&] { request.Validate(without); });
 }
 
 TEST(TransitionGroup, RanksWhoStandsOnHerFeetBeforeWhoGlidesLess) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <functional>
 #include <set>
 
 #include "tests/server/fixture.h"
@@ -40,6 +42,21 @@ TEST_F(TransitionTest, SeveralCandidatesRanked) {
   EXPECT_EQ(numbers, (std::set<uint32_t>{0, 1, 2, 3, 4}));
   EXPECT_FALSE(answer.Join(0) == answer.Join(1));
   ExpectIdle();
+}
+
+TEST_F(TransitionTest, CandidatesAreRankedByLikelihoodWhereThatIsAsked) {
+  Start();
+  v1::GenerateTransitionRequest request = Request();
+  request.set_candidates(8);
+  request.set_rank_by(v1::RANK_BY_LIKELIHOOD);
+  const Answer answer = Generate(request);
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  std::vector<double> likelihoods;
+  for (const v1::Candidate& candidate : answer.transition_summary->candidates())
+    likelihoods.push_back(candidate.report().log_likelihood());
+  ASSERT_EQ(likelihoods.size(), 8U);
+  EXPECT_TRUE(std::ranges::is_sorted(likelihoods, std::greater()));
+  EXPECT_GT(likelihoods.front(), likelihoods.back());
 }
 
 // A chain of GenerateTransitions, candidate 0 each, is the StreamDance with the same keys.
@@ -144,6 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
                        "1800"},
         BadRequestCase{"TooManyCandidates", [](R& r) { r.set_candidates(33); }, kInvalid,
                        "candidates", "32"},
+        BadRequestCase{"UnknownRanking", [](R& r) { r.set_rank_by(static_cast<v1::RankBy>(7)); },
+                       kInvalid, "rank_by", "7 is no RankBy; 0 to 2 are"},
         BadRequestCase{"UnknownModel", [](R& r) { r.mutable_config()->set_model("nope"); },
                        grpc::StatusCode::NOT_FOUND, "config.model", "\"fake\""},
         BadRequestCase{"GenerateUntil", [](R& r) { r.mutable_config()->set_generate_until(5); },

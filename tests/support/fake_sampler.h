@@ -37,6 +37,7 @@ class FakeSampler : public Sampler {
     model_.skeleton = skeleton;
     model_.styles = {"calm", "wild"};
     model_.hears_music = false;
+    model_.likelihood = true;
   }
 
   /// What a subclass makes of the frame that the plan has just got: others, nothing, or an error;

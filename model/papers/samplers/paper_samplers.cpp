@@ -69,6 +69,7 @@ SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
   info.audio_features = config.audio_features;
   info.hears_music = config.hears_music;
   info.default_temperature = config.temperature;
+  info.likelihood = true;
   return [info, config, device = request.device.name(), tile] {
     return std::make_unique<AutoregressiveFlowSampler>(info, config, device, tile);
   };
