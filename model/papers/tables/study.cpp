@@ -10,6 +10,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/random.h"
+#include "model/core/safetensors.h"
 #include "model/papers/tables/study_page.h"
 
 namespace choreo {
@@ -95,8 +96,8 @@ void WriteStudy(std::span<const StudyMethod> methods, const std::string& questio
 
   Random random(seed);
   Shuffle(&clips, &random);
-  Json key = {{"study", seed}, {"clips", Json::array()}};
-  Json shown = Json::array();
+  Json whose_films = Json::array(), shown = Json::array();
+  Safetensors copied;  // for its hash alone: a study is its films, under the names that they have
   for (size_t clip = 0; clip < clips.size(); ++clip) {
     std::vector<size_t> order(methods.size());
     std::iota(order.begin(), order.end(), size_t{0});
@@ -107,15 +108,18 @@ void WriteStudy(std::span<const StudyMethod> methods, const std::string& questio
       const std::string letter(1, static_cast<char>('A' + place));
       const std::string name = std::to_string(clip + 1) + letter + film.extension().string();
       std::filesystem::copy_file(film, folder / name);
+      copied.metadata[name] = ReadFile(film);
       whose[letter] = methods[order[place]].name;
       seen.push_back(name);
     }
-    key["clips"].push_back({{"clip", clips[clip]}, {"films", whose}});
+    whose_films.push_back({{"clip", clips[clip]}, {"films", whose}});
     shown.push_back(seen);
   }
-  WriteFile(folder / "index.html", StudyPage(question, {{"study", seed}, {"clips", shown}}));
+  const std::string study = ContentHash(copied);
+  WriteFile(folder / "index.html", StudyPage(question, {{"study", study}, {"clips", shown}}));
   std::filesystem::path beside = folder;
   if (!beside.has_filename()) beside = beside.parent_path();
+  const Json key = {{"study", study}, {"clips", whose_films}};
   WriteFile(beside += ".key.json", key.dump(2) + '\n');
 }
 
@@ -128,10 +132,13 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
   };
   const Json study = parse(key);
   std::map<std::string, Sums> sums;
+  std::set<std::filesystem::path> taken;
   int64_t rankings = 0;
   const bool alone = answers.size() == 1;
   for (size_t person = 0; person < answers.size(); ++person) {
     const std::filesystem::path& path = answers[person];
+    if (!taken.insert(std::filesystem::weakly_canonical(path)).second)
+      throw InvalidArgument(path.string(), "is given twice");
     try {
       const Json said = parse(path);
       if (said.at("study") != study.at("study"))

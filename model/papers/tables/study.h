@@ -28,7 +28,7 @@ void WriteStudy(std::span<const StudyMethod> methods, const std::string& questio
 /// What people answered: a row a method, its mean rank (1 is best) and how often it came first,
 /// with 95 % intervals over people, or over clips where one alone answered. `answers`: files that
 /// the page has saved. Throws Error(kInvalidArgument) naming a file that is no answer to the study
-/// of `key`.
+/// of `key`, or is given twice.
 Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesystem::path> answers);
 
 }  // namespace choreo

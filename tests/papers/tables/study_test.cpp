@@ -83,6 +83,17 @@ TEST_F(Study, TheSeedDrawsTheOrder) {
   EXPECT_GE(orders.size(), 4U);  // of eight
 }
 
+// Of one seed, which nobody has to change, there are many studies.
+TEST_F(Study, AnswersToOtherFilmsAreToldApart) {
+  Make();
+  const std::filesystem::path answer = Answer("a", "ours");
+  std::filesystem::remove_all(folder_ / "study");
+  WriteFile(folder_ / "ours" / "one.webm", "ours one, danced anew");
+  Make();
+  ExpectError(ErrorCode::kInvalidArgument, "answers another study",
+              [&] { ScoreStudy(folder_ / "study.key.json", std::vector{answer}); });
+}
+
 TEST_F(Study, RanksAreMeanOverPeople) {
   Make();
   const Table table =
@@ -117,9 +128,14 @@ TEST_F(Study, BadInputIsRefusedByName) {
     };
   };
   ExpectError(ErrorCode::kInvalidArgument, "another study", score({{"study", 9}, {"answers", {}}}));
+  const std::filesystem::path once = Answer("once", "ours");
+  ExpectError(ErrorCode::kInvalidArgument, "is given twice", [&] {
+    ScoreStudy(folder_ / "study.key.json", std::vector{once, once});
+  });
   ExpectError(ErrorCode::kInvalidArgument, "no file of a study", score({{"answers", {}}}));
-  const auto ranks = [](int clip, const std::vector<std::string>& ranking) {
-    return json{{"study", 0}, {"answers", json::array({{{"clip", clip}, {"ranking", ranking}}})}};
+  const auto ranks = [study = Key()["study"]](int clip, const std::vector<std::string>& ranking) {
+    return json{{"study", study},
+                {"answers", json::array({{{"clip", clip}, {"ranking", ranking}}})}};
   };
   ExpectError(ErrorCode::kInvalidArgument, "twice", score(ranks(1, {"A", "A"})));
   ExpectError(ErrorCode::kInvalidArgument, "ranks 1 of 2", score(ranks(1, {"A"})));
