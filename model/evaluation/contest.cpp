@@ -66,7 +66,7 @@ Contest MakeContest(const ContestOptions& options) {
   };
   Sampler* judged = add(MakeSampler(options.model, Device{}, kind));
   const ModelInfo& model = judged->model();
-  contest.stepped_by = EngineOf(model, kind);
+  contest.engine = EngineOf(model, kind);
   const std::set<std::string> wanted(options.baselines.begin(), options.baselines.end());
   if (wanted.contains("real")) contest.methods.push_back({"real", Kind::kReal});
   if (wanted.contains("interpolation")) {
@@ -84,7 +84,7 @@ Contest MakeContest(const ContestOptions& options) {
     }
     contest.methods.push_back({other.name, Kind::kModel, sampler, LearntKeys(other.checkpoint)});
     const std::string by = EngineOf(sampler->model(), kind);
-    if (by != EngineOf(model, kind)) contest.stepped_by += "; " + by + " for " + other.name;
+    if (by != EngineOf(model, kind)) contest.engine += "; " + by + " for " + other.name;
   }
   contest.methods.push_back({options.name, Kind::kModel, judged, LearntKeys(options.model)});
   return contest;

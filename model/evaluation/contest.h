@@ -23,7 +23,7 @@ struct ContestOptions {
 struct Contest {
   std::vector<std::unique_ptr<Sampler>> samplers;
   std::vector<Method> methods;
-  std::string stepped_by;  ///< "packed float32; torch for Harvey et al. 2020"
+  std::string engine;  ///< "packed float32; torch for Harvey et al. 2020"
 
   Sampler& judged() const { return *samplers.front(); }
 };

@@ -89,7 +89,7 @@ std::string Summary(const Arguments& arguments, const Contest& contest) {
   std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);
   return "Model " + print.substr(0, print.find('/', print.find('/') + 1)) + ", " + arguments.split +
          " clips, temperature " + temperature +
-         " unless a row says otherwise. Engine: " + contest.stepped_by + ".";
+         " unless a row says otherwise. Engine: " + contest.engine + ".";
 }
 
 std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& contest,
@@ -108,7 +108,7 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
   progress.Finish();
   // Every table says it of itself: they get quoted one by one.
   for (Table& table : tables)
-    table.note += (table.note.empty() ? "Engine: " : " Engine: ") + contest.stepped_by + ".";
+    table.note += (table.note.empty() ? "Engine: " : " Engine: ") + contest.engine + ".";
   return tables;
 }
 
@@ -146,7 +146,7 @@ void EvaluateAll(Arguments arguments) {
                {"fingerprint", model.fingerprint},
                {"split", arguments.split},
                {"temperature", options.temperature},
-               {"engine", contest.stepped_by},
+               {"engine", contest.engine},
                {"summary", summary}},
               tables);
   if (!arguments.sheets) return;

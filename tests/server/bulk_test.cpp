@@ -107,12 +107,7 @@ class BulkTest : public ServerTest {
  protected:
   BulkTest() {
     SetTorchThreads(1);
-    std::vector<Server::Samplers> models(1);
-    models[0].push_back(
-        std::make_unique<LoggedSampler>(MakeSampler(SHIPPED_CHECKPOINT, Device{}), log));
-    ServerConfig config;
-    config.listen = "127.0.0.1:0";
-    Connect(std::make_unique<Server>(config, std::move(models)));
+    StartWith(std::make_unique<LoggedSampler>(MakeSampler(SHIPPED_CHECKPOINT, Device{}), log));
   }
 
   static v1::GenerateTransitionRequest Bulk() {

@@ -179,6 +179,14 @@ void ServerTest::Start(int workers, std::function<void(ServerConfig&)> change,
   Connect(std::make_unique<Server>(config, std::move(models)));
 }
 
+void ServerTest::StartWith(std::unique_ptr<Sampler> sampler) {
+  ServerConfig config;
+  config.listen = "127.0.0.1:0";
+  std::vector<Server::Samplers> models(1);
+  models[0].push_back(std::move(sampler));
+  Connect(std::make_unique<Server>(config, std::move(models)));
+}
+
 void ServerTest::Connect(std::unique_ptr<Server> started) {
   server = std::move(started);
   channel = grpc::CreateChannel("127.0.0.1:" + std::to_string(server->port()),

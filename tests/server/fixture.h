@@ -106,6 +106,8 @@ class ServerTest : public ::testing::Test {
   /// Starts the server with models of these names, each with so many workers, and connects to it.
   void Start(int workers = 1, std::function<void(ServerConfig&)> change = {},
              const std::vector<std::string>& names = {"fake"});
+  /// Starts the server with this model and one worker, and connects to it.
+  void StartWith(std::unique_ptr<Sampler> sampler);
   /// Takes over a server that a test has started itself.
   void Connect(std::unique_ptr<Server> started);
   v1::Choreography::Stub& stub();

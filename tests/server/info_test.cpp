@@ -91,11 +91,7 @@ class BriefSampler : public FakeSampler {
 // The server's limit is one thing, what its model can do another.
 TEST_F(InfoTest, EachModelTellsItsLongestTransition) {
   for (const auto& [of_model, told] : {std::pair{150, 150}, {5'000, 1'800}}) {
-    ServerConfig config;
-    config.listen = "127.0.0.1:0";
-    std::vector<Server::Samplers> models(1);
-    models[0].push_back(std::make_unique<BriefSampler>(of_model));
-    Connect(std::make_unique<Server>(config, std::move(models)));
+    StartWith(std::make_unique<BriefSampler>(of_model));
     grpc::ClientContext context;
     v1::GetServerInfoResponse info;
     ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
@@ -169,11 +165,7 @@ TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
   spdlog::set_default_logger(std::make_shared<spdlog::logger>(
       "log", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
   std::atomic<bool> fails = true;
-  ServerConfig config;
-  config.listen = "127.0.0.1:0";
-  std::vector<Server::Samplers> models(1);
-  models[0].push_back(std::make_unique<FailingSampler>(&fails));
-  Connect(std::make_unique<Server>(config, std::move(models)));
+  StartWith(std::make_unique<FailingSampler>(&fails));
   const auto health = [this] {
     return CallRaw(channel, "/grpc.health.v1.Health/Check", "", false);
   };

@@ -19,16 +19,7 @@ class LostSampler final : public FakeSampler {
   int frames_ = 0;
 };
 
-class PosesTest : public ServerTest {
- protected:
-  void StartWith(std::unique_ptr<Sampler> engine) {
-    ServerConfig config;
-    config.listen = "127.0.0.1:0";
-    std::vector<Server::Samplers> models(1);
-    models[0].push_back(std::move(engine));
-    Connect(std::make_unique<Server>(config, std::move(models)));
-  }
-};
+class PosesTest : public ServerTest {};
 
 TEST_F(PosesTest, AreFiniteOrTheDanceFails) {
   StartWith(std::make_unique<LostSampler>());

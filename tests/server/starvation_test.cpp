@@ -50,14 +50,6 @@ class StarvationTest : public ServerTest {
     return client;
   }
 
-  void StartWith(std::unique_ptr<Sampler> sampler) {
-    ServerConfig config;
-    config.listen = "127.0.0.1:0";
-    std::vector<Server::Samplers> models(1);
-    models[0].push_back(std::move(sampler));
-    Connect(std::make_unique<Server>(config, std::move(models)));
-  }
-
   Answer DanceToAKey() {
     DanceClient client(stub());
     client.Send(Config());
