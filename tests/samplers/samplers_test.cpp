@@ -11,6 +11,7 @@
 #include "model/core/math_library.h"
 #include "model/core/safetensors.h"
 #include "model/core/threads.h"
+#include "model/engine/loading.h"
 #include "tests/samplers/sampled.h"
 
 // What every sampler of the flow model promises, whatever computes it.
