@@ -27,9 +27,9 @@ int FirstChild(const Skeleton& skeleton, int joint) {
 
 Eigen::VectorXd MassWeights(const Skeleton& skeleton) {
   const int head = skeleton.Find("head");
-  if (std::ranges::min({head, skeleton.left_hip, skeleton.right_hip, skeleton.left_knee,
-                        skeleton.right_knee, skeleton.left_shoulder, skeleton.right_shoulder,
-                        skeleton.left_elbow, skeleton.right_elbow}) < 0 ||
+  if (std::min({head, skeleton.left_hip, skeleton.right_hip, skeleton.left_knee,
+                skeleton.right_knee, skeleton.left_shoulder, skeleton.right_shoulder,
+                skeleton.left_elbow, skeleton.right_elbow}) < 0 ||
       std::ranges::min(skeleton.feet) < 0)
     return {};
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(skeleton.joints());
