@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "model/fit/character_body.h"
 #include "model/fit/human_bones.h"
 #include "model/motion/motion.h"
 
@@ -44,9 +43,6 @@ struct RigFit {
   /// Its left is on the right at rest, as in a mirror: bones were taken by where they stand.
   bool exchanged = false;
 };
-
-/// The rig's rest pose as a body of ours, if that is a body's: standing, arms hanging or held out.
-std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matrix3Xd& places);
 
 /// Limbs point where the rig's do. Pelvis, chest, head, hands and feet are turned in the world as
 /// the rig's bones are since its rest pose; where that is no body's (all bones along one axis, as

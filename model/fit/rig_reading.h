@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/fit/character_body.h"
+#include "model/fit/rig_motion.h"
+
+/// What a recording of a rig tells of the rig, before any of it is fitted. Private to this folder.
+namespace choreo {
+
+/// The bones whose ends say where they point: by SMPL's names, which are HumanBones', too.
+struct LimbSegment {
+  std::string from, to;
+};
+const std::vector<LimbSegment>& LimbSegments();
+
+/// Looks at a few of its frames; the recording outlives it.
+class RigReading {
+ public:
+  /// Errors as FitRig has them.
+  explicit RigReading(const RigMotion& rig);
+
+  const RigMotion& rig() const { return rig_; }
+  int Find(const std::string& bone) const { return rig_.bones.Find(bone); }
+  Eigen::Vector3d Bone(const RigPlacement& placement, const LimbSegment& segment) const;
+
+  /// Our legs' length over the rig's.
+  double Scale() const;
+  /// RigFit::missing.
+  std::vector<std::string> Missing() const;
+  /// Whether the place of a bone's end turns with the bone, as it does unless somebody has moved
+  /// joints without turning anything.
+  bool TurnsCarry() const;
+
+  /// A rest pose that is a standing body's.
+  struct Rest {
+    CharacterBody body;
+    const RigPlacement* placement = nullptr;
+  };
+  /// The best of the file's or, where none is one, the first frame that stands with straight limbs
+  /// and arms held out, as others rest.
+  std::optional<Rest> FindRest() const;
+  /// Whether one of the file's is one.
+  bool Stands() const;
+  /// RigFit::up.
+  std::optional<Eigen::Vector3d> Up() const;
+
+ private:
+  Eigen::Vector3d Inside(const RigPlacement& placement, const LimbSegment& segment) const;
+  bool Point(const std::function<Eigen::Vector3d(const LimbSegment&)>& expected,
+             double share) const;
+  bool Agrees(const RigPlacement& rest) const;
+  bool IsHeldOut(const RigPlacement& placement) const;
+
+  const RigMotion& rig_;
+  std::vector<RigPlacement> samples_;
+};
+
+}  // namespace choreo
