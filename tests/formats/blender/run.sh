@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Opens our BVH files, and characters that dance, in Blender. Ends with 77 where there is none.
+# Opens our BVH and glTF files, and characters that dance, in Blender, and reads what Blender writes. Ends with 77 where there is none.
 #   run.sh BUILD_DIRECTORY
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -12,6 +12,12 @@ for names in smpl mixamo humanik ue; do
   for unit in m cm; do "$bin/choreo" convert "$dance" "$scratch/$names-$unit.bvh" --names $names --unit $unit; done
 done
 blender -b --factory-startup --python-exit-code 1 -P "$here/check_bvh.py" -- "$scratch" | grep -v '^$'
+
+"$bin/choreo" convert "$dance" "$scratch/dance.npz"
+blender -b --factory-startup --python-exit-code 1 -P "$here/check_npz.py" -- "$scratch" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+grep ^ok: "$scratch/log"
+for kind in bvh glb; do "$bin/choreo" convert "$scratch/blender.$kind" "$scratch/blender-$kind.npz"; done
+python3 "$here/same_dance.py" "$scratch/dance.npz" "$scratch/blender-bvh.npz" "$scratch/blender-glb.npz"
 
 "$bin/write_characters" "$scratch"
 blender -b --factory-startup --python-exit-code 1 -P "$here/metarigs.py" -- "$scratch" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
