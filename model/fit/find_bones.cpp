@@ -1,6 +1,7 @@
 #include "model/fit/find_bones.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,8 @@ namespace {
 
 constexpr size_t kMostGroups = 16, kMostRigNodes = 5000;  // a hostile file has any number
 constexpr size_t kFewestBones = 12;
+// Of `Needed`: six of each limb's side, and the head or the neck.
+constexpr int kAllNeeded = 2 * static_cast<int>(std::size(kNeededLimbBones)) + 1;
 
 std::string Quote(const std::string& name) { return '"' + Printable(name) + '"'; }
 
@@ -27,16 +30,11 @@ Group Below(const RigNodes& rig, int top) {
   return group;
 }
 
-// All nodes; and where names are there twice, what hangs from each node that carries enough of
-// them.
-std::vector<Group> GroupsOf(const RigNodes& rig) {
-  std::vector<Group> groups = {Group(rig.names.size(), true)};
-  std::map<std::string_view, int> times;
-  for (const std::string& name : rig.names) {
-    if (!name.empty()) ++times[name];
-  }
-  const auto twice = std::ranges::count_if(times, [](const auto& name) { return name.second > 1; });
-  if (twice == 0 || rig.names.size() > kMostRigNodes) return groups;
+// The nodes from which enough hangs for a body, those near the root first: they are whole
+// skeletons.
+std::vector<int> TopsOf(const RigNodes& rig) {
+  std::vector<int> tops;
+  if (rig.names.size() > kMostRigNodes) return tops;
   std::vector<int> carried(rig.names.size(), 0), depth(rig.names.size(), 0);
   for (size_t node = 0; node < rig.names.size(); ++node) {
     for (int above = static_cast<int>(node); above >= 0; above = rig.parents[above]) {
@@ -44,15 +42,11 @@ std::vector<Group> GroupsOf(const RigNodes& rig) {
       if (above != static_cast<int>(node)) ++depth[node];
     }
   }
-  std::vector<int> tops;
   for (size_t node = 0; node < rig.names.size(); ++node) {
     if (carried[node] >= static_cast<int>(kFewestBones)) tops.push_back(static_cast<int>(node));
   }
-  // Those near the root first: they are whole skeletons.
   std::ranges::stable_sort(tops, {}, [&](int node) { return depth[node]; });
-  tops.resize(std::min(tops.size(), kMostGroups));
-  for (const int top : tops) groups.push_back(Below(rig, top));
-  return groups;
+  return tops;
 }
 
 // The names of a group's nodes; where one is there twice, that of the node that is most of a bone.
@@ -142,14 +136,24 @@ void FindChest(const RigNodes& rig, HumanBones* found) {
     found->bones[next] = chest;
 }
 
+// Of all nodes together, and of what hangs from one: of several bodies, whatever they are called,
+// the one that moves.
 HumanBones ByNames(const RigNodes& rig) {
-  HumanBones best = FindHumanBones(rig.names);
-  std::tuple best_score(-1, -1, -1, -1, -1);
-  for (const Group& group : GroupsOf(rig)) {
-    HumanBones found = FindHumanBones(NamesOf(rig, group));
-    const std::tuple score(Needed(found), Count(found, rig.moves), Count(found, rig.joints),
-                           Connected(rig, found), static_cast<int>(found.bones.size()));
-    if (score > best_score) best_score = score, best = std::move(found);
+  const auto score = [&](const HumanBones& found) {
+    return std::tuple(Needed(found), Count(found, rig.moves), Count(found, rig.joints),
+                      Connected(rig, found), static_cast<int>(found.bones.size()));
+  };
+  HumanBones best = FindHumanBones(NamesOf(rig, Group(rig.names.size(), true)), rig.moves);
+  size_t looked_at = 0;
+  std::vector<int> partial;  // no whole body hangs from these, nor from what hangs from them
+  for (const int top : TopsOf(rig)) {
+    const bool below =
+        std::ranges::any_of(partial, [&](int node) { return IsBelow(top, node, rig.parents); });
+    if (below) continue;
+    if (++looked_at > kMostGroups) break;
+    HumanBones found = FindHumanBones(NamesOf(rig, Below(rig, top)), rig.moves);
+    if (Needed(found) < kAllNeeded) partial.push_back(top);
+    if (score(found) > score(best)) best = std::move(found);
   }
   return best;
 }

@@ -1,6 +1,8 @@
 #include "model/fit/human_bones.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -10,6 +12,7 @@ namespace choreo {
 namespace {
 
 constexpr int kMostSpines = 6, kMostNecks = 3;
+constexpr int kMostEnds = 4;  // "_bind_jnt" are two; a hostile file has any number
 
 std::vector<std::string_view> Split(std::string_view names) {
   std::vector<std::string_view> out;
@@ -44,7 +47,7 @@ using NameIndex = std::unordered_map<std::string_view, int>;
 enum class Spelling { kExact, kPlain };
 
 // As tools spell the same name: without separators, in small letters.
-std::string Plain(std::string_view name) {
+std::string Plain(const std::string& name) {
   std::string plain;
   for (const char letter : name) {
     if (std::string_view("_.-:| ").find(letter) != std::string_view::npos) continue;
@@ -115,28 +118,54 @@ std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::strin
   return prefixes;
 }
 
-// How much speaks for a rig: first the bones without which nobody dances, then any others.
-std::pair<int, size_t> Score(const HumanBones& found) {
+// Without what ends most of them, as in "LeftArm_jnt" or "l_arm_bind_jnt". No side does.
+std::vector<std::string> WithoutCommonEnd(std::vector<std::string> names) {
+  const auto end_of = [](const std::string& name) {
+    const size_t at = name.find_last_of("_.-:| ");
+    return at == std::string::npos || at == 0 ? std::string() : name.substr(at);
+  };
+  for (int ends = 0; ends < kMostEnds; ++ends) {
+    std::map<std::string, size_t> times;
+    for (const std::string& name : names) {
+      if (const std::string end = end_of(name); !end.empty()) ++times[end];
+    }
+    const auto most = std::ranges::max_element(times, {}, [](const auto& e) { return e.second; });
+    if (most == times.end() || 2 * most->second <= names.size()) return names;
+    for (std::string& name : names) {
+      if (end_of(name) == most->first) name.resize(name.size() - most->first.size());
+    }
+  }
+  return names;
+}
+
+// How much speaks for a rig: first the bones without which nobody dances, then those that move,
+// then any others.
+std::tuple<int, size_t, size_t> Score(const HumanBones& found,
+                                      const std::vector<bool>& moves = {}) {
   int needed = found.Find("head") >= 0 || found.Find("neck") >= 0 ? 1 : 0;
   for (const char* side : {"left_", "right_"}) {
     for (const char* bone : kNeededLimbBones)
       needed += found.Find(std::string(side) + bone) >= 0 ? 1 : 0;
   }
-  return {needed, found.bones.size()};
+  const auto moving = std::ranges::count_if(found.bones, [&](const auto& bone) {
+    return static_cast<size_t>(bone.second) < moves.size() && moves[bone.second];
+  });
+  return {needed, static_cast<size_t>(moving), found.bones.size()};
 }
 
 bool IsWhole(const HumanBones& found) {
-  return Score(found).first > 2 * static_cast<int>(std::size(kNeededLimbBones));
+  return std::get<0>(Score(found)) > 2 * static_cast<int>(std::size(kNeededLimbBones));
 }
 
-HumanBones FindSpelt(const std::vector<std::string>& names, Spelling spelling) {
+HumanBones FindSpelt(const std::vector<std::string>& names, Spelling spelling,
+                     const std::vector<bool>& moves) {
   NameIndex index;  // the first of each
   for (size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], static_cast<int>(i));
   HumanBones best{.rig = kHumanIkRig, .bones = {}};
   for (const Rig& rig : kRigs) {
     for (const std::string& prefix : PrefixesOf(rig, names, spelling)) {
       HumanBones found = FindIn(rig, prefix, index, spelling);
-      if (Score(found) > Score(best)) best = std::move(found);
+      if (Score(found, moves) > Score(best, moves)) best = std::move(found);
     }
   }
   return best;
@@ -158,22 +187,26 @@ int HumanBones::Find(const std::string& bone) const {
 std::vector<std::string> HumanBones::Spine() const { return Chain(*this, SpineName); }
 std::vector<std::string> HumanBones::Neck() const { return Chain(*this, NeckName); }
 
-HumanBones FindHumanBones(const std::vector<std::string>& names) {
-  HumanBones best = FindSpelt(names, Spelling::kExact);
+HumanBones FindHumanBones(const std::vector<std::string>& names, const std::vector<bool>& moves) {
+  HumanBones best = FindSpelt(names, Spelling::kExact, moves);
   if (IsWhole(best) || names.empty()) return best;
   // Another spelling counts only where a whole body is found in it.
-  std::vector<std::string> plain, unnumbered;
-  for (const std::string& name : names) {
-    plain.push_back(Plain(name));
-    unnumbered.push_back(WithoutNumber(name));
+  const auto each = [](std::vector<std::string> all, auto change) {
+    for (std::string& name : all) name = change(name);
+    return all;
+  };
+  const std::vector<std::string> unnumbered = each(names, WithoutNumber);
+  for (const std::vector<std::string>& respelt :
+       {unnumbered, WithoutCommonEnd(names), WithoutCommonEnd(unnumbered)}) {
+    HumanBones found = FindSpelt(respelt, Spelling::kExact, moves);
+    if (IsWhole(found)) return found;
   }
-  const HumanBones counted = FindSpelt(unnumbered, Spelling::kExact);
-  if (IsWhole(counted)) return counted;
-  const HumanBones respelt = FindSpelt(plain, Spelling::kPlain);
-  if (IsWhole(respelt)) return respelt;
-  std::ranges::transform(unnumbered, plain.begin(), Plain);
-  const HumanBones both = FindSpelt(plain, Spelling::kPlain);
-  return IsWhole(both) ? both : best;
+  for (const std::vector<std::string>& respelt :
+       {names, unnumbered, WithoutCommonEnd(names), WithoutCommonEnd(unnumbered)}) {
+    HumanBones found = FindSpelt(each(respelt, Plain), Spelling::kPlain, moves);
+    if (IsWhole(found)) return found;
+  }
+  return best;
 }
 
 const std::vector<std::string>& AllHumanBones() {

@@ -30,8 +30,11 @@ struct HumanBones {
 /// ASF's, LeftHip-LeftKnee-LeftAnkle, Bandai Namco's, DeepMotion's, OptiTrack's, iPi's, Blender's
 /// metarig, MakeHuman's, MMD's (Japanese and English), Rokoko's, Xsens', ARKit's, Kinect's, Cats',
 /// mocopi's, Maya's Advanced Skeleton, Second Life's, and SMPL's. Where none of them is whole, the
-/// same without separators, capitals and the numbers that exporters append ("Hips_012"). Pure.
-HumanBones FindHumanBones(const std::vector<std::string>& names);
+/// same without what ends most names ("Hips_jnt"), separators, capitals and the numbers that
+/// exporters append ("Hips_012"). Of several whole bodies ("A:Hips", "B:Hips") the one of which
+/// more `moves`, where that is given, [names]. Pure.
+HumanBones FindHumanBones(const std::vector<std::string>& names,
+                          const std::vector<bool>& moves = {});
 
 /// All that HumanBones may hold: up to spine6 and neck3.
 const std::vector<std::string>& AllHumanBones();

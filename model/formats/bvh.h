@@ -38,7 +38,7 @@ inline constexpr std::string_view kBvhChannelNames[] = {"Xposition", "Yposition"
 
 struct BvhJoint {
   std::string name;  ///< an End Site is named after its parent + "_end"
-  int parent = -1;   ///< -1 for the root; parents stand before their children
+  int parent = -1;   ///< -1 for a root; parents stand before their children
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent, file units
   /// In file order. Rotations apply in that order from left to right, R = R_first R_second R_third.
   /// A position channel replaces the offset's coordinate (which is what the authoring tools write,
@@ -64,12 +64,13 @@ struct BvhFile {
 };
 
 /// As lenient as the tools around: UTF-8 or UTF-16, comments behind # and //, "Frames:30",
-/// "EndSite", decimal commas, a frame time of 0, which states no rate, and more or fewer whole rows
-/// than the header counts, which is noted. Throws Error(kInvalidArgument) whose field is
+/// "EndSite", decimal commas, a frame time of 0, which states no rate, one of 4 and more, which is
+/// in milliseconds, and more or fewer whole rows than the header counts, which are noted; several
+/// roots. Throws Error(kInvalidArgument) whose field is
 /// "NAME:LINE" and whose message names the token that was found and what was expected. Refused are,
-/// besides other syntax errors: a second root, a hierarchy without channels, a channel given twice,
+/// besides other syntax errors: a hierarchy without channels, a channel given twice,
 /// numbers that are not finite, half a row, rows of another length than the channels, a frame time
-/// outside 1e-5 to 10 s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
+/// outside 1e-5 to 4 s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
 /// As ParseBvh; Error(kNotFound) where the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);

@@ -38,7 +38,9 @@ void AppendJoint(const BvhFile& file, int index, int depth, std::string& text) {
 
 std::string BvhText(const BvhFile& file) {
   std::string text = "HIERARCHY\n";
-  AppendJoint(file, 0, 0, text);
+  for (int joint = 0; joint < static_cast<int>(file.joints.size()); ++joint) {
+    if (file.joints[joint].parent < 0) AppendJoint(file, joint, 0, text);
+  }
   text += "MOTION\nFrames: " + std::to_string(file.frames()) + "\n";
   char frame_time[64];
   std::snprintf(frame_time, sizeof(frame_time), "Frame Time: %.9f\n", file.frame_time);

@@ -195,7 +195,7 @@ TEST(Bvh, NamesLineTokenAndExpectation) {
   broken("Frame Time: 0.0333333", "Frame Time: -1", "arm:18", "frame time");
   broken("20 10 30", "20 nan 30", "arm:20", "finite");
   broken("20 10 30", "20 1e999 30", "arm:20", "1e999");
-  broken("}\r\nMOTION", "}\r\nROOT b\r\nMOTION", "arm:", "ROOT");
+  broken("}\r\nMOTION", "}\r\nROOT b\r\nMOTION", "arm:", "expected '{'");
   // Any prefix is refused, or read as something shorter with a word.
   for (size_t length = 0; length + 6 < good.size(); ++length) {
     try {
