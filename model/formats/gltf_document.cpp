@@ -1,7 +1,9 @@
 #include "model/formats/gltf_document.h"
 
+#include <charconv>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "model/core/error.h"
 #include "model/core/json_limits.h"
@@ -60,13 +62,34 @@ class BareCopy {
     }
   }
 
+  // KHR_animation_pointer's way to say what glTF itself can.
+  static void ResolvePointer(ordered_json* target) {
+    if (target->value("path", ordered_json()) != "pointer" || !target->contains("extensions"))
+      return;
+    const ordered_json& extensions = (*target)["extensions"];
+    if (!extensions.is_object() || !extensions.contains("KHR_animation_pointer")) return;
+    const ordered_json& pointer = extensions["KHR_animation_pointer"];
+    if (!pointer.is_object() || !pointer.contains("pointer") || !pointer["pointer"].is_string())
+      return;
+    const std::string text = pointer["pointer"].get<std::string>();
+    constexpr std::string_view kNodes = "/nodes/";
+    if (!text.starts_with(kNodes)) return;
+    int node = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + kNodes.size(), end, node);
+    if (error != std::errc() || rest == end || *rest != '/') return;
+    *target = {{"node", node}, {"path", std::string(rest + 1, end)}};
+  }
+
   // Channels that move something else than a node mean nothing here.
   void DropOtherChannels() {
     if (!bare_.contains("animations")) return;
     for (ordered_json& animation : bare_["animations"]) {
       if (!animation.contains("channels") || !animation["channels"].is_array()) continue;
       ordered_json kept = ordered_json::array();
-      for (const ordered_json& channel : animation["channels"]) {
+      for (ordered_json channel : animation["channels"]) {
+        if (channel.is_object() && channel.contains("target") && channel["target"].is_object())
+          ResolvePointer(&channel["target"]);
         if (channel.is_object() && channel.contains("target") && channel["target"].is_object() &&
             channel["target"].contains("node"))
           kept.push_back(channel);

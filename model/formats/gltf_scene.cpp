@@ -20,71 +20,10 @@ namespace {
 
 constexpr double kSparseRate = 20;  // keys a second below which they are no frames
 constexpr double kMaxFrames = 1e6;
-constexpr double kSameKey = 1e-6;
 constexpr size_t kMostAnimations = 64;  // that are looked at, of a hostile file's
 constexpr size_t kMostNamed = 8;
 
 std::string AnimationName(size_t animation) { return GltfItem("animations", animation); }
-
-GltfChannel ReadGltfChannel(const tinygltf::Model& model, size_t animation,
-                            const tinygltf::AnimationChannel& channel) {
-  const bool rotates = channel.target_path == "rotation";
-  const bool scales = channel.target_path == "scale";
-  const std::string samplers = AnimationName(animation) + ".samplers";
-  GltfAt(model.nodes, channel.target_node, "nodes");
-  const tinygltf::AnimationSampler& sampler =
-      GltfAt(model.animations[animation].samplers, channel.sampler, samplers.c_str());
-  const std::string name = GltfItem(samplers.c_str(), static_cast<size_t>(channel.sampler));
-  GltfChannel added;
-  added.node = static_cast<size_t>(channel.target_node);
-  added.path = rotates  ? GltfChannel::Path::kRotation
-               : scales ? GltfChannel::Path::kScale
-                        : GltfChannel::Path::kTranslation;
-  added.way = sampler.interpolation == "STEP"          ? GltfChannel::Way::kStep
-              : sampler.interpolation == "CUBICSPLINE" ? GltfChannel::Way::kCubic
-                                                       : GltfChannel::Way::kLinear;
-  added.times = ReadGltfAccessor(model, sampler.input, TINYGLTF_TYPE_SCALAR);
-  added.values =
-      ReadGltfAccessor(model, sampler.output, rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
-  const Eigen::Index keys = added.times.size();
-  const Eigen::Index a_key = added.way == GltfChannel::Way::kCubic ? 3 : 1;
-  if (added.values.cols() != a_key * keys) {
-    throw InvalidArgument(name, std::to_string(added.values.cols()) + " values for " +
-                                    std::to_string(keys) + " times" +
-                                    (a_key == 3 ? ", a CUBICSPLINE has three each" : ""));
-  }
-  if (a_key == 3) {
-    const Eigen::MatrixXd all = added.values;
-    const auto every_third = [&](Eigen::Index first) -> Eigen::MatrixXd {
-      return all(Eigen::all, Eigen::seqN(first, keys, 3));
-    };
-    added.arrives = every_third(0);
-    added.values = every_third(1);
-    added.leaves = every_third(2);
-  }
-  for (Eigen::Index i = 1; i < added.times.size(); ++i) {
-    if (!(added.times[i] > added.times[i - 1]))
-      throw InvalidArgument(name, "has times that do not ascend");
-  }
-  if (rotates) {
-    if (added.values.colwise().norm().minCoeff() < 1e-6)
-      throw InvalidArgument(name, "has a rotation of length zero");
-    if (a_key == 1) added.values.colwise().normalize();
-  }
-  return added;
-}
-
-std::vector<GltfChannel> ReadGltfChannels(const tinygltf::Model& model, size_t animation) {
-  std::vector<GltfChannel> channels;
-  for (const tinygltf::AnimationChannel& channel : model.animations[animation].channels) {
-    const std::string& moved = channel.target_path;
-    // Shapes that morph, and extensions, move no joint.
-    if (channel.target_node >= 0 &&
-        (moved == "translation" || moved == "rotation" || moved == "scale"))
-      channels.push_back(ReadGltfChannel(model, animation, channel));
-  }
-  return channels;
-}
 
 // The animation of this name, or of this number.
 size_t NamedAnimation(const tinygltf::Model& model, const std::string& name) {
@@ -117,6 +56,36 @@ int CountBones(const HumanBones& bones, const std::vector<bool>& nodes) {
       std::ranges::count_if(bones.bones, [&](const auto& bone) { return nodes[bone.second]; }));
 }
 
+// Takes all animations together, as some exporters write one for each node or limb: no node is
+// moved by two, and none of them moves most of the body. False: they are not such.
+bool TakeParts(const tinygltf::Model& model, const MotionReading& reading, GltfScene* scene) {
+  std::vector<int> part(scene->nodes.names.size(), -1);
+  std::vector<GltfChannel> channels;
+  for (size_t i = 0; i < model.animations.size(); ++i) {
+    for (GltfChannel& channel : ReadGltfChannels(model, i)) {
+      int& owner = part[channel.node];
+      if (owner >= 0 && owner != static_cast<int>(i)) return false;
+      owner = static_cast<int>(i);
+      channels.push_back(std::move(channel));
+    }
+  }
+  RigNodes rig = scene->rig;
+  rig.moves = MovedBy(channels, part.size());
+  std::vector<int> bones(model.animations.size());
+  int all = 0, most = 0;
+  for (const auto& [bone, node] : FindBones(rig).bones) {
+    if (!rig.moves[node]) continue;
+    ++all;
+    most = std::max(most, ++bones[part[node]]);
+  }
+  if (2 * most >= all) return false;
+  reading.Note("each of its " + std::to_string(model.animations.size()) +
+               " animations moves a part of the body: they are read as one, --animation chooses");
+  scene->channels = std::move(channels);
+  scene->rig.moves = std::move(rig.moves);
+  return true;
+}
+
 // Sets the scene's channels, and says what else there is. Returns the animation's number.
 size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& reading,
                        GltfScene* scene) {
@@ -129,6 +98,7 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
     scene->rig.moves = MovedBy(scene->channels, nodes);
     return only;
   }
+  if (TakeParts(model, reading, scene)) return 0;
   size_t chosen = 0;
   int most = -1;
   std::string others;
@@ -160,11 +130,15 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
 
 // Where a skin's joints, and with them the other nodes, were when the mesh was bound to them.
 std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& model,
-                                                        const GltfNodes& nodes) {
+                                                        const GltfNodes& nodes,
+                                                        const HumanBones& body) {
   const tinygltf::Skin* largest = nullptr;
+  std::ptrdiff_t most = 0;  // of the body's bones: hair may have more joints
   for (const tinygltf::Skin& skin : model.skins) {
-    if (skin.inverseBindMatrices >= 0 && (!largest || skin.joints.size() > largest->joints.size()))
-      largest = &skin;
+    const auto bones = std::ranges::count_if(body.bones, [&](const auto& bone) {
+      return std::ranges::find(skin.joints, bone.second) != skin.joints.end();
+    });
+    if (skin.inverseBindMatrices >= 0 && bones > most) largest = &skin, most = bones;
   }
   if (largest == nullptr) return std::nullopt;
   Eigen::MatrixXd inverse;
@@ -206,6 +180,25 @@ std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& m
   return finite ? std::optional(bound) : std::nullopt;
 }
 
+// Some write milliseconds: keys throughout that are no more than 250 a second as such.
+void MendTimes(const MotionReading& reading, GltfScene* scene) {
+  constexpr double kFewKeys = 10, kFarApart = 4;
+  double most_keys = 0, apart = 0;
+  for (const GltfChannel& channel : scene->channels) {
+    const Eigen::Index keys = channel.times.size();
+    if (static_cast<double>(keys) <= most_keys) continue;
+    most_keys = static_cast<double>(keys);
+    apart = (channel.times[keys - 1] - channel.times[0]) / std::max(1.0, most_keys - 1);
+  }
+  if (most_keys < kFewKeys || !(apart >= kFarApart)) return;
+  for (GltfChannel& channel : scene->channels) {
+    channel.times /= 1000;
+    if (channel.way == GltfChannel::Way::kCubic) channel.arrives *= 1000, channel.leaves *= 1000;
+  }
+  reading.Note("its keys stand " + Rounded(apart) +
+               " s apart; their times are taken as milliseconds");
+}
+
 void ChooseTimes(const tinygltf::Model& model, size_t number, GltfScene& scene) {
   const tinygltf::Animation& animation = model.animations[number];
   const GltfChannel* densest = &scene.channels[0];
@@ -245,40 +238,6 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, GltfScene& scene) 
 
 }  // namespace
 
-void GltfChannel::Drive(double time, GltfPlacement& placement) const {
-  const auto* const begin = times.data();
-  const auto* const end = begin + times.size();
-  // A third of a second is another number in 32 bits than in 64.
-  constexpr double kSameTime = 1e-4;
-  const Eigen::Index after = std::upper_bound(begin, end, time + kSameTime) - begin;
-  const Eigen::Index a = std::max<Eigen::Index>(0, after - 1);
-  const Eigen::Index b = std::min<Eigen::Index>(times.size() - 1, after);
-  const double gap = times[b] - times[a];
-  const double t =
-      way == Way::kStep || gap <= 0 ? 0 : std::clamp((time - times[a]) / gap, 0.0, 1.0);
-  Eigen::VectorXd value = values.col(a) + t * (values.col(b) - values.col(a));
-  if (way == Way::kCubic) {  // Hermite, glTF 2.0, appendix C
-    const double t2 = t * t, t3 = t2 * t;
-    value = (2 * t3 - 3 * t2 + 1) * values.col(a) + gap * (t3 - 2 * t2 + t) * leaves.col(a) +
-            (3 * t2 - 2 * t3) * values.col(b) + gap * (t3 - t2) * arrives.col(b);
-  }
-  if (path == Path::kRotation && way == Way::kCubic) {
-    if (value.norm() > 1e-9)
-      placement.rotation = Eigen::Quaterniond(Eigen::Vector4d(value.normalized()));
-  } else if (path == Path::kRotation) {
-    const Eigen::Quaterniond from(Eigen::Vector4d(values.col(a)));
-    placement.rotation = from.slerp(t, Eigen::Quaterniond(Eigen::Vector4d(values.col(b))));
-  } else {
-    (path == Path::kScale ? placement.scale : placement.translation) = value;
-  }
-}
-
-bool GltfChannel::Moves() const {
-  return ((values.colwise() - values.col(0).eval()).cwiseAbs().maxCoeff() > kSameKey) ||
-         (way == Way::kCubic &&
-          std::max(arrives.cwiseAbs().maxCoeff(), leaves.cwiseAbs().maxCoeff()) > kSameKey);
-}
-
 std::vector<Eigen::Affine3d> GltfScene::Frame(int64_t frame) const {
   std::vector<GltfPlacement> local = nodes.rest;
   const double time = start + static_cast<double>(frame) / fps;
@@ -294,7 +253,8 @@ GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& 
   scene.nodes = ReadGltfNodes(model);
   scene.rig = ReadRigNodes(document, model);
   const size_t animation = ChooseAnimation(model, reading, &scene);
-  scene.bound = BoundPlaces(model, scene.nodes);
+  scene.bound = BoundPlaces(model, scene.nodes, FindBones(scene.rig, reading.bones));
+  MendTimes(reading, &scene);
   ChooseTimes(model, animation, scene);
   return scene;
 }

@@ -8,34 +8,17 @@
 #include <vector>
 
 #include "model/fit/find_bones.h"
+#include "model/formats/gltf_channels.h"
 #include "model/formats/gltf_nodes.h"
 #include "model/formats/motion_reading.h"
 
 namespace choreo {
 
-/// What an animation does to a node.
-struct GltfChannel {
-  enum class Path { kTranslation, kRotation, kScale };
-  enum class Way { kLinear, kStep, kCubic };
-  size_t node = 0;
-  Path path = Path::kTranslation;
-  Way way = Way::kLinear;
-  Eigen::RowVectorXd times;  ///< [keys] ascending, seconds
-  Eigen::MatrixXd values;    ///< [3 or 4, keys]
-  /// [3 or 4, keys] a second, of kCubic: in which way a curve comes to a key, and leaves it
-  Eigen::MatrixXd arrives = {}, leaves = {};
-
-  /// Sets what it drives to its value at `time`; before the first and after the last key it holds.
-  void Drive(double time, GltfPlacement& placement) const;
-  /// Whether it has keys that differ.
-  bool Moves() const;
-};
-
 /// The nodes of a glTF file and how one of its animations moves them. Private to this folder.
 struct GltfScene {
   GltfNodes nodes;
   RigNodes rig;  ///< the same, of which those move that the animation moves
-  /// Where the nodes are as the first skin with most joints was bound; none without such a skin.
+  /// Where the nodes are as the first skin with most of the body's bones was bound; none without.
   std::optional<std::vector<Eigen::Affine3d>> bound;
   std::vector<GltfChannel> channels;
   double fps = 0;
