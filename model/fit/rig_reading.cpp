@@ -61,6 +61,15 @@ std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matr
     const double aside = AngleBetween(place(segment.to) - place(segment.from), ours);
     if (aside > (leg ? kLegsAside : kArmsAside)) return std::nullopt;
   }
+  // A body that rests does so alike on both sides; one in the middle of a dance does not.
+  for (size_t i = 0; i < LimbSegments().size() / 2; ++i) {
+    const LimbSegment &left = LimbSegments()[i],
+                      &right = LimbSegments()[i + LimbSegments().size() / 2];
+    const Eigen::Vector3d mirrored =
+        Eigen::Vector3d(-1, 1, 1).asDiagonal() * (place(right.to) - place(right.from));
+    if (AngleBetween(place(left.to) - place(left.from), mirrored) > 2 * kLooseBone)
+      return std::nullopt;
+  }
   if (bones.Find("head") >= 0 && bones.Find("neck") >= 0 &&
       (place("head") - place("neck")).dot(up) < 0)
     return std::nullopt;

@@ -16,6 +16,7 @@ namespace choreo {
 struct LimbSegment {
   std::string from, to;
 };
+/// Those of the left side, then as many of the right.
 const std::vector<LimbSegment>& LimbSegments();
 
 /// Looks at a few of its frames; the recording outlives it.
