@@ -55,6 +55,34 @@ bool KeepLengths(const std::vector<Eigen::Matrix3Xd>& frames) {
   return true;
 }
 
+// Whether toes point backwards in most frames, as of a body in a mirror whose left has become its
+// right.
+bool IsMirrored(const std::vector<Eigen::Matrix3Xd>& frames) {
+  const Skeleton& body = PlacedBody();
+  size_t backwards = 0;
+  for (const Eigen::Matrix3Xd& at : frames) {
+    const auto way = [&](int from, int to) -> Eigen::Vector3d { return at.col(to) - at.col(from); };
+    const Eigen::Vector3d trunk = way(body.left_hip, body.left_shoulder) +
+                                  way(body.right_hip, body.right_shoulder),
+                          ahead = way(body.right_hip, body.left_hip).cross(trunk),
+                          toes = way(body.feet[0], body.feet[1]) + way(body.feet[2], body.feet[3]);
+    backwards += ahead.dot(toes) < 0 ? 1 : 0;
+  }
+  return 10 * backwards > 9 * frames.size();
+}
+
+void ExchangeSides(std::vector<Eigen::Matrix3Xd>* frames) {
+  const Skeleton& body = PlacedBody();
+  for (Eigen::Matrix3Xd& at : *frames) {
+    for (int left = 0; left < at.cols(); ++left) {
+      const std::string& name = body.joint_names[left];
+      if (!name.starts_with("left_")) continue;
+      const int right = body.Find("right_" + name.substr(5));
+      at.col(left).swap(at.col(right));
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<NpyArray> FindJointArray(const NpzArchive& npz) {
@@ -71,13 +99,18 @@ bool AreJointPlaces(const NpyArray& array) {
 }
 
 Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& reading) {
-  const std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
+  std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
   if (frames.empty() || !AreJointPlaces(array)) {
     throw InvalidArgument("joints",
                           "are no places [frames, 22 or 24, 3] of SMPL's joints, whose "
                           "limbs keep their lengths, in several frames");
   }
   const Skeleton& body = PlacedBody();
+  if (IsMirrored(frames)) {
+    reading.Note(
+        "its left and right are exchanged, as in a mirror: limbs are taken by where toes point");
+    ExchangeSides(&frames);
+  }
   PositionClip clip{.fps = fps, .joint_names = body.joint_names, .frames = {}};
   for (const Eigen::Matrix3Xd& places : frames) {
     Eigen::Matrix3Xd& all = clip.frames.emplace_back(3, body.joints());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,7 @@ constexpr size_t kFewFrames = 10;
 // Metres. No pelvis is so high: the unit is another.
 constexpr double kTooHigh = 20;
 constexpr double kOnFloor = 0.25;  // of a joint: bodies are thick, and others as ours
+constexpr double kLying = 0.05;    // of the pelvis above the floor that a body lies on
 constexpr double kLowPelvis = 0.3, kHighPelvis = 2;
 // Metres: less under the floor may be a shoe's, or a fit's.
 constexpr double kSunken = 0.05;
@@ -80,13 +82,36 @@ double LowestAlong(const FileMotion& file, const Eigen::Vector3d& up) {
   return Median(std::move(lowest));
 }
 
+/// Whether the body is on the file's floor, and its pelvis above it, if `up` is up.
+bool IsOnFloor(const FileMotion& file, const Eigen::Vector3d& up) {
+  std::vector<double> heights;
+  for (const Pose& pose : file.motion.frames)
+    heights.push_back(up.dot(pose.root_position + file.root_offset));
+  return std::abs(LowestAlong(file, up)) < kOnFloor && Median(std::move(heights)) > kLying;
+}
+
+/// Of the axes beside `axis` the one on whose floor the body is; none where that is on `axis`',
+/// too.
+std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::Vector3d& axis) {
+  if (IsOnFloor(file, file.up) || IsOnFloor(file, axis)) return std::nullopt;
+  std::optional<Eigen::Vector3d> beside;
+  for (const auto& other : {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1),
+                            Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, -1)}) {
+    if (other.dot(axis) != 0 || !IsOnFloor(file, other)) continue;
+    if (!beside || std::abs(LowestAlong(file, other)) < std::abs(LowestAlong(file, *beside)))
+      beside = other;
+  }
+  return beside;
+}
+
 /// The file's own up, or the axis along which the body stands in nearly all frames.
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
   const std::vector<Eigen::Vector3d> trunks = Trunks(file);
-  // A body that bends or lies for long says less than its rest pose.
+  // A body that bends or lies for long says less than its rest pose, and the floor more than both.
   if (file.rest_up && *file.rest_up != file.up &&
-      ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up)) {
+      (ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up) ||
+       (IsOnFloor(file, *file.rest_up) && !IsOnFloor(file, file.up)))) {
     reading.Note("taken as " + UpName(*file.rest_up) + " up, not " + UpName(file.up) +
                  ", as its rest pose stands so; --up " + UpName(file.up) + " lets it lie");
     return *file.rest_up;
@@ -97,6 +122,13 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
         Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}) {
     const double share = ShareStanding(trunks, axis);
     if (share < kMostly) continue;
+    const auto beside = axis == -file.up ? FloorBeside(file, axis) : std::nullopt;
+    if (beside && trunks.size() >= kFewFrames) {
+      reading.Note("taken as " + UpName(*beside) + " up, not " + UpName(file.up) +
+                   ", as its body lies on that floor; --up " + UpName(file.up) +
+                   " stands it on its head");
+      return *beside;
+    }
     // Who lies on the file's floor, and would stand in the air, lies.
     const bool lies = std::abs(LowestAlong(file, file.up)) < kOnFloor &&
                       std::abs(LowestAlong(file, axis)) > kOnFloor;
@@ -152,15 +184,8 @@ void TellOfStillness(const Motion& motion, const MotionReading& reading) {
 }
 
 void TellOfBends(const Skeleton& skeleton, const Motion& motion, const MotionReading& reading) {
-  size_t bent = 0;
   std::string example;
-  for (const Pose& pose : motion.frames) {
-    const std::vector<std::string> faults = BendFaults(skeleton, pose);
-    if (faults.empty()) continue;
-    ++bent;
-    if (example.empty()) example = faults.front();
-  }
-  const double share = static_cast<double>(bent) / static_cast<double>(motion.frames.size());
+  const double share = ShareOfFaults(skeleton, motion, &example);
   if (share > 1 - kMostly) {
     reading.Note("in " + Share(share) + " of its frames a joint is bent as no body can, as in: " +
                  example + "; are its bones taken for what they are?");
@@ -189,6 +214,15 @@ void FindFloor(const FileMotion& file, const MotionReading& reading, Motion* mot
 }
 
 }  // namespace
+
+double ShareOfFaults(const Skeleton& skeleton, const Motion& motion, std::string* example) {
+  size_t bent = 0;
+  for (const Pose& pose : motion.frames) {
+    const std::vector<std::string> faults = BendFaults(skeleton, pose);
+    if (!faults.empty() && bent++ == 0 && example != nullptr) *example = faults.front();
+  }
+  return static_cast<double>(bent) / static_cast<double>(std::max<size_t>(1, motion.frames.size()));
+}
 
 void MotionReading::NoteRate(double taken) const {
   Note("states no rate; taken as " + Rounded(taken) + " frames a second, --fps says another");

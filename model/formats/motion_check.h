@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 
 #include "model/formats/motion_reading.h"
 #include "model/motion/motion.h"
@@ -30,5 +31,10 @@ struct FileMotion {
 /// Turns Y up, sets the unit, puts the body on the floor where it certainly is not, and tells of
 /// what does not move or bends as no body does. Throws Error(kInvalidArgument) for `reading.up`.
 Motion Settle(FileMotion file, const MotionReading& reading);
+
+/// Of its frames, those in which a joint is bent as no body can (motion/pose_faults.h), 0 to 1; of
+/// the first of these one fault.
+double ShareOfFaults(const Skeleton& skeleton, const Motion& motion,
+                     std::string* example = nullptr);
 
 }  // namespace choreo

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
+#include <cmath>
 #include <iterator>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "model/core/atomic_file.h"
@@ -15,10 +17,12 @@
 #include "model/formats/bvh.h"
 #include "model/formats/gltf.h"
 #include "model/formats/joint_arrays.h"
+#include "model/formats/motion_check.h"
 #include "model/formats/node_motion.h"
 #include "model/formats/npz.h"
 #include "model/formats/pickle.h"
 #include "model/motion/pose_limits.h"
+#include "model/motion/rotation.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {
@@ -103,20 +107,58 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
   return FitNodes(std::move(nodes), motion, reading);
 }
 
-SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
-                          const MotionReading& reading) {
-  BvhFile file = ReadBvh(path);
-  for (const std::string& note : file.notes) reading.Note(note);
-  if (!file.states_rate && reading.fps > 0) file.frame_time = 1 / reading.fps;
-  if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) reading.NoteRate(file.fps());
+// From radians to degrees, where they may be: none is beyond a turn, some are a limb's.
+std::optional<BvhFile> FromRadians(const BvhFile& file) {
+  constexpr Eigen::Index kFewest = 10;  // a pose or two prove nothing
+  constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
+  if (file.frames() < kFewest) return std::nullopt;
+  BvhFile turned = file;
+  double farthest = 0;
+  Eigen::Index row = 0;
+  for (const BvhJoint& joint : file.joints) {
+    for (const BvhChannel channel : joint.channels) {
+      if (channel >= BvhChannel::kXRotation && channel <= BvhChannel::kZRotation) {
+        farthest = std::max(farthest, file.values.row(row).cwiseAbs().maxCoeff());
+        turned.values.row(row) *= kDegrees;
+      }
+      ++row;
+    }
+  }
+  return farthest > kLimb && farthest < kTurn ? std::optional(std::move(turned)) : std::nullopt;
+}
+
+SkeletonMotion TakeBvh(const BvhFile& file, const Skeleton* wanted, const MotionReading& reading) {
   const Skeleton& smpl = Skeleton::Smpl24();
-  if (file.frames() == 0) return {smpl, {}};
   const auto own = BvhSkeleton(file);
   for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
     if (known == nullptr || !reading.bones.empty()) continue;
     if (auto motion = BvhToMotion(file, *known)) return {*known, std::move(*motion)};
   }
   return {smpl, FitBvh(file, reading)};
+}
+
+SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
+                          const MotionReading& reading) {
+  BvhFile file = ReadBvh(path);
+  for (const std::string& note : file.notes) reading.Note(note);
+  if (!file.states_rate && reading.fps > 0) file.frame_time = 1 / reading.fps;
+  if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) reading.NoteRate(file.fps());
+  if (file.frames() == 0) return {Skeleton::Smpl24(), {}};
+  if (const std::optional<BvhFile> turned = FromRadians(file)) {
+    std::vector<std::string> notes;
+    MotionReading quietly = reading;
+    quietly.notes = &notes;
+    SkeletonMotion read = TakeBvh(*turned, wanted, quietly);
+    // Who sways a little in degrees would bend knees and elbows backwards in radians.
+    if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
+      reading.Note(
+          "its angles are taken as radians: none is above 6.28, and as degrees no joint would turn "
+          "further than that");
+      for (const std::string& note : notes) reading.Note(note);
+      return read;
+    }
+  }
+  return TakeBvh(file, wanted, reading);
 }
 
 // What a motion file may be. One more is a row.
