@@ -4,9 +4,11 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "model/core/error.h"
 #include "model/core/grid.h"
+#include "model/core/printable.h"
 #include "model/core/quantile.h"
 #include "model/formats/joint_arrays.h"
 #include "model/formats/motion_check.h"
@@ -73,6 +75,22 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   if (reading.fps > 0) return reading.fps;
   if (!known) reading.NoteRate(otherwise);
   return otherwise;
+}
+
+// The one dict within that holds a motion, or "". Throws where there are several.
+std::string DictWithin(const NpzArchive& npz) {
+  std::vector<std::string> holding;
+  for (const std::string& name : npz.NestedNames()) {
+    if (FindLayout(npz.Nested(name))) holding.push_back(name);
+  }
+  if (holding.empty()) return "";
+  if (holding.size() > 1) {
+    throw InvalidArgument("", "holds " + std::to_string(holding.size()) + " motions, \"" +
+                                  Printable(holding[0]) + "\" and \"" + Printable(holding[1]) +
+                                  (holding.size() > 2 ? "\" ..." : "\"") +
+                                  ": write the arrays of one by numpy.savez");
+  }
+  return holding[0];
 }
 
 // Poses as they stand in the file, with the 22 joints of the body or SMPL's 24.
@@ -164,6 +182,16 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
     return motion;
   }
   const std::optional<Layout> found = FindLayout(npz);
+  if (!found && !FindJointArray(npz)) {
+    if (const std::string within = DictWithin(npz); !within.empty()) {
+      NpzArchive nested = npz.Nested(within);
+      for (const char* rate : kRateNames) {
+        if (npz.Has(rate) && !nested.Has(rate)) nested.SetArray(rate, npz.Array(rate));
+      }
+      reading.Note("the arrays of its \"" + Printable(within) + "\" are read");
+      return ReadSmplMotion(nested, reading);
+    }
+  }
   if (const auto joints = found ? std::nullopt : FindJointArray(npz))
     return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
   if (!found) npz.Array("poses");  // which is not there: names what is

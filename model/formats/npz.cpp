@@ -159,6 +159,29 @@ std::string_view NpzArchive::OnlyPickle() const {
   return parts.descr == kNpyObjects ? parts.values : std::string_view();
 }
 
+// By names that no program gives its arrays: "name.key".
+void NpzArchive::SetNested(const std::string& name, const NpzArchive& archive) {
+  for (const auto& [key, bytes] : archive.members_) members_[name + '.' + key] = bytes;
+}
+
+std::vector<std::string> NpzArchive::NestedNames() const {
+  std::vector<std::string> names;
+  for (const auto& [key, bytes] : members_) {
+    const std::string name = key.substr(0, key.find('.'));
+    if (name != key && (names.empty() || names.back() != name)) names.push_back(name);
+  }
+  return names;
+}
+
+NpzArchive NpzArchive::Nested(const std::string& name) const {
+  NpzArchive nested;
+  nested.name_ = name_;
+  for (const auto& [key, bytes] : members_) {
+    if (key.starts_with(name + '.')) nested.members_[key.substr(name.size() + 1)] = bytes;
+  }
+  return nested;
+}
+
 void NpzArchive::SetArray(const std::string& key, const NpyArray& array) {
   members_[key] = SerializeNpy(array);
 }

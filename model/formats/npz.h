@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/core/npy.h"
 
@@ -30,6 +31,11 @@ class NpzArchive {
   bool IsText(const std::string& key) const;
   /// Where nothing but one array of objects is there, their pickle (pickle.h); else empty.
   std::string_view OnlyPickle() const;
+
+  /// Another archive's arrays, as of a dict within a dict; the names of all such; one of them.
+  void SetNested(const std::string& name, const NpzArchive& archive);
+  std::vector<std::string> NestedNames() const;
+  NpzArchive Nested(const std::string& name) const;
 
   void SetArray(const std::string& key, const NpyArray& array);
   /// UTF-8 in, numpy's str out. Throws Error(kInvalidArgument) for text that is not UTF-8.

@@ -235,6 +235,7 @@ class Unpickler {
       // What else stands there, such as a gender, says nothing of the motion.
       const Ref value = TakeOnly(items[i + 1]);
       if (value->array) dict->dict.SetArray(key, *value->array);
+      if (value->kind == kDict) dict->dict.SetNested(key, value->dict);
       if (value->kind == kText) SetText(key, value->text, dict->dict);
     }
     Push(dict);

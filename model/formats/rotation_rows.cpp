@@ -56,8 +56,21 @@ Rows ReadRows(const NpzArchive& npz, const std::string& key, const auto& is_widt
   for (const int64_t size : rows.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(size);
   for (const int64_t count : joints)
     wanted += (wanted.empty() ? "" : " or ") + std::to_string(3 * count);
+  // [people, frames, ...], as those that see several people write.
+  std::string people;
+  if (rows.shape.size() > 2 && rows.shape[0] > 1) {
+    int64_t width = 1;
+    for (size_t i = 2; i < rows.shape.size(); ++i) width *= rows.shape[i];
+    const bool each = std::ranges::any_of(joints, [&](int64_t count) {
+      return width == 3 * count || width == 4 * count || width == 6 * count || width == 9 * count;
+    });
+    if (each) {
+      people = ": are these " + std::to_string(rows.shape[0]) +
+               " people? Write the arrays of one, as in " + key + "[0]";
+    }
+  }
   throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted +
-                                 "], or matrices, 6D or quaternions of as many joints");
+                                 "], or matrices, 6D or quaternions of as many joints" + people);
 }
 
 Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {

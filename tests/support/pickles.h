@@ -10,15 +10,14 @@
 
 namespace choreo {
 
-/// Writes what pickle.dump({key: numpy array of '<f8', ...}) of Python 3 would mean (protocol 4).
-inline void WritePickle(const std::filesystem::path& path,
-                        const std::map<std::string, NpyArray>& arrays) {
+/// What stands in a dict of numpy arrays of '<f8', as Python 3 pickles it (protocol 4).
+inline std::string PickledItems(const std::map<std::string, NpyArray>& arrays) {
   using namespace std::string_literals;
   const auto int32 = [](size_t value) {
     const auto bits = static_cast<int32_t>(value);
     return std::string(reinterpret_cast<const char*>(&bits), 4);
   };
-  std::string pickle = "\x80\x04}("s;
+  std::string pickle;
   for (const auto& [key, array] : arrays) {
     const std::vector<double> values = array.As<double>();
     pickle += "X" + int32(key.size()) + key + "cnumpy.core.multiarray\n_reconstruct\n" +
@@ -28,7 +27,26 @@ inline void WritePickle(const std::filesystem::path& path,
               "J\xff\xff\xff\xffK\x00tb\x89"s + "B" + int32(8 * values.size()) +
               std::string(reinterpret_cast<const char*>(values.data()), 8 * values.size()) + "tb";
   }
-  std::ofstream(path, std::ios::binary) << pickle << "u.";
+  return pickle;
+}
+
+/// Writes what pickle.dump({key: array, ...}) would mean.
+inline void WritePickle(const std::filesystem::path& path,
+                        const std::map<std::string, NpyArray>& arrays) {
+  std::ofstream(path, std::ios::binary) << "\x80\x04}(" << PickledItems(arrays) << "u.";
+}
+
+/// Writes what pickle.dump({name: {key: array, ...}, ...}) would mean.
+inline void WritePickledDicts(const std::filesystem::path& path,
+                              const std::map<std::string, std::map<std::string, NpyArray>>& dicts) {
+  std::ofstream file(path, std::ios::binary);
+  file << "\x80\x04}(";
+  for (const auto& [name, arrays] : dicts) {
+    const auto size = static_cast<int32_t>(name.size());
+    file << 'X' << std::string(reinterpret_cast<const char*>(&size), 4) << name << "}("
+         << PickledItems(arrays) << 'u';
+  }
+  file << "u.";
 }
 
 }  // namespace choreo

@@ -1,0 +1,297 @@
+// Files that hold more than one body, or one in parts, and rigs whose file says less or otherwise
+// than it seems: a row each, as in log_test.cpp.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/formats/cases/cases.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/pickles.h"
+
+namespace choreo::bodies_test {
+
+using namespace cases_test;
+
+const Eigen::Matrix3d kZUp{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+
+RigNames With(const std::string& before, const RigNames& names, const std::string& behind = "") {
+  return [=](const std::string& bone) { return before + names(bone) + behind; };
+}
+
+BvhFile Dancing(const RigNames& names, const RigTurn& turn = Expressive) {
+  return MakeBvh({.names = names, .turn = turn});
+}
+
+BvhFile Still(const RigNames& names) {
+  BvhFile file = Dancing(names, [](const auto& bone, int) { return Walk(bone, 0); });
+  file.values.colwise() = file.values.col(0).eval();
+  return file;
+}
+
+// Two hierarchies in one file.
+BvhFile Together(const BvhFile& first, const BvhFile& second) {
+  BvhFile both = first;
+  for (BvhJoint joint : second.joints) {
+    if (joint.parent >= 0) joint.parent += static_cast<int>(first.joints.size());
+    both.joints.push_back(joint);
+  }
+  both.values.resize(first.values.rows() + second.values.rows(), first.frames());
+  both.values << first.values, second.values;
+  return both;
+}
+
+BvhFile Stick() {
+  BvhFile file;
+  file.joints.push_back(
+      {.name = "Stick",
+       .offset = {0, 100, 0},
+       .channels = {BvhChannel::kXPosition, BvhChannel::kYPosition, BvhChannel::kZPosition,
+                    BvhChannel::kZRotation, BvhChannel::kXRotation, BvhChannel::kYRotation}});
+  file.joints.push_back(
+      {.name = "Stick_end", .parent = 0, .offset = {0, 90, 0}, .channels = {}, .end_site = true});
+  file.values = Eigen::MatrixXd::Random(6, 30) * 90;
+  return file;
+}
+
+BvhFile InRadians(BvhFile file) {
+  Eigen::Index row = 0;
+  for (const BvhJoint& joint : file.joints) {
+    for (const BvhChannel channel : joint.channels) {
+      if (channel >= BvhChannel::kXRotation) file.values.row(row) /= kDegrees;
+      ++row;
+    }
+  }
+  return file;
+}
+
+// Sways on the spot, arms held out.
+Eigen::Matrix3d Sways(const std::string& bone, int frame) {
+  return About(1, 0.3, 0.2, 3 * std::sin(frame * 0.3 + static_cast<double>(bone.size())));
+}
+
+// On its back, on the floor.
+Eigen::Matrix3d Lies(const std::string& bone, int frame) {
+  if (bone == "pelvis") return About(1, 0, 0, -90);
+  if (bone.ends_with("_hip")) return About(1, 0, 0, -25 + 15 * std::sin(frame * 0.3));
+  return bone.ends_with("_knee") ? About(1, 0, 0, 10) : Walk(bone, frame);
+}
+
+BvhFile LyingZUp() {
+  BvhFile file = MakeBvh({.turn = Lies, .world = kZUp});
+  file.values.row(2).setConstant(12);
+  return file;
+}
+
+struct Row {
+  const char* name;
+  std::string bytes;
+  RigTurn right = Expressive;
+  const char* says = "";
+};
+
+TEST_F(CasesTest, TheLogOfBodiesInBvh) {
+  const RigNames names = NamesOf(kHumanIkRig);
+  std::string slow = BvhText(Dancing(names));
+  slow.replace(slow.find("Frame Time: "), 23, "Frame Time: 33.33333333");
+  for (const Row& row : std::vector<Row>{
+           {"a partner below a second root",
+            BvhText(Together(Dancing(With("A:", names)), Dancing(With("B:", names), Walk))),
+            Expressive, "several bodies that move"},
+           {"a still twin of another namespace first",
+            BvhText(Together(Still(With("Dummy:", names)), Dancing(With("Actor:", names))))},
+           {"a still twin first, numbers behind the names of the one that moves",
+            BvhText(Together(Still(names), Dancing(With("", names, ".001"))))},
+           {"a prop first", BvhText(Together(Stick(), Dancing(names)))},
+           {"names that all end alike", BvhText(Dancing(With("c_", names, "_bind_jnt")))},
+           {"radians", BvhText(InRadians(Dancing(names))), Expressive, "are taken as radians"},
+           {"one who sways a little", BvhText(Dancing(names, Sways)), Sways},
+           {"milliseconds", slow, Expressive, "which is taken as milliseconds"},
+           {"on the floor of a Z-up file", BvhText(LyingZUp()), Lies, "taken as z up, not y"},
+       }) {
+    SCOPED_TRACE(row.name);
+    const Read read = ReadBytes("a.bvh", row.bytes);
+    EXPECT_EQ(read.motion.fps, 30);
+    const Wrong wrong = Compare(read.motion, row.right);
+    EXPECT_LT(wrong.limbs, 0.1);
+    EXPECT_LT(wrong.turns, kOpen) << wrong.where;
+    EXPECT_EQ(read.notes.empty(), std::string(row.says).empty()) << Said(read);
+    EXPECT_TRUE(read.notes.empty() || read.Says(row.says)) << Said(read);
+  }
+}
+
+struct GlbRow {
+  const char* name;
+  std::function<void(GlbRigs&, const RigNames&)> make;
+  const char* says = "";
+};
+
+TEST_F(CasesTest, TheLogOfBodiesInGltf) {
+  const RigNames human = NamesOf(kHumanIkRig), rigify = NamesOf("Rigify");
+  const auto dance = [](GlbRigs& glb, const RigNames& names) {
+    const int body = glb.AddBody(names);
+    glb.AddAnimation("dance", body, Expressive, 20);
+    return body;
+  };
+  const auto target = [](GlbRigs::Json& channel) {
+    const std::string node = std::to_string(channel["target"]["node"].get<int>());
+    const std::string path = channel["target"]["path"];
+    channel["target"] = {
+        {"path", "pointer"},
+        {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/" + node + "/" + path}}}}}};
+  };
+  for (const GlbRow& row : std::vector<GlbRow>{
+           {"a still twin first, numbers behind the names of the one that moves",
+            [&](GlbRigs&glb, const RigNames&names) {
+              glb.AddSkin(glb.AddBody(names, 2));
+              glb.AddSkin(dance(glb, With("", names, ".001")));
+            }},
+           {"Rigify's ORG- bones move, its DEF- bones do not",
+            [&](GlbRigs&glb, const RigNames&) {
+              glb.AddBody(With("DEF-", rigify), 2);
+              dance(glb, With("ORG-", rigify));
+            }},
+           {"an animation for each node",
+            [&](GlbRigs&glb, const RigNames&names) {
+              dance(glb, names);
+              const GlbRigs::Json whole = glb.document["animations"][0];
+              glb.document["animations"] = GlbRigs::Json::array();
+              for (auto channel : whole["channels"]) {
+                const auto sampler = whole["samplers"][channel["sampler"].get<size_t>()];
+                auto& animations = glb.document["animations"];
+                const auto same = std::ranges::find_if(animations, [&](const auto& animation) {
+                  return animation["channels"][0]["target"]["node"] == channel["target"]["node"];
+                });
+                if (same != animations.end()) {
+                  channel["sampler"] = 1;
+                  (*same)["channels"].push_back(channel);
+                  (*same)["samplers"].push_back(sampler);
+                } else {
+                  channel["sampler"] = 0;
+                  animations.push_back({{"channels", GlbRigs::Json::array({channel})},
+                                        {"samplers", GlbRigs::Json::array({sampler})}});
+                }
+              }
+            },
+            "moves a part of the body: they are read as one"},
+           {"channels that say by pointers what they move",
+            [&](GlbRigs&glb, const RigNames&names) {
+              dance(glb, names);
+              for (auto& channel : glb.document["animations"][0]["channels"]) target(channel);
+            }},
+           {"some of them",
+            [&](GlbRigs&glb, const RigNames&names) {
+              dance(glb, names);
+              for (size_t i = 0; i < 12; ++i) target(glb.document["animations"][0]["channels"][i]);
+            }},
+           {"hair with more joints, bound in other axes, before the body",
+            [&](GlbRigs&glb, const RigNames&names) {
+              const int body = dance(glb, names);
+              GlbRigs::Json joints = GlbRigs::Json::array();
+              std::vector<float> inverse;
+              Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
+              matrix.topLeftCorner<3, 3>() = About(1, 0, 0, 90).cast<float>();
+              for (int i = 0; i < 40; ++i) {
+                joints.push_back(glb.AddNode({{"name", "hair" + std::to_string(i)}}));
+                glb.document["nodes"][body + RigIndex("head")]["children"].push_back(joints.back());
+                inverse.insert(inverse.end(), matrix.data(), matrix.data() + 16);
+              }
+              glb.document["skins"].push_back(
+                  {{"joints", joints}, {"inverseBindMatrices", glb.AddFloats(inverse, "MAT4")}});
+            }},
+           {"times in milliseconds",
+            [&](GlbRigs&glb, const RigNames&names) {
+              dance(glb, names);
+              std::vector<float> times;
+              for (int frame = 0; frame < 20; ++frame)
+                times.push_back(static_cast<float>(frame / 0.03));
+              const size_t input = glb.AddFloats(times, "SCALAR");
+              for (auto& sampler : glb.document["animations"][0]["samplers"])
+                sampler["input"] = input;
+            },
+            "their times are taken as milliseconds"},
+       }) {
+    SCOPED_TRACE(row.name);
+    GlbRigs glb;
+    row.make(glb, human);
+    const Read read = ReadBytes("a.glb", glb.Bytes());
+    EXPECT_EQ(read.motion.fps, 30);
+    EXPECT_EQ(read.motion.frames.size(), 20U);
+    const Wrong wrong = Compare(read.motion, Expressive);
+    EXPECT_LT(wrong.limbs, 0.1);
+    EXPECT_LT(wrong.turns, kOpen) << wrong.where;
+    EXPECT_EQ(read.notes.empty(), std::string(row.says).empty()) << Said(read);
+    EXPECT_TRUE(read.notes.empty() || read.Says(row.says)) << Said(read);
+  }
+}
+
+TEST_F(CasesTest, APoseOfADanceIsNoRestPose) {
+  GlbRigs glb;
+  const int body = glb.AddBody(NamesOf(kHumanIkRig));
+  glb.AddAnimation("dance", body, Expressive, 20);
+  for (const RigJoint& joint : RigBody()) {
+    const Eigen::Quaterniond q(Expressive(joint.bone, 7));
+    glb.document["nodes"][body + RigIndex(joint.bone)]["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+  }
+  const Read read = ReadBytes("a.glb", glb.Bytes());
+  EXPECT_TRUE(read.Says("its rest pose is no standing body")) << Said(read);
+  EXPECT_LT(Compare(read.motion, Expressive).limbs, 0.1);
+}
+
+TEST_F(CasesTest, TheLogOfBodiesInArrays) {
+  constexpr int kFrames = 20;
+  std::vector<double> poses, trans, places;
+  Motion mirrored{.fps = 30, .frames = {}};
+  for (int frame = 0; frame < kFrames; ++frame) {
+    Pose pose = RestPose(kSmpl);
+    pose.root_position.x() = 0.05 * frame;
+    pose.rotations.col(kSmpl.left_hip) << -0.02 * frame, 0, 0;
+    pose.rotations.col(kSmpl.left_knee) << 0.03 * frame, 0, 0;
+    pose.rotations.col(kSmpl.right_shoulder) << 0, 0, 1.2;
+    mirrored.frames.push_back(pose);
+    poses.insert(poses.end(), pose.rotations.data(), pose.rotations.data() + 66);
+    trans.insert(trans.end(), pose.root_position.begin(), pose.root_position.end());
+    Eigen::Matrix3Xd at = JointPositions(kSmpl, pose);
+    at.row(0) *= -1;
+    places.insert(places.end(), at.data(), at.data() + 66);
+  }
+  const NpyArray rate{{}, std::vector<double>{30}};
+  NpzArchive joints;
+  joints.SetArray("joints", {{kFrames, 22, 3}, places});
+  joints.SetArray("fps", rate);
+  const Read read = ReadNpz(joints);
+  EXPECT_TRUE(read.Says("its left and right are exchanged")) << Said(read);
+  // The dance in a mirror: the other leg is lifted, and the way goes the other way.
+  const JointPlacement end = ForwardKinematics(kSmpl, read.motion.frames.back());
+  EXPECT_GT(end.positions(1, kSmpl.Find("right_ankle")),
+            end.positions(1, kSmpl.Find("left_ankle")) + 0.03);
+  EXPECT_NEAR(read.motion.frames.back().root_position.x(),
+              read.motion.frames.front().root_position.x() - 0.95, 0.05);
+
+  const std::map<std::string, NpyArray> arrays = {
+      {"poses", {{kFrames, 66}, poses}}, {"trans", {{kFrames, 3}, trans}}, {"fps", rate}};
+  NpzArchive flat;
+  for (const auto& [key, array] : arrays) flat.SetArray(key, array);
+  const Motion base = ReadNpz(flat, {.up = "y"}).motion;
+  WritePickledDicts(folder_ / "a.pkl", {{"smpl", arrays}});
+  const Read nested = ReadFile("a.pkl", {.up = "y"});
+  EXPECT_TRUE(nested.Says("the arrays of its \"smpl\" are read")) << Said(nested);
+  EXPECT_LT(WorstJoint(base, nested.motion), 1e-6);
+  WritePickledDicts(folder_ / "a.pkl", {{"camera", arrays}, {"world", arrays}});
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.pkl: holds 2 motions, \"camera\" and \"world\": write the arrays of one by",
+              [&] { ReadFile("a.pkl"); });
+
+  NpzArchive two;
+  std::vector<double> twice = poses, places_twice = trans;
+  twice.insert(twice.end(), poses.begin(), poses.end());
+  places_twice.insert(places_twice.end(), trans.begin(), trans.end());
+  two.SetArray("poses", {{2, kFrames, 66}, twice});
+  two.SetArray("trans", {{2, kFrames, 3}, places_twice});
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.npz: poses: has the shape [2, 20, 66], expected [frames, 72",
+              [&] { ReadNpz(two); });
+  ExpectError(ErrorCode::kInvalidArgument,
+              "are these 2 people? Write the arrays of one, as in poses[0]", [&] { ReadNpz(two); });
+}
+
+}  // namespace choreo::bodies_test
