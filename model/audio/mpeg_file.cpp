@@ -12,6 +12,12 @@
 namespace choreo {
 namespace {
 
+// Other streams have bytes that look as frames begin.
+std::string NoMpeg(const std::string& why) {
+  return "not MP3 audio, " + why + ": " + kAskFfmpeg +
+         " makes a file that is taken, of whatever ffmpeg reads";
+}
+
 constexpr int64_t kSearched = 1 << 17;  // bytes in which the first frame must begin
 
 /// A frame of MPEG audio, as its four bytes say.
@@ -142,7 +148,7 @@ class StretchReader final : public SoundReader {
     mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS,
                  0);
     if (mpg123_open_feed(decoder_.get()) != MPG123_OK || !Decode())
-      throw InvalidArgument(name_, "not MP3 audio: no frame of it can be decoded");
+      throw InvalidArgument(name_, NoMpeg("no frame of it can be decoded"));
     if (stretch.stated && *stretch.stated > 0 && *stretch.stated != stretch.frames)
       notes_.push_back("its header says " + std::to_string(*stretch.stated) + " frames, " +
                        std::to_string(stretch.frames) + " are there");
@@ -258,7 +264,7 @@ std::unique_ptr<SoundReader> ReadMpeg(const ByteSource& source, const std::strin
   std::vector<ByteSource> parts;
   for (const Stretch& stretch : walk.stretches)
     parts.push_back(PartOf(source, stretch.begin, stretch.end));
-  if (parts.empty()) throw InvalidArgument(name, "not MP3 audio: it has no frame");
+  if (parts.empty()) throw InvalidArgument(name, NoMpeg("it has no frame"));
   size_t next = 0;
   auto reader = ReadOneAfterAnother(
       std::move(parts),
