@@ -95,13 +95,17 @@ Response ReadClip(const House& house, const File& file) {
   const std::filesystem::path path = PlaceFor(folder, file.name());
   WriteFile(path, file.data());
   client::FinishedDance dance;
+  std::vector<std::string> notes;
   try {
-    dance.motion = ReadMotion(path, house.model().skeleton);
+    dance.motion = ReadMotion(path, house.model().skeleton, OtherSkeleton::kRetarget,
+                              {.notes = &notes});
   } catch (const Error& error) {
     throw Error(error.code(), "", Named(error.what(), path.string(), file.name()));
   }
   Response response;
   *response.mutable_clip() = ToProto(dance);
+  for (const std::string& note : notes)
+    response.mutable_clip()->add_notes(Named(note, path.string(), file.name()));
   return response;
 }
 

@@ -67,6 +67,7 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
          SuggestKeys(song.music.track, song.music.onset_strength, count, "suggested"))
       song.heard.add_suggested(key.time_s);
   }
+  for (const std::string& note : song.music.audio.notes) song.heard.add_notes(note);
   const std::vector<float> peaks = Peaks(song.music.audio);
   song.heard.mutable_peaks()->Add(peaks.begin(), peaks.end());
   return song;

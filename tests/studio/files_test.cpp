@@ -6,6 +6,7 @@
 #include "client/convert.h"
 #include "tests/studio/fixture.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/rig_files.h"
 
 namespace choreo::studio::files_test {
 
@@ -55,6 +56,24 @@ TEST_F(StudioTest, WritesAndOpensFiles) {
     for (int i = 0; i < frames.root_positions_size(); ++i)
       EXPECT_NEAR(clip.clip().frames().root_positions(i), frames.root_positions(i), 1e-4) << name;
   }
+}
+
+TEST_F(StudioTest, TellsWhatIsOddInAFile) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request open;
+  open.mutable_open()->set_name("stage.bvh");
+  const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  open.mutable_open()->set_data(BvhText(testing_support::MakeBvh({.world = z_up})));
+  const Response clip = page.Ask(open);
+  ASSERT_EQ(clip.clip().notes_size(), 1) << clip.failure().message();
+  EXPECT_THAT(clip.clip().notes(0), HasSubstr("taken as z up, not y"));
+  std::string bytes = Clicks(5);
+  for (size_t i = 40; i < 44; ++i) bytes[i] = '\0';  // the length of its samples
+  const Response heard = page.Ask(SongRequest("piped.wav", bytes));
+  ASSERT_EQ(heard.song().notes_size(), 1) << heard.failure().message();
+  EXPECT_THAT(heard.song().notes(0), HasSubstr("its header says 0 bytes of samples"));
+  EXPECT_EQ(page.Ask(SongRequest("clicks.wav", Clicks(5))).song().notes_size(), 0);
 }
 
 TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {

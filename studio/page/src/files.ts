@@ -9,8 +9,8 @@ import { Motion } from './motion';
 import { emptyProject } from './project';
 import { fromJson, inOrder, toJson } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
-import { audio, hear, playSilence, songExtensions } from './songs';
-import { begin, filming, kept, live, message, moment, project, song, takes, tell, welcome, work } from './state';
+import { audio, hear, playSilence, songExtensions, tellOfSong } from './songs';
+import { begin, filming, kept, live, message, moment, opened, project, song, takes, tell, welcome, work } from './state';
 import { timeLeft } from './time_left';
 
 const motionExtensions = ['npz', 'npy', 'pkl', 'bvh', 'glb', 'gltf', 'vrma'];
@@ -38,6 +38,7 @@ export const openFiles = (files: File[]) => work(async () => {
     for (const file of others) await openOther(file);
     if (others.length === 0 && songs.length === 1) await compose();
   });
+  if (songs.length === 1 && !message.value?.isError) tellOfSong(message.value?.text);
   for (const file of photos) await readPhoto(file.name, await bytesOf(file));
 });
 
@@ -56,30 +57,30 @@ async function openOther(file: File) {
 async function openProject(name: string, bytes: Uint8Array) {
   const said: string[] = [];
   const model = { fps: dancer.fps, styles: welcome.value!.model!.styles };
-  const opened = fromJson(new TextDecoder().decode(bytes), name, model, (words) => said.push(words));
+  const read = fromJson(new TextDecoder().decode(bytes), name, model, (words) => said.push(words));
   const answer = await wire.ask({ case: 'keys', value: { name, data: bytes } });
   if (answer.case !== 'keyframes') return;
-  opened.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
-  if (song.value) opened.seconds = song.value.heard.seconds;
-  if (!opened.seconds) opened.seconds = ((opened.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
-  const inside = opened.keys.filter(({ frame }) => frame < dancer.frames(opened));
-  const outside = opened.keys.length - inside.length;
+  read.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
+  if (song.value) read.seconds = song.value.heard.seconds;
+  if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
+  const inside = read.keys.filter(({ frame }) => frame < dancer.frames(read));
+  const outside = read.keys.length - inside.length;
   if (outside > 0) said.push(`${outside} of its keys lie behind the end of the song, and are left out.`);
-  if (opened.song && opened.song !== song.value?.name) said.push(`It was made to ${opened.song}: drop that song, too.`);
-  if (!song.value) playSilence(opened.seconds);
-  danceFrom({ ...opened, keys: inside }, -1);
+  if (read.song && read.song !== song.value?.name) said.push(`It was made to ${read.song}: drop that song, too.`);
+  if (!song.value) playSilence(read.seconds);
+  danceFrom({ ...read, keys: inside }, -1);
   if (said.length) tell(`${name}: ${said.join(' ')}`);
 }
 
 async function openMotion(name: string, bytes: Uint8Array) {
   const answer = await wire.ask({ case: 'open', value: { name, data: bytes } });
   if (answer.case !== 'clip') return;
-  const opened = Motion.fromClip(answer.value, skeleton.joints, dancer.fps);
+  const motion = Motion.fromClip(answer.value, skeleton.joints, dancer.fps);
   const from = project.value ?? emptyProject(song.value?.name ?? '', 0);
-  const seconds = song.value?.heard.seconds ?? opened.count / dancer.fps;
-  push({ ...from, seconds, keys: [] }, opened, async () => opened);
+  const seconds = song.value?.heard.seconds ?? motion.count / dancer.fps;
+  push({ ...from, seconds, keys: [] }, motion, async () => motion);
   if (!song.value) playSilence(seconds);
-  tell(`${name}: ${(opened.count / dancer.fps).toFixed(1)} s of dance.`);
+  tell(opened(name, `${(motion.count / dancer.fps).toFixed(1)} s of dance`, answer.value.notes));
 }
 
 function download(name: string, data: BlobPart, type = 'application/octet-stream') {

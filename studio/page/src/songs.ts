@@ -1,7 +1,7 @@
 // The song that is danced to, and the sound that is played.
 import type { SongHeard } from './generated/studio/studio_pb';
 import { wire } from './link';
-import { song } from './state';
+import { opened, song, tell } from './state';
 import type { Song } from './state';
 import { wav } from './wav';
 
@@ -28,6 +28,12 @@ function play(taken: Song) {
 export async function hear(name: string, bytes: Uint8Array) {
   const answer = await wire.ask({ case: 'song', value: { name, data: bytes } });
   if (answer.case === 'song') takeSong(name, bytes, answer.value);
+}
+
+/// Says what is odd in the song's file, beside what is said of what came with it.
+export function tellOfSong(also = '') {
+  const { name, heard } = song.value!;
+  if (heard.notes.length) tell(`${opened(name, `${heard.seconds.toFixed(1)} s of song`, heard.notes)} ${also}`.trim());
 }
 
 /// Back to a song that was heard before; the sound goes on where the song is the present one.

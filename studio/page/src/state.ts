@@ -73,6 +73,8 @@ export async function begin(body: () => Promise<void>) {
 }
 
 export const tell = (text: string) => (message.value = { text, isError: false });
+/// What was opened, and what its file says otherwise.
+export const opened = (name: string, what: string, notes: string[]) => [`${name}: ${what}.`, ...notes.map((note) => `Note: ${note}.`)].join(' ');
 export const complain = (error: unknown) =>
   (message.value = { text: error instanceof Error ? error.message : String(error), isError: true });
 

@@ -3,7 +3,7 @@ import { Control } from './generated/choreo/v1/choreography_pb';
 import { finish } from './history';
 import { compose } from './keys';
 import { whenThere } from './link';
-import { audio, returnTo, takeSong } from './songs';
+import { audio, returnTo, takeSong, tellOfSong } from './songs';
 import { stopLive } from './live';
 import { begin, complain, isUnsaved, live, moment, song, tell, welcome, work } from './state';
 
@@ -28,7 +28,10 @@ whenThere((said, isFirst) => {
     version = said.version;
     if (!said.song || !said.heard) return;
     takeSong(said.song.name, said.song.data, said.heard);
-    return void work(() => begin(compose));
+    return void work(async () => {
+      await begin(compose);
+      tellOfSong();
+    });
   }
   if (said.version !== version) return complain(new Error(`The studio program is now ${said.version}: save the project and reload this page.`));
   tell('The studio program is there again.');

@@ -230,6 +230,23 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     });
   }
 
+  await check('what is odd in a file is said once, where it says what was opened', async () => {
+    const path = await download(() => page.getByLabel('Export the dance').selectOption('bvh'));
+    const text = readFileSync(path, 'utf8').replace(/Frames: \d+/, 'Frames: 7');
+    await give(['odd.bvh', text]);
+    await until(() => window.choreo.message.value?.text.startsWith('odd.bvh'));
+    await settle();
+    assert.match((await message()).text, /^odd\.bvh: [\d.]+ s of dance\. Note: its header says 7 frames; all \d+ that are there are read\.$/);
+    await page.keyboard.press('Control+z');
+    const piped = clicks(6);
+    piped.writeUInt32LE(0, 40);
+    await drop('piped.wav', piped.toString('base64'));
+    await until(() => window.choreo.song.value.name === 'piped.wav' && window.choreo.busy.value === 0);
+    assert.match((await message()).text, /^piped\.wav: 6\.0 s of song\. Note: its header says 0 bytes of samples, \d+ are there\.$/);
+    await page.keyboard.press('Control+z');
+    await until(() => window.choreo.song.value.name === 'clicks.wav' && window.choreo.busy.value === 0);
+  });
+
   await check('another song is danced to, and undo brings back the first', async () => {
     await drop('short.wav', clicks(6).toString('base64'));
     await until(() => window.choreo.song.value.name === 'short.wav' && window.choreo.busy.value === 0);
