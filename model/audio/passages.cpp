@@ -1,0 +1,158 @@
+#include "model/audio/passages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace choreo {
+namespace {
+
+constexpr double kLowestTone_hz = 60, kHighestTone_hz = 4000, kConcertPitch_hz = 440;
+constexpr double kLowestBand_hz = 40, kHighestBand_hz = kModelSampleRate / 2.0;
+constexpr double kSilentPower = 1e-7;  // of a window's mean square: -70 dB
+constexpr double kFarFromBeat_s = 0.3;
+constexpr double kShortest_s = 4;  // of a passage
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+PassageListener::PassageListener(const PassageOptions& options)
+    : options_(options), soonest_(std::lround(options.soonest / kMomentSeconds)) {
+  for (int bin = 0; bin <= kWindow / 2; ++bin) {
+    const double hz = static_cast<double>(bin) * kModelSampleRate / kWindow;
+    const bool is_tone = hz > kLowestTone_hz && hz < kHighestTone_hz;
+    const long tone = is_tone ? std::lround(12 * std::log2(hz / kConcertPitch_hz)) : 0;
+    chroma_of_.push_back(is_tone ? static_cast<int>((tone % 12 + 12) % 12) : -1);
+    const double octaves = std::log2(std::max(hz, kLowestBand_hz) / kLowestBand_hz) /
+                           std::log2(kHighestBand_hz / kLowestBand_hz);
+    band_of_.push_back(std::min(kBands - 1, static_cast<int>(kBands * octaves)));
+  }
+}
+
+PassageListener::Moment PassageListener::Hear(std::span<const float> window) {
+  double square = 0;
+  for (int i = 0; i < kWindow; ++i) {
+    const double sample = window[static_cast<size_t>(i)];
+    square += sample * sample;
+    windowed_[static_cast<size_t>(i)] =
+        sample * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / kWindow));
+  }
+  sounds_.push_back(square > kWindow * kSilentPower);
+  const auto bins = fourier_.Forward(windowed_);
+  Eigen::Matrix<double, kNumbers, 1> sum = Eigen::Matrix<double, kNumbers, 1>::Zero();
+  for (size_t bin = 0; bin < bins.size(); ++bin) {
+    const double power = std::norm(bins[bin]);
+    if (chroma_of_[bin] >= 0) sum[chroma_of_[bin]] += std::sqrt(power);
+    sum[kChroma + band_of_[bin]] += power;
+  }
+  sum.head<kChroma>() = (1 + 10 * sum.head<kChroma>().array()).log();
+  sum.head<kChroma>().array() -= sum.head<kChroma>().mean();
+  sum.tail<kBands>() = (sum.tail<kBands>().array() + 1e-6).log();
+  return sum.cast<float>();
+}
+
+Eigen::VectorXf PassageListener::LikenessOfLast() const {
+  const auto count = static_cast<float>(moments_);
+  const Eigen::Array<float, kNumbers, 1> mean = sum_.array() / count;
+  const Eigen::Array<float, kNumbers, 1> unit =
+      1 / (squares_.array() / count - mean.square()).max(1e-6F).sqrt();
+  // Chroma has one unit for all, bands have their own.
+  const auto of = [&](int64_t moment) -> Moment {
+    Moment seen = (heard_.col(moment).array() - mean).matrix();
+    seen.tail<kBands>().array() *= unit.tail<kBands>();
+    seen.head<kChroma>() /= std::max(seen.head<kChroma>().norm(), 1e-6F) * std::sqrt(2.0F);
+    seen.tail<kBands>() /= std::max(seen.tail<kBands>().norm(), 1e-6F) * std::sqrt(2.0F);
+    return seen;
+  };
+  Eigen::VectorXf likeness = Eigen::VectorXf::Zero(moments_);
+  if (!sounds_.back()) return likeness;
+  const Moment last = of(moments_ - 1);
+  for (int64_t moment = 0; moment + soonest_ < moments_; ++moment)
+    if (sounds_[static_cast<size_t>(moment)]) likeness[moment] = last.dot(of(moment));
+  return likeness;
+}
+
+void PassageListener::Add(std::span<const float> window) {
+  if (moments_ == heard_.cols())
+    heard_.conservativeResize(Eigen::NoChange, std::max<int64_t>(256, 2 * moments_));
+  heard_.col(moments_) = Hear(window);
+  sum_ += heard_.col(moments_);
+  squares_ += heard_.col(moments_).cwiseAbs2();
+  ++moments_;
+
+  const Eigen::VectorXf likeness = LikenessOfLast();
+  const auto best = std::ranges::max_element(worth_);
+  const bool ends = best != worth_.end() && *best > worth_of_none_;
+  const double before = worth_of_none_;
+  if (ends) worth_of_none_ = *best;
+  ended_.push_back(ends ? best - worth_.begin() : -1);
+  worth_.resize(static_cast<size_t>(moments_), kNever);
+  begins_.emplace_back(worth_.size());
+  for (int64_t lag = soonest_; lag < moments_; ++lag) {
+    const auto at = static_cast<size_t>(lag);
+    const double begun = before - options_.least;
+    begins_.back()[at] = begun > worth_[at];
+    worth_[at] = std::max(worth_[at], begun) +
+                 (likeness[moments_ - 1 - lag] - options_.alike) * kMomentSeconds;
+  }
+}
+
+std::optional<int64_t> PassageListener::Lag() const {
+  const auto best = std::ranges::max_element(worth_);
+  if (best == worth_.end() || *best <= worth_of_none_) return std::nullopt;
+  return best - worth_.begin();
+}
+
+std::vector<Passage> PassageListener::Passages() const {
+  std::vector<Passage> passages;
+  std::optional<int64_t> lag = Lag();
+  const auto seconds = [](int64_t moment) { return static_cast<double>(moment) * kMomentSeconds; };
+  int64_t end = moments_;
+  for (int64_t moment = moments_ - 1; moment >= 0; --moment) {
+    const auto at = static_cast<size_t>(moment);
+    if (!lag) {
+      if (ended_[at] < 0) continue;
+      lag = ended_[at];  // it ended with the moment before
+      end = moment;
+      continue;
+    }
+    if (!begins_[at][static_cast<size_t>(*lag)]) continue;
+    passages.push_back({seconds(moment), seconds(end), seconds(moment - *lag)});
+    lag.reset();
+  }
+  std::ranges::reverse(passages);
+  return passages;
+}
+
+std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const double> beats,
+                                  const PassageOptions& options) {
+  PassageListener listener(options);
+  std::vector<float> window(PassageListener::kWindow);
+  for (size_t from = 0; from < mono.size(); from += PassageListener::kHop) {
+    const auto part = mono.subspan(from, std::min(window.size(), mono.size() - from));
+    std::ranges::fill(std::ranges::copy(part, window.begin()).out, window.end(), 0.0F);
+    listener.Add(window);
+  }
+  // To the nearest beat, if there is one.
+  const auto on_beat = [&](double second) {
+    const auto nearest = std::ranges::min_element(
+        beats, {}, [second](double beat) { return std::abs(beat - second); });
+    return nearest != beats.end() && std::abs(*nearest - second) < kFarFromBeat_s ? *nearest
+                                                                                  : second;
+  };
+  std::vector<Passage> passages;
+  for (const Passage& found : listener.Passages()) {
+    Passage passage{on_beat(found.from), on_beat(found.to), on_beat(found.like)};
+    if (!passages.empty() && passage.from < passages.back().to) {
+      passage.like += passages.back().to - passage.from;
+      passage.from = passages.back().to;
+    }
+    if (passage.to - passage.from >= kShortest_s && passage.like < passage.from)
+      passages.push_back(passage);
+  }
+  return passages;
+}
+
+}  // namespace choreo

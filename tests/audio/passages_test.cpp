@@ -1,0 +1,88 @@
+#include "model/audio/passages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/audio/made_song.h"
+
+/// Songs put together of parts: where they come back is known.
+namespace choreo::passages_test {
+
+constexpr double kPart = 24;  // seconds
+
+std::vector<float> Part(uint64_t seed) {
+  return MakeSong({.seed = seed, .seconds = kPart, .tempo = {{0, 120}}}).mono;
+}
+
+std::vector<float> SongOf(std::initializer_list<uint64_t> parts) {
+  std::vector<float> song;
+  for (const uint64_t seed : parts) {
+    const std::vector<float> part = Part(seed);
+    song.insert(song.end(), part.begin(), part.end());
+  }
+  return song;
+}
+
+// Seconds that are found to come back as `lag` seconds before, of those from one second to another.
+double Found(const std::vector<Passage>& passages, double lag, double from, double to) {
+  double found = 0;
+  for (const Passage& passage : passages) {
+    if (std::abs(passage.from - passage.like - lag) < 0.3)
+      found += std::max(0.0, std::min(passage.to, to) - std::max(passage.from, from));
+  }
+  return found;
+}
+
+TEST(Passages, APartThatReturnsIsFound) {
+  const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 13}), {});
+  EXPECT_GT(Found(passages, 2 * kPart, 2 * kPart, 3 * kPart), 0.8 * kPart);
+  EXPECT_EQ(Found(passages, 2 * kPart, 0, 2 * kPart), 0);
+}
+
+TEST(Passages, BeginAndEndOnBeatsWhereTheyAreKnown) {
+  std::vector<double> beats;
+  for (double beat = 0.1; beat < 4 * kPart; beat += 0.5) beats.push_back(beat);
+  const auto is_beat = [](double second) {
+    return std::abs(std::remainder(second - 0.1, 0.5)) < 1e-9;
+  };
+  const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 13}), beats);
+  ASSERT_FALSE(passages.empty());
+  for (const Passage& passage : passages)
+    EXPECT_TRUE(is_beat(passage.from) && is_beat(passage.like)) << passage.from;
+}
+
+TEST(Passages, AreInOrderApartAndLikeWhatWasBefore) {
+  const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 12, 11}), {});
+  double end = 0;
+  for (const Passage& passage : passages) {
+    EXPECT_GE(passage.from, end);
+    EXPECT_GT(passage.to, passage.from);
+    EXPECT_GE(passage.like, 0);
+    EXPECT_LT(passage.like, passage.from);
+    end = passage.to;
+  }
+  EXPECT_GE(passages.size(), 2U);
+}
+
+TEST(Passages, SilenceDoesNotComeBack) {
+  EXPECT_TRUE(FindPassages(std::vector<float>(60 * kModelSampleRate), {}).empty());
+  EXPECT_TRUE(FindPassages({}, {}).empty());
+}
+
+// What is told of a moment while it sounds is what was heard up to it.
+TEST(Passages, AreHeardWhileTheySound) {
+  const std::vector<float> song = SongOf({11, 12, 11});
+  PassageListener listener;
+  double returned = 0;
+  for (size_t at = 0; at + PassageListener::kWindow <= song.size(); at += PassageListener::kHop) {
+    listener.Add(std::span(song).subspan(at, PassageListener::kWindow));
+    const std::optional<int64_t> lag = listener.Lag();
+    const double lag_s = static_cast<double>(lag.value_or(0)) * PassageListener::kMomentSeconds;
+    const bool is_third = at >= static_cast<size_t>(2 * kPart * kModelSampleRate);
+    if (is_third && std::abs(lag_s - 2 * kPart) < 0.3) returned += PassageListener::kMomentSeconds;
+  }
+  EXPECT_GT(returned, 0.6 * kPart);
+}
+
+}  // namespace choreo::passages_test
