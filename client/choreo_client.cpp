@@ -187,6 +187,13 @@ void RemoteDance::SendBeats(std::span<const double> seconds) {
   impl_->Send(std::move(request));
 }
 
+void RemoteDance::SendPassages(std::span<const Passage> passages) {
+  v1::StreamDanceRequest request;
+  for (const Passage& passage : passages)
+    *request.mutable_music_passages()->add_passages() = ToProto(passage);
+  impl_->Send(std::move(request));
+}
+
 void RemoteDance::CompleteKeys() {
   v1::StreamDanceRequest request;
   request.mutable_keyframes_complete();

@@ -89,6 +89,9 @@ class RemoteDance {
   /// Beats ahead, seconds, strictly ascending, at least one: they replace those known from the
   /// first of them on, for transitions that begin behind the frozen frames. Not after CompleteKeys.
   void SendBeats(std::span<const double> seconds);
+  /// Passages ahead, ascending, at least one: from the first of them on they replace those known,
+  /// for transitions that begin behind the frozen frames. Not after CompleteKeys.
+  void SendPassages(std::span<const Passage> passages);
   /// No further keys: the rest may be made.
   void CompleteKeys();
 

@@ -10,6 +10,7 @@
 namespace choreo::client {
 
 v1::DanceConfig ToProto(const DanceConfig& config);
+v1::MusicPassage ToProto(const Passage& passage);
 v1::Keyframe ToProto(const KeyPose& key);
 v1::Controls ToProto(const Controls& controls);
 v1::Pose ToProto(const Pose& pose);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/passage.h"
 #include "model/motion/motion.h"
 
 /// What a client asks for: music, key poses, controls, and what a dance is made with. Frames are
@@ -93,6 +94,11 @@ struct DanceConfig {
   /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and in a
   /// kPcmFloat predicts each transition's from the 12 s before it.
   std::vector<double> music_beats = {};
+  /// Where the music comes back, and so does the dance; as the API has them. Empty: the server
+  /// finds them in a kFile.
+  std::vector<Passage> music_passages = {};
+  /// 0 to 1: how much a dance that comes back differs; default: kUsualVariation
+  std::optional<double> variation = {};
   /// For who edits keys: as RemoteDance::GenerateUntil before all else; keys then grant nothing.
   std::optional<int64_t> generate_until = {};
   Controls controls = {};  ///< from the first frame on

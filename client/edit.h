@@ -35,7 +35,9 @@ struct EditOptions {
   std::string style = {};                     ///< one of the model's; empty: as it comes
   std::optional<double> music_dynamics = {};  ///< as DanceConfig has it
   Audio audio = {};                           ///< the song from its start, kPcmFloat; or none
+  std::optional<double> variation = {};       ///< as DanceConfig has it
   std::vector<double> music_beats = {};       ///< as DanceConfig::music_beats
+  std::vector<Passage> music_passages = {};   ///< as DanceConfig has them
   Controls controls = {};                     ///< of the new frames
 };
 

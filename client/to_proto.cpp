@@ -87,6 +87,14 @@ v1::Controls ToProto(const Controls& controls) {
   return out;
 }
 
+v1::MusicPassage ToProto(const Passage& passage) {
+  v1::MusicPassage out;
+  out.set_from(passage.from);
+  out.set_to(passage.to);
+  out.set_like(passage.like);
+  return out;
+}
+
 v1::DanceConfig ToProto(const DanceConfig& config) {
   v1::DanceConfig out;
   out.set_model(config.model);
@@ -118,6 +126,8 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   }
   if (config.frames) out.set_frames(*config.frames);
   out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
+  for (const Passage& passage : config.music_passages) *out.add_music_passages() = ToProto(passage);
+  if (config.variation) out.set_variation(*config.variation);
   if (config.generate_until) out.set_generate_until(*config.generate_until);
   return out;
 }

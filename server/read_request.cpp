@@ -97,7 +97,11 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
   }
   if (config.has_music_dynamics()) {
     out->music_dynamics = config.music_dynamics();
-    ValidateMusicDynamics(out->music_dynamics, "config.music_dynamics");
+    ValidateShare(out->music_dynamics, "config.music_dynamics");
+  }
+  if (config.has_variation()) {
+    out->variation = config.variation();
+    ValidateShare(out->variation, "config.variation");
   }
   out->style = config.style();
   ValidateStyle(model, out->style, "config.style");
@@ -108,6 +112,7 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
   if (config.has_continuation())
     out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
   out->music_beats = ToBeats(config.music_beats(), "config.music_beats");
+  out->music_passages = ToPassages(config.music_passages());
 }
 
 void CheckMusic(const v1::AudioFormat& format) {
@@ -275,6 +280,12 @@ std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times
     }
   }
   return {times.begin(), times.end()};
+}
+
+std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {
+  std::vector<Passage> passages;
+  for (const v1::MusicPassage& one : sent) passages.push_back({one.from(), one.to(), one.like()});
+  return passages;
 }
 
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,

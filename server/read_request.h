@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
+#include "model/core/passage.h"
 #include "model/dance/dance_stream.h"
 #include "model/dance/transition_group.h"
 #include "model/engine/transition_spec.h"
@@ -27,6 +28,9 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const 
 /// Times of beats, within the longest music and strictly ascending.
 std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
                             const std::string& field);
+
+/// As they came; CheckPassages says whether they are good.
+std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 
 /// PCM bytes -> samples, interleaved, full scale [-1, 1].
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,

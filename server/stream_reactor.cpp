@@ -9,6 +9,7 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/audio/passages.h"
 #include "model/dance/dance_stream.h"
 #include "server/call_session.h"
 #include "server/music_file.h"
@@ -126,6 +127,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
         return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
       case DanceRequest::kMusicBeats:
         return TakeBeats(*stream, request.music_beats());
+      case DanceRequest::kMusicPassages:
+        return TakePassages(*stream, request.music_passages());
       case DanceRequest::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
       case DanceRequest::kKeyframesComplete:
@@ -148,7 +151,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     queue_ = found;
     encoding_ = message.encoding();
     seed_ = config.seed;
-    finds_beats_ = config.music_beats.empty();
+    music_beats_ = config.music_beats;
     if (message.has_audio_format()) audio_ = message.audio_format();
     const bool exact =
         !config.continuation || config.continuation->fingerprint == model.fingerprint;
@@ -179,7 +182,9 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     file_decoded_ = true;
     const std::vector<float> mono = DecodeMono(file_.bytes(), [this] { RequireOpen(); });
     file_.Clear();
-    if (finds_beats_) stream.SetMusicBeats(FindBeats(mono).Seconds());
+    const std::vector<double> beats =
+        music_beats_.empty() ? FindBeats(mono).Seconds() : music_beats_;
+    stream.SetMusic(beats, FindPassages(mono, beats));
     stream.PushAudio(mono, 0);
   }
 
@@ -199,12 +204,18 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     stream.GiveBeats(ToBeats(message.times(), field));
   }
 
+  void TakePassages(DanceStream& stream, const v1::MusicPassages& message) {
+    if (message.passages().empty())
+      throw InvalidArgument(stream.NextMusicPassages() + ".passages", "empty");
+    stream.GivePassages(ToPassages(message.passages()));
+  }
+
   // Of the configuration; written before the stream is there.
   Models::Use queue_;  // whatever is served meanwhile, the dance keeps its model
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;
-  bool finds_beats_ = false;  // of a music file
+  std::vector<double> music_beats_;
 
   // Of the messages.
   MusicFile file_;

@@ -8,6 +8,7 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/audio/passages.h"
 #include "model/dance/transition_group.h"
 #include "model/dance/validation.h"
 #include "server/call_session.h"
@@ -97,13 +98,16 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   void OnError(const Error& error) override { EndIn(error); }
 
  private:
-  // The samples of a file, and the beats of the music if the client does not know them.
+  // The samples of a file, and what the client does not know of the music: beats, and what comes
+  // back.
   void AddMusic(const v1::Audio& audio, GroupRequest* request) {
     RequireOpen();
     request->samples =
         DecodeMono(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
     request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
+    if (request->music_passages.empty())
+      request->music_passages = FindPassages(request->samples, request->music_beats);
   }
 
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest request) {

@@ -46,7 +46,7 @@ std::vector<Response> MakeTransition(const House& house, const Song* music,
       request.config.continuation ? request.config.continuation->frame : request.config.first_frame;
   if (music) {
     client::SetMusic(music->audio, house.model(), first, &request);
-    request.config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
+    cli::TellMusic(music->music, music->heard.seconds(), &request.config);
   }
   client::TransitionResult made = house.client().GenerateTransition(request);
   if (request.target) {
@@ -97,8 +97,8 @@ Response ReadClip(const House& house, const File& file) {
   client::FinishedDance dance;
   std::vector<std::string> notes;
   try {
-    dance.motion = ReadMotion(path, house.model().skeleton, OtherSkeleton::kRetarget,
-                              {.notes = &notes});
+    dance.motion =
+        ReadMotion(path, house.model().skeleton, OtherSkeleton::kRetarget, {.notes = &notes});
   } catch (const Error& error) {
     throw Error(error.code(), "", Named(error.what(), path.string(), file.name()));
   }

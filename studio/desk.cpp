@@ -104,7 +104,7 @@ void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
   const bool is_live = config.audio.kind != client::AudioKind::kNone;
   const std::shared_ptr<const Song> music = is_live ? nullptr : song();
   const bool hears = music && house_.model().takes_music;
-  if (music) config.music_beats = cli::BeatsBefore(music->music, music->heard.seconds());
+  if (music) cli::TellMusic(music->music, music->heard.seconds(), &config);
   if (hears) config.audio = music->audio.format;
   auto dance = house_.client().StartDance(config);
   if (hears) {

@@ -103,6 +103,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   };
   if (!config.model().empty()) refuse("config.model");
   if (config.music_beats_size() > 0) refuse("config.music_beats");
+  if (config.music_passages_size() > 0) refuse("config.music_passages");
   if (config.frame_rate() != 0) refuse("config.frame_rate");
   if (config.has_audio_format()) {
     const v1::AudioFormat& format = config.audio_format();
@@ -119,6 +120,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.has_seed()) out.seed = config.seed();
   if (config.has_temperature()) out.temperature = config.temperature();
   if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();
+  if (config.has_variation()) out.variation = config.variation();
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {

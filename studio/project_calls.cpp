@@ -177,7 +177,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   }
   client::Audio audio;
   if (song) {
-    config.music_beats = cli::BeatsBefore(song->music, seconds);
+    cli::TellMusic(song->music, seconds, &config);
     if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
   }
   keys = cli::ByTime(std::move(keys), model.fps);

@@ -68,6 +68,11 @@ void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>
   json["beats_in_bar"] = music.track.beats_in_bar;
   json["downbeats"] = music.track.DownbeatSeconds();
   json["confidence"] = music.track.confidence;
+  json["passages"] = nlohmann::ordered_json::array();
+  for (const Passage& passage : music.passages) {
+    json["passages"].push_back(
+        {{"from_s", passage.from}, {"to_s", passage.to}, {"like_s", passage.like}});
+  }
   json["notes"] = music.audio.notes;
   if (keys) {
     json["suggested_keys"] = nlohmann::ordered_json::array();
@@ -110,6 +115,9 @@ void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>
               music.track.tempo_bpm, music.track.frames.size(),
               music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
   PrintStretches(music.track);
+  for (const Passage& passage : music.passages)
+    std::printf("%9.3f s  to %.3f s comes back as from %.3f s\n", passage.from, passage.to,
+                passage.like);
   if (!keys) return;
   std::printf("key poses would sit well at\n");
   for (const SuggestedKey& key : *keys)
@@ -147,7 +155,8 @@ void AddAnalyzeCommand(CLI::App& program) {
   command->add_flag(
       "--json", options->json,
       "Print duration_s, sample_rate, tempo_bpm, beats (seconds), beats_in_bar, downbeats "
-      "(seconds), confidence (of each beat, 0 to 1), notes and suggested_keys as JSON.");
+      "(seconds), confidence (of each beat, 0 to 1), passages (that come back), notes and "
+      "suggested_keys as JSON.");
   command->add_option("--features", options->features,
                       "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
   CLI::Option* suggest =

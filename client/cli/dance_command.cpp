@@ -41,6 +41,7 @@ struct DanceOptions {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
+  std::optional<double> variation;
   std::string style;
   std::string style_name = "--style";  // where it is said
   double fps = 0;
@@ -218,10 +219,11 @@ void Run(const DanceOptions& options) {
   config.seed = options.seed.value_or(0);
   config.temperature = options.temperature;
   config.music_dynamics = options.music_dynamics;
+  config.variation = options.variation;
   config.style = options.style;
   config.frames = length.frames;
   config.controls = controls;
-  if (music) config.music_beats = BeatsBefore(*music, seconds);
+  if (music) TellMusic(*music, seconds, &config);
   const client::Audio audio =
       music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};
   std::optional<VmcShow> show;
@@ -279,6 +281,7 @@ void AddDanceCommand(CLI::App& program) {
           "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
+  AddVariation(*command, options->variation);
   AddStyle(*command, options->style);
   command
       ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")

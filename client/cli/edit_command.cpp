@@ -85,6 +85,7 @@ void AddEditCommand(CLI::App& program) {
   AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
+  AddVariation(*command, options->variation);
   AddStyle(*command, options->style);
   options->controls.AddTo(*command);
   AddModel(*command, options->model);

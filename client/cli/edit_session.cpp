@@ -52,6 +52,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   edit_.seed = options.seed.value_or(0);
   edit_.temperature = options.temperature;
   edit_.music_dynamics = options.music_dynamics;
+  edit_.variation = options.variation;
   edit_.style = options.style;
   edit_.controls = options.controls.Read(edit_.model, connection.server());
   NoteDeterministic(edit_.model, {{"--seed", options.seed.has_value()},
@@ -66,6 +67,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
     const Music music = ReadMusic(options.song, Seconds(frames_), options.song_start_s);
     edit_.audio = AudioFor(music.audio, Seconds(frames_));
     edit_.music_beats = BeatsBefore(music, Seconds(frames_));
+    edit_.music_passages = music.passages;
   }
   if (!options.report.empty()) ReadKeys();
 }

@@ -31,6 +31,7 @@ struct EditOptions {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
+  std::optional<double> variation;
   std::string style;
   ControlOptions controls;
   std::string model;

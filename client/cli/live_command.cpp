@@ -39,6 +39,7 @@ struct LiveCommand {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
+  std::optional<double> variation;
   double fps = 0;
   std::string model;
   std::string vmc;
@@ -120,6 +121,7 @@ void Run(const LiveCommand& options) {
   dance.config.seed = options.seed.value_or(0);
   dance.config.temperature = options.temperature;
   dance.config.music_dynamics = options.music_dynamics;
+  dance.config.variation = options.variation;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;
   dance.most_keys = connection.server().limits.max_keyframes;
@@ -211,6 +213,7 @@ void AddLiveCommand(CLI::App& program) {
   AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
+  AddVariation(*command, options->variation);
   command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   AddModel(*command, options->model);

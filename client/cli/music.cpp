@@ -6,6 +6,7 @@
 #include "client/edit.h"
 #include "model/audio/beats.h"
 #include "model/audio/onset.h"
+#include "model/audio/passages.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 
@@ -24,6 +25,7 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   const std::vector<Onset> onsets = FindOnsets(music.mono);
   music.onset_strength = OnsetStrength(onsets);
   music.track = BeatsAsAsked(onsets, start, beats);
+  music.passages = FindPassages(music.mono, music.track.Seconds());
   return music;
 }
 
@@ -31,6 +33,13 @@ std::vector<double> BeatsBefore(const Music& music, double seconds) {
   std::vector<double> beats = music.track.Seconds();
   std::erase_if(beats, [seconds](double beat) { return beat >= seconds; });
   return beats;
+}
+
+void TellMusic(const Music& music, double seconds, client::DanceConfig* config) {
+  config->music_beats = BeatsBefore(music, seconds);
+  config->music_passages = music.passages;
+  std::erase_if(config->music_passages,
+                [seconds](const Passage& passage) { return passage.from >= seconds; });
 }
 
 client::Audio AudioFor(const DecodedAudio& song, double seconds) {

@@ -9,6 +9,7 @@
 #include "client/cli/music_file.h"
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/core/passage.h"
 
 namespace choreo::cli {
 
@@ -18,6 +19,7 @@ struct Music {
   std::vector<float> mono;            ///< at 22 050 Hz
   std::vector<float> onset_strength;  ///< in which the beats were found
   BeatTrack track;
+  std::vector<Passage> passages;  ///< that come back
 };
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` and what comes after them
@@ -30,6 +32,9 @@ Music ReadMusic(const std::filesystem::path& path,
 
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);
+
+/// Those, and the passages before `seconds`.
+void TellMusic(const Music& music, double seconds, client::DanceConfig* config);
 
 /// What to send for a dance of `seconds`: the song's beginning, as samples.
 client::Audio AudioFor(const DecodedAudio& song, double seconds);

@@ -85,6 +85,15 @@ void AddMusicDynamics(CLI::App& command, std::optional<double>& share) {
       ->check(NumberFrom(0, 1));
 }
 
+void AddVariation(CLI::App& command, std::optional<double>& variation) {
+  command
+      .add_option("--variation", variation,
+                  "How much the dance to a passage of the music that comes back differs from what "
+                  "was danced to it before, 0 (hardly) to 1 (altogether); default: " +
+                      Rounded(kUsualVariation) + ".")
+      ->check(NumberFrom(0, 1));
+}
+
 void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
   command.add_option(
       "--temperature", temperature,
@@ -115,6 +124,7 @@ Error AsTyped(const Error& error) {
       {"config.music_dynamics", "--music-dynamics"},
       {"config.style", "--style"},
       {"config.temperature", "--temperature"},
+      {"config.variation", "--variation"},
       {"token_file", "--token-file"},
       {"video.fps", "--fps"},
       {"video.height", "--size"},

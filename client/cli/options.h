@@ -37,6 +37,9 @@ void AddVmc(CLI::App& command, std::string& address);
 /// `--music-dynamics`.
 void AddMusicDynamics(CLI::App& command, std::optional<double>& share);
 
+/// `--variation`.
+void AddVariation(CLI::App& command, std::optional<double>& variation);
+
 /// `--temperature`.
 void AddTemperature(CLI::App& command, std::optional<double>& temperature);
 /// `--model`, one of the server's.

@@ -35,6 +35,7 @@ struct TransitionOptions {
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
+  std::optional<double> variation;
   std::string style;
   std::string model;
   ControlOptions controls;
@@ -86,6 +87,7 @@ void Run(const TransitionOptions& options) {
   request.config.seed = options.seed.value_or(0);
   request.config.temperature = options.temperature;
   request.config.music_dynamics = options.music_dynamics;
+  request.config.variation = options.variation;
   request.config.style = options.style;
   request.config.controls = options.controls.Read(model, connection.server());
   request.config.first_frame = std::llround(options.at_s * model.fps);
@@ -112,7 +114,7 @@ void Run(const TransitionOptions& options) {
                                         InFull(Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
-    request.config.music_beats = BeatsBefore(music, end_s);
+    TellMusic(music, end_s, &request.config);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   ShowWarnings(result.warnings);
@@ -166,6 +168,7 @@ void AddTransitionCommand(CLI::App& program) {
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
+  AddVariation(*command, options->variation);
   AddStyle(*command, options->style);
   options->controls.AddTo(*command);
   AddModel(*command, options->model);

@@ -15,6 +15,7 @@ inline constexpr int kMinKeyDistance = 2;                        ///< frames bet
 inline constexpr int kMaxCandidates = 32;                        ///< of one transition
 inline constexpr double kMaxTemperature = 2;                     ///< 0: the mean
 inline constexpr double kUsualDynamics = 0.5;                    ///< of the music, 0 to 1
+inline constexpr double kUsualVariation = 0.3;                   ///< of what comes back, 0 to 1
 inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;  ///< frames sent a second
 
 inline constexpr size_t kMostNameBytes = 64;  ///< of a model's name, which metrics and logs repeat

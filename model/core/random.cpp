@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "model/core/error.h"
 
@@ -54,6 +55,19 @@ void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::
     for (size_t i = 0; i < 4 && first + i < out.size(); ++i)
       out[first + i] = static_cast<float>(normals[i]);
   }
+}
+
+void FillNormalLike(uint64_t seed, uint32_t candidate, int64_t absolute_frame, int64_t like,
+                    double variation, std::span<float> out) {
+  if (like == absolute_frame || variation >= 1)
+    return FillNormal(seed, candidate, absolute_frame, out);
+  FillNormal(seed, candidate, like, out);
+  if (variation <= 0) return;
+  std::vector<float> own(out.size());
+  FillNormal(seed, candidate, absolute_frame, own);
+  const double kept = std::sqrt(1 - variation * variation);
+  for (size_t d = 0; d < out.size(); ++d)
+    out[d] = static_cast<float>(kept * out[d] + variation * own[d]);
 }
 
 uint32_t Random::Next() {

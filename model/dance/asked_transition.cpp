@@ -13,8 +13,8 @@ double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t fra
 }  // namespace
 
 AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
-                              const ControlTrack& controls, const AudioFeed* audio,
-                              const Segment& segment, int64_t rows_end,
+                              const ControlTrack& controls, const Recurrence& recurrence,
+                              const AudioFeed* audio, const Segment& segment, int64_t rows_end,
                               std::span<const Pose> before) {
   AskedTransition asked;
   TransitionRequest& request = asked.request;
@@ -42,6 +42,8 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
                       HearEnergyAt(*audio, start, segment.from)};
   }
   request.seed = start.seed;
+  request.noise_like = recurrence.Origins(segment.from, segment.to);
+  request.variation = start.variation;
   request.style = start.style;
   request.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
   controls.Ask(asked.key_id, &request, &asked.warnings);

@@ -8,6 +8,7 @@
 #include "model/dance/audio_feed.h"
 #include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
+#include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -27,12 +28,13 @@ struct AskedTransition {
 };
 
 /// What a dance that starts so asks of one of its transitions, but for its stage and its beats.
+/// `recurrence`: of its music.
 /// `before`: what was danced or given before it; empty: ControlTrack::Stance. `audio`: null without
 /// music; rows before `rows_end` must be ready, and a model that hears music hears those behind it
 /// as none.
 AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
-                              const ControlTrack& controls, const AudioFeed* audio,
-                              const Segment& segment, int64_t rows_end,
+                              const ControlTrack& controls, const Recurrence& recurrence,
+                              const AudioFeed* audio, const Segment& segment, int64_t rows_end,
                               std::span<const Pose> before);
 
 /// A warning where the way to the key is too long for its time.

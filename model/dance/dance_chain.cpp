@@ -112,9 +112,11 @@ DanceChain::DanceChain(SampleQueue& queue, const DanceConfig& config,
               config.continuation ? std::optional(RoundToFloat(config.continuation->poses.back()))
                                   : std::nullopt),
       beats_(model_.fps, config.music_beats,
-             config.continuation ? config.continuation->last_beat : std::nullopt, audio()) {
+             config.continuation ? config.continuation->last_beat : std::nullopt, audio()),
+      recurrence_(model_.fps, config.music_passages) {
   if (!config.Before().empty()) history_ = FillHistory(model_, config.Before());
   if (config.continuation) stage_ = config.continuation->stage;
+  timeline_.SetCuts(recurrence_.cuts());
 }
 
 void DanceChain::Begin() {
@@ -154,9 +156,20 @@ void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::string
   });
 }
 
-void DanceChain::SetMusicBeats(const std::vector<double>& seconds) {
+void DanceChain::GivePassages(const std::vector<Passage>& passages, const std::string& field) {
+  Change([&](Timeline& timeline) {
+    CheckPassages(passages, field);
+    recurrence_.Give(passages, timeline.Frontier(field));
+    timeline.SetCuts(recurrence_.cuts());
+  });
+}
+
+void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages) {
   std::lock_guard lock(mutex_);
-  beats_.Find(seconds);
+  if (config_.music_beats.empty()) beats_.Find(beats);
+  if (!config_.music_passages.empty()) return;
+  recurrence_.Give(passages, 0);
+  timeline_.SetCuts(recurrence_.cuts());
 }
 
 void DanceChain::SetPaused(bool paused) {
@@ -280,7 +293,7 @@ void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
   try {
     const Job* before = jobs_.empty() ? nullptr : jobs_.back().get();
     AskedTransition asked =
-        AskTransition(config_, model_, controls_, audio(), segment, rows_end,
+        AskTransition(config_, model_, controls_, recurrence_, audio(), segment, rows_end,
                       before == nullptr ? history_ : before->HistoryBefore(segment.from));
     asked.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
     std::vector<MusicBeat> beats = beats_.For(segment.from, segment.to);

@@ -17,6 +17,7 @@
 #include "model/dance/music_beats.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/quality_report.h"
+#include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"
 #include "model/engine/sample_queue.h"
@@ -55,8 +56,11 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Null for a dance without music. Only one thread at a time may push.
   AudioFeed* audio() { return audio_.get(); }
 
+  /// Ascending; at least one.
+  void GivePassages(const std::vector<Passage>& passages, const std::string& field);
+
   /// Of the whole music, before its first sample.
-  void SetMusicBeats(const std::vector<double>& seconds);
+  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages);
   void SetPaused(bool paused);
   void Cancel() noexcept;
 
@@ -109,6 +113,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   QualityMeter meter_;
   OutputRate output_;
   MusicBeats beats_;
+  Recurrence recurrence_;  // the timeline has its cuts
 };
 
 }  // namespace choreo

@@ -8,6 +8,7 @@
 #include "model/audio/pulse.h"
 #include "model/core/error.h"
 #include "model/dance/audio_feed.h"
+#include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 
@@ -34,7 +35,9 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
 
 void DanceStart::ValidateStart(const ModelInfo& model) const {
   if (temperature) ValidateTemperature(*temperature, "config.temperature");
-  ValidateMusicDynamics(music_dynamics, "config.music_dynamics");
+  ValidateShare(music_dynamics, "config.music_dynamics");
+  ValidateShare(variation, "config.variation");
+  CheckPassages(music_passages, "config.music_passages");
   ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.output_fps");
   if (history.size() > static_cast<size_t>(model.history_frames)) {

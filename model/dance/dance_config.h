@@ -7,6 +7,7 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
+#include "model/core/passage.h"
 #include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
@@ -30,6 +31,10 @@ struct DanceStart {
   bool allow_inexact_resume = false;
   /// Seconds, ascending: the dance is timed to them. None: to what a dance hears of the music.
   std::vector<double> music_beats;
+  /// Where the music comes back, as CheckPassages wants them, and so does the dance, with so much
+  /// `variation`: 0: the same noise, 1: as if nothing came back.
+  std::vector<Passage> music_passages;
+  double variation = kUsualVariation;
 
   struct Audio {
     double sample_rate = 0;  ///< 8000..192000

@@ -49,13 +49,14 @@ void DanceStream::EndOfAudio() {
   FinishAudio();
 }
 
-void DanceStream::SetMusicBeats(const std::vector<double>& seconds) {
-  chain_->SetMusicBeats(seconds);
+void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages) {
+  chain_->SetMusic(beats, passages);
 }
 
 std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }
 std::string DanceStream::NextControls() const { return At("controls", controls_); }
 std::string DanceStream::NextMusicBeats() const { return At("music_beats", beats_); }
+std::string DanceStream::NextMusicPassages() const { return At("music_passages", passages_); }
 
 void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
                          const PoseMask& mask) {
@@ -90,6 +91,12 @@ void DanceStream::GiveBeats(const std::vector<double>& seconds) {
   std::lock_guard lock(messages_);
   chain_->GiveBeats(seconds, NextMusicBeats() + ".times");
   ++beats_;
+}
+
+void DanceStream::GivePassages(const std::vector<Passage>& passages) {
+  std::lock_guard lock(messages_);
+  chain_->GivePassages(passages, NextMusicPassages() + ".passages");
+  ++passages_;
 }
 
 void DanceStream::GenerateUntil(int64_t frame) {

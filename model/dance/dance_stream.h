@@ -42,15 +42,17 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// In place of DanceConfig::music_beats, for who finds them in the whole music before it pushes
-  /// the first sample; none, then nothing is listened for either.
-  void SetMusicBeats(const std::vector<double>& seconds);
+  /// What is found in the whole music before its first sample is pushed, in place of
+  /// DanceConfig::music_beats (none, then nothing is listened for either) and music_passages, as
+  /// far as these are empty.
+  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages);
 
   /// What errors call the next message of a kind, "keyframes[i]", i counting those that were taken.
   /// For who reads a message before handing it over.
   std::string NextKeyframe() const;
   std::string NextControls() const;
   std::string NextMusicBeats() const;
+  std::string NextMusicPassages() const;
 
   /// See Timeline. A key too late is answered by a KeyRejection event. Errors name NextKeyframe().
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
@@ -63,6 +65,10 @@ class DanceStream {
   /// and told of by a DanceWarning. Errors name the times of NextMusicBeats(); none may come after
   /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds);
+  /// As CheckPassages wants them, at least one: from the first of them on they hold in place of
+  /// those that were known, for transitions that begin behind the frozen frames. Errors name those
+  /// of NextMusicPassages(); none may come after KeysComplete.
+  void GivePassages(const std::vector<Passage>& passages);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
   void KeysComplete();
@@ -89,7 +95,8 @@ class DanceStream {
   const ModelInfo& model_;
   std::shared_ptr<DanceChain> chain_;
   std::mutex messages_;  // they are taken one at a time; before the chain's lock
-  std::atomic<int> keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0;  // taken so far
+  // Taken so far:
+  std::atomic<int> keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0, passages_ = 0;
 };
 
 }  // namespace choreo

@@ -188,8 +188,15 @@ void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 Segment Timeline::From(int64_t frame) const {
   const auto ahead = keys_.lower_bound(frame);
   const auto next = ahead == keys_.end() ? std::nullopt : std::optional(ahead->first);
-  const int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
+  int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
   const bool is_reached = next && *next + 1 == to;
+  if (!is_reached) {
+    const auto cut = std::ranges::upper_bound(cuts_, frame);
+    // What would be left behind the usual end is never shorter than half of it.
+    if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
+        *cut - frame <= options_.max_transition_frames)
+      to = *cut;
+  }
   return {frame, to, is_reached ? std::optional(ahead->second) : std::nullopt, to};
 }
 

@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "model/core/limits.h"
 #include "model/motion/motion.h"
@@ -110,6 +112,10 @@ class Timeline {
   /// dance would have no end: no end_frame, no music, no key, not even a late one, no grant.
   void Complete();
 
+  /// Where transitions without a key should end, ascending: one whose usual end is near the next of
+  /// these ends there. Of transitions that are planned from now on.
+  void SetCuts(std::vector<int64_t> frames) { cuts_ = std::move(frames); }
+
   /// The music ends before `frame`.
   void SetAudioEnd(int64_t frame);
 
@@ -155,6 +161,7 @@ class Timeline {
   bool disturbed_ = false;  // the transition that reaches over the frontier
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
+  std::vector<int64_t> cuts_;
   int64_t planned_to_;
   std::deque<Segment> planned_;  // the first one is the current
 };

@@ -192,7 +192,8 @@ void TransitionGroup::Impl::Begin() {
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask};
   AskedTransition asked =
-      AskTransition(request_, model_, controls_, audio_.get(), segment, end, request_.Before());
+      AskTransition(request_, model_, controls_, Recurrence(model_.fps, request_.music_passages),
+                    audio_.get(), segment, end, request_.Before());
   TransitionRequest& transition = asked.request;
   transition.after = request_.after;
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);

@@ -76,7 +76,7 @@ void ValidateTemperature(float temperature, const std::string& field) {
   }
 }
 
-void ValidateMusicDynamics(double share, const std::string& field) {
+void ValidateShare(double share, const std::string& field) {
   if (!(share >= 0 && share <= 1)) throw InvalidArgument(field, Show(share) + " is not in [0, 1]");
 }
 

@@ -43,7 +43,7 @@ void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
 void ValidateTemperature(float temperature, const std::string& field);
 /// Empty, or one of the model's styles.
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field);
-void ValidateMusicDynamics(double share, const std::string& field);
+void ValidateShare(double share, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws
 /// Error(kFailedPrecondition) unless `allow_inexact`; what can't be one throws as the rest.

@@ -87,6 +87,8 @@ PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
       noise_{.seed = spec.seed,
              .candidate = spec.candidate,
              .first_frame = spec.first_frame,
+             .like = spec.noise_like,
+             .variation = spec.variation,
              .temperature = spec.temperature},
       sampler_(std::in_place, parts, network, request_, noise_),
       // The mean way is as lively as it is.

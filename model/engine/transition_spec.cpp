@@ -68,6 +68,11 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
     CheckRows(spec.audio_history, history, model, "audio_history");
     CheckRows(spec.audio_rows, spec.frames, model, "audio_rows");
   }
+  const size_t like = spec.noise_like.size();
+  if (like != 0 && static_cast<int>(like) != spec.frames) {
+    throw InvalidArgument("noise_like", std::to_string(like) + " frames, must be 0 or " +
+                                            std::to_string(spec.frames));
+  }
   const Controls& controls = spec.controls;
   CheckControl(controls.root_path, model.root_path, spec.frames, model, "controls.root_path");
   CheckControl(controls.velocity_factors, model.velocity_factors, spec.frames, model,

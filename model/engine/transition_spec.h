@@ -87,6 +87,10 @@ struct TransitionSpec {
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,
                             ///< absolute frame, dimension)
+  /// [frames] or empty: of each frame the absolute one that it comes back as, whose noise it has
+  /// with so much `variation`, 0 to 1 (FillNormalLike).
+  std::vector<int64_t> noise_like = {};
+  double variation = 0;
   float temperature = 0.3F;
   std::string style = {};  ///< one of the model's, or empty: any
   /// Steers each frame of a model that makes one after another before it makes the next: such a

@@ -20,7 +20,7 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
   Eigen::MatrixXd z(model.prior.dimensions(), frames);
   std::vector<float> normal(static_cast<size_t>(z.rows()));
   for (int i = 0; i < frames; ++i) {
-    FillNormal(noise.seed, noise.candidate, noise.first_frame + i, normal);
+    noise.Fill(i, normal);
     z.col(i) = Eigen::Map<const Eigen::VectorXf>(normal.data(), z.rows()).cast<double>();
   }
   return model.mixing.triangularView<Eigen::Lower>() * z;
@@ -35,7 +35,7 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   }
   // Behind the numbers that the window's first frame is made of.
   std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts));
-  FillNormal(noise.seed, noise.candidate, noise.first_frame, normal);
+  noise.Fill(0, normal);
   EnergyPrior::Levels levels;
   std::copy(normal.end() - kBodyParts, normal.end(), levels.begin());
   // What is added now was added before, so that it is not added again and again.
@@ -154,6 +154,12 @@ bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
 }
 
 }  // namespace
+
+void FlowNoise::Fill(int frame, std::span<float> out) const {
+  const int64_t own = first_frame + frame;
+  FillNormalLike(seed, candidate, own, like.empty() ? own : like[static_cast<size_t>(frame)],
+                 variation, out);
+}
 
 EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
                                  const FlowWindow& window) {

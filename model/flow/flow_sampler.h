@@ -50,10 +50,17 @@ struct FlowNoise {
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of the window's first frame
+  /// Of each frame from the first on, absolute: the one whose numbers it has again, and so much
+  /// `variation` (FillNormalLike). Empty: all have their own.
+  std::vector<int64_t> like = {};
+  double variation = 0;
   /// How far from the mean way (0, in one step) to a sampled one (1) and a little beyond, at most
   /// kMaxFlowTemperature. Noise itself is never scaled: the network would take a calm one for a
   /// calm dancer.
   double temperature = 0;
+
+  /// The numbers of a frame, counted from the first.
+  void Fill(int frame, std::span<float> out) const;
 };
 
 /// What of a window, which is the request's, says how lively it may be.

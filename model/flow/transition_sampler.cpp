@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "model/core/random.h"
 #include "model/motion/canonical.h"
 
 namespace choreo {
@@ -18,7 +17,7 @@ TransitionSampler::TransitionSampler(const FlowModelParts& model, const FlowNetw
   if (request_.turning) return;
   // Behind the numbers that the first frame is made of, and those of its energy.
   std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts + 1));
-  FillNormal(noise.seed, noise.candidate, noise.first_frame, normal);
+  noise.Fill(0, normal);
   request_.turning = model.turns.Sample(model.skeleton, request_, normal.back(), noise.temperature);
 }
 
@@ -34,6 +33,7 @@ void TransitionSampler::BeginWindow() {
   ground_ = GroundFrame::Of(emitted_.back());
   FlowNoise noise = noise_;
   noise.first_frame += frames_;
+  if (!noise.like.empty()) noise.like.erase(noise.like.begin(), noise.like.begin() + frames_);
   window_.emplace(
       *model_, *network_,
       request_.Part(frames_, frames, std::span(emitted_).last(request_.history.size()), ground_),

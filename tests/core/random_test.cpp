@@ -99,6 +99,30 @@ TEST(FillNormalTest, DependsOnItsCoordinatesAloneWhateverTheOrderAndWidth) {
 
 // Bits are promised from run to run; these pin them from build to build, too: the same seed must go
 // on giving the same dance.
+TEST(FillNormalTest, WhatComesBackIsLikeItAsFarAsItDoesNotVary) {
+  const auto like = [](double variation) {
+    std::vector<float> out(50'000);
+    FillNormalLike(7, 3, 900, 100, variation, out);
+    return out;
+  };
+  std::vector<float> first(50'000), own(50'000);
+  FillNormal(7, 3, 100, first);
+  FillNormal(7, 3, 900, own);
+  EXPECT_EQ(like(0), first);
+  EXPECT_EQ(like(1), own);
+  const std::vector<float> between = like(0.6);
+  double with_first = 0, squares = 0;
+  for (size_t i = 0; i < between.size(); ++i) {
+    with_first += static_cast<double>(between[i]) * first[i];
+    squares += static_cast<double>(between[i]) * between[i];
+  }
+  EXPECT_NEAR(squares / 50'000, 1, 0.03);
+  EXPECT_NEAR(with_first / 50'000, 0.8, 0.03);
+  std::vector<float> itself(50'000);
+  FillNormalLike(7, 3, 100, 100, 0.6, itself);
+  EXPECT_EQ(itself, first);
+}
+
 TEST(FillNormalTest, KeepsItsBits) {
   EXPECT_THAT(Noise(42, 3, 1000, 6), ElementsAre(-0x1.52d69ap-2F, -0x1.b90c62p-1F, 0x1.d54a2cp-2F,
                                                  0x1.77fa92p-1F, 0x1.ea526ap-6F, 0x1.5636b4p-4F));

@@ -29,7 +29,7 @@ Message RandomMessage(int64_t granted, int64_t frames, std::mt19937& random) {
     return std::max<int64_t>(0, granted + least + static_cast<int64_t>(random() % range));
   };
   const std::string id(1, static_cast<char>('a' + random() % 8));
-  switch (random() % 8) {
+  switch (random() % 9) {
     case 0:
     case 1: {
       const Key key{id, std::min(ahead(-10, 120), frames - 1), RandomPose(random), {}};
@@ -42,6 +42,12 @@ Message RandomMessage(int64_t granted, int64_t frames, std::mt19937& random) {
       request.velocity_factors.emplace().values = {0.5F +
                                                    0.01F * static_cast<float>(random() % 100)};
       return [request](DanceStream& stream) { stream.SetControls(request); };
+    }
+    case 4: {
+      const double from = static_cast<double>(ahead(-10, 200)) / 30 + 0.1;
+      const std::vector<Passage> passages{{from, from + 0.1 * static_cast<double>(random() % 60),
+                                           from * 0.01 * static_cast<double>(random() % 90)}};
+      return [passages](DanceStream& stream) { stream.GivePassages(passages); };
     }
     default: {
       std::vector<double> beats{static_cast<double>(ahead(-10, 200)) / 30};

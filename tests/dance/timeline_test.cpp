@@ -54,6 +54,26 @@ std::string Refusal(Call call, ErrorCode code = ErrorCode::kInvalidArgument) {
   return "";
 }
 
+TEST(Timeline, TransitionsWithoutAKeyEndAtCuts) {
+  Timeline timeline({.end_frame = 400});
+  timeline.SetCuts({70, 100, 300});
+  timeline.GenerateUntil(400);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 70, ""},
+                                                {70, 100, ""},
+                                                {100, 160, ""},
+                                                {160, 220, ""},
+                                                {220, 300, ""},
+                                                {300, 360, ""},
+                                                {360, 420, ""}}));
+}
+
+TEST(Timeline, TransitionsToAKeyKnowNoCuts) {
+  Timeline timeline({});
+  timeline.SetCuts({20});
+  EXPECT_EQ(Set(timeline, "a", AtFrame{40}), std::nullopt);
+  EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 41, "a"}}));
+}
+
 TEST(Timeline, EachKeyGrantsUpToItself) {
   Timeline timeline({});
   EXPECT_EQ(Set(timeline, "a", AtFrame{30}), std::nullopt);

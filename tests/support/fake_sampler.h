@@ -61,7 +61,10 @@ class FakeSampling : public Sampling {
 
   bool Continue() override {
     const auto frame = static_cast<int>(plan_.poses.size());
-    FillNormal(spec_.seed, spec_.candidate, spec_.first_frame + frame, noise_);
+    const int64_t own = spec_.first_frame + frame;
+    const int64_t like =
+        spec_.noise_like.empty() ? own : spec_.noise_like[static_cast<size_t>(frame)];
+    FillNormalLike(spec_.seed, spec_.candidate, own, like, spec_.variation, noise_);
     double music = 0;
     if (spec_.has_audio && model_.hears_music)
       music = std::tanh(spec_.audio_rows.col(frame).cast<double>().sum() / 100.0);

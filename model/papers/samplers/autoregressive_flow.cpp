@@ -41,8 +41,9 @@ class TransitionWindow {
   Eigen::MatrixXf audio_rows_;
 
   int frame_ = 0;
-  FrameNoise noise_;  // of the frame
-  Pose last_;         // danced before it
+  FrameNoise noise_;           // of the frame
+  std::vector<int64_t> like_;  // TransitionSpec::noise_like
+  Pose last_;                  // danced before it
   JointPlacement last_placement_;
   ContactDetector contacts_;
 
@@ -58,7 +59,12 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
       audio_(static_cast<size_t>((model.history_frames + 1) * model.audio_features)),
       hears_(spec.has_audio && model.hears_music),
       audio_rows_(spec.audio_rows),
-      noise_{spec.seed, spec.first_frame, spec.candidate, spec.temperature},
+      noise_{.seed = spec.seed,
+             .frame = spec.first_frame,
+             .candidate = spec.candidate,
+             .spread = spec.temperature,
+             .variation = spec.variation},
+      like_(spec.noise_like),
       last_(spec.history.back()),
       contacts_(model.skeleton) {
   const int tau = model.history_frames;
@@ -105,6 +111,7 @@ void TransitionWindow::FillRow(FlowRow* row) const {
   row->audio = audio_;
   row->has_audio = hears_;
   row->noise = noise_;
+  row->noise.like = like_.empty() ? noise_.frame : like_[static_cast<size_t>(frame_)];
 }
 
 const PoseCodec::Decoded& TransitionWindow::Finish(const FlowRow& row) {

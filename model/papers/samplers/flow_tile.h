@@ -16,14 +16,16 @@ struct FrameNoise {
   int64_t frame = 0;  ///< absolute
   uint32_t candidate = 0;
   float spread = 0;  ///< standard deviation: temperature applied
+  int64_t like = 0;  ///< absolute: the frame that it comes back as, with so much `variation`
+  double variation = 0;
 
-  /// FillNormal's numbers times the spread.
+  /// FillNormalLike's numbers times the spread.
   void Fill(std::span<float> out) const {
     if (spread == 0) {
       std::ranges::fill(out, 0.0F);
       return;
     }
-    FillNormal(seed, candidate, frame, out);
+    FillNormalLike(seed, candidate, frame, like, variation, out);
     for (float& value : out) value *= spread;
   }
 };

@@ -1,0 +1,112 @@
+#include "model/dance/recurrence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/dance/dances.h"
+#include "tests/support/expect_error.h"
+
+/// Music that comes back, and the dance with it.
+namespace choreo::recurrence_test {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(Recurrence, AFrameIsLikeTheFirstOneThatItComesBackAs) {
+  const std::vector<Passage> passages{{10, 20, 0}, {30, 40, 12}};
+  const Recurrence recurrence(30, passages);
+  EXPECT_EQ(recurrence.Origin(299), 299);
+  EXPECT_EQ(recurrence.Origin(300), 0);
+  EXPECT_EQ(recurrence.Origin(599), 299);
+  EXPECT_EQ(recurrence.Origin(600), 600);
+  EXPECT_EQ(recurrence.Origin(900), 60) << "12 s, which was 2 s";
+  EXPECT_THAT(recurrence.Origins(100, 200), IsEmpty());
+  EXPECT_THAT(recurrence.Origins(298, 302), ElementsAre(298, 299, 0, 1));
+}
+
+TEST(Recurrence, ALoopIsLikeItsFirstRound) {
+  const std::vector<Passage> passages{{2, 12, 0}};
+  const Recurrence recurrence(30, passages);
+  EXPECT_EQ(recurrence.Origin(60), 0);
+  EXPECT_EQ(recurrence.Origin(60 * 5 + 7), 7);
+}
+
+TEST(Recurrence, WhatIsGivenLaterHoldsBehindTheFrozenFrames) {
+  const std::vector<Passage> first{{10, 20, 0}}, later{{12, 30, 4}};
+  Recurrence recurrence(30, first);
+  recurrence.Give(later, 450);
+  EXPECT_EQ(recurrence.Origin(449), 149) << "frozen: as it was";
+  EXPECT_EQ(recurrence.Origin(450), 210);
+  const std::vector<Passage> none{{20, 20, 0}};
+  recurrence.Give(none, 0);
+  EXPECT_EQ(recurrence.Origin(599), 59) << "359, which was 59";
+  EXPECT_EQ(recurrence.Origin(600), 600) << "it ended there";
+}
+
+TEST(Recurrence, OneThatGoesOnHasCutsAtItsEndsAlone) {
+  Recurrence recurrence(30, {});
+  for (int second = 20; second < 26; ++second) {
+    const std::vector<Passage> heard{{1.0 * second, second + 4.0, second - 15.0}};
+    recurrence.Give(heard, 0);
+  }
+  EXPECT_THAT(recurrence.cuts(), ElementsAre(150, 420, 600, 870));
+}
+
+TEST(Recurrence, PassagesAreRefusedByNameValueAndLimit) {
+  const auto refuses = [](const std::vector<Passage>& passages, const std::string& message) {
+    ExpectError(ErrorCode::kInvalidArgument, message, [&] { CheckPassages(passages, "p"); });
+  };
+  refuses({{10, 9, 0}}, "p[0].to: 9 s is not in [10, 600]");
+  refuses({{10, 12, 10}}, "p[0].like: 10 s is not in [0, 10)");
+  refuses({{10, 12, 0}, {11, 14, 0}}, "p[1].from: 11 s is not in [12, 600)");
+  refuses({{600, 700, 0}}, "p[0].from: 600 s is not in [0, 600)");
+  refuses({{std::nan(""), 12, 0}}, "p[0].from: nan s");
+  refuses(std::vector<Passage>(1001), "p: 1001 passages, the limit is 1000");
+}
+
+// The music of seconds 0 to 6 comes back at 8: noise decides what this dancer does.
+Recording DanceTo(std::vector<Passage> passages, double variation, const std::vector<Key>& keys) {
+  const auto queue = QueueOf<FakeSampler>();
+  Dance dance = RandomDance(3, 16);
+  dance.keys = keys;
+  dance.config.temperature = 1;
+  dance.config.end_frame = 420;
+  dance.config.music_passages = std::move(passages);
+  dance.config.variation = variation;
+  return Perform(*queue, dance);
+}
+
+double Apart(const Recording& dance, size_t a, size_t b) {
+  double sum = 0;
+  for (size_t i = 1; i < 120; ++i) {  // of steps: places differ
+    const auto step = [&](size_t at) -> Eigen::Matrix3Xd {
+      return dance.poses[at + i].rotations - dance.poses[at + i - 1].rotations;
+    };
+    sum += (step(a) - step(b)).norm();
+  }
+  return sum;
+}
+
+TEST(RecurringDance, ComesBackAsMuchAsItIsNotToVary) {
+  const std::vector<Passage> passages{{8, 14, 0}};
+  const Recording apart = DanceTo({}, 0, {});
+  ASSERT_TRUE(apart.summary) << apart.error->what();
+  const double usual = Apart(apart, 60, 300);
+  const double same = Apart(DanceTo(passages, 0, {}), 60, 300);  // but for what went before
+  EXPECT_LT(same, 0.4 * usual);
+  const double varied = Apart(DanceTo(passages, 0.5, {}), 60, 300);
+  EXPECT_GT(varied, 1.5 * same);
+  EXPECT_LT(varied, 0.9 * usual);
+  EXPECT_TRUE(SameDance(DanceTo(passages, 1, {}), DanceTo(passages, 1, {})));
+}
+
+TEST(RecurringDance, HitsItsKeysAllTheSame) {
+  std::mt19937 random(1);
+  const std::vector<Key> keys{{"a", 290, RandomPose(random), {}}};
+  const Recording dance = DanceTo({{8, 14, 0}}, 0, keys);
+  ASSERT_TRUE(dance.summary) << dance.error->what();
+  ASSERT_EQ(dance.reached.size(), 1U);
+  EXPECT_LT(dance.reached[0].arrival.final_error_m, 1e-3);
+}
+
+}  // namespace choreo::recurrence_test
