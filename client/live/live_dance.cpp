@@ -1,11 +1,13 @@
 #include "client/live/live_dance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 #include <utility>
 #include <variant>
 
+#include "client/live/passage_ear.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
 
@@ -69,6 +71,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   int64_t samples = 0;
   double now = 0, told = 0;
   bool clock_missed = midi == nullptr;
+  PassageEar ear(sound.sample_rate(), sound.channels());
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;
@@ -82,6 +85,8 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
       clock_missed = true;
       if (!midi->runs()) Note("no MIDI clock was started yet; until it is, beats are heard");
     }
+    if (const std::optional<Passage> passage = ear.Hear(piece))
+      dance_->SendPassages(std::array{*passage});
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);
     dance_->SendSamples(piece);

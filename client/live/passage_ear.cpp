@@ -1,0 +1,36 @@
+#include "client/live/passage_ear.h"
+
+#include <cmath>
+
+namespace choreo::live {
+namespace {
+
+// Moments from one telling to the next.
+const auto kEvery = std::lround(1 / PassageListener::kMomentSeconds);
+
+}  // namespace
+
+PassageEar::PassageEar(double sample_rate, int channels) : resampler_(sample_rate, channels) {}
+
+std::optional<Passage> PassageEar::Hear(std::span<const float> interleaved) {
+  resampler_.Push(interleaved);
+  resampler_.Pull(mono_);
+  std::optional<Passage> told;
+  while (mono_.size() >= PassageListener::kWindow) {
+    listener_.Add(std::span(mono_).first(PassageListener::kWindow));
+    mono_.erase(mono_.begin(), mono_.begin() + PassageListener::kHop);
+    const std::optional<int64_t> lag = listener_.Lag();
+    const int64_t now = listener_.moments();
+    if (lag == told_lag_ && (!lag || now - told_at_ < kEvery)) continue;
+    const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
+    // One that ends has no length: what was told ahead does not hold any more.
+    told = Passage{
+        from, lag ? from + kAheadSeconds : from,
+        from - static_cast<double>(lag.value_or(*told_lag_)) * PassageListener::kMomentSeconds};
+    told_lag_ = lag;
+    told_at_ = now;
+  }
+  return told;
+}
+
+}  // namespace choreo::live
