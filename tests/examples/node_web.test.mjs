@@ -1,0 +1,164 @@
+// examples/node/web.js: a back end whose page watches a dance and changes it. $CHOREO_SERVER names a choreod, $CHOREOD the program of it.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { fileURLToPath } from 'node:url';
+import { ChoreoClient } from '../../client/node/src/index.js';
+import { withServer } from './servers.mjs';
+
+const other = process.env.CHOREO_SERVER;
+const program = fileURLToPath(new URL('../../examples/node/web.js', import.meta.url));
+
+/** The back end, with dances of six seconds, until `use(address)` is done. */
+async function withBackend(servers, use) {
+  const flags = [...servers.flatMap((server) => ['--server', server]), '--port', '0', '--seconds', '6', '--speed', '2'];
+  const backend = spawn(process.execPath, [program, ...flags], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const over = once(backend, 'exit');
+  try {
+    const [address] = await once(createInterface({ input: backend.stdout }), 'line');
+    await use(address);
+  } finally {
+    backend.kill('SIGINT');
+  }
+  assert.deepEqual(await over, [0, null], 'Ctrl-C ends it');
+}
+
+/** What a page hears: [event, data]. */
+async function* eventsOf(response) {
+  let text = '';
+  for await (const piece of response.body.pipeThrough(new TextDecoderStream())) {
+    text += piece;
+    for (let end; (end = text.indexOf('\n\n')) >= 0; text = text.slice(end + 2)) {
+      const [, event, data] = /^event: (\w+)\ndata: (.*)$/.exec(text.slice(0, end));
+      yield [event, JSON.parse(data)];
+    }
+  }
+}
+
+/** Watches a dance to its end. `each(seconds that have come, its id)` acts on the way. */
+async function watch(address, each = () => {}) {
+  const response = await fetch(`${address}/dance?seed=7`);
+  assert.equal(response.headers.get('content-type'), 'text/event-stream');
+  let id;
+  let frames = 0;
+  const heard = [];
+  for await (const [event, data] of eventsOf(response)) {
+    if (event === 'dance') id = data.id;
+    if (event !== 'frames') heard.push([event, data]);
+    else {
+      assert.equal(data.first, frames, 'no frame is missing, none comes twice');
+      assert.equal(data.turns.length / data.places.length, (4 * 24) / 3);
+      frames += data.places.length / 3;
+      await each(frames / 30, id);
+    }
+  }
+  return { frames, heard: heard.slice(1) };
+}
+
+const key = (id, time, rotations = { left_shoulder: [0, 0, 1], head: [0, 0.4, 0] }) => ({ id, time, rotations });
+
+async function ask(address, id, body) {
+  const answer = await fetch(`${address}/dance/${id}/keys`, { method: 'POST', body: typeof body === 'string' ? body : JSON.stringify(body) });
+  return [answer.status, await answer.text()];
+}
+
+test('a page adds and moves keys while it watches, and a replica that is killed costs no frame', () =>
+  withServer([], (one) =>
+    withBackend([one.address, other], async (address) => {
+      const asked = [];
+      let killed = false;
+      const { frames, heard } = await watch(address, async (second, id) => {
+        if (asked.length === 0 && second > 1) asked.push(await ask(address, id, key('wave', 4)));
+        if (asked.length === 1 && second > 1.3) asked.push(await ask(address, id, key('wave', 4.5)));
+        if (!killed && second > 2) killed = (one.kill(), true);
+        if (asked.length === 2 && second > 2.5) asked.push(await ask(address, id, key('bow', 5.5, { spine1: [0.5, 0, 0] })));
+      });
+      assert.deepEqual(asked, Array(3).fill([202, '']));
+      assert.equal(frames, 180);
+      assert.deepEqual(heard[0], ['moved', { address: other, frame: heard[0][1].frame }]);
+      assert.ok(heard[0][1].frame > 60, heard[0][1].frame);
+      assert.deepEqual(heard.slice(1), [['key', { id: 'wave', time: 4.5 }], ['key', { id: 'bow', time: 5.5 }], ['over', { frames: 180 }]]);
+    }),
+  ));
+
+test('a key that cannot be danced is refused, and the dance goes on', () =>
+  withBackend([other], async (address) => {
+    const refused = [];
+    const { frames, heard } = await watch(address, async (second, id) => {
+      if (second < 1 || refused.length > 0) return;
+      assert.equal((await ask(address, id, key('wave', 5)))[0], 202);
+      for (const body of [
+        'no JSON',
+        'null',
+        key('', 3),
+        key('now', 0.5),
+        key('end', 6),
+        key('text', 'soon'),
+        key('near', 5.03),
+        key('none', 4, {}),
+        key('tail', 4, { tail: [0, 0, 1] }),
+        key('turn', 4, { head: [0, 0, 7] }),
+        key('long', 4, { head: 'x'.repeat(70000) }),
+      ]) {
+        refused.push(await ask(address, id, body));
+      }
+    });
+    const said = refused.map(([status, text]) => `${status} ${text.trimEnd()}`);
+    assert.match(said.splice(3, 1)[0], /^409 time: all before [\d.]+ s is settled$/);
+    assert.deepEqual(said, [
+      '400 this is no JSON',
+      '400 id: undefined is no text of 1 to 64 characters',
+      '400 id:  is no text of 1 to 64 characters',
+      '400 time: 6 is not before the end, 6 s',
+      '400 time: soon is not before the end, 6 s',
+      '409 time: 5.03 is where wave is',
+      '400 rotations: they turn no joint',
+      '400 rotations: there is no joint tail',
+      '400 rotations.head: 0,0,7 is no axis times an angle up to 2 pi',
+      '413 more than 65536 characters',
+    ]);
+    assert.equal(frames, 180);
+    assert.deepEqual(heard, [['key', { id: 'wave', time: 5 }], ['over', { frames: 180 }]]);
+    assert.deepEqual(await ask(address, 'nobody', key('late', 4)), [404, 'nobody dances nobody\n']);
+    for (const [path, status] of [['/', 200], ['/favicon.ico', 404], ['/dance?seed=x', 400]]) {
+      const answer = await fetch(address + path);
+      assert.equal(answer.status, status, await answer.text());
+    }
+  }));
+
+test('a page that is closed ends its dance on the server', () =>
+  withServer([], ({ address: server }) =>
+    withBackend([server], async (address) => {
+      const client = new ChoreoClient(server);
+      try {
+        for await (const [event] of eventsOf(await fetch(`${address}/dance`))) if (event === 'frames') break;
+        while ((await client.info()).active_streams > 0) await sleep(5);
+      } finally {
+        client.close();
+      }
+    }),
+  ));
+
+test('a page is told why nobody dances', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'choreo-'));
+  try {
+    await writeFile(join(folder, 'tokens'), `${'0'.repeat(64)} nobody\n`);
+    await withServer(['--tokens', join(folder, 'tokens')], ({ address: server }) =>
+      withBackend([server], async (address) => {
+        const heard = [];
+        for await (const told of eventsOf(await fetch(`${address}/dance`))) heard.push(told);
+        const [[event, { code, message }]] = heard;
+        assert.deepEqual([heard.length, event, code], [1, 'failed', 'UNAUTHENTICATED']);
+        assert.match(message, /^a token is needed/);
+      }),
+    );
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+});
