@@ -27,7 +27,7 @@ except ImportError:
     sys.exit(int(os.environ.get("CHOREO_SKIP_CODE", 77)))
 
 STAND_IN = pathlib.Path(__file__).resolve().parent / "stand_in.py"
-PROGRAMS = "choreo choreod choreo-lab make cmake docker node npm python3 curl".split()
+PROGRAMS = "choreo choreod choreo-lab make cmake docker node npm npx python3 curl".split()
 ORDINARY = "cd cp mkdir token= scripts/ tests/ ./ build/ /usr/bin/python3".split()
 # Whose options are not ours, though pages name them.
 OTHERS = ("bench/live.py", "ctest", "engine_bench", "fit_test", "load ", "npm", "perf", "soak")

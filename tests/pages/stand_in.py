@@ -23,6 +23,7 @@ LOOKED_UP = {
     "scripts": "want recordings, or a while; make demo, make bench and make verify run what they need",
     "node": "plays music as it sounds; Examples.Node runs these programs",
     "npm": "fetches packages; Examples.Node does",
+    "npx": "runs what npm fetched; Examples.Node does",
     "python3": "plays music as it sounds; Examples.Python runs these programs",
     "first_dance": "is built by the command before; ExampleTest runs it",
     "tests": "are programs of make verify",
