@@ -1,4 +1,4 @@
-// Makes several ways from rest to a pose, best first:
+// Makes several ways from rest to a pose, best first, and says what they are ranked by:
 //   node transition.js [--server HOST:PORT]... [--frames 45] [--candidates 3] [--seed 1]
 import { pose } from 'choreo-client';
 import { clicks, pcm } from './music.js';
@@ -30,11 +30,11 @@ await run(flags, async (client, options, signal) => {
     } else if (answer.response === 'summary') {
       console.log();
       for (const { candidate, report } of answer.summary.candidates) {
-        const key = report.keyframes[0].errors;
-        console.log(
-          `candidate ${candidate}: ${came.get(candidate)} frames, the model's own miss ${(100 * key.raw_error_m).toFixed(1)} cm, ` +
-            `left of it ${(1000 * key.final_error_m).toFixed(3)} mm, skating ${(100 * report.skate_ratio).toFixed(0)} %`,
-        );
+        // What they are ranked by, in this order.
+        const steered = (100 * report.keyframes[0].errors.correction_m).toFixed(1);
+        const unsupported = report.support === undefined ? '?' : (100 * (1 - report.support)).toFixed(0);
+        const skating = (100 * report.skate_ratio).toFixed(1);
+        console.log(`candidate ${candidate}: ${came.get(candidate)} frames, steered ${steered} cm, without support ${unsupported} %, skating ${skating} %`);
       }
     }
   }

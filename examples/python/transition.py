@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes several ways from rest to a pose, best first."""
+"""Makes several ways from rest to a pose, best first, and says what they are ranked by."""
 
 import collections
 import sys
@@ -35,11 +35,13 @@ def main():
             elif answer.HasField("summary"):
                 print()
                 for ranked in answer.summary.candidates:
-                    key = ranked.report.keyframes[0].errors
+                    report = ranked.report
+                    # What they are ranked by, in this order.
+                    unsupported = f"{100 * (1 - report.support):.0f}" if report.HasField("support") else "?"
                     print(
                         f"candidate {ranked.candidate}: {frames[ranked.candidate]} frames, "
-                        f"the model's own miss {100 * key.raw_error_m:.1f} cm, left of it {1000 * key.final_error_m:.3f} mm, "
-                        f"skating {100 * ranked.report.skate_ratio:.0f} %"
+                        f"steered {100 * report.keyframes[0].errors.correction_m:.1f} cm, "
+                        f"without support {unsupported} %, skating {100 * report.skate_ratio:.1f} %"
                     )
 
 

@@ -200,7 +200,7 @@ test('options that are no numbers, and songs that are missing, are named', async
 test('transition.js ranks candidates, and shows the field of an error', async () => {
   const good = await program('transition.js', '--frames', '20', '--candidates', '4');
   assert.equal(good.code, 0, good.err);
-  assert.equal(good.out.match(/candidate \d: 20 frames/g).length, 4);
+  assert.equal(good.out.match(/^candidate \d: 20 frames, steered \d+\.\d cm, without support \d+ %, skating \d+\.\d %$/gm).length, 4);
   const bad = await program('transition.js', '--frames', '5000');
   assert.equal(bad.code, 1);
   assert.match(bad.err, /INVALID_ARGUMENT: frames: 5000/);

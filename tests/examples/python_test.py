@@ -133,7 +133,8 @@ class PythonTest(unittest.TestCase):
     def test_transition_ranks_candidates_and_shows_the_field_of_an_error(self):
         good = program("transition.py", "--frames", 20, "--candidates", 4)
         self.assertEqual(good.returncode, 0, good.stderr)
-        self.assertEqual(len(re.findall(r"candidate \d: 20 frames", good.stdout)), 4)
+        ranked = r"(?m)^candidate \d: 20 frames, steered \d+\.\d cm, without support \d+ %, skating \d+\.\d %$"
+        self.assertEqual(len(re.findall(ranked, good.stdout)), 4, good.stdout)
         bad = program("transition.py", "--frames", 5000)
         self.assertEqual(bad.returncode, 1)
         self.assertIn("INVALID_ARGUMENT: frames: 5000", bad.stderr)
