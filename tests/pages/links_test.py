@@ -56,19 +56,23 @@ class PagesTest(unittest.TestCase):
                 self.assertLessEqual(words, limit, f"{page} is too long")
 
     def test_decisions_take_a_hundred_words_and_experiments_fifty(self):
-        decisions = re.sub(r"\n## .*\n", "", (ROOT / "docs/decisions.md").read_text())
-        records = re.split(r"\n(?=\d+\. \*\*)", decisions)[1:]
-        for record in records:
-            self.assertLessEqual(len(record.split()), 101, record)  # with its number
-        numbers = {record.partition(".")[0] for record in records}
-        self.assertEqual(len(numbers), len(records), "a number is there twice")
+        places, titles, texts = {}, {}, []
+        for path in sorted((ROOT / "docs/decisions").iterdir()):
+            for record in re.split(r'\n\n(?=<a id="\d+">)', path.read_text())[1:]:
+                number, title, text = re.fullmatch(r'<a id="(\d+)"></a>\*\*\1\. (.*?)\*\*(.*)', record.strip(), flags=re.S).groups()
+                self.assertLessEqual(len((title + text).split()), 101, record)
+                self.assertNotIn(number, places, "a number is there twice")
+                places[number], titles[number] = f"decisions/{path.name}#{number}", " ".join(title.split()).rstrip(".")
+                texts.append(title + text)
+        index = re.findall(r"^\| \[(\d+)\]\((.*?)\) \| (.*?) \| .+ \|$", (ROOT / "docs/decisions.md").read_text(), flags=re.M)
+        self.assertEqual(sorted(index), sorted((number, places[number], titles[number]) for number in places), "the index has each decision")
         rows = [row for row in (ROOT / "docs/experiments.md").read_text().splitlines() if row.startswith("| ")]
         self.assertGreater(len(rows), 10)
         for row in rows:
             self.assertLessEqual(len(row.replace("|", "").split()), 50, row)
         tried = " ".join(row.split("|")[1] for row in rows)
-        named = re.findall(r"(?:decision|see) (\d+)", decisions) + re.findall(r"\((\d+)\)", tried)
-        self.assertLessEqual(set(named), numbers, "there is no such decision")
+        named = re.findall(r"(?:decision|see) (\d+)", " ".join(texts)) + re.findall(r"\((\d+)\)", tried)
+        self.assertLessEqual(set(named), set(places), "there is no such decision")
 
     def test_pictures_are_quick_to_fetch(self):
         self.assertLess(sum(picture.stat().st_size for picture in (ROOT / "docs/images").iterdir()), PICTURES)
