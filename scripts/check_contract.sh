@@ -1,33 +1,45 @@
 #!/usr/bin/env bash
-# Checks that every test named in docs/contract.md is one that ctest knows, and every `make` target one of the Makefile.
-#   scripts/check_contract.sh BUILD_DIRECTORY [REPORT [PAGE]]
+# Checks that every test named in docs/contract/ is one that ctest knows, and every `make` target one of the Makefile.
+#   scripts/check_contract.sh BUILD_DIRECTORY [REPORT [PAGE...]]
 # REPORT is what `ctest --output-junit` wrote: a name of tests that were all skipped is refused, too.
 set -euo pipefail
-page=$(realpath "${3:-$(dirname "$0")/../docs/contract.md}")
+pages=("${@:3}")
+((${#pages[@]})) || pages=("$(dirname "$0")"/../docs/contract/*.md)
+mapfile -t pages < <(realpath "${pages[@]}")
+build=$1
 report=${2:+$(realpath "$2")}
 cd "$(dirname "$0")/.."
 tests() { ctest --test-dir "$1" -N | sed -n 's/  # GetParam.*//; s/^ *Test *#[0-9]*: //p'; }
 targets() { sed -nE 's/^([a-z]+):.*/make \1/p' Makefile; }
 skipped() { [[ -z $report ]] || grep -oE '<testcase name="[^"]*".* status="notrun"' "$report" | sed 's/  # GetParam[^"]*//; s/<testcase name="//; s/".*//'; }
 # Names stand in backticks behind the first column of a table; a test's begins with a capital, or a * in its place, and has a dot.
-names() { sed -n 's/^|[^|]*|\(.*\)|$/\1/p' "$page" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`'; }
-awk -v page="$page" '
-  FILENAME == ARGV[1] { ran[$0] = 1; next }
-  FILENAME == ARGV[2] { delete ran[$0]; skipped[$0] = 1; next }
-  { ++count }
-  $0 in ran { next }
-  {
-    pattern = "^" $0 "$"
-    gsub(/\./, "[.]", pattern)
-    gsub(/\*/, ".*", pattern)
-    for (test in ran) if (test ~ pattern) next
-    why = "there is no " $0
-    for (test in skipped) if (test ~ pattern) why = $0 " was skipped"
-    print page ": " why >"/dev/stderr"
-    missing = 1
-  }
-  END {
-    if (!count) { print page ": names no test" >"/dev/stderr"; exit 1 }
-    print count " names looked up"
-    exit missing
-  }' <(tests "$1"; targets) <(skipped) <(names)
+names() { sed -n 's/^|[^|]*|\(.*\)|$/\1/p' "$1" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`'; }
+check() {
+  awk -v page="$1" '
+    FILENAME == ARGV[1] { ran[$0] = 1; next }
+    FILENAME == ARGV[2] { delete ran[$0]; skipped[$0] = 1; next }
+    { ++count }
+    $0 in ran { next }
+    {
+      pattern = "^" $0 "$"
+      gsub(/\./, "[.]", pattern)
+      gsub(/\*/, ".*", pattern)
+      for (test in ran) if (test ~ pattern) next
+      why = "there is no " $0
+      for (test in skipped) if (test ~ pattern) why = $0 " was skipped"
+      print page ": " why >"/dev/stderr"
+      missing = 1
+    }
+    END {
+      if (!count) { print page ": names no test" >"/dev/stderr"; exit 1 }
+      print page ": " count " names looked up"
+      exit missing
+    }' "$scratch/ran" "$scratch/skipped" <(names "$1")
+}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+(tests "$build"; targets) >"$scratch/ran"
+skipped >"$scratch/skipped" || true  # there may be none
+rc=0
+for page in "${pages[@]}"; do check "$page" || rc=1; done
+exit "$rc"
