@@ -29,7 +29,7 @@ LOOKED_UP = {
     "tests": "are programs of make verify",
 }
 # What makes a film quick.
-SMALL = ["--size", "160x120", "--fps", "4"]
+SMALL = {"--size": "160x120", "--fps": "4"}
 
 
 def fail(said):
@@ -85,7 +85,13 @@ def choreo(arguments):
     elif subcommand == "live":
         serve("choreo", arguments, "1 s: ", signal.SIGINT)
     else:
-        run("choreo", arguments + (SMALL if "--video" in arguments else []))
+        if "--video" in arguments:
+            for name, value in SMALL.items():
+                if name in arguments:
+                    arguments[arguments.index(name) + 1] = value
+                else:
+                    arguments += [name, value]
+        run("choreo", arguments)
 
 
 def curl(arguments):
