@@ -100,7 +100,7 @@ double BeatTime(const PlanContext& context, int frames, double t) {
 // Between poses a cubic (Catmull-Rom, rotations in the tangent space of the pose before) keeps what
 // is smooth smooth.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
-  if (context.beats.empty() || context.has_path) return;
+  if (context.beats.empty()) return;
   const auto& history = context.history;
   // Two poses in front, and one behind that goes on as the last two go.
   Curve curve;
@@ -118,6 +118,13 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
     Pose& pose = (*plan)[static_cast<size_t>(frame)];
     pose.root_position.setZero();
     for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
+    // Where a path says when to be where, time is not the beats' to bend.
+    const Eigen::Vector3d& planned = curve.positions[static_cast<size_t>(frame) + 2];
+    if (context.has_path) {
+      pose.root_position.x() = planned.x();
+      pose.root_position.z() = planned.z();
+    }
+    if (context.has_heights) pose.root_position.y() = planned.y();
     for (size_t joint = 0; joint < curve.rotations[at].size(); ++joint) {
       // In the tangent space of the pose before; back from it leads the step before, turned round.
       const Eigen::Vector3d turn = -weights[0] * curve.steps[at - 1][joint] +

@@ -35,7 +35,7 @@ void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
 
 /// The dancer of a plan goes fastest on the music's beats, which is what a kinematic beat is (paper
-/// F, Section 4.2). Where a path says when to be where, time is not the beats' to bend.
+/// F, Section 4.2). Where a path says where the root is, and how high, the root keeps to it.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 
 /// Where on a plan of so many frames it takes the pose of frame `t` from, in frames; t in [-1,

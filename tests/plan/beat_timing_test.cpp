@@ -93,6 +93,37 @@ TEST(BeatTiming, SpeedPeaksOnTheBeats) {
   EXPECT_NEAR((timed.back().rotations - plan.back().rotations).norm(), 0, 1e-9);
 }
 
+TEST(BeatTiming, KeepsToAPathAndBendsTheTimeOfLimbsAlone) {
+  const std::vector<Pose> plan = EvenWalk(90);
+  const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
+  const std::vector<double> beats = EveryFifteen(-8, 110);
+  const auto timed = [&](bool has_path, bool has_heights) {
+    std::vector<Pose> poses = plan;
+    for (size_t t = 0; t < poses.size(); ++t)
+      poses[t].root_position.y() += 0.001 * static_cast<double>(t);
+    TimeToBeats({.skeleton = Skeleton::Smpl24(),
+                 .history = before,
+                 .beats = beats,
+                 .has_path = has_path,
+                 .has_heights = has_heights,
+                 .fps = 30},
+                &poses);
+    return poses;
+  };
+  const std::vector<Pose> free = timed(false, false), led = timed(true, false),
+                          lifted = timed(true, true);
+  double bent = 0;
+  for (size_t t = 0; t < plan.size(); ++t) {
+    EXPECT_EQ(led[t].rotations, free[t].rotations);
+    EXPECT_NEAR(led[t].root_position.x(), plan[t].root_position.x(), 1e-12);
+    EXPECT_EQ(led[t].root_position.y(), free[t].root_position.y());
+    EXPECT_NEAR(lifted[t].root_position.y(),
+                plan[t].root_position.y() + 0.001 * static_cast<double>(t), 1e-12);
+    bent = std::max(bent, std::abs(free[t].root_position.x() - plan[t].root_position.x()));
+  }
+  EXPECT_GT(bent, 0.01);
+}
+
 TEST(BeatTiming, AnEvenCurveStaysOnItself) {
   const std::vector<Pose> plan = EvenWalk(40);
   const std::vector<Pose> before = {RestPose(Skeleton::Smpl24())};
