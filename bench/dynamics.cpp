@@ -1,6 +1,6 @@
-// How far music's energy is seen in a dance: free dances of live streams, as they are served, to
-// songs of which a part is drums, a pad, or silent, and to whole songs. What each row says stands
-// in its heading.
+// How far a dance shows that its music is heard: free dances of streams, as they are served, to
+// songs of which a part is drums, a pad, or silent, to songs of which a part returns, and to whole
+// songs. What each row says stands in its heading.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,10 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "model/audio/beats.h"
 #include "model/audio/decode.h"
 #include "model/audio/made_song.h"
+#include "model/audio/music_id.h"
+#include "model/audio/passages.h"
 #include "model/dance/dance_stream.h"
 #include "model/metrics/joint_track.h"
+#include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
 #include "model/samplers/samplers.h"
 
 namespace choreo::bench {
@@ -60,18 +65,23 @@ class Listener : public DanceSink {
   bool is_over_ = false;
 };
 
+std::vector<Pose> Poses(SampleQueue& queue, const std::vector<float>& mono, DanceConfig config) {
+  config.audio = DanceConfig::Audio{kModelSampleRate, 1, 0};
+  config.music_id = MusicId(mono);
+  const auto listener = std::make_shared<Listener>();
+  DanceStream stream(queue, config, listener);
+  stream.PushAudio(mono, 0);
+  stream.HalfClose();
+  return listener->Wait();
+}
+
 /// Mean joint speed of each step, m/s.
 std::vector<float> Dance(SampleQueue& queue, const std::vector<float>& mono, uint64_t seed,
                          double dynamics) {
   DanceConfig config;
   config.seed = seed;
   config.music_dynamics = dynamics;
-  config.audio = DanceConfig::Audio{kModelSampleRate, 1, 0};
-  const auto listener = std::make_shared<Listener>();
-  DanceStream stream(queue, config, listener);
-  stream.PushAudio(mono, 0);
-  stream.HalfClose();
-  return MeanSpeeds(TrackJoints(queue.model().skeleton, listener->Wait()), kModelFps);
+  return MeanSpeeds(TrackJoints(queue.model().skeleton, Poses(queue, mono, config)), kModelFps);
 }
 
 double Mean(std::span<const float> values) {
@@ -179,19 +189,78 @@ void JudgeSong(SampleQueue& queue, const std::string& name, const std::vector<fl
   std::fflush(stdout);
 }
 
+// Mean distance of joints, metres, both dancers standing at one place, facing one way.
+double Apart(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
+  double sum = 0;
+  const size_t frames = std::min(a.size(), b.size());
+  for (size_t i = 0; i < frames; ++i) {
+    const auto joints = [&](const Pose& pose) {
+      return JointPositions(skeleton, GroundFrame::Of(pose).ToLocal(pose));
+    };
+    sum += (joints(a[i]) - joints(b[i])).colwise().norm().mean();
+  }
+  return sum / static_cast<double>(frames);
+}
+
+/// Songs whose first part returns twice: how far apart dances of it are, and of parts that differ.
+void JudgeForm(SampleQueue& queue, uint64_t first_seed, double variation) {
+  double same = 0, other = 0, songs = 0, seeds = 0;
+  const Skeleton& skeleton = queue.model().skeleton;
+  for (uint64_t i = 0; i < kSeeds; ++i) {
+    const auto part = [&](uint64_t nth) { return MakePart(first_seed + 20 + 3 * i + nth, false); };
+    std::vector<float> song;
+    for (const uint64_t nth : {0, 1, 0, 2, 0}) {
+      const std::vector<float> next = part(nth);
+      song.insert(song.end(), next.begin(), next.end());
+    }
+    DanceConfig config;
+    config.seed = i;
+    config.variation = variation;
+    config.music_beats = FindBeats(song).Seconds();
+    config.music_passages = FindPassages(song, config.music_beats);
+    const std::vector<Pose> danced = Poses(queue, song, config);
+    const auto apart = [&](size_t a, size_t b) {
+      constexpr size_t kPart = kPartSeconds * size_t{30};
+      const auto of = [&](size_t nth) {
+        return std::span(danced).subspan(nth * kPart + kSettles, kPart - kSettles);
+      };
+      return Apart(skeleton, of(a), of(b));
+    };
+    same += (apart(0, 2) + apart(0, 4) + apart(2, 4)) / 3;
+    other += (apart(0, 1) + apart(0, 3) + apart(1, 2) + apart(2, 3)) / 4;
+    const auto alone = [&](uint64_t nth, uint64_t seed) {
+      DanceConfig once;
+      once.seed = seed;
+      return Poses(queue, part(nth), once);
+    };
+    const std::vector<Pose> first = alone(0, i);
+    songs += Apart(skeleton, first, alone(1, i));
+    seeds += Apart(skeleton, first, alone(0, i + kSeeds));
+  }
+  std::printf(
+      "--variation %.2f\n  a part that returns %.1f cm apart, other parts %.1f: %.2f; two songs "
+      "%.1f cm, two seeds %.1f: %.2f\n",
+      variation, 100 * same / kSeeds, 100 * other / kSeeds, same / other, 100 * songs / kSeeds,
+      100 * seeds / kSeeds, songs / seeds);
+  std::fflush(stdout);
+}
+
 }  // namespace
 }  // namespace choreo::bench
 
 int main(int argc, char** argv) {
   using namespace choreo;
-  CLI::App program("Measures how far music's energy is seen in free dances, over three seeds.");
+  CLI::App program("Measures how far free dances show what is heard, over three seeds.");
   std::string model = "model/checkpoints/default.safetensors";
   std::vector<std::string> songs;
-  std::vector<double> dynamics{0, kUsualDynamics, 1};
+  std::vector<double> dynamics{0, kUsualDynamics, 1}, variations{0, kUsualVariation, 1};
   uint64_t first_seed = 2'000'000;
   program.add_option("songs", songs, "Songs that are danced to.")->check(CLI::ExistingFile);
   program.add_option("--model", model, "Checkpoint")->capture_default_str();
   program.add_option("--music-dynamics", dynamics, "DanceConfig::music_dynamics, each in turn")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  program.add_option("--variation", variations, "DanceConfig::variation, each in turn")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   program.add_option("--made", first_seed, "First seed of the made songs")->capture_default_str();
@@ -199,6 +268,7 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Sampler>> samplers;
   samplers.push_back(MakeSampler(model, Device{}));
   SampleQueue queue(std::move(samplers), {});
+  for (const double variation : variations) bench::JudgeForm(queue, first_seed, variation);
   for (const double share : dynamics) {
     std::printf("--music-dynamics %.2f\n", share);
     bench::JudgeParts(queue, first_seed, share);
