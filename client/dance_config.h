@@ -94,6 +94,9 @@ struct DanceConfig {
   /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and in a
   /// kPcmFloat predicts each transition's from the 12 s before it.
   std::vector<double> music_beats = {};
+  /// A number that tells this music from other music, a part of the seed; 0: the server's own for a
+  /// kFile, none for kPcmFloat.
+  uint64_t music_id = 0;
   /// Where the music comes back, and so does the dance; as the API has them. Empty: the server
   /// finds them in a kFile.
   std::vector<Passage> music_passages = {};

@@ -116,6 +116,7 @@ class Edit {
     request.config.music_dynamics = options_.music_dynamics;
     request.config.music_beats = options_.music_beats;
     request.config.music_passages = options_.music_passages;
+    request.config.music_id = options_.music_id;
     request.config.variation = options_.variation;
     request.config.controls = options_.controls;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));

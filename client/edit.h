@@ -38,6 +38,7 @@ struct EditOptions {
   std::optional<double> variation = {};       ///< as DanceConfig has it
   std::vector<double> music_beats = {};       ///< as DanceConfig::music_beats
   std::vector<Passage> music_passages = {};   ///< as DanceConfig has them
+  uint64_t music_id = 0;                      ///< as DanceConfig has it
   Controls controls = {};                     ///< of the new frames
 };
 

@@ -127,6 +127,7 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   if (config.frames) out.set_frames(*config.frames);
   out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
   for (const Passage& passage : config.music_passages) *out.add_music_passages() = ToProto(passage);
+  out.set_music_id(config.music_id);
   if (config.variation) out.set_variation(*config.variation);
   if (config.generate_until) out.set_generate_until(*config.generate_until);
   return out;

@@ -112,6 +112,7 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
   if (config.has_continuation())
     out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
   out->music_beats = ToBeats(config.music_beats(), "config.music_beats");
+  out->music_id = config.music_id();
   out->music_passages = ToPassages(config.music_passages());
 }
 

@@ -9,6 +9,7 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/audio/music_id.h"
 #include "model/audio/passages.h"
 #include "model/dance/dance_stream.h"
 #include "server/call_session.h"
@@ -184,7 +185,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     file_.Clear();
     const std::vector<double> beats =
         music_beats_.empty() ? FindBeats(mono).Seconds() : music_beats_;
-    stream.SetMusic(beats, FindPassages(mono, beats));
+    stream.SetMusic(beats, FindPassages(mono, beats), MusicId(mono));
     stream.PushAudio(mono, 0);
   }
 

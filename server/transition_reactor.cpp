@@ -8,6 +8,7 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
+#include "model/audio/music_id.h"
 #include "model/audio/passages.h"
 #include "model/dance/transition_group.h"
 #include "model/dance/validation.h"
@@ -106,6 +107,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
         DecodeMono(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
     request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
     if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
+    if (request->music_id == 0) request->music_id = MusicId(request->samples);
     if (request->music_passages.empty())
       request->music_passages = FindPassages(request->samples, request->music_beats);
   }

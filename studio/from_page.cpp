@@ -103,6 +103,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   };
   if (!config.model().empty()) refuse("config.model");
   if (config.music_beats_size() > 0) refuse("config.music_beats");
+  if (config.music_id() != 0) refuse("config.music_id");
   if (config.music_passages_size() > 0) refuse("config.music_passages");
   if (config.frame_rate() != 0) refuse("config.frame_rate");
   if (config.has_audio_format()) {

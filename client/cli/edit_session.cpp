@@ -68,6 +68,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
     edit_.audio = AudioFor(music.audio, Seconds(frames_));
     edit_.music_beats = BeatsBefore(music, Seconds(frames_));
     edit_.music_passages = music.passages;
+    edit_.music_id = music.id;
   }
   if (!options.report.empty()) ReadKeys();
 }

@@ -5,6 +5,7 @@
 
 #include "client/edit.h"
 #include "model/audio/beats.h"
+#include "model/audio/music_id.h"
 #include "model/audio/onset.h"
 #include "model/audio/passages.h"
 #include "model/core/error.h"
@@ -25,6 +26,7 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   const std::vector<Onset> onsets = FindOnsets(music.mono);
   music.onset_strength = OnsetStrength(onsets);
   music.track = BeatsAsAsked(onsets, start, beats);
+  music.id = MusicId(music.mono);
   music.passages = FindPassages(music.mono, music.track.Seconds());
   return music;
 }
@@ -37,6 +39,7 @@ std::vector<double> BeatsBefore(const Music& music, double seconds) {
 
 void TellMusic(const Music& music, double seconds, client::DanceConfig* config) {
   config->music_beats = BeatsBefore(music, seconds);
+  config->music_id = music.id;
   config->music_passages = music.passages;
   std::erase_if(config->music_passages,
                 [seconds](const Passage& passage) { return passage.from >= seconds; });

@@ -20,6 +20,7 @@ struct Music {
   std::vector<float> onset_strength;  ///< in which the beats were found
   BeatTrack track;
   std::vector<Passage> passages;  ///< that come back
+  uint64_t id = 0;                ///< MusicId
 };
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` and what comes after them
@@ -33,7 +34,7 @@ Music ReadMusic(const std::filesystem::path& path,
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);
 
-/// Those, and the passages before `seconds`.
+/// Those, the passages before `seconds`, and which music it is.
 void TellMusic(const Music& music, double seconds, client::DanceConfig* config);
 
 /// What to send for a dance of `seconds`: the song's beginning, as samples.

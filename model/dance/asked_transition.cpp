@@ -41,7 +41,7 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
     request.energy = {HearEnergyAt(*audio, start, segment.from - kUsualFrames),
                       HearEnergyAt(*audio, start, segment.from)};
   }
-  request.seed = start.seed;
+  request.seed = start.seed ^ start.music_id;
   request.noise_like = recurrence.Origins(segment.from, segment.to);
   request.variation = start.variation;
   request.style = start.style;

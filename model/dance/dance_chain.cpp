@@ -164,8 +164,10 @@ void DanceChain::GivePassages(const std::vector<Passage>& passages, const std::s
   });
 }
 
-void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages) {
+void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
+                          uint64_t music_id) {
   std::lock_guard lock(mutex_);
+  if (config_.music_id == 0) config_.music_id = music_id;
   if (config_.music_beats.empty()) beats_.Find(beats);
   if (!config_.music_passages.empty()) return;
   recurrence_.Give(passages, 0);

@@ -60,7 +60,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void GivePassages(const std::vector<Passage>& passages, const std::string& field);
 
   /// Of the whole music, before its first sample.
-  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages);
+  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
+                uint64_t music_id);
   void SetPaused(bool paused);
   void Cancel() noexcept;
 
@@ -90,7 +91,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   SampleQueue& queue_;
   const ModelInfo& model_;
-  const DanceConfig config_;
+  DanceConfig config_;  // but for music_id constant
   const int64_t first_frame_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;

@@ -17,6 +17,9 @@ namespace choreo {
 /// What a dance and a single transition have in common: how they are danced, and from where.
 struct DanceStart {
   uint64_t seed = 0;
+  /// Which music it is (MusicId): a part of the seed, so that two songs are danced as two seeds
+  /// are. 0: nobody says.
+  uint64_t music_id = 0;
   std::optional<float> temperature;        ///< 0..2; none: the model's default
   std::string style;                       ///< one of the model's, or empty: any
   double music_dynamics = kUsualDynamics;  ///< 0..1: how far HearEnergy's is the dance's

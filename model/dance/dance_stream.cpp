@@ -49,8 +49,9 @@ void DanceStream::EndOfAudio() {
   FinishAudio();
 }
 
-void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages) {
-  chain_->SetMusic(beats, passages);
+void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
+                           uint64_t music_id) {
+  chain_->SetMusic(beats, passages, music_id);
 }
 
 std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }

@@ -42,10 +42,10 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// What is found in the whole music before its first sample is pushed, in place of
-  /// DanceConfig::music_beats (none, then nothing is listened for either) and music_passages, as
-  /// far as these are empty.
-  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages);
+  /// What is found in the whole music before its first sample is pushed, as far as DanceConfig does
+  /// not say it: beats (none, then nothing is listened for either), passages, and which it is.
+  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
+                uint64_t music_id);
 
   /// What errors call the next message of a kind, "keyframes[i]", i counting those that were taken.
   /// For who reads a message before handing it over.

@@ -95,6 +95,28 @@ INSTANTIATE_TEST_SUITE_P(
                                   kInvalid,
                                   "music_beats[1].times[1]",
                                   {"2.5 s", "3 s"}},
+                    BadStreamCase{"NoPassages",
+                                  [](const KeyMessage&) {
+                                    v1::StreamDanceRequest passages;
+                                    passages.mutable_music_passages();
+                                    return Requests{ConfigRequest(), passages};
+                                  },
+                                  kInvalid,
+                                  "music_passages[0].passages",
+                                  {"empty"}},
+                    BadStreamCase{"PassageLikeLater",
+                                  [](const KeyMessage&) {
+                                    v1::StreamDanceRequest passages;
+                                    auto* passage =
+                                        passages.mutable_music_passages()->add_passages();
+                                    passage->set_from(3);
+                                    passage->set_to(5);
+                                    passage->set_like(4);
+                                    return Requests{ConfigRequest(), passages};
+                                  },
+                                  kInvalid,
+                                  "music_passages[0].passages[0].like",
+                                  {"4 s", "[0, 3)"}},
                     BadStreamCase{"GenerateUntilBackwards",
                                   [](const KeyMessage&) {
                                     v1::StreamDanceRequest until;
@@ -218,6 +240,16 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "config.music_beats[1]",
                       {"1 s"}},
+        BadStreamCase{"Passages",
+                      WithConfig([](auto& c) { c.add_music_passages()->set_to(601); }),
+                      kInvalid,
+                      "config.music_passages[0].to",
+                      {"601 s", "600"}},
+        BadStreamCase{"Variation",
+                      WithConfig([](auto& c) { c.set_variation(1.5); }),
+                      kInvalid,
+                      "config.variation",
+                      {"1.5", "[0, 1]"}},
         BadStreamCase{"HistoryOfAnotherSkeleton",
                       WithConfig([](auto& c) {
                         v1::Pose* pose = c.mutable_history()->add_poses();

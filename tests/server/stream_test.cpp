@@ -3,6 +3,8 @@
 #include <limits>
 #include <thread>
 
+#include "model/audio/decode.h"
+#include "model/audio/music_id.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::stream_test {
@@ -16,9 +18,11 @@ class StreamTest : public ServerTest {
   }
 
   // A dance with music and two keys; `chunk` bytes of music a message.
-  Answer MusicDance(uint64_t seed, size_t chunk, const std::vector<double>& beats = {}) {
+  Answer MusicDance(uint64_t seed, size_t chunk, const std::vector<double>& beats = {},
+                    uint64_t music_id = 0) {
     DanceClient client(stub());
     v1::DanceConfig config = MusicConfig(seed);
+    config.set_music_id(music_id);
     for (const double beat : beats) config.add_music_beats(beat);
     client.Send(config);
     client.SendKeyframe(Key("a", 30));
@@ -197,8 +201,11 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   ASSERT_GE(beats.size(), 3U);
   for (size_t i = 1; i < beats.size(); ++i) EXPECT_NEAR(beats[i] - beats[i - 1], 0.5, 0.06);
   EXPECT_TRUE(answer.summary->report().has_beat_coverage());
-  EXPECT_TRUE(answer.Join() == MusicDance(13, 1 << 20, beats).Join());
-  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20).Join());
+  const uint64_t id = MusicId(DecodeMono(std::as_bytes(std::span(file)), [] {}));
+  EXPECT_TRUE(answer.Join() == MusicDance(13, 1 << 20, beats, id).Join());
+  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, {}, id).Join());
+  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, beats, id + 1).Join())
+      << "other music is danced otherwise";
 }
 
 // Music that nobody has heard yet is danced to on the beat, and the answer says how beats are
@@ -249,6 +256,35 @@ TEST_F(StreamTest, BeatsMayComeAheadOfTheFrontier) {
   }
   EXPECT_EQ(times, (std::vector<double>{2.0, 2.5})) << "the transition under way has none";
   EXPECT_EQ(warnings, std::vector{v1::WARNING_CODE_BEATS_TOO_LATE});
+}
+
+TEST_F(StreamTest, PassagesMayComeAheadOfTheFrontier) {
+  Start();
+  const auto dance = [this](std::optional<double> like) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_frames(240);
+    config.set_generate_until(30);
+    config.set_variation(0);
+    client.Send(config);
+    EXPECT_TRUE(client.ReadFrames(30));
+    if (like) {
+      v1::StreamDanceRequest request;
+      v1::MusicPassage* passage = request.mutable_music_passages()->add_passages();
+      passage->set_from(4);
+      passage->set_to(8);
+      passage->set_like(*like);
+      client.Send(request);
+    }
+    const Answer& answer = client.Finish();
+    EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
+    return answer.Join();
+  };
+  const Answer::Joined apart = dance(std::nullopt), again = dance(0);
+  constexpr size_t kBefore = 120 * 72;  // rotations of four seconds
+  EXPECT_TRUE(std::equal(apart.rotations.begin(), apart.rotations.begin() + kBefore,
+                         again.rotations.begin()));
+  EXPECT_FALSE(apart == again);
 }
 
 TEST_F(StreamTest, WithoutASeedOneIsDrawnAndReported) {
