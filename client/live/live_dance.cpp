@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/live/beat_ear.h"
 #include "client/live/passage_ear.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
@@ -71,7 +72,8 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   int64_t samples = 0;
   double now = 0, told = 0;
   bool clock_missed = midi == nullptr;
-  PassageEar ear(sound.sample_rate(), sound.channels());
+  PassageEar passages(sound.sample_rate(), sound.channels());
+  BeatEar beats(sound.sample_rate(), sound.channels());
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;
@@ -81,11 +83,12 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
       for (const Cue& cue : source->Take()) Follow(cue, now);
     }
     if (midi) SendBeats(midi->Take(now), now);
+    if (!midi || !midi->runs()) SendBeats(beats.Hear(piece), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
       clock_missed = true;
       if (!midi->runs()) Note("no MIDI clock was started yet; until it is, beats are heard");
     }
-    if (const std::optional<Passage> passage = ear.Hear(piece))
+    if (const std::optional<Passage> passage = passages.Hear(piece))
       dance_->SendPassages(std::array{*passage});
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);

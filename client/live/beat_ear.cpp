@@ -1,0 +1,68 @@
+#include "client/live/beat_ear.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace choreo::live {
+namespace {
+
+constexpr double kMemorySeconds =
+    120;  // an intro's half beats are heard as such within one of them
+constexpr double kFirstSeconds = 4, kEverySeconds = 1.5;
+constexpr size_t kSureBeats = 8;           // that say how fast they go on
+constexpr double kLeastConfidence = 0.25;  // of those
+constexpr double kStoppedSeconds = 3;      // without a beat, and the music pauses
+
+int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
+
+}  // namespace
+
+// Before the music there is silence.
+BeatEar::BeatEar(double sample_rate, int channels)
+    : resampler_(sample_rate, channels), mono_(kOnsetWindow / 2) {}
+
+std::vector<double> BeatEar::Hear(std::span<const float> interleaved) {
+  resampler_.Push(interleaved);
+  resampler_.Pull(mono_);
+  size_t from = 0;
+  for (; mono_.size() - from >= kOnsetWindow; from += kOnsetHop)
+    onsets_.push_back(meter_.Add(std::span(mono_).subspan(from, kOnsetWindow)));
+  mono_.erase(mono_.begin(), mono_.begin() + static_cast<std::ptrdiff_t>(from));
+  const int64_t heard = first_ + std::ssize(onsets_);
+  const double now = static_cast<double>(heard) / kOnsetRate;
+
+  if (found_.valid()) {
+    if (found_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+    return GoOn(found_.get(), now);
+  }
+  if (heard - asked_ < Onsets(asked_ == 0 ? kFirstSeconds : kEverySeconds)) return {};
+  asked_ = heard;
+  const int64_t old = std::ssize(onsets_) - Onsets(kMemorySeconds);
+  if (old > 0) {
+    onsets_.erase(onsets_.begin(), onsets_.begin() + old);
+    first_ += old;
+  }
+  found_ = std::async(std::launch::async, [onsets = onsets_, first = first_] {
+    BeatTrack track = TrackSureBeats(onsets);
+    for (int64_t& frame : track.frames) frame += first;
+    return track;
+  });
+  return {};
+}
+
+std::vector<double> BeatEar::GoOn(const BeatTrack& track, double now) const {
+  const std::vector<double> beats = track.Seconds();
+  if (beats.size() <= kSureBeats || now - beats.back() > kStoppedSeconds) return {};
+  const std::span<const double> confidence = std::span(track.confidence).last(kSureBeats);
+  const double sure = std::accumulate(confidence.begin(), confidence.end(), 0.0) / kSureBeats;
+  if (sure < kLeastConfidence) return {};
+  const double period = 60 / TempoOf(std::span(beats).last(kSureBeats + 1));
+  std::vector<double> ahead;
+  for (double beat = beats.back() + period; beat < now + kAheadSeconds; beat += period)
+    if (beat > now) ahead.push_back(beat);
+  return ahead;
+}
+
+}  // namespace choreo::live

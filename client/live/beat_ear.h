@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <span>
+#include <vector>
+
+#include "model/audio/beats.h"
+#include "model/audio/onset.h"
+#include "model/audio/resample.h"
+
+namespace choreo::live {
+
+/// Hears in music that sounds now where it will beat: the beats of its last minutes, found as in a
+/// whole song (TrackBeats), go on as they are. They are found in a thread of their own, so who
+/// listens never waits.
+class BeatEar {
+ public:
+  /// What is told reaches so far ahead of the music, seconds: as transitions do.
+  static constexpr double kAheadSeconds = 5;
+
+  BeatEar(double sample_rate, int channels);
+
+  /// Interleaved samples, the next ones. Beats ahead, seconds, ascending, every other second or so;
+  /// none while nothing beats clearly.
+  std::vector<double> Hear(std::span<const float> interleaved);
+  /// Until beats that are looked for are found: the next Hear tells them. For who is not in time.
+  void Wait() const {
+    if (found_.valid()) found_.wait();
+  }
+
+ private:
+  std::vector<double> GoOn(const BeatTrack& track, double now) const;
+
+  Resampler resampler_;
+  OnsetMeter meter_;
+  std::vector<float> mono_;    // of the next onset's window on
+  std::vector<Onset> onsets_;  // the last minutes'
+  int64_t first_ = 0;          // of onsets_, in onsets from the music's begin
+  int64_t asked_ = 0;          // onsets heard when beats were looked for
+  std::future<BeatTrack> found_;
+};
+
+}  // namespace choreo::live
