@@ -234,6 +234,7 @@ void Run(const DanceOptions& options) {
 
   options.bvh.Write(out, dance.header.skeleton, dance.motion, dance.contacts);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
+  for (size_t i = 0; i < written.keys.size(); ++i) written.keys[i].holds = HeldKey(keys, i);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);

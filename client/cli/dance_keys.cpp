@@ -48,6 +48,12 @@ void FitIntoDance(const DanceLength& length, const std::string& place, client::K
                         "key \"" + key->id + "\" " + SayBehindEnd(frame, length));
 }
 
+std::string HeldKey(const DanceKeys& keys, size_t index) {
+  if (!IsHeld(keys.places[index])) return "";
+  const auto held = std::ranges::find(keys.places, FieldOf(keys.places[index], ""));
+  return keys.poses[static_cast<size_t>(held - keys.places.begin())].id;
+}
+
 DanceKeys ByTime(DanceKeys keys, double fps) {
   std::vector<size_t> order(keys.poses.size());
   std::iota(order.begin(), order.end(), size_t{0});

@@ -39,6 +39,9 @@ int64_t FrameOf(const client::KeyPose& key, double fps);
 /// that.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
 
+/// The id of the key whose pose this one only holds; empty for one that stands for itself.
+std::string HeldKey(const DanceKeys& keys, size_t index);
+
 /// In the order in which they are sent: a key that comes after a later one would come too late.
 DanceKeys ByTime(DanceKeys keys, double fps);
 

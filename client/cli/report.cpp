@@ -26,8 +26,8 @@ std::string KeysText(const WrittenDance& dance) {
     size_t keys = 0;
     double distance_m = 0;
     double angle_deg = 0;
-    void Add(double distance, double angle) {
-      ++keys;
+    void Add(const WrittenKey& key, double distance, double angle) {
+      if (key.holds.empty()) ++keys;
       distance_m = std::max(distance_m, distance);
       angle_deg = std::max(angle_deg, angle);
     }
@@ -38,17 +38,20 @@ std::string KeysText(const WrittenDance& dance) {
   Worst in_file, near, between;
   double raw = 0;
   double correction = 0;
+  const auto keys =
+      std::ranges::count_if(dance.keys, [](const WrittenKey& key) { return key.holds.empty(); });
   for (const WrittenKey& key : dance.keys) {
     if (key.on_frame) {
-      in_file.Add(key.error.position_m, key.error.angle_deg);
+      in_file.Add(key, key.error.position_m, key.error.angle_deg);
     } else {
-      near.Add(key.error.position_m, key.error.angle_deg);
-      between.Add(key.reached.final_error_m, key.reached.final_error_deg);
+      near.Add(key, key.error.position_m, key.error.angle_deg);
+      between.Add(key, key.reached.final_error_m, key.reached.final_error_deg);
     }
-    raw += key.reached.raw_error_m / static_cast<double>(dance.keys.size());
+    // On the way into a pose that is held already there is next to nothing to correct.
+    if (key.holds.empty()) raw += key.reached.raw_error_m / static_cast<double>(keys);
     correction = std::max(correction, key.reached.correction_m);
   }
-  std::string text = Format("%zu key pose%s", dance.keys.size(), dance.keys.size() == 1 ? "" : "s");
+  std::string text = Format("%zd key pose%s", keys, keys == 1 ? "" : "s");
   if (in_file.keys > 0) {
     text += between.keys > 0 ? Format(": %zu", in_file.keys) : std::string(", each");
     text += " hit within " + in_file.Text() + ", measured in the file";
@@ -62,8 +65,8 @@ std::string KeysText(const WrittenDance& dance) {
   }
   return text +
          Format(
-             "\nthe model's own frames at the keys, led there by frames that were steered, were "
-             "%.1f cm off on average; steering moved joints by up to %.1f cm\n",
+             "\nbefore they were corrected, poses were %.1f cm off their keys on average; to hit "
+             "them, joints were moved by up to %.1f cm\n",
              100 * raw, 100 * correction);
 }
 
@@ -84,6 +87,7 @@ std::string ReportJson(const WrittenDance& dance) {
   json["keyframes"] = nlohmann::ordered_json::array();
   for (const WrittenKey& key : dance.keys) {
     nlohmann::ordered_json& written = json["keyframes"].emplace_back(KeyJson(key.reached));
+    if (!key.holds.empty()) written["holds"] = key.holds;
     written["output_frame"] = key.frame;
     written["on_output_frame"] = key.on_frame;
     written["output_error_m"] = key.error.position_m;

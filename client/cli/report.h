@@ -11,9 +11,10 @@ namespace choreo::cli {
 
 /// A dance's report as JSON, in metres, degrees and the model's frames. Of a key: what the model
 /// missed it by (raw_error_m), how far joints were moved on the way (correction_m), what is left;
-/// output_... is measured at the file's nearest frame. `measured_from`: the frame from which on the
-/// rest is measured, 0 or where the last server took over. Beats are null where there are none,
-/// `part_speeds` is absent where nothing is asked.
+/// `holds`: the key whose pose it only holds, if it does; output_... is measured at the file's
+/// nearest frame. `measured_from`: the frame from which on the rest is measured, 0 or where the
+/// last server took over. Beats are null where there are none, `part_speeds` is absent where
+/// nothing is asked.
 std::string ReportJson(const WrittenDance& dance);
 
 /// One key of such a report, without what is measured in the file.

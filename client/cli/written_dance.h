@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "client/choreo_client.h"
@@ -16,6 +17,9 @@ struct WrittenKey {
   int64_t frame = 0;                ///< of the file: the nearest to the key's time
   bool on_frame = true;             ///< it stands at the key's time, not only near it
   PoseError error = {};             ///< of that frame
+  /// The id of the key whose pose it only holds; empty for one that stands for itself. Examine
+  /// leaves it empty.
+  std::string holds = {};
 };
 
 /// A dance as it is written, and what is known of it.

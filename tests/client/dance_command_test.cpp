@@ -106,6 +106,10 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   EXPECT_THAT(outcome.said, testing::Not(HasSubstr("warning: frame 0")));
   const nlohmann::json report = ReadJson(folder_ / "r.json");
   EXPECT_EQ(report["keyframes"].size(), 13U);  // of which five hold one
+  const auto is_held = [](const auto& key) { return key.value("holds", "") == "strong"; };
+  EXPECT_EQ(std::ranges::count_if(report["keyframes"], is_held), 5);
+  EXPECT_THAT(outcome.said, HasSubstr("8 key poses, each hit"));
+  EXPECT_THAT(outcome.said, HasSubstr("before they were corrected, poses were"));
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
