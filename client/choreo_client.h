@@ -30,7 +30,7 @@ namespace choreo::client {
 struct Options {
   /// HOST:PORT or unix:PATH. Several are replicas: when one fails, or is of another fingerprint
   /// than the dance, the next is asked. Calls take turns at the addresses of one name, and pass
-  /// those whose health says that they do not serve.
+  /// those whose health says that they do not serve, unless `even_draining`.
   std::vector<std::string> addresses = {"127.0.0.1:" + std::to_string(kDefaultPort)};
   bool tls = false;
   /// PEM file of the authority to trust, where `tls`; empty: the system's.
@@ -55,6 +55,8 @@ struct Options {
   /// Go on when only a server of another fingerprint is left: smoothly, yet not as the dance would
   /// have gone. `Resumed` says so.
   bool allow_inexact_resume = false;
+  /// Ask servers, too, that take no new dances: for who looks at them.
+  bool even_draining = false;
   /// Called, on the thread of a call, before it is tried again; what this throws ends it. For those
   /// who know that there is no use. None if empty.
   std::function<void()> before_retry = {};

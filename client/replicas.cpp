@@ -20,11 +20,13 @@ namespace {
 constexpr double kLongestBackoff = 2;        // seconds
 constexpr size_t kMostTokenBytes = 4 << 10;  // gRPC's headers have 8 KiB in all
 
-/// Calls take turns at all addresses of a name, but for those that say that they do not serve.
-constexpr const char* kServiceConfig = R"({
+/// Calls take turns at all addresses of a name, but for those that say that they do not serve, or
+/// at all.
+constexpr const char* kTurnsAtServing = R"({
   "loadBalancingConfig": [{"round_robin": {}}],
   "healthCheckConfig": {"serviceName": "choreo.v1.Choreography"}
 })";
+constexpr const char* kTurns = R"({"loadBalancingConfig": [{"round_robin": {}}]})";
 
 std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   if (options.client_certificate.empty() != options.client_key.empty()) {
@@ -123,7 +125,7 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   }
   // Who asks for health wants an answer from those, too, that do not serve.
   grpc::ChannelArguments balanced = arguments;
-  balanced.SetServiceConfigJSON(kServiceConfig);
+  balanced.SetServiceConfigJSON(options_.even_draining ? kTurns : kTurnsAtServing);
   for (const std::string& address : options_.addresses) {
     CheckAddress(address);
     const auto channel = grpc::CreateCustomChannel(address, credentials, balanced);

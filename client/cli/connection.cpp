@@ -60,6 +60,7 @@ client::Options ServerOptions::ForClient() const {
   options.token_file = token_file;
   options.deadline_s = deadline_s;
   options.allow_inexact_resume = allow_inexact_resume;
+  options.even_draining = even_draining;
   return options;
 }
 

@@ -18,6 +18,7 @@ struct ServerOptions {
   std::string ca_certificate, client_certificate, client_key, server_name, token_file;
   double deadline_s = 0;
   bool allow_inexact_resume = false;
+  bool even_draining = false;
 
   void AddTo(CLI::App& command);
   /// Addresses that were not named are the client's own default.

@@ -164,6 +164,15 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
   }
 }
 
+/// Behind a proxy a server may be asked nothing about its health.
+bool MayServe(const client::Client& client) {
+  try {
+    return client.IsServing();
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 void Run(const InfoOptions& options) {
   if (options.poses && options.json) {
     auto out = nlohmann::ordered_json::array();
@@ -177,13 +186,17 @@ void Run(const InfoOptions& options) {
       std::printf("%-14s %s\n", pose.id.c_str(), pose.description.c_str());
     return;
   }
-  PrintServer(Connection(options.server).server(), options);
+  const Connection connection(options.server);
+  PrintServer(connection.server(), options);
+  if (!MayServe(connection.client()))
+    std::cerr << "note: the server does not serve, or no more: it takes no new dances\n";
 }
 
 }  // namespace
 
 void AddInfoCommand(CLI::App& program) {
   auto options = std::make_shared<InfoOptions>();
+  options->server.even_draining = true;
   CLI::App* command =
       program.add_subcommand("info", "Show a server's models, licences, limits and devices.");
   command->add_flag("--json", options->json, "Print everything as JSON, the model cards included.");

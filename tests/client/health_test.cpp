@@ -23,6 +23,11 @@ TEST_F(HealthTest, ServesUntilItDrains) {
   const Outcome draining = Choreo("health" + Server());
   EXPECT_EQ(draining.code, 1);
   EXPECT_THAT(draining.said, testing::HasSubstr(server_.address() + ": does not serve"));
+  // What it has can still be seen.
+  const Outcome seen = Choreo("info" + Server());
+  EXPECT_EQ(seen.code, 0) << seen.said;
+  EXPECT_THAT(seen.said, testing::HasSubstr("1 calls in progress"));
+  EXPECT_THAT(seen.said, testing::HasSubstr("note: the server does not serve, or no more"));
   dance->Cancel();
   drain.join();
 
