@@ -85,7 +85,9 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
     google::rpc::BadRequest bad_request;
     auto* violation = bad_request.add_field_violations();
     violation->set_field(field);
-    violation->set_description(message);
+    // The field is told already.
+    const bool repeats = text.starts_with(std::string(of_field) + ": ");
+    violation->set_description(repeats ? OneShortLine(text.substr(of_field.size() + 2)) : message);
     status.add_details()->PackFrom(bad_request);
   }
   if (mapping.retry) {

@@ -82,10 +82,13 @@ void ValidateShare(double share, const std::string& field) {
 
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field) {
   if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
+  if (style.size() > kMaxIdLength) {
+    throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
+                                     std::to_string(kMaxIdLength));
+  }
   std::string known;
   for (const std::string& name : model.styles) known += (known.empty() ? "" : ", ") + name;
-  throw InvalidArgument(field, "\"" + style.substr(0, kMaxIdLength) +
-                                   "\" is no style of the model " + model.name + "; " +
+  throw InvalidArgument(field, "\"" + style + "\" is no style of the model " + model.name + "; " +
                                    (known.empty() ? "it has none" : "it has " + known));
 }
 

@@ -9,7 +9,7 @@ export class ChoreoError extends Error {
     super(failure.details || failure.message || 'the server failed without saying why');
     this.name = 'ChoreoError';
     this.code = grpc.status[failure.code] ?? 'UNKNOWN';
-    /** [{field: 'keyframes[0].rotations', description: 'keyframes[0].rotations: 69 numbers, ...'}] */
+    /** [{field: 'keyframes[0].rotations', description: '69 numbers are 23 joints; ...'}] */
     this.violations = violations;
     /** Try again after so many seconds, where that may help. */
     this.retryAfter = undefined;
@@ -39,8 +39,7 @@ export function cancelled() {
 
 /** Of an option of ours; named as the server names its fields. */
 export function invalid(field, what) {
-  const details = `${field}: ${what}`;
-  return new ChoreoError({ code: grpc.status.INVALID_ARGUMENT, details }, [{ field, description: details }]);
+  return new ChoreoError({ code: grpc.status.INVALID_ARGUMENT, details: `${field}: ${what}` }, [{ field, description: what }]);
 }
 
 /** What another replica may have been started with. */

@@ -48,8 +48,7 @@ def unavailable(message):
 
 def wrong_field(code, field, what):
     """Named as the server names its fields."""
-    message = f"{field}: {what}"
-    return ChoreoError(code, message, [Violation(field, message)])
+    return ChoreoError(code, f"{field}: {what}", [Violation(field, what)])
 
 
 def invalid(field, what):
