@@ -172,23 +172,73 @@ std::string AtLeast(const std::string& where) {
   return "at least " + std::to_string(kMinKeyDistance) + where;
 }
 
-void CheckKeyEdit(int64_t frame, int64_t from, int64_t to, int64_t frames) {
-  const std::string at = NameOfFrame(frame);
-  if (frame < 0 || frame >= frames) {
+void CheckKeyEdit(int64_t first, int64_t last, int64_t from, int64_t to, int64_t frames) {
+  for (const int64_t frame : {first, last}) {
+    if (frame >= 0 && frame < frames) continue;
     throw InvalidArgument("key.frame", std::to_string(frame) + " is not in the dance, [0, " +
                                            std::to_string(frames - 1) + "]");
   }
-  if (frame == 0 ? from != -1 : from < 0 || frame - from < kMinKeyDistance) {
-    throw InvalidArgument("from", std::to_string(from) + " with a key at " + at + ": must be " +
-                                      (frame == 0 ? "-1" : AtLeast(" before it and in the dance")));
+  if (first == 0 ? from != -1 : from < 0 || first - from < kMinKeyDistance) {
+    throw InvalidArgument("from", std::to_string(from) + " with a key at " + NameOfFrame(first) +
+                                      ": must be " +
+                                      (first == 0 ? "-1" : AtLeast(" before it and in the dance")));
   }
-  if (frame == frames - 1 ? to != frames : to >= frames || to - frame < kMinKeyDistance) {
+  if (last == frames - 1 ? to != frames : to >= frames || to - last < kMinKeyDistance) {
     throw InvalidArgument(
-        "to", std::to_string(to) + " with a key at " + at + ": must be " +
-                  (frame == frames - 1 ? std::to_string(frames)
-                                       : AtLeast(" after it and in the dance, which has ") +
-                                             std::to_string(frames) + " frames"));
+        "to", std::to_string(to) + " with a key at " + NameOfFrame(last) + ": must be " +
+                  (last == frames - 1 ? std::to_string(frames)
+                                      : AtLeast(" after it and in the dance, which has ") +
+                                            std::to_string(frames) + " frames"));
   }
+}
+
+/// Where one of the transitions of an edit ends: in a pose, or free.
+struct Stop {
+  int64_t frame = 0;
+  std::optional<Pose> pose = {};
+  PoseMask mask = {};
+  std::string id = {};
+};
+
+/// Dances from behind frame `from` through the stops and on to `to`, which stays, if it is a frame
+/// of the dance.
+EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int64_t to,
+                         const std::string& to_id) {
+  const bool leads_on = to < work.frames();
+  if (leads_on) stops.push_back({to, work.pose(to), {}, to_id.empty() ? NameOfFrame(to) : to_id});
+  Part part{from + 1, {}, {}};
+  TransitionCandidate danced;
+  for (size_t i = 0; i < stops.size(); ++i) {
+    const Stop& stop = stops[i];
+    const bool is_last = i + 1 == stops.size();
+    const int64_t begin = i == 0 ? from : stops[i - 1].frame;
+    TransitionRequest request =
+        i == 0 ? work.After(from, stop.frame - from) : work.Behind(danced, stop.frame - begin);
+    request.target = stop.pose;
+    request.target_mask = stop.mask;
+    request.target_id = stop.id;
+    // Of a path that has no frame of one transition, but of another, that one would say that
+    // nothing comes of it.
+    auto& path = request.config.controls.root_path;
+    if (path && !path->frames.empty() &&
+        ((!is_last && path->frames.front() > stop.frame) ||
+         (i > 0 && path->frames.back() <= begin))) {
+      path.reset();
+    }
+    if (is_last && leads_on) request.after = work.From(to + 1);
+    danced = work.Generate(request);
+    part.poses.insert(part.poses.end(), danced.motion.frames.begin(), danced.motion.frames.end());
+    part.contacts.insert(part.contacts.end(), danced.contacts.begin(), danced.contacts.end());
+    if (is_last && leads_on) break;
+    work.result().keys.insert(work.result().keys.end(), danced.report.keys.begin(),
+                              danced.report.keys.end());
+  }
+  if (leads_on) {  // the last one is the frame that stays
+    part.poses.pop_back();
+    part.contacts.pop_back();
+  }
+  work.Splice(part, leads_on ? std::optional(work.pose(to)) : std::nullopt);
+  return work.Take();
 }
 
 }  // namespace
@@ -228,50 +278,53 @@ int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& mod
 EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,
                    const KeyEdit& edit) {
   Edit work(client, dance, options);
-  const int64_t frame = edit.key.frame.value_or(std::llround(edit.key.time_s * work.fps()));
-  CheckKeyEdit(frame, edit.from, edit.to, work.frames());
-
-  const bool leads_on = edit.to < work.frames();
-  // Of a path that has no frame of one half, but of the other, that half would say that nothing
-  // comes of it.
-  const auto& path = options.controls.root_path;
-  const bool has_points = path && !path->frames.empty();
-
-  TransitionRequest request = work.After(edit.from, frame - edit.from);
-  request.target = edit.key.pose;
-  request.target_mask = edit.key.mask;
-  request.target_id = edit.key.id;
-  if (leads_on && has_points && path->frames.front() > frame)
-    request.config.controls.root_path.reset();
-  const TransitionCandidate onto = work.Generate(request);
-  Part part{edit.from + 1, onto.motion.frames, onto.contacts};
-  std::optional<Pose> next;
-  if (leads_on) {
-    request = work.Behind(onto, edit.to - frame);
-    next = request.target = work.pose(edit.to);
-    request.target_id = edit.to_id.empty() ? NameOfFrame(edit.to) : edit.to_id;
-    if (has_points && path->frames.back() <= frame) request.config.controls.root_path.reset();
-    request.after = work.From(edit.to + 1);
-    const TransitionCandidate away = work.Generate(request);
-    // The last one is the frame that stays.
-    part.poses.insert(part.poses.end(), away.motion.frames.begin(), away.motion.frames.end() - 1);
-    part.contacts.insert(part.contacts.end(), away.contacts.begin(), away.contacts.end() - 1);
+  std::vector<Stop> stops;
+  const auto frame_of = [&](const KeyPose& key) {
+    return key.frame.value_or(std::llround(key.time_s * work.fps()));
+  };
+  stops.push_back({frame_of(edit.key), edit.key.pose, edit.key.mask, edit.key.id});
+  for (const KeyPose& key : edit.held) {
+    stops.push_back({frame_of(key), key.pose, key.mask, key.id});
+    if (stops.back().frame - std::prev(stops.end(), 2)->frame < kMinKeyDistance) {
+      throw InvalidArgument("key.frame", std::to_string(stops.back().frame) + " of a key that is " +
+                                             "held is not " +
+                                             AtLeast(" frames after the one before"));
+    }
   }
-  work.Splice(part, next);
-  work.result().keys = onto.report.keys;
-  return work.Take();
+  CheckKeyEdit(stops.front().frame, stops.back().frame, edit.from, edit.to, work.frames());
+  return DanceThrough(work, edit.from, stops, edit.to, edit.to_id);
+}
+
+EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
+                        const EditOptions& options, const Gap& gap) {
+  Edit work(client, dance, options);
+  const int64_t frames = work.frames();
+  if (gap.from < 0 || gap.from > frames - 2) {
+    throw InvalidArgument(
+        "from", std::to_string(gap.from) + " is not in [0, " + std::to_string(frames - 2) + "]");
+  }
+  if (gap.to < gap.from + 2 || gap.to > frames) {
+    throw InvalidArgument("to", std::to_string(gap.to) + " is not in [" +
+                                    std::to_string(gap.from + 2) + ", " + std::to_string(frames) +
+                                    "]");
+  }
+  // Where nothing stands behind, the end is free.
+  const std::vector<Stop> stops =
+      gap.to == frames ? std::vector<Stop>{{.frame = frames - 1}} : std::vector<Stop>{};
+  return DanceThrough(work, gap.from, stops, gap.to, gap.to_id);
 }
 
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
-                      int64_t from) {
+                      int64_t from, int64_t added) {
   Edit work(client, dance, options);
-  if (from < 0 || from > work.frames() - 2) {
+  const int64_t last = work.frames() + added - 2;
+  if (added < 0 || from < 0 || from > std::min(last, work.frames() - 1)) {
     throw InvalidArgument("from", std::to_string(from) + " is not in [0, " +
-                                      std::to_string(work.frames() - 2) +
+                                      std::to_string(std::min(last, work.frames() - 1)) +
                                       "]: at least one frame must lead back");
   }
   // The first frame once more, behind the last.
-  TransitionRequest request = work.After(from, work.frames() - from);
+  TransitionRequest request = work.After(from, work.frames() + added - from);
   request.target = work.pose(0);
   request.target_id = NameOfFrame(0);
   request.after = work.From(1);

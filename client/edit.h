@@ -44,13 +44,21 @@ struct EditOptions {
 
 /// A key pose set into a dance: the frames between `from` and `to`, both exclusive, change.
 struct KeyEdit {
-  KeyPose key = {};  ///< its frame is in the dance; what stands there is replaced
+  KeyPose key = {};                ///< its frame is in the dance; what stands there is replaced
+  std::vector<KeyPose> held = {};  ///< those behind it that keep its pose, in time
   /// The last frame that stays before the key, at least 2 before it; -1 for a key at frame 0.
   int64_t from = 0;
-  /// The first that stays behind it, at least 2 after it; the number of the dance's frames for a
-  /// key at its last.
+  /// The first that stays behind the last of them, at least 2 after it; the number of the dance's
+  /// frames where that one is its last.
   int64_t to = 0;
   std::string to_id = {};  ///< how warnings call what stands at `to`; empty: "frame N"
+};
+
+/// Frames between `from` and `to`, both exclusive, to be danced without a key.
+struct Gap {
+  int64_t from = 0;  ///< in the dance
+  int64_t to = 0;    ///< at least 2 after `from`; the number of the dance's frames: it ends free
+  std::string to_id = {};  ///< as KeyEdit::to_id
 };
 
 /// What became of a dance.
@@ -58,7 +66,7 @@ struct EditedDance {
   FinishedDance dance = {};
   int64_t first_changed = 0;           ///< frame of the dance, at its own rate
   int64_t end_changed = 0;             ///< the frame behind the last changed one, likewise
-  std::vector<KeyReached> keys = {};   ///< the one that was set
+  std::vector<KeyReached> keys = {};   ///< those that were set
   std::vector<Warning> warnings = {};  ///< the server's, and of knees bent backwards
 };
 
@@ -77,10 +85,16 @@ int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& mod
 EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,
                    const KeyEdit& edit);
 
-/// Makes a dance seamless: the frames behind `from`, at least one, lead back into the first ones. A
-/// dance of another rate than the model's gets the frames that are missing to the next of the
-/// model's. Errors as above.
+/// Dances what was there between two frames anew, without a key: takes one away. Throws
+/// Error(kInvalidArgument) whose field is "from", "to", "audio" or "dance", and what
+/// GenerateTransition throws.
+EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
+                        const EditOptions& options, const Gap& gap);
+
+/// Makes a dance seamless: the frames behind `from`, and `added` ones behind the dance's end, in
+/// all at least one, lead back into the first ones. A dance of another rate than the model's gets
+/// the frames that are missing to the next of the model's. Errors as above.
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
-                      int64_t from);
+                      int64_t from, int64_t added = 0);
 
 }  // namespace choreo::client

@@ -2,17 +2,32 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/edit_session.h"
+#include "client/cli/json_fields.h"
 #include "client/cli/key_file.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
 namespace choreo::cli {
 namespace {
 
 void CheckOptions(const EditOptions& options) {
-  if (options.keys.empty() && !options.loop) {
-    throw InvalidArgument("--key", "is missing, and so is --loop: nothing is to be changed");
+  const bool of_report = !options.moves.empty() || !options.removed.empty();
+  if (options.keys.empty() && !of_report && !options.loop) {
+    throw InvalidArgument("--key",
+                          "is missing, and so are --move, --remove and --loop: nothing is to be "
+                          "changed");
+  }
+  if (of_report && options.report.empty()) {
+    throw InvalidArgument(options.moves.empty() ? "--remove" : "--move",
+                          "needs --report, which names the keys");
+  }
+  for (const auto& [id, at_s] : options.moves) {
+    if (!(at_s >= 0 && at_s <= kMaxSeconds)) {
+      throw InvalidArgument("--move",
+                            InFull(at_s) + " s is not in [0, " + InFull(kMaxSeconds) + "]");
+    }
   }
   if (options.keys.size() != options.at_s.size()) {
     throw InvalidArgument("--at", std::to_string(options.at_s.size()) + " times for " +
@@ -36,6 +51,8 @@ void Run(const EditOptions& options) {
   const Connection connection(options.server, options.model);
   EditSession session(options, connection);
   try {
+    for (const std::string& id : options.removed) session.RemoveKey(id);
+    for (const auto& [id, at_s] : options.moves) session.MoveKey(id, at_s);
     for (size_t i = 0; i < options.keys.size(); ++i)
       session.SetKey(options.keys[i], options.at_s[i]);
     if (options.loop) session.CloseLoop();
@@ -51,10 +68,11 @@ void AddEditCommand(CLI::App& program) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command = program.add_subcommand(
       "edit",
-      "Set key poses into a finished dance, or close it to a loop.\n"
+      "Set, move and remove key poses of a finished dance, or close it to a loop.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
-      "away. A key at the frame of another one replaces it.");
+      "away. A key at the frame of another one replaces it. Keys are removed first, then moved, "
+      "then set.");
   command->add_option("dance", options->dance, MotionFileExtensions() + " file.")
       ->required()
       ->check(CLI::ExistingFile);
@@ -64,11 +82,23 @@ void AddEditCommand(CLI::App& program) {
               "once, each with its --at.");
   AddRepeated(*command, "--at", options->at_s, "Second of the dance for the key.")
       ->check(TimeInSeconds());
+  command
+      ->add_option("--move", options->moves,
+                   "ID TIME: a key of --report, with what holds it, and the second where it is to "
+                   "stand, as it is danced now. May be given more than once.")
+      ->allow_extra_args(false);
+  AddRepeated(*command, "--remove", options->removed,
+              "ID: a key of --report to dance on without. May be given more than once. Of several "
+              "keys of one name: ID@SECOND.");
   command->add_flag("--in-place", options->in_place,
-                    "Set poses of files, too, where the dancer is and faces at that moment.");
+                    "Set poses of files and moved ones, too, where the dancer is and faces at that "
+                    "moment.");
   AddAllowBends(*command, options->allow_bends);
-  command->add_flag("--loop", options->loop,
-                    "Lead the last frames back into the first, so that the dance can be repeated.");
+  command->add_flag(
+      "--loop", options->loop,
+      "Lead the last frames back into the first, so that the dance can be repeated. A "
+      "pose that --report says is held at the end stays, and the way back comes "
+      "behind it.");
   command
       ->add_option("--around", options->around_s,
                    "Seconds that may change before and behind a key, or before the end of a loop. "

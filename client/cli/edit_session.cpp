@@ -17,7 +17,6 @@
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
-#include "model/motion/canonical.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -63,14 +62,15 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   dance_ = ReadDance(options.dance, edit_.model.skeleton);
   frames_ = CountModelFrames(dance_, edit_.model);
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
+  if (!options.report.empty()) ReadKeys();
   if (!options.song.empty()) {
-    const Music music = ReadMusic(options.song, Seconds(frames_), options.song_start_s);
-    edit_.audio = AudioFor(music.audio, Seconds(frames_));
-    edit_.music_beats = BeatsBefore(music, Seconds(frames_));
+    const double end_s = Seconds(frames_ + (options.loop ? LoopFrames().added : 0));
+    const Music music = ReadMusic(options.song, end_s, options.song_start_s);
+    edit_.audio = AudioFor(music.audio, end_s);
+    edit_.music_beats = BeatsBefore(music, end_s);
     edit_.music_passages = music.passages;
     edit_.music_id = music.id;
   }
-  if (!options.report.empty()) ReadKeys();
 }
 
 void EditSession::SetKey(const std::string& source, double at_s) {
@@ -78,32 +78,96 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   // Those of the library bend as bodies do.
   if (named.has_place && !options_.allow_bends)
     RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
-  // The very end means the last frame, as it does for keys of a new dance (dance_keys.h).
-  const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
-  if (frame >= frames_) {
-    throw InvalidArgument("--at", InFull(at_s) +
-                                      " s lies behind the dance, which has its last frame at " +
-                                      Rounded(Seconds(frames_ - 1)) + " s");
-  }
   client::KeyEdit edit;
   edit.key = named.key;
-  edit.key.frame = frame;
-  if (!named.has_place || options_.in_place) {
-    const GroundFrame here = GroundFrame::Of(PoseAt(dance_.motion, Seconds(frame)));
-    edit.key.pose = here.ToWorld(
-        named.has_place ? GroundFrame::Of(named.key.pose).ToLocal(named.key.pose) : named.key.pose);
+  edit.key.frame = FrameInDance("--at", at_s);
+  Pose& pose = edit.key.pose;
+  if (!named.has_place)
+    pose = Here(*edit.key.frame).ToWorld(pose);
+  else if (options_.in_place)
+    pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
+  Set("--at", at_s, std::move(edit));
+}
+
+void EditSession::RemoveKey(const std::string& id) {
+  const std::vector<int64_t> frames = FindKey(keys_, id, edit_.model.fps, "--remove");
+  if (frames.front() == 0) {
+    throw InvalidArgument("--remove", "\"" + IdAt(0) +
+                                          "\" is the first frame, where the dance begins; set "
+                                          "another key there instead: --key POSE --at 0");
   }
-  edit.from = frame == 0 ? -1 : Before(frame);
-  edit.to = frame == frames_ - 1 ? frames_ : Behind(frame);
-  for (const int64_t other : {edit.from, edit.to}) {
-    if (other >= 0 && other < frames_)
-      CheckDistance(at_s, other, keys_.contains(other) ? "the key" : "an end of the dance,");
+  Free(frames, "removed " + IdAt(frames.front()));
+}
+
+void EditSession::MoveKey(const std::string& id, double to_s) {
+  const std::vector<int64_t> frames = FindKey(keys_, id, edit_.model.fps, "--move");
+  const int64_t by = FrameInDance("--move", to_s) - frames.front();
+  if (frames.front() == 0 && by != 0) {
+    throw InvalidArgument("--move", "\"" + IdAt(0) +
+                                        "\" is the first frame, where the dance begins; set it at "
+                                        "another second with --key");
   }
-  if (const auto next = keys_.find(edit.to); next != keys_.end())
-    edit.to_id = next->second["id"].get<std::string>();
+  if (frames.back() + by >= frames_) {
+    throw InvalidArgument("--move", InFull(to_s) + " s: its pose would be held up to " +
+                                        Rounded(Seconds(frames.back() + by)) +
+                                        " s, and the dance has its last frame at " +
+                                        Rounded(Seconds(frames_ - 1)) + " s");
+  }
+  client::KeyEdit edit;
+  for (const int64_t frame : frames) {
+    client::KeyPose& key = frame == frames.front() ? edit.key : edit.held.emplace_back();
+    key.id = IdAt(frame);
+    key.pose = PoseAt(dance_.motion, Seconds(frame));
+    key.frame = frame + by;
+    if (options_.in_place)
+      key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
+  }
+  for (const int64_t frame : frames) keys_.erase(frame);
+  const auto other = keys_.upper_bound(frames.front() + by);
+  if (other != keys_.end() && other->first <= frames.back() + by) {
+    throw InvalidArgument("--move", InFull(to_s) + " s: its pose would be held over the key \"" +
+                                        IdAt(other->first) + "\" at " +
+                                        Rounded(Seconds(other->first)) + " s");
+  }
+  // What is danced anew around its new place may not reach the old one.
+  const auto is_new = [&](int64_t frame) {
+    return frame > Before(frames.front() + by) && frame < Behind(frames.back() + by);
+  };
+  if (!std::ranges::all_of(frames, is_new)) Free(frames, edit.key.id + " leaves its place");
+  const std::string held = edit.key.id;
+  Set("--move", to_s, std::move(edit));
+  for (size_t i = 1; i < frames.size(); ++i) MarkHeld(held, &keys_[frames[i] + by]);
+}
+
+void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
+  const int64_t first = *edit.key.frame;
+  const int64_t last = edit.held.empty() ? first : *edit.held.back().frame;
+  edit.from = first == 0 ? -1 : Before(first);
+  edit.to = last == frames_ - 1 ? frames_ : Behind(last);
+  for (const auto& [frame, other] : {std::pair(first, edit.from), {last, edit.to}}) {
+    if (other < 0 || other >= frames_) continue;
+    CheckDistance(field, at_s + Seconds(frame - first), other,
+                  keys_.contains(other) ? "the key" : "an end of the dance,");
+  }
+  if (keys_.contains(edit.to)) edit.to_id = IdAt(edit.to);
   DropWarnings(edit.from, edit.to);
   WarnOfFaults(edit);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
+}
+
+void EditSession::Free(const std::vector<int64_t>& frames, const std::string& what) {
+  for (const int64_t frame : frames) keys_.erase(frame);
+  client::Gap gap{.from = Before(frames.front()),
+                  .to = frames.back() == frames_ - 1 ? frames_ : Behind(frames.back())};
+  if (keys_.contains(gap.to)) gap.to_id = IdAt(gap.to);
+  if (gap.to - gap.from > longest_) {
+    throw InvalidArgument("--around", "without the key " + Rounded(Seconds(gap.to - gap.from)) +
+                                          " s are danced at once, the model's most are " +
+                                          Rounded(Seconds(longest_)) +
+                                          " s: say how much is to be danced anew");
+  }
+  DropWarnings(gap.from, gap.to);
+  Take(client::DanceFreely(client_, dance_, edit_, gap), what);
 }
 
 void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
@@ -118,14 +182,27 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
   warnings_.insert(warnings_.end(), faults.begin(), faults.end());
 }
 
+EditSession::Loop EditSession::LoopFrames() const {
+  const int64_t end = frames_ - 1;
+  const int64_t from = std::max<int64_t>(0, end - Around());
+  const std::optional<int64_t> held = HeldEnd(keys_);
+  if (!held || *held <= from) return {from, 0};
+  return {*held, *held + Around() - end};
+}
+
 void EditSession::CloseLoop() {
-  const int64_t from = std::max<int64_t>(0, frames_ - 1 - Around());
+  const auto [from, added] = LoopFrames();
   for (auto key = keys_.upper_bound(from); key != keys_.end(); key = keys_.erase(key)) {
     std::cerr << "warning: key " << key->second["id"].get<std::string>() << " at "
               << Rounded(Seconds(key->first)) << " s makes way for the loop\n";
   }
+  if (added > 0) {
+    std::cerr << "note: the pose that is held at the end stays; the way back makes the dance "
+              << Rounded(Seconds(added)) << " s longer\n";
+  }
   DropWarnings(from, frames_);
-  Take(client::CloseLoop(client_, dance_, edit_, from), "loop");
+  frames_ += added;
+  Take(client::CloseLoop(client_, dance_, edit_, from, added), "loop");
 }
 
 void EditSession::Write() const {
@@ -148,16 +225,7 @@ void EditSession::ReadKeys() {
     message << report["fps"].dump() << ", but the model runs at " << edit_.model.fps;
     throw InvalidArgument(options_.report + ":fps", message.str());
   }
-  for (const auto& key : report["keyframes"]) {
-    const auto frame = key["frame"].get<int64_t>();
-    if (frame >= frames_) {
-      throw InvalidArgument(options_.report + ":keyframes",
-                            key["id"].get<std::string>() + " stands at frame " +
-                                std::to_string(frame) + ", but the dance has " +
-                                std::to_string(frames_) + ": it is the report of another one");
-    }
-    keys_[frame] = key;
-  }
+  keys_ = KeysOf(report, frames_, options_.report);
   warnings_ = ReadWarnings(report, options_.report);
 }
 
@@ -169,19 +237,34 @@ void EditSession::CheckKeys() const {
       throw InvalidArgument("--key", same->second + " and " + options_.keys[i] +
                                          " both ask for frame " + std::to_string(same->first));
     }
-    if (same != sources.begin()) CheckDistance(options_.at_s[i], std::prev(same)->first, "the key");
+    const double at_s = options_.at_s[i];
+    if (same != sources.begin()) CheckDistance("--at", at_s, std::prev(same)->first, "the key");
     if (std::next(same) != sources.end())
-      CheckDistance(options_.at_s[i], std::next(same)->first, "the key");
+      CheckDistance("--at", at_s, std::next(same)->first, "the key");
   }
 }
 
-void EditSession::CheckDistance(double at_s, int64_t other, const std::string& what) const {
+int64_t EditSession::FrameInDance(const char* field, double at_s) const {
+  // The very end means the last frame, as it does for keys of a new dance (dance_keys.h).
+  const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
+  if (frame < frames_) return frame;
+  throw InvalidArgument(field, InFull(at_s) +
+                                   " s lies behind the dance, which has its last frame at " +
+                                   Rounded(Seconds(frames_ - 1)) + " s");
+}
+
+GroundFrame EditSession::Here(int64_t frame) const {
+  return GroundFrame::Of(PoseAt(dance_.motion, Seconds(frame)));
+}
+
+void EditSession::CheckDistance(const char* field, double at_s, int64_t other,
+                                const std::string& what) const {
   const int64_t distance = std::abs(Frame(at_s) - other);
   if (distance >= kMinKeyDistance) return;
-  throw InvalidArgument("--at", InFull(at_s) + " s lies " + std::to_string(distance) +
-                                    " frame from " + what + " at " + Rounded(Seconds(other)) +
-                                    " s, must be at least " + std::to_string(kMinKeyDistance) +
-                                    " frames from it");
+  throw InvalidArgument(field, InFull(at_s) + " s lies " + std::to_string(distance) +
+                                   " frame from " + what + " at " + Rounded(Seconds(other)) +
+                                   " s, must be at least " + std::to_string(kMinKeyDistance) +
+                                   " frames from it");
 }
 
 void EditSession::CheckAround(double seconds) const {
@@ -230,6 +313,7 @@ void EditSession::Take(client::EditedDance edited, const std::string& what) {
             << " of " << dance_.motion.frames.size() << " are new";
   for (const client::KeyReached& key : edited.keys) {
     keys_[key.frame] = KeyJson(key);
+    if (&key != &edited.keys.front()) continue;  // of a pose that is held one figure is enough
     std::cout << "; hit at " << Rounded(Seconds(key.frame)) << " s within "
               << Rounded(1000 * key.final_error_m) << " mm and " << Rounded(key.final_error_deg)
               << " degrees";

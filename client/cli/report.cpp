@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/cli/json_fields.h"
+#include "client/cli/report_keys.h"
 #include "model/core/json_limits.h"
 
 namespace choreo::cli {
@@ -87,7 +88,7 @@ std::string ReportJson(const WrittenDance& dance) {
   json["keyframes"] = nlohmann::ordered_json::array();
   for (const WrittenKey& key : dance.keys) {
     nlohmann::ordered_json& written = json["keyframes"].emplace_back(KeyJson(key.reached));
-    if (!key.holds.empty()) written["holds"] = key.holds;
+    if (!key.holds.empty()) MarkHeld(key.holds, &written);
     written["output_frame"] = key.frame;
     written["on_output_frame"] = key.on_frame;
     written["output_error_m"] = key.error.position_m;

@@ -1,0 +1,77 @@
+#include "client/cli/report_keys.h"
+
+#include <cmath>
+#include <iterator>
+
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+
+namespace choreo::cli {
+namespace {
+
+constexpr const char* kHolds = "holds";
+
+std::string IdOf(const nlohmann::ordered_json& key) { return key["id"].get<std::string>(); }
+
+bool HoldsAnother(const nlohmann::ordered_json& key) {
+  return key.contains(kHolds) && key[kHolds].is_string();
+}
+
+}  // namespace
+
+ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name) {
+  ReportKeys keys;
+  for (const auto& key : report["keyframes"]) {
+    const auto frame = key["frame"].get<int64_t>();
+    if (frame >= frames) {
+      throw InvalidArgument(name + ":keyframes",
+                            IdOf(key) + " stands at frame " + std::to_string(frame) +
+                                ", but the dance has " + std::to_string(frames) +
+                                ": it is the report of another one");
+    }
+    keys[frame] = key;
+  }
+  return keys;
+}
+
+std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,
+                             const std::string& field) {
+  const auto second = [&](int64_t frame) { return Rounded(static_cast<double>(frame) / fps); };
+  std::string known, seconds;
+  std::vector<ReportKeys::const_iterator> found;
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    if (HoldsAnother(key->second)) continue;
+    const std::string name = IdOf(key->second);
+    known += (known.empty() ? "\"" : ", \"") + name + '"';
+    const bool is_one = name + '@' + second(key->first) == id;
+    if (name != id && !is_one) continue;
+    if (is_one) found.clear();
+    found.push_back(key);
+    seconds += (seconds.empty() ? "" : ", ") + second(key->first);
+    if (is_one) break;
+  }
+  if (found.empty()) {
+    throw InvalidArgument(
+        field, "the report has no key \"" + id + "\"; it has " + (known.empty() ? "none" : known));
+  }
+  if (found.size() > 1) {
+    throw InvalidArgument(field, "the report has keys \"" + id + "\" at " + seconds +
+                                     " s; say which, as in " + id + '@' +
+                                     second(found.front()->first));
+  }
+  std::vector<int64_t> frames;
+  auto key = found.front();
+  do {
+    frames.push_back(key->first);
+  } while (++key != keys.end() && HoldsAnother(key->second));
+  return frames;
+}
+
+std::optional<int64_t> HeldEnd(const ReportKeys& keys) {
+  if (keys.empty() || !HoldsAnother(keys.rbegin()->second)) return std::nullopt;
+  return keys.rbegin()->first;
+}
+
+void MarkHeld(const std::string& id, nlohmann::ordered_json* key) { (*key)[kHolds] = id; }
+
+}  // namespace choreo::cli
