@@ -13,6 +13,7 @@ void AddEditCommand(CLI::App& program);
 void AddAnalyzeCommand(CLI::App& program);
 void AddInfoCommand(CLI::App& program);
 void AddHealthCommand(CLI::App& program);
+void AddServeCommand(CLI::App& program);
 void AddConvertCommand(CLI::App& program);
 void AddPoseCommand(CLI::App& program);
 void AddPlotCommand(CLI::App& program);

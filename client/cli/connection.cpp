@@ -67,6 +67,9 @@ client::Options ServerOptions::ForClient() const {
 Connection::Connection(const ServerOptions& options, const std::optional<std::string>& model) {
   client::Options client_options = options.ForClient();
   if (options.addresses.empty()) {
+    std::cerr << "note: a server is started for this command alone, which takes seconds; to keep "
+                 "one: choreo serve, and CHOREO_SERVER="
+              << client_options.addresses.front() << " for commands\n";
     own_ = LocalServer::Start(!model           ? std::string()
                               : model->empty() ? std::string(kShippedModels[0])
                                                : *model);

@@ -40,14 +40,16 @@ constexpr const char* kListens = "choreod listens on ";
 
 }  // namespace
 
+std::filesystem::path LocalServer::Program() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod";
+}
+
 std::unique_ptr<LocalServer> LocalServer::Start(const std::string& model) {
   // Who names checkpoints in the environment has named the models.
   const bool ships = std::ranges::find(kShippedModels, model) != std::end(kShippedModels) &&
                      std::getenv("CHOREO_CHECKPOINT") == nullptr &&
                      std::getenv("CHOREO_MODELS") == nullptr;
-  return std::make_unique<LocalServer>(
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "choreod", "127.0.0.1:0",
-      ships ? model : "");
+  return std::make_unique<LocalServer>(Program(), "127.0.0.1:0", ships ? model : "");
 }
 
 LocalServer::LocalServer(const std::filesystem::path& program, const std::string& listen,

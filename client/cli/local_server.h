@@ -12,6 +12,8 @@ namespace choreo::cli {
 /// this process dies.
 class LocalServer {
  public:
+  /// The choreod that lies beside this program, if any does.
+  static std::filesystem::path Program();
   /// Starts the choreod that lies beside this program and returns when it listens. `model`: one
   /// that ships, to serve alone; any other name: those for every day. Throws Error(kNotFound) if
   /// there is none, and Error(kUnavailable) if it does not listen within two minutes; it has then

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   choreo::cli::AddAnalyzeCommand(program);
   choreo::cli::AddInfoCommand(program);
   choreo::cli::AddHealthCommand(program);
+  choreo::cli::AddServeCommand(program);
   choreo::cli::AddConvertCommand(program);
   choreo::cli::AddPoseCommand(program);
   choreo::cli::AddPlotCommand(program);

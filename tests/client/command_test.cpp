@@ -259,6 +259,33 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
   expect_failure("info --deadline 0.3 --server 127.0.0.1:1", "127.0.0.1:1");
 }
 
+// Beside a choreod that is there at once.
+TEST_F(CommandTest, KeepsAServerForOthers) {
+  std::filesystem::copy(CHOREO_PROGRAM, folder_ / "choreo");
+  std::filesystem::create_symlink(FAKE_CHOREOD, folder_ / "choreod");
+  const std::string choreo = At("choreo");
+  const Outcome alone = Shell(choreo + " info");
+  EXPECT_EQ(alone.code, 0) << alone.said;
+  EXPECT_THAT(alone.said, testing::ContainsRegex("note: a server is started .*: choreo serve, and "
+                                                 "CHOREO_SERVER=127.0.0.1:50051 for commands\n"));
+  const Outcome kept =
+      Shell(choreo + " serve --listen 127.0.0.1:0 >" + At("said") + " & until grep -q listens " +
+            At("said") + "; do sleep 0.05; done; export CHOREO_SERVER=$(sed 's/.* //' " +
+            At("said") + "); " + choreo + " info; kill $!; wait $!; echo left with $?");
+  EXPECT_THAT(kept.said, HasSubstr("choreod"));
+  EXPECT_THAT(kept.said, HasSubstr("model fake"));
+  EXPECT_THAT(kept.said, testing::Not(HasSubstr("note: a server")));
+  EXPECT_THAT(kept.said, HasSubstr("left with 0"));
+  const Outcome wrong = Shell(choreo + " serve --nonsense");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.said,
+              HasSubstr("choreod: The following argument was not expected: --nonsense"));
+  std::filesystem::remove(folder_ / "choreod");
+  const Outcome absent = Shell(choreo + " serve");
+  EXPECT_EQ(absent.code, 1);
+  EXPECT_THAT(absent.said, HasSubstr("/choreod: cannot be started: No such file"));
+}
+
 TEST_F(CommandTest, ExplainsItself) {
   EXPECT_EQ(Choreo("").code, 2);
   EXPECT_EQ(Choreo("swim").code, 2);
@@ -279,8 +306,8 @@ TEST_F(CommandTest, ExplainsItself) {
   const Outcome absurd = Choreo("convert /dev/null b.npz --fps 1e9");
   EXPECT_EQ(absurd.code, 2);
   EXPECT_THAT(absurd.said, HasSubstr("--fps: 1e9 is not a number from 1 to 1000"));
-  for (const char* command :
-       {"", "dance", "transition", "edit", "analyze", "info", "health", "convert", "render"}) {
+  for (const char* command : {"", "dance", "transition", "edit", "analyze", "info", "health",
+                              "serve", "convert", "render"}) {
     const Outcome outcome = Choreo(std::string(command) + " --help");
     EXPECT_EQ(outcome.code, 0) << command;
     EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << command;

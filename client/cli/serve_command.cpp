@@ -1,0 +1,38 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "client/cli/commands.h"
+#include "client/cli/local_server.h"
+#include "model/core/error.h"
+
+namespace choreo::cli {
+namespace {
+
+/// Becomes choreod: signals, output and exit code are its own.
+void Run(std::vector<std::string> options) {
+  const std::string program = LocalServer::Program().string();
+  std::vector<char*> arguments = {const_cast<char*>("choreod")};
+  for (std::string& option : options) arguments.push_back(option.data());
+  arguments.push_back(nullptr);
+  execv(program.c_str(), arguments.data());
+  throw Error(ErrorCode::kNotFound, program,
+              std::string("cannot be started: ") + std::strerror(errno));
+}
+
+}  // namespace
+
+void AddServeCommand(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "serve",
+      "Keep a server on this machine, for commands with --server or CHOREO_SERVER: they need not "
+      "start one each.\n"
+      "Takes choreod's options, which choreod --help lists.");
+  command->prefix_command();
+  command->callback([command] { Run(command->remaining()); });
+}
+
+}  // namespace choreo::cli
