@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "bench/live_dance.h"
-#include "bench/process_usage.h"
 #include "bench/relay.h"
 #include "client/cli/local_server.h"
 #include "client/cli/music.h"
@@ -17,6 +16,7 @@
 #include "model/audio/format.h"
 #include "model/audio/mfcc.h"
 #include "model/core/error.h"
+#include "server/process_usage.h"
 
 /// How many dances one choreod serves over gRPC, on the machine that also plays all its clients.
 /// The server has its defaults, or what the environment says (choreod --help).

@@ -13,11 +13,11 @@
 #include <thread>
 
 #include "bench/live_dance.h"
-#include "bench/process_usage.h"
 #include "client/cli/local_server.h"
 #include "client/cli/options.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "server/process_usage.h"
 
 /// One choreod for a long time, among clients that dance as they should and others that do not:
 /// whether its memory, threads and descriptors grow, and whether the first get later.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/caller.h"
+#include "server/refusal.h"
 
 namespace choreo {
 namespace {
@@ -25,13 +26,13 @@ Error HandedOn() {
 
 void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& peer) {
   const std::lock_guard lock(mutex_);
-  if (!admitting_) throw Error(ErrorCode::kUnavailable, "", kGoingAway);
+  if (!admitting_) throw Refused(Refusal::kDraining, kGoingAway);
   std::string address = AddressOf(peer);
   int& calls = of_address_[address];
   if (calls >= limits_.calls_of_peer) {
-    throw Error(ErrorCode::kResourceExhausted, "",
-                address + " has " + std::to_string(calls) + " calls in progress, of at most " +
-                    std::to_string(limits_.calls_of_peer) + " from one address");
+    throw Refused(Refusal::kStreamsOfPeer,
+                  address + " has " + std::to_string(calls) + " calls in progress, of at most " +
+                      std::to_string(limits_.calls_of_peer) + " from one address");
   }
   ++calls;
   calls_.emplace(call.get(), Entry{call, std::move(address), Clock::now()});
@@ -40,11 +41,11 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& p
 void CallRegistry::Admit(const Call* call) {
   const std::lock_guard lock(mutex_);
   const auto at = calls_.find(call);
-  if (!admitting_ || at == calls_.end()) throw Error(ErrorCode::kUnavailable, "", kGoingAway);
+  if (!admitting_ || at == calls_.end()) throw Refused(Refusal::kDraining, kGoingAway);
   if (admitted_ >= limits_.calls) {
-    throw Error(ErrorCode::kResourceExhausted, "",
-                "the server is full: " + std::to_string(admitted_) +
-                    " calls are in progress, of at most " + std::to_string(limits_.calls));
+    throw Refused(Refusal::kStreams, "the server is full: " + std::to_string(admitted_) +
+                                         " calls are in progress, of at most " +
+                                         std::to_string(limits_.calls));
   }
   at->second.admitted = true;
   at->second.since = Clock::now();
@@ -120,7 +121,7 @@ void CallRegistry::StopAdmitting() {
     admitting_ = false;
     silent = Calls(/*admitted=*/false);
   }
-  for (const auto& call : silent) call->Abort(Error(ErrorCode::kUnavailable, "", kGoingAway));
+  for (const auto& call : silent) call->Abort(Refused(Refusal::kDraining, kGoingAway));
 }
 
 void CallRegistry::AbortAll(const Error& error) {
@@ -135,6 +136,11 @@ void CallRegistry::AbortAll(const Error& error) {
 bool CallRegistry::WaitUntilEmpty(std::chrono::milliseconds limit) const {
   std::unique_lock lock(mutex_);
   return left_.wait_for(lock, limit, [this] { return calls_.empty(); });
+}
+
+bool CallRegistry::admitting() const {
+  const std::lock_guard lock(mutex_);
+  return admitting_;
 }
 
 int CallRegistry::count() const {

@@ -52,11 +52,10 @@ class CallRegistry {
  public:
   explicit CallRegistry(const CallLimits& limits) : limits_(limits) {}
 
-  /// `peer` as gRPC has it: an address and a port. Throws Error(kResourceExhausted) where this
-  /// address has too many calls, Error(kUnavailable) after StopAdmitting.
+  /// `peer` as gRPC has it: an address and a port. Throws Refused where this address has too many
+  /// calls, and after StopAdmitting.
   void Enter(const std::shared_ptr<Call>& call, const std::string& peer);
-  /// Throws Error(kResourceExhausted) when full, Error(kUnavailable) after StopAdmitting. Once for
-  /// each call.
+  /// Throws Refused when full, and after StopAdmitting. Once for each call.
   void Admit(const Call* call);
   /// Also for calls that never entered.
   void Leave(const Call* call);
@@ -72,7 +71,8 @@ class CallRegistry {
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
-  int count() const;  ///< admitted
+  bool admitting() const;  ///< until StopAdmitting
+  int count() const;       ///< admitted
   const CallLimits& limits() const { return limits_; }
   /// When a place may be free: by how often calls have ended lately. Seconds, 1 to 60.
   double retry_after() const;

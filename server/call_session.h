@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "model/dance/dance_stream.h"
 #include "server/caller.h"
 #include "server/outbox.h"
+#include "server/refusal.h"
 #include "server/serving.h"
 #include "server/status.h"
 #include "server/write_response.h"
@@ -39,6 +41,7 @@ class CallSession : public Call {
   Outbox<Response>& outbox() { return outbox_; }
 
   void Abort(const Error& error) override {
+    Note(RefusalIn(error));
     outbox_.Abort(StatusOf(error));
     CancelDance();
   }
@@ -55,8 +58,10 @@ class CallSession : public Call {
   /// Before all else: finds out who it is that calls; false where the call ends for it.
   bool Authenticate(std::string_view authorization) {
     const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder);
-    if (!status.ok()) outbox_.Close(status);
-    return status.ok();
+    if (status.ok()) return true;
+    Note(Refusal::kToken);
+    outbox_.Close(status);
+    return false;
   }
 
   /// Counts the call as one in progress; with its first message. Throws as CallRegistry::Admit.
@@ -69,18 +74,24 @@ class CallSession : public Call {
   void Release() noexcept {
     CancelDance();
     serving_.frames.GiveBack(this);
+    std::optional<Refusal> refusal;
     {
       const std::lock_guard lock(mutex_);
       dance_.reset();
+      refusal = refusal_;
     }
     try {
       const grpc::Status status = outbox_.status();
+      if (status.ok()) refusal.reset();  // what came behind the end ended nothing
       serving_.tally.Count({.method = method_,
                             .caller = caller_,
                             .status = status,
                             .seconds = Elapsed(),
                             .frames = frames_,
-                            .first_frame_s = first_frame_s_});
+                            .first_frame_s = first_frame_s_,
+                            .model = model_,
+                            .seed = seed_,
+                            .refusal = refusal});
     } catch (const std::bad_alloc&) {  // one call less in log and metrics is nothing to die for
     }
   }
@@ -114,7 +125,7 @@ class CallSession : public Call {
     } catch (const Error& error) {
       Fail(error);
     } catch (const std::exception& error) {
-      spdlog::error("{} {}: {}", method_, caller_.peer, error.what());
+      spdlog::error("{} {} stream {}: {}", method_, caller_.peer, caller_.stream_id, error.what());
       Fail(Error(ErrorCode::kInternal, "", error.what()));
     }
   }
@@ -154,6 +165,7 @@ class CallSession : public Call {
     outbox_.Close(status);
   }
   void EndIn(const Error& error) {
+    Note(RefusalIn(error));
     try {
       End(StatusOf(error));
     } catch (const std::bad_alloc&) {
@@ -166,6 +178,12 @@ class CallSession : public Call {
   /// Its RetryInfo, if any, is from the measured load.
   grpc::Status StatusOf(const Error& error) const {
     return ToStatus(error, serving_.calls.retry_after());
+  }
+
+  /// What its line of the log names. Of the sender of messages.
+  void Name(const ModelInfo& model, uint64_t seed) {
+    model_ = model.name;
+    seed_ = seed;
   }
 
   /// Calls of a sink come one at a time; so do those of the two below.
@@ -182,6 +200,12 @@ class CallSession : public Call {
   Serving& serving_;
 
  private:
+  // Why the call is turned away, if it is; the first reason counts.
+  void Note(std::optional<Refusal> refusal) {
+    const std::lock_guard lock(mutex_);
+    if (!refusal_) refusal_ = refusal;
+  }
+
   double Elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   void SetPaused(bool paused) {
@@ -209,11 +233,15 @@ class CallSession : public Call {
   Caller caller_;  // written before the call has entered
   const Clock::time_point start_ = Clock::now();
   bool admitted_ = false;  // of the sender of messages
+  // Of the same, and of Release behind it.
+  std::string model_;
+  std::optional<uint64_t> seed_;
 
-  mutable std::mutex mutex_;      // guards the three below
+  mutable std::mutex mutex_;      // guards the four below
   std::shared_ptr<Dance> dance_;  // null before the configuration and after the call
   bool ended_ = false;
   bool paused_ = false;  // as the outbox wants it, be there a dance or not
+  std::optional<Refusal> refusal_;
 
   std::atomic<int64_t> frames_ = 0;
   std::atomic<double> first_frame_s_ = 0;

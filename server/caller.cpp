@@ -1,6 +1,8 @@
 #include "server/caller.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <random>
 
 namespace choreo {
 namespace {
@@ -35,6 +37,13 @@ std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char
 }
 
 std::string AddressOf(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
+
+std::string FreshStreamId() {
+  std::random_device device;
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%08x%08x", device(), device());
+  return digits;
+}
 
 Caller CallerOf(const grpc::CallbackServerContext& context) {
   Caller caller;

@@ -14,7 +14,12 @@ struct Caller {
   /// Of the W3C traceparent that was sent, in hexadecimal digits: what joins this call with what
   /// its client does. Empty without a valid one.
   std::string trace_id, span_id;
+  /// Of a call that dances: 16 hexadecimal digits, which the client is told as kStreamIdHeader.
+  std::string stream_id = {};
 };
+
+inline constexpr const char* kStreamIdHeader = "choreo-stream-id";
+std::string FreshStreamId();
 
 /// A peer without its port.
 std::string AddressOf(const std::string& peer);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/core/error.h"
+#include "server/refusal.h"
 
 namespace choreo {
 namespace {
@@ -44,10 +44,11 @@ void FrameBudget::Take(const void* call, Charge charge) {
     frames[charge.model] += charge.frames_per_second;
     const double load = LoadOf(frames);
     if (taken == 0 || load <= most) return;
-    throw Error(ErrorCode::kResourceExhausted, "",
-                "the engines are busy: " + (address ? *address + " has " : "calls have ") +
-                    Percent(taken) + " of their time, with this one it would be " + Percent(load) +
-                    ", of at most " + Percent(most) + (address ? " for one address" : ""));
+    throw Refused(address ? Refusal::kLoadOfPeer : Refusal::kLoad,
+                  "the engines are busy: " + (address ? *address + " has " : "calls have ") +
+                      Percent(taken) + " of their time, with this one it would be " +
+                      Percent(load) + ", of at most " + Percent(most) +
+                      (address ? " for one address" : ""));
   };
   if (shares_.of_all <= 1) {
     require(nullptr, shares_.of_all);

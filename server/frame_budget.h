@@ -24,7 +24,7 @@ class FrameBudget {
   explicit FrameBudget(const FrameShares& shares) : shares_(shares) {}
 
   /// A dance: it goes on as fast as it is played, whenever its music comes. Throws
-  /// Error(kResourceExhausted) where that is more than is left. Who is alone is always taken: slow
+  /// Refused where that is more than is left. Who is alone is always taken: slow
   /// engines serve one at a time. Once for each call, named by any address that is its own.
   void TakeDance(const void* call, const SampleQueue& model, const std::string& address);
   /// A transition of so many frames, candidates counted; as often as it asks to be made. It is

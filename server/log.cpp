@@ -94,6 +94,10 @@ std::string ObjectOf(const CallRecord& call) {
   add("holder", call.caller.holder);
   add("trace_id", call.caller.trace_id);
   add("span_id", call.caller.span_id);
+  add("stream_id", call.caller.stream_id);
+  add("model", std::string(call.model));
+  if (call.seed) object["seed"] = *call.seed;
+  if (call.refusal) object["refusal"] = kRefusals[static_cast<size_t>(*call.refusal)];
   if (call.frames > 0) object["first_frame_seconds"] = call.first_frame_s;
   return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -101,11 +105,14 @@ std::string ObjectOf(const CallRecord& call) {
 std::string TextOf(const CallRecord& call) {
   std::string text = std::string(call.method) + ' ' + call.caller.peer;
   if (!call.caller.holder.empty()) text += " (" + call.caller.holder + ')';
+  if (!call.caller.stream_id.empty()) text += " stream " + call.caller.stream_id;
   if (!call.caller.trace_id.empty()) text += " trace " + call.caller.trace_id;
   text += fmt::format(": {} in {:.3f} s", NameOf(call.status.error_code()), call.seconds);
   if (call.frames > 0) {
     text += fmt::format(", {} frames, the first after {:.3f} s", call.frames, call.first_frame_s);
   }
+  if (!call.model.empty()) text += fmt::format(", model \"{}\"", call.model);
+  if (call.seed) text += fmt::format(", seed {}", *call.seed);
   if (!call.status.ok()) text += ": " + call.status.error_message();
   return text;
 }

@@ -3,10 +3,12 @@
 #include <grpcpp/support/status.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "server/caller.h"
+#include "server/refusal.h"
 
 namespace choreo {
 
@@ -20,8 +22,11 @@ struct CallRecord {
   const Caller& caller;
   const grpc::Status& status;
   double seconds = 0;
-  int64_t frames = 0;        ///< at the client's rate
-  double first_frame_s = 0;  ///< after it began; 0 without frames
+  int64_t frames = 0;                   ///< at the client's rate
+  double first_frame_s = 0;             ///< after it began; 0 without frames
+  std::string_view model = {};          ///< that it was for; empty: none was found
+  std::optional<uint64_t> seed = {};    ///< in use
+  std::optional<Refusal> refusal = {};  ///< that ended it
 };
 
 /// The one line that a call leaves, at level info.

@@ -3,16 +3,17 @@
 #include <algorithm>
 
 #include "model/core/error.h"
+#include "server/refusal.h"
 
 namespace choreo {
 
 void MusicBudget::Take(int64_t bytes) {
   const std::lock_guard lock(mutex_);
   if (bytes > bytes_ - taken_) {
-    throw Error(ErrorCode::kResourceExhausted, "",
-                "the server is full: music files on their way hold " + std::to_string(taken_) +
-                    " bytes, this one needs " + std::to_string(bytes) + " more, at most " +
-                    std::to_string(bytes_) + " are there for all");
+    throw Refused(Refusal::kFileMusic, "the server is full: music files on their way hold " +
+                                           std::to_string(taken_) + " bytes, this one needs " +
+                                           std::to_string(bytes) + " more, at most " +
+                                           std::to_string(bytes_) + " are there for all");
   }
   taken_ += bytes;
 }

@@ -16,7 +16,7 @@ class MusicBudget {
  public:
   explicit MusicBudget(int64_t bytes) : bytes_(bytes) {}
 
-  /// Throws Error(kResourceExhausted) where so much is not left.
+  /// Throws Refused where so much is not left.
   void Take(int64_t bytes);
   void GiveBack(int64_t bytes);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "model/dance/validation.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
+#include "server/refusal.h"
 #include "server/status.h"
 #include "server/stream_reactor.h"
 #include "server/transition_reactor.h"
@@ -75,18 +77,23 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
   const Clock::time_point begin = Clock::now();
   Caller caller = CallerOf(*context);
   auto* reactor = new InfoReactor(*this, AddressOf(caller.peer));
+  std::optional<Refusal> refusal;
   grpc::Status status =
       serving_.tokens.FindHolder(HeaderOf(*context, "authorization"), &caller.holder);
-  if (status.ok() && !reactor->within()) {
-    status = ToStatus({ErrorCode::kResourceExhausted, "",
-                       std::to_string(kMostUnreadInfos) +
-                           " answers wait for your address to read them, the most there may be"});
+  if (!status.ok()) {
+    refusal = Refusal::kToken;
+  } else if (!reactor->within()) {
+    refusal = Refusal::kUnreadInfos;
+    status = ToStatus(Refused(
+        *refusal, std::to_string(kMostUnreadInfos) +
+                      " answers wait for your address to read them, the most there may be"));
   }
   if (status.ok()) Describe(response);
   serving_.tally.Count({.method = Tally::kInfoMethod,
                         .caller = caller,
                         .status = status,
-                        .seconds = std::chrono::duration<double>(Clock::now() - begin).count()});
+                        .seconds = std::chrono::duration<double>(Clock::now() - begin).count(),
+                        .refusal = refusal});
   reactor->Finish(status);
   return reactor;
 }

@@ -45,7 +45,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
  protected:
   SessionReactor(Serving& serving, grpc::CallbackServerContext* context)
       : serving_(serving),
-        session_(std::make_shared<Session>(serving, this, CallerOf(*context))),
+        session_(std::make_shared<Session>(serving, this, Named(*context))),
         context_(context) {}
 
   /// Tells the service of the call and runs `begin`; a client without a token, and a service that
@@ -65,6 +65,13 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
   const std::shared_ptr<Session> session_;
 
  private:
+  static Caller Named(grpc::CallbackServerContext& context) {
+    Caller caller = CallerOf(context);
+    caller.stream_id = FreshStreamId();
+    context.AddInitialMetadata(kStreamIdHeader, caller.stream_id);
+    return caller;
+  }
+
   grpc::CallbackServerContext* const context_;  // lives until OnDone
   grpc::ByteBuffer written_;
 };

@@ -148,6 +148,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const Models::Use found = serving_.models.Find(message.model(), "config.model");
     const ModelInfo& model = found->model();
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
+    Name(model, config.seed);
     serving_.frames.TakeDance(this, *found, address());
     queue_ = found;
     encoding_ = message.encoding();

@@ -2,6 +2,7 @@
 
 #include <grpcpp/support/status.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <map>
@@ -11,6 +12,7 @@
 
 #include "model/core/histogram.h"
 #include "server/log.h"
+#include "server/refusal.h"
 
 namespace choreo {
 
@@ -22,6 +24,9 @@ class Tally {
   /// By method and status.
   using Calls = std::map<std::pair<std::string, grpc::StatusCode>, uint64_t>;
 
+  /// By Refusal.
+  using Refusals = std::array<uint64_t, kRefusals.size()>;
+
   /// A call is over: counts it, and logs it.
   void Count(const CallRecord& call) {
     LogCall(call);
@@ -29,10 +34,15 @@ class Tally {
     if (call.frames > 0) first_frame_s.Add(call.first_frame_s);
     const std::lock_guard lock(mutex_);
     ++calls_[{std::string(call.method), call.status.error_code()}];
+    if (call.refusal) ++refusals_[static_cast<size_t>(*call.refusal)];
   }
   Calls calls() const {
     const std::lock_guard lock(mutex_);
     return calls_;
+  }
+  Refusals refusals() const {
+    const std::lock_guard lock(mutex_);
+    return refusals_;
   }
 
   /// Of calls that dance: those refused for want of room or of a token, and all others.
@@ -60,7 +70,8 @@ class Tally {
 
  private:
   mutable std::mutex mutex_;
-  Calls calls_;  // lock: mutex_
+  Calls calls_;             // lock: mutex_
+  Refusals refusals_ = {};  // lock: mutex_
 };
 
 }  // namespace choreo

@@ -39,6 +39,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       queue_ = serving_.models.Find(message.config().model(), "config.model");
       GroupRequest request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
+      Name(queue_->model(), request.seed);
       // What is out of range is named once the music is there.
       const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
       serving_.frames.TakeTransition(this, *queue_, address(), request.candidates * frames);

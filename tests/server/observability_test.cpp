@@ -8,16 +8,19 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <thread>
 
 #include "client/cli/local_server.h"
 #include "server/listener.h"
 #include "server/log.h"
+#include "server/refusal.h"
 #include "tests/server/fixture.h"
 #include "tests/support/sanitizers.h"
 
@@ -201,6 +204,51 @@ TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
   }
 }
 
+TEST_F(MetricsTest, TellWhyCallsAreRefused) {
+  Start(1, [](ServerConfig& config) {
+    config.metrics = "0";
+    config.max_streams = 2;
+    config.max_streams_of_peer = 2;
+  });
+  const auto refused = [this](const std::string& reason) {
+    return Figure("choreo_refused_calls_total{reason=\"" + reason + "\"}");
+  };
+  for (const char* reason : kRefusals) EXPECT_EQ(refused(reason), 0) << reason;
+  std::vector<std::unique_ptr<DanceClient>> clients;
+  for (int i = 0; i < 2; ++i) {
+    clients.push_back(std::make_unique<DanceClient>(stub()));
+    clients.back()->Send(Config());
+    ASSERT_TRUE(clients.back()->ReadHeader());
+  }
+  DanceClient third(stub());
+  EXPECT_EQ(third.Finish().status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  ExpectEventually([&] { return refused("max_streams_of_peer") == 1; }, "it is counted");
+  EXPECT_EQ(refused("max_streams"), 0);
+  clients[1]->Cancel();
+  ExpectEventually([this] { return server->calls() == 1; }, "one is left");
+  std::thread drain([this] { server->Drain(300); });
+  ExpectEventually([this] { return Figure("choreo_draining") == 1; }, "it drains");
+  DanceClient late(stub());
+  EXPECT_EQ(late.Finish().status.error_code(), grpc::StatusCode::UNAVAILABLE);
+  ExpectEventually([&] { return refused("draining") == 1; }, "it is counted, too");
+  clients[0]->Cancel();
+  drain.join();
+}
+
+TEST_F(MetricsTest, TellWhatTheProcessUses) {
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
+  EXPECT_EQ(Figure("choreo_draining"), 0);
+  EXPECT_GT(Figure("process_cpu_seconds_total"), 0);
+  EXPECT_GT(Figure("process_resident_memory_bytes"), 1 << 20);
+  EXPECT_GT(Figure("process_virtual_memory_bytes"), Figure("process_resident_memory_bytes"));
+  EXPECT_GT(Figure("process_open_fds"), 3);
+  EXPECT_GE(Figure("process_max_fds"), Figure("process_open_fds"));
+  EXPECT_GT(Figure("process_threads"), 1);
+  const double age = static_cast<double>(std::time(nullptr)) - Figure("process_start_time_seconds");
+  EXPECT_GE(age, -2);
+  EXPECT_LT(age, 24 * 3600);
+}
+
 TEST_F(MetricsTest, AreAskedForAsHttpSays) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto answer = [&](const std::string& line) {
@@ -270,6 +318,13 @@ class LogTest : public ServerTest {
     *request.mutable_config() = Config();
     request.mutable_config()->set_model("\"\n");
     EXPECT_FALSE(Generate(request).status.ok());
+    DanceClient client(stub());
+    client.Send(Config());
+    client.SendKeyframe(Key("a", 20));
+    EXPECT_TRUE(client.Finish().status.ok());
+    const auto& headers = client.context.GetServerInitialMetadata();
+    const auto id = headers.find("choreo-stream-id");
+    if (id != headers.end()) stream_id_.assign(id->second.data(), id->second.size());
     server.reset();
     std::istringstream said(testing::internal::GetCapturedStderr());
     StartLog("info", false);
@@ -278,6 +333,7 @@ class LogTest : public ServerTest {
     for (std::string line; std::getline(said, line);) lines.push_back(line);
     return lines;
   }
+  std::string stream_id_;  // that the client of the dance was told
   static constexpr const char* kTraceparent =
       "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01";
 };
@@ -287,6 +343,8 @@ TEST_F(LogTest, ACallLeavesOneLineThatNamesItsTrace) {
   EXPECT_THAT(lines, testing::Contains(HasSubstr("GetServerInfo ipv4:127.0.0.1")).Times(1));
   EXPECT_THAT(lines, testing::Contains(HasSubstr("trace 4bf92f3577b34da6a3ce929d0e0e4736: OK")));
   EXPECT_THAT(lines, testing::Contains(HasSubstr("NOT_FOUND")).Times(1));
+  EXPECT_THAT(lines, testing::Contains(testing::AllOf(HasSubstr(" stream " + stream_id_ + ": OK"),
+                                                      HasSubstr(", model \"fake\", seed 7"))));
 }
 
 TEST_F(LogTest, AsJsonEachLineIsAnObject) {
@@ -296,12 +354,17 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
     EXPECT_TRUE(object.contains("time") && object.contains("level")) << line;
     if (object.at("message") == "call") calls.push_back(object);
   }
-  ASSERT_EQ(calls.size(), 2U);
+  ASSERT_EQ(calls.size(), 3U);
   EXPECT_EQ(calls[0].at("method"), "GetServerInfo");
   EXPECT_EQ(calls[0].at("trace_id"), "4bf92f3577b34da6a3ce929d0e0e4736");
   EXPECT_EQ(calls[0].at("span_id"), "00f067aa0ba902b7");
   EXPECT_EQ(calls[1].at("status"), "NOT_FOUND");
   EXPECT_FALSE(calls[1].contains("trace_id"));
+  EXPECT_FALSE(calls[1].contains("model"));
+  EXPECT_EQ(calls[2].at("model"), "fake");
+  EXPECT_EQ(calls[2].at("seed"), 7);
+  EXPECT_EQ(stream_id_.size(), 16U);
+  EXPECT_EQ(calls[2].at("stream_id"), stream_id_);
 }
 
 // Linux has file names of any bytes.

@@ -1,4 +1,4 @@
-#include "bench/process_usage.h"
+#include "server/process_usage.h"
 
 #include <time.h>
 #include <unistd.h>
@@ -7,10 +7,11 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "model/core/error.h"
 
-namespace choreo::bench {
+namespace choreo {
 namespace {
 
 std::string Read(pid_t process, const char* name) {
@@ -30,6 +31,14 @@ int64_t EntriesOf(pid_t process, const char* folder) {
   return std::distance(begin(entries), end(entries));
 }
 
+/// Of memory: in all, and resident.
+std::pair<int64_t, int64_t> PagesOf(pid_t process) {
+  std::istringstream text(Read(process, "statm"));
+  std::pair<int64_t, int64_t> pages;
+  text >> pages.first >> pages.second;
+  return pages;
+}
+
 }  // namespace
 
 double CpuSeconds(pid_t process) {
@@ -41,15 +50,27 @@ double CpuSeconds(pid_t process) {
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-int64_t ResidentBytes(pid_t process) {
-  std::istringstream pages(Read(process, "statm"));
-  int64_t total = 0, resident = 0;
-  pages >> total >> resident;
-  return resident * sysconf(_SC_PAGESIZE);
-}
+int64_t VirtualBytes(pid_t process) { return PagesOf(process).first * sysconf(_SC_PAGESIZE); }
+
+int64_t ResidentBytes(pid_t process) { return PagesOf(process).second * sysconf(_SC_PAGESIZE); }
 
 int64_t Threads(pid_t process) { return EntriesOf(process, "task"); }
 
 int64_t Descriptors(pid_t process) { return EntriesOf(process, "fd"); }
 
-}  // namespace choreo::bench
+double StartSeconds(pid_t process) {
+  // The 22nd field counts from the machine's start; the 2nd, a name in brackets, may have blanks.
+  const std::string stat = Read(process, "stat");
+  std::istringstream fields(stat.substr(stat.rfind(')') + 1));
+  std::string skipped;
+  for (int field = 3; field < 22; ++field) fields >> skipped;
+  double ticks = 0;
+  fields >> ticks;
+  timespec now{}, since_start{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  clock_gettime(CLOCK_BOOTTIME, &since_start);
+  return static_cast<double>(now.tv_sec - since_start.tv_sec) +
+         ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+}  // namespace choreo

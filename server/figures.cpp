@@ -1,0 +1,229 @@
+#include "server/figures.h"
+
+#include <prometheus/client_metric.h>
+#include <prometheus/metric_family.h>
+#include <prometheus/metric_type.h>
+#include <prometheus/text_serializer.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "server/process_usage.h"
+#include "server/refusal.h"
+#include "server/status.h"
+
+namespace choreo {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+/// The families of one look, in order.
+class Families {
+ public:
+  /// Of the families that follow: those of every process have names that all programs share.
+  void SetPrefix(const char* prefix) { prefix_ = prefix; }
+  /// Begins a family, which the next calls of Add belong to.
+  void Begin(const char* name, const char* help, MetricType type) {
+    families_.push_back(
+        {.name = std::string(prefix_) + name, .help = help, .type = type, .metric = {}});
+  }
+  void Add(double value, Labels labels = {}) {
+    ClientMetric& metric = Append(std::move(labels));
+    (families_.back().type == MetricType::Counter ? metric.counter.value : metric.gauge.value) =
+        value;
+  }
+  void Add(const Histogram::Snapshot& values, Labels labels = {}) {
+    auto& histogram = Append(std::move(labels)).histogram;
+    for (size_t i = 0; i < values.counts.size(); ++i) {
+      histogram.sample_count += values.counts[i];
+      const double bound = i < values.bounds.size() ? values.bounds[i] : INFINITY;
+      histogram.bucket.push_back({histogram.sample_count, bound});
+    }
+    histogram.sample_sum = values.sum;
+  }
+  std::vector<MetricFamily> Take() { return std::move(families_); }
+
+ private:
+  ClientMetric& Append(Labels labels) {
+    ClientMetric& metric = families_.back().metric.emplace_back();
+    metric.label = std::move(labels);
+    return metric;
+  }
+
+  const char* prefix_ = "choreo_";
+  std::vector<MetricFamily> families_;
+};
+
+class Figures {
+ public:
+  explicit Figures(const Serving& serving) : serving_(serving) {}
+
+  std::vector<MetricFamily> Collect() const {
+    Families out;
+    AddCalls(out);
+    const std::map<std::string, Models::Figures> models = serving_.models.figures();
+    AddModels(models, out);
+    AddHistograms(models, out);
+    try {
+      AddProcess(out);
+    } catch (const Error&) {  // /proc cannot be read: what else there is, is told
+    }
+    return out.Take();
+  }
+
+ private:
+  void AddCalls(Families& out) const {
+    out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
+    // All of them from the start: a rate sees no step where a series begins.
+    const Tally::Calls counted = serving_.tally.calls();
+    for (const char* method : {"StreamDance", "GenerateTransition", Tally::kInfoMethod}) {
+      for (int code = 0; code <= grpc::StatusCode::UNAUTHENTICATED; ++code) {
+        const auto status = static_cast<grpc::StatusCode>(code);
+        const auto found = counted.find({method, status});
+        out.Add(found == counted.end() ? 0 : static_cast<double>(found->second),
+                {{"method", method}, {"status", NameOf(status)}});
+      }
+    }
+    out.Begin("refused_calls_total",
+              "Calls that were turned away though nothing is wrong with them, by what was lacking.",
+              MetricType::Counter);
+    const Tally::Refusals refusals = serving_.tally.refusals();
+    for (size_t i = 0; i < kRefusals.size(); ++i)
+      out.Add(static_cast<double>(refusals[i]), {{"reason", kRefusals[i]}});
+    const CallRegistry& calls = serving_.calls;
+    out.Begin("draining", "1 from when the server is told to go, 0 before.", MetricType::Gauge);
+    out.Add(calls.admitting() ? 0 : 1);
+    out.Begin("streams", "Calls in progress.", MetricType::Gauge);
+    out.Add(calls.count());
+    out.Begin("streams_limit", "Calls that may be in progress.", MetricType::Gauge);
+    out.Add(calls.limits().calls);
+    double load = 0;
+    for (const auto& [model, share] : serving_.frames.loads()) load += share;
+    out.Begin("utilisation",
+              "The larger of streams / limit and of all load / --max-load; at 1 calls are refused.",
+              MetricType::Gauge);
+    out.Add(std::max(load / serving_.frames.shares().of_all,
+                     static_cast<double>(calls.count()) / calls.limits().calls));
+    out.Begin("sent_frames_total", "Frames that calls got which are over.", MetricType::Counter);
+    out.Add(static_cast<double>(serving_.tally.frames));
+    out.Begin("first_frame_seconds", "From a call's begin to its first frame.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.first_frame_s.snapshot());
+    out.Begin("key_error_metres", "How far the model's own frames were off their keys.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.key_error_m.snapshot());
+    out.Begin("support_ratio", "Share of a dance's frames in which something bears the body.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.support.snapshot());
+  }
+
+  void AddModels(const std::map<std::string, Models::Figures>& models, Families& out) const {
+    out.Begin("model_info", "1 for each model and device.", MetricType::Gauge);
+    for (const Models::Use& model : serving_.models.served()) {
+      std::vector<std::string> devices = model->devices();
+      std::ranges::sort(devices);
+      devices.erase(std::unique(devices.begin(), devices.end()), devices.end());
+      for (const std::string& device : devices) {
+        out.Add(1, {{"model", model->model().name},
+                    {"fingerprint", model->model().fingerprint},
+                    {"device", device},
+                    {"version", CHOREO_VERSION}});
+      }
+    }
+    out.Begin("load", "Share of the engines' time that is promised to calls in progress.",
+              MetricType::Gauge);
+    std::map<std::string, double> loads = serving_.frames.loads();
+    for (const auto& [model, figures] : models) out.Add(loads[model], {{"model", model}});
+    struct Figure {
+      const char* name;
+      const char* help;
+      MetricType type;
+      double (*of)(const SampleQueue::Stats&);
+    };
+    using Stats = SampleQueue::Stats;
+    static constexpr Figure kFigures[] = {
+        {"workers", "Workers that make transitions.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.workers); }},
+        {"transitions_active", "Transitions that a worker has begun.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.active); }},
+        {"transitions_waiting", "Transitions that no worker has begun.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.waiting); }},
+        {"engine_failures", "How often an engine has failed in a row.", MetricType::Gauge,
+         [](const Stats& stats) { return double(stats.failures); }},
+        {"frames_total", "Frames made.", MetricType::Counter,
+         [](const Stats& stats) { return double(stats.frames); }},
+        {"transitions_total", "Transitions made.", MetricType::Counter,
+         [](const Stats& stats) { return double(stats.transitions); }},
+    };
+    for (const Figure& figure : kFigures) {
+      out.Begin(figure.name, figure.help, figure.type);
+      for (const auto& [model, figures] : models) {
+        out.Add(figure.of(figures.stats), {{"model", model}});
+      }
+    }
+  }
+
+  static void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) {
+    using Histograms = SampleQueue::Histograms;
+    struct Figure {
+      const char* name;
+      const char* help;
+      Histogram::Snapshot Histograms::*of;
+    };
+    static constexpr Figure kFigures[] = {
+        {"slice_seconds", "Time of a slice of a transition, for which all else waits.",
+         &Histograms::slice_s},
+        {"transition_seconds", "Time of a transition, all of its slices.",
+         &Histograms::transition_s},
+        {"lateness_seconds", "How late transitions of dances were made, 0 for those in time.",
+         &Histograms::lateness_s},
+    };
+    for (const Figure& figure : kFigures) {
+      out.Begin(figure.name, figure.help, MetricType::Histogram);
+      for (const auto& [model, figures] : models) {
+        out.Add(figures.histograms.*figure.of, {{"model", model}});
+      }
+    }
+  }
+
+  // As the clients of Prometheus of all languages name them.
+  static void AddProcess(Families& out) {
+    const pid_t self = getpid();
+    rlimit descriptors{};
+    getrlimit(RLIMIT_NOFILE, &descriptors);
+    out.SetPrefix("process_");
+    out.Begin("cpu_seconds_total", "CPU time that was used.", MetricType::Counter);
+    out.Add(CpuSeconds(self));
+    const std::tuple<const char*, const char*, double> gauges[] = {
+        {"resident_memory_bytes", "Memory that is resident.", double(ResidentBytes(self))},
+        {"virtual_memory_bytes", "Memory that is mapped.", double(VirtualBytes(self))},
+        {"open_fds", "Descriptors that are open.", double(Descriptors(self))},
+        {"max_fds", "Descriptors that may be open.", double(descriptors.rlim_cur)},
+        {"threads", "Threads.", double(Threads(self))},
+        {"start_time_seconds", "When it began, since 1970.", StartSeconds(self)},
+    };
+    for (const auto& [name, help, value] : gauges) {
+      out.Begin(name, help, MetricType::Gauge);
+      out.Add(value);
+    }
+  }
+
+  const Serving& serving_;
+};
+
+}  // namespace
+
+std::string FiguresOf(const Serving& serving) {
+  return prometheus::TextSerializer().Serialize(Figures(serving).Collect());
+}
+
+}  // namespace choreo
