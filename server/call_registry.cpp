@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "server/caller.h"
 #include "server/refusal.h"
 
 namespace choreo {
@@ -24,18 +23,17 @@ Error HandedOn() {
           "the server is going away; another one can go on from the last continuation"};
 }
 
-void CallRegistry::Enter(const std::shared_ptr<Call>& call, const std::string& peer) {
+void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
   const std::lock_guard lock(mutex_);
   if (!admitting_) throw Refused(Refusal::kDraining, kGoingAway);
-  std::string address = AddressOf(peer);
-  int& calls = of_address_[address];
+  int& calls = of_party_[party];
   if (calls >= limits_.calls_of_peer) {
     throw Refused(Refusal::kStreamsOfPeer,
-                  address + " has " + std::to_string(calls) + " calls in progress, of at most " +
-                      std::to_string(limits_.calls_of_peer) + " from one address");
+                  party + " has " + std::to_string(calls) + " calls in progress, of at most " +
+                      std::to_string(limits_.calls_of_peer) + " for one caller");
   }
   ++calls;
-  calls_.emplace(call.get(), Entry{call, std::move(address), Clock::now()});
+  calls_.emplace(call.get(), Entry{call, std::move(party), Clock::now()});
 }
 
 void CallRegistry::Admit(const Call* call) {
@@ -62,8 +60,8 @@ void CallRegistry::Leave(const Call* call) {
     const double took = std::chrono::duration<double>(Clock::now() - entry.since).count();
     mean_seconds_ += kShareOfLast * (took - mean_seconds_);
   }
-  const auto others = of_address_.find(entry.address);
-  if (--others->second == 0) of_address_.erase(others);
+  const auto others = of_party_.find(entry.party);
+  if (--others->second == 0) of_party_.erase(others);
   calls_.erase(at);
   if (calls_.empty()) left_.notify_all();
 }

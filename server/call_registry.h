@@ -36,7 +36,7 @@ class Call {
 /// What clients may take, and for how long they may do nothing.
 struct CallLimits {
   int calls = 0;
-  int calls_of_peer = 0;  ///< of one address, those without a first message included
+  int calls_of_peer = 0;  ///< of one caller, those without a first message included
   std::chrono::milliseconds first_message{};
   std::chrono::milliseconds idle{};    ///< nothing came and nothing went
   std::chrono::milliseconds unread{};  ///< an answer was not taken
@@ -52,9 +52,9 @@ class CallRegistry {
  public:
   explicit CallRegistry(const CallLimits& limits) : limits_(limits) {}
 
-  /// `peer` as gRPC has it: an address and a port. Throws Refused where this address has too many
-  /// calls, and after StopAdmitting.
-  void Enter(const std::shared_ptr<Call>& call, const std::string& peer);
+  /// `party`: whose calls are counted together (Caller::Party). Throws Refused where these are too
+  /// many, and after StopAdmitting.
+  void Enter(const std::shared_ptr<Call>& call, std::string party);
   /// Throws Refused when full, and after StopAdmitting. Once for each call.
   void Admit(const Call* call);
   /// Also for calls that never entered.
@@ -81,7 +81,7 @@ class CallRegistry {
   using Clock = std::chrono::steady_clock;
   struct Entry {
     std::weak_ptr<Call> call;
-    std::string address;
+    std::string party;
     Clock::time_point since;  // it entered, or was admitted
     bool admitted = false;
   };
@@ -94,7 +94,7 @@ class CallRegistry {
   mutable std::mutex mutex_;  // guards all below
   mutable std::condition_variable left_;
   std::map<const Call*, Entry> calls_;
-  std::map<std::string, int> of_address_;
+  std::map<std::string, int> of_party_;
   int admitted_ = 0;
   bool admitting_ = true;
   double mean_seconds_ = 0;  // of the calls that ended lately

@@ -64,6 +64,9 @@ class CallSession : public Call {
     return false;
   }
 
+  /// Whose calls are counted together with it.
+  std::string party() const { return caller_.Party(); }
+
   /// Counts the call as one in progress; with its first message. Throws as CallRegistry::Admit.
   void Admit() {
     if (std::exchange(admitted_, true)) return;
@@ -172,8 +175,6 @@ class CallSession : public Call {
       End({grpc::StatusCode::INTERNAL, "no memory"});  // short enough to need none
     }
   }
-
-  std::string address() const { return AddressOf(caller_.peer); }
 
   /// Its RetryInfo, if any, is from the measured load.
   grpc::Status StatusOf(const Error& error) const {

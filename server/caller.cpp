@@ -38,6 +38,10 @@ std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char
 
 std::string AddressOf(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
 
+std::string Caller::Party() const {
+  return holder.empty() ? AddressOf(peer) : "holder \"" + holder + '"';
+}
+
 std::string FreshStreamId() {
   std::random_device device;
   char digits[17];

@@ -16,6 +16,9 @@ struct Caller {
   std::string trace_id, span_id;
   /// Of a call that dances: 16 hexadecimal digits, which the client is told as kStreamIdHeader.
   std::string stream_id = {};
+
+  /// Whose calls are counted together, as people are told: the token's holder, or else an address.
+  std::string Party() const;
 };
 
 inline constexpr const char* kStreamIdHeader = "choreo-stream-id";

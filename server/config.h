@@ -42,7 +42,7 @@ struct ServerConfig {
   std::string metrics;                    ///< HOST:PORT or PORT for Prometheus; empty: nowhere
 
   // What clients may take, and for how long they may do nothing.
-  int max_streams_of_peer = 0;        ///< calls of one address; 0: seven eighths of max_streams
+  int max_streams_of_peer = 0;        ///< calls of one caller; 0: seven eighths of max_streams
   double first_message_seconds = 10;  ///< within which a call's first message must come
   double idle_seconds = 120;          ///< that a call may go on with nothing coming or going
   double unread_seconds = 60;         ///< that an answer may wait for its client

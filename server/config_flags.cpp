@@ -102,7 +102,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
 // What clients may take, and for how long they may do nothing.
 void AddLimits(CLI::App& app, ServerConfig& config) {
   app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
-                 "Calls in progress at once from one address. 0: seven eighths of --max-streams.")
+                 "Calls in progress at once of one token's holder or, without --tokens, from one "
+                 "address. 0: seven eighths of --max-streams.")
       ->envname("CHOREO_MAX_STREAMS_OF_PEER")
       ->capture_default_str();
   app.add_option("--first-message-seconds", config.first_message_seconds,

@@ -22,37 +22,36 @@ std::string Percent(double share) { return std::to_string(std::lround(100 * shar
 
 }  // namespace
 
-void FrameBudget::TakeDance(const void* call, const SampleQueue& model,
-                            const std::string& address) {
-  Take(call, {&model, address, model.model().fps});
+void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const std::string& party) {
+  Take(call, {&model, party, model.model().fps});
 }
 
 void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
-                                 const std::string& address, int frames) {
+                                 const std::string& party, int frames) {
   double frames_per_second = frames / kTransitionSeconds;
   const double most = std::min(shares_.of_all, shares_.of_peer) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
-  Take(call, {&model, address, frames_per_second});
+  Take(call, {&model, party, frames_per_second});
 }
 
 void FrameBudget::Take(const void* call, Charge charge) {
   const std::lock_guard lock(mutex_);
-  const auto require = [&](const std::string* address, double most) {
-    Frames frames = FramesOf(address);
+  const auto require = [&](const std::string* party, double most) {
+    Frames frames = FramesOf(party);
     const double taken = LoadOf(frames);
     frames[charge.model] += charge.frames_per_second;
     const double load = LoadOf(frames);
     if (taken == 0 || load <= most) return;
-    throw Refused(address ? Refusal::kLoadOfPeer : Refusal::kLoad,
-                  "the engines are busy: " + (address ? *address + " has " : "calls have ") +
+    throw Refused(party ? Refusal::kLoadOfPeer : Refusal::kLoad,
+                  "the engines are busy: " + (party ? *party + " has " : "calls have ") +
                       Percent(taken) + " of their time, with this one it would be " +
                       Percent(load) + ", of at most " + Percent(most) +
-                      (address ? " for one address" : ""));
+                      (party ? " for one caller" : ""));
   };
   if (shares_.of_all <= 1) {
     require(nullptr, shares_.of_all);
-    require(&charge.address, shares_.of_peer);
+    require(&charge.party, shares_.of_peer);
   }
   charges_.emplace(call, std::move(charge));
 }
@@ -71,10 +70,10 @@ std::map<std::string, double> FrameBudget::loads() const {
   return loads;
 }
 
-FrameBudget::Frames FrameBudget::FramesOf(const std::string* address) const {
+FrameBudget::Frames FrameBudget::FramesOf(const std::string* party) const {
   Frames frames;
   for (const auto& [call, charge] : charges_) {
-    if (!address || charge.address == *address) frames[charge.model] += charge.frames_per_second;
+    if (!party || charge.party == *party) frames[charge.model] += charge.frames_per_second;
   }
   return frames;
 }

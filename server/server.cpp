@@ -69,7 +69,7 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
-// Of time an address gets the share that it gets of calls.
+// Of time a caller gets the share that it gets of calls.
 FrameShares SharesOf(const ServerConfig& config) {
   const double of_peer = std::min(1.0, double(config.MaxStreamsOfPeer()) / config.max_streams);
   return {.of_all = config.max_load, .of_peer = of_peer * config.max_load};

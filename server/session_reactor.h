@@ -54,7 +54,7 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
   void Enter(Begin begin) {
     if (!session_->Authenticate(HeaderOf(*context_, "authorization"))) return;
     try {
-      serving_.calls.Enter(session_, context_->peer());
+      serving_.calls.Enter(session_, session_->party());
       begin();
     } catch (const Error& error) {
       session_->Fail(error);

@@ -149,7 +149,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const ModelInfo& model = found->model();
     const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
     Name(model, config.seed);
-    serving_.frames.TakeDance(this, *found, address());
+    serving_.frames.TakeDance(this, *found, party());
     queue_ = found;
     encoding_ = message.encoding();
     seed_ = config.seed;

@@ -42,7 +42,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       Name(queue_->model(), request.seed);
       // What is out of range is named once the music is there.
       const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
-      serving_.frames.TakeTransition(this, *queue_, address(), request.candidates * frames);
+      serving_.frames.TakeTransition(this, *queue_, party(), request.candidates * frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
         return Begin(message, std::move(request));
       }

@@ -265,6 +265,26 @@ TEST_F(TokensTest, AFileThatGoesBadKeepsNobodyIn) {
   becomes("b", false, "what is too long is not read");
 }
 
+// All come from one address, as behind one back end.
+TEST_F(TokensTest, EachHolderHasItsOwnPlaces) {
+  Write("tokens", LineOf("a", "alice") + LineOf("b", "bob"));
+  const auto server = Start([&](ServerConfig& config) {
+    config.tokens = folder_ / "tokens";
+    config.max_streams = 3;
+    config.max_streams_of_peer = 1;
+  });
+  const Client alice(With(*server, "a"));
+  const auto dance = alice.StartDance({.frames = 30});
+  ASSERT_TRUE(dance->Next());
+  ExpectError(ErrorCode::kResourceExhausted,
+              "holder \"alice\" has 1 calls in progress, of at most 1 for one caller",
+              [&] { alice.GenerateTransition({.frames = 5}); });
+  Write("bobs", "b\n");
+  const Client bob(
+      {.addresses = {server->address()}, .token_file = folder_ / "bobs", .retry_s = 0});
+  EXPECT_EQ(bob.GenerateTransition({.frames = 5}).candidates.size(), 1U);
+}
+
 TEST_F(TokensTest, TheSchemeIsTheSameInEitherCase) {
   Write("tokens", LineOf("a", "alice"));
   const Tokens tokens(folder_ / "tokens");

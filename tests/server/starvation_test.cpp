@@ -224,7 +224,7 @@ TEST_F(StarvationTest, OneAddressDoesNotTakeAllCalls) {
   const grpc::Status refused = DanceToAKey().status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_THAT(refused.error_message(),
-              HasSubstr("127.0.0.1 has 7 calls in progress, of at most 7 from one address"));
+              HasSubstr("127.0.0.1 has 7 calls in progress, of at most 7 for one caller"));
   EXPECT_TRUE(DetailsOf(refused).retry_info);
 }
 
@@ -235,21 +235,21 @@ class FakeCall final : public Call {
   CallProgress progress() const override { return {}; }
 };
 
-TEST(CallRegistryTest, AddressesHaveTheirOwnPlaces) {
+TEST(CallRegistryTest, CallersHaveTheirOwnPlaces) {
   CallRegistry calls({.calls = 3, .calls_of_peer = 2});
   std::vector<std::shared_ptr<Call>> entered;
-  const auto enter = [&](const std::string& peer) {
+  const auto enter = [&](const std::string& party) {
     entered.push_back(std::make_shared<FakeCall>());
-    calls.Enter(entered.back(), peer);
+    calls.Enter(entered.back(), party);
     calls.Admit(entered.back().get());
   };
-  enter("ipv4:10.0.0.1:1000");
-  enter("ipv4:10.0.0.1:1001");
-  EXPECT_THROW(enter("ipv4:10.0.0.1:1002"), Error);
-  enter("ipv6:%5B::1%5D:1000");
-  EXPECT_THROW(enter("ipv4:10.0.0.2:1000"), Error);  // all three are taken
+  enter("ipv4:10.0.0.1");
+  enter("ipv4:10.0.0.1");
+  EXPECT_THROW(enter("ipv4:10.0.0.1"), Error);
+  enter("ipv6:%5B::1%5D");
+  EXPECT_THROW(enter("ipv4:10.0.0.2"), Error);  // all three are taken
   calls.Leave(entered[0].get());
-  enter("ipv4:10.0.0.2:1001");
+  enter("ipv4:10.0.0.2");
   EXPECT_EQ(calls.count(), 3);
   for (const auto& call : entered) calls.Leave(call.get());
   EXPECT_EQ(calls.count(), 0);
