@@ -51,10 +51,18 @@ struct KeyReached {
 
 /// A key came too late, and nothing changed.
 struct KeyRejected {
+  enum class Code {
+    kUnknown,         ///< an old server does not say
+    kTooLate,         ///< the frame asked for is frozen
+    kFrozen,          ///< the key of this id stands in frozen frames
+    kRejectedBefore,  ///< of a removal: the key was rejected when it came
+    kAlreadyDanced,   ///< the dance goes on from a continuation behind the frame
+  };
   std::string id = {};
   int64_t frame = 0;           ///< asked for
   int64_t earliest_frame = 0;  ///< the first that a key could have now
   std::string reason = {};
+  Code code = Code::kUnknown;
 };
 
 struct Beat {

@@ -18,6 +18,21 @@ KeyReached ToKeyReached(const std::string& id, int64_t frame, const v1::Keyframe
           errors.correction_m()};
 }
 
+KeyRejected::Code ToCode(v1::RejectionCode code) {
+  switch (code) {
+    case v1::REJECTION_CODE_TOO_LATE:
+      return KeyRejected::Code::kTooLate;
+    case v1::REJECTION_CODE_FROZEN:
+      return KeyRejected::Code::kFrozen;
+    case v1::REJECTION_CODE_REJECTED_BEFORE:
+      return KeyRejected::Code::kRejectedBefore;
+    case v1::REJECTION_CODE_ALREADY_DANCED:
+      return KeyRejected::Code::kAlreadyDanced;
+    default:
+      return KeyRejected::Code::kUnknown;
+  }
+}
+
 Beat::Source ToSource(v1::BeatSource source) {
   switch (source) {
     case v1::BEAT_SOURCE_GIVEN:
@@ -177,9 +192,9 @@ std::optional<Message> FromProto(const v1::Event& event) {
       return ToKeyReached(event.keyframe_reached().id(), event.frame(),
                           event.keyframe_reached().errors());
     case v1::Event::kKeyframeRejected:
-      return KeyRejected{event.keyframe_rejected().id(), event.frame(),
-                         event.keyframe_rejected().earliest_frame(),
-                         event.keyframe_rejected().reason()};
+      return KeyRejected{
+          event.keyframe_rejected().id(), event.frame(), event.keyframe_rejected().earliest_frame(),
+          event.keyframe_rejected().reason(), ToCode(event.keyframe_rejected().code())};
     case v1::Event::kBeat:
       return Beat{event.frame(), event.time(), ToSource(event.beat().source()),
                   event.beat().confidence()};

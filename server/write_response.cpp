@@ -18,6 +18,20 @@ void FillErrors(const ArrivalResult& arrival, v1::KeyframeErrors* out) {
   out->set_correction_m(arrival.correction_m);
 }
 
+v1::RejectionCode ToCode(KeyRejection::Why why) {
+  switch (why) {
+    case KeyRejection::Why::kTooLate:
+      return v1::REJECTION_CODE_TOO_LATE;
+    case KeyRejection::Why::kFrozen:
+      return v1::REJECTION_CODE_FROZEN;
+    case KeyRejection::Why::kRejectedBefore:
+      return v1::REJECTION_CODE_REJECTED_BEFORE;
+    case KeyRejection::Why::kAlreadyDanced:
+      return v1::REJECTION_CODE_ALREADY_DANCED;
+  }
+  return v1::REJECTION_CODE_UNSPECIFIED;
+}
+
 v1::WarningCode ToCode(DanceWarning::Kind kind) {
   switch (kind) {
     case DanceWarning::Kind::kIntervalTooShort:
@@ -169,6 +183,7 @@ void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
     rejected->set_id(rejection->id);
     rejected->set_earliest_frame(rejection->earliest_frame);
     rejected->set_reason(rejection->reason);
+    rejected->set_code(ToCode(rejection->why));
   } else if (const auto* warning = std::get_if<DanceWarning>(&event)) {
     out->set_frame(warning->frame);
     out->mutable_warning()->set_code(ToCode(warning->kind));

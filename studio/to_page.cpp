@@ -136,6 +136,10 @@ v1::StreamDanceResponse ToProto(const client::KeyReached& reached) {
   return out;
 }
 
+static_assert(static_cast<int>(client::KeyRejected::Code::kAlreadyDanced) ==
+                  v1::REJECTION_CODE_ALREADY_DANCED,
+              "codes are numbered alike");
+
 v1::StreamDanceResponse ToProto(const client::KeyRejected& rejected) {
   v1::StreamDanceResponse out;
   out.mutable_event()->set_frame(rejected.frame);
@@ -143,6 +147,7 @@ v1::StreamDanceResponse ToProto(const client::KeyRejected& rejected) {
   event->set_id(rejected.id);
   event->set_earliest_frame(rejected.earliest_frame);
   event->set_reason(rejected.reason);
+  event->set_code(static_cast<v1::RejectionCode>(rejected.code));
   return out;
 }
 

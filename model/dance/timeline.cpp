@@ -17,6 +17,12 @@ double FiniteSeconds(double seconds, const std::string& field) {
   return seconds;
 }
 
+/// The path of what says when a key stands, as its sender said it.
+std::string PathOf(const KeyMoment& when, const std::string& field) {
+  static constexpr const char* kMembers[] = {".frame", ".time", ".interval_after_previous"};
+  return field + kMembers[when.index()];
+}
+
 }  // namespace
 
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest) {
@@ -37,17 +43,16 @@ Timeline::Timeline(Options options) : options_(options), planned_to_(options.fir
 
 int64_t Timeline::Resolve(const KeyMoment& when, const std::string& field) const {
   const double longest = kMaxDanceFrames / options_.fps;
+  const std::string path = PathOf(when, field);
   if (const auto* at = std::get_if<AtFrame>(&when))
-    return CheckedIn(at->frame, 0, kMaxDanceFrames, field + ".frame");
+    return CheckedIn(at->frame, 0, kMaxDanceFrames, path);
   if (const auto* at = std::get_if<AtTime>(&when)) {
-    const double seconds = FiniteSeconds(at->seconds, field + ".time");
+    const double seconds = FiniteSeconds(at->seconds, path);
     if (seconds < 0 || seconds > longest) {
-      throw InvalidArgument(field + ".time",
-                            Show(seconds) + " s is not in [0, " + Show(longest) + "]");
+      throw InvalidArgument(path, Show(seconds) + " s is not in [0, " + Show(longest) + "]");
     }
     return std::llround(seconds * options_.fps);
   }
-  const std::string path = field + ".interval_after_previous";
   const int64_t frame = previous_frame_ + CheckedIn(std::get<AfterPrevious>(when).frames,
                                                     kMinKeyDistance, kMaxDanceFrames, path);
   if (frame > kMaxDanceFrames) {
@@ -75,14 +80,15 @@ int64_t Timeline::EarliestFrame() const {
   return frame;
 }
 
-KeyRejection Timeline::Reject(const std::string& id, int64_t frame, std::string reason) {
+KeyRejection Timeline::Reject(const std::string& id, int64_t frame, KeyRejection::Why why,
+                              std::string reason) {
   if (!frame_of_.contains(id) && rejected_.size() < kMaxKeys) rejected_[id] = frame;
-  return {id, frame, EarliestFrame(), std::move(reason)};
+  return {id, frame, EarliestFrame(), why, std::move(reason)};
 }
 
 std::optional<KeyRejection> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
   if (frame >= options_.first_frame) return std::nullopt;
-  return KeyRejection{id, frame, EarliestFrame(),
+  return KeyRejection{id, frame, EarliestFrame(), KeyRejection::Why::kAlreadyDanced,
                       "the dance goes on from frame " + Frames(options_.first_frame)};
 }
 
@@ -93,30 +99,32 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
   ValidateKeyId(id, field + ".id");
   const int64_t frame = Resolve(when, field);
   if (options_.end_frame && frame >= *options_.end_frame) {
-    throw InvalidArgument(
-        field + ".frame",
-        Frames(frame) + " is not before the end of the dance, " + Frames(*options_.end_frame));
+    throw InvalidArgument(PathOf(when, field), "frame " + Frames(frame) +
+                                                   " is not before the end of the dance, " +
+                                                   Frames(*options_.end_frame));
   }
   const auto same = keys_.find(frame);
   if (same != keys_.end() && same->second.id != id) {
-    throw InvalidArgument(field + ".frame",
-                          Frames(frame) + " is already that of key \"" + same->second.id + '"');
+    throw InvalidArgument(
+        PathOf(when, field),
+        "frame " + Frames(frame) + " is already that of key \"" + same->second.id + '"');
   }
   const auto known = frame_of_.find(id);
   if (known != frame_of_.end() && known->second < frontier_) {
     previous_frame_ = frame;
-    return Reject(id, frame,
+    return Reject(id, frame, KeyRejection::Why::kFrozen,
                   "key \"" + id + "\" stands in frozen frames, at " + Frames(known->second));
   }
   if (frame < frontier_) {
     previous_frame_ = frame;
-    return Reject(id, frame, "frames before " + Frames(frontier_) + " are frozen");
+    return Reject(id, frame, KeyRejection::Why::kTooLate,
+                  "frames before " + Frames(frontier_) + " are frozen");
   }
   if (const Key* neighbour = Neighbour(frame, id)) {
-    throw InvalidArgument(field + ".frame", Frames(frame) + " is closer than " +
-                                                std::to_string(kMinKeyDistance) +
-                                                " frames to key \"" + neighbour->id + "\" at " +
-                                                Frames(neighbour->frame));
+    throw InvalidArgument(PathOf(when, field), "frame " + Frames(frame) + " is closer than " +
+                                                   std::to_string(kMinKeyDistance) +
+                                                   " frames to key \"" + neighbour->id + "\" at " +
+                                                   Frames(neighbour->frame));
   }
   if (known == frame_of_.end() && keys_.size() >= kMaxKeys) {
     throw InvalidArgument(
@@ -139,10 +147,12 @@ std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::s
     if (rejected == rejected_.end()) {
       throw Error(ErrorCode::kNotFound, field + ".id", "there is no key \"" + id + '"');
     }
-    return Reject(id, rejected->second, "key \"" + id + "\" was rejected before");
+    return Reject(id, rejected->second, KeyRejection::Why::kRejectedBefore,
+                  "key \"" + id + "\" was rejected before");
   }
   if (known->second < frontier_) {
-    return Reject(id, known->second, "frames before " + Frames(frontier_) + " are frozen");
+    return Reject(id, known->second, KeyRejection::Why::kFrozen,
+                  "frames before " + Frames(frontier_) + " are frozen");
   }
   const int64_t frame = known->second;
   keys_.erase(frame);

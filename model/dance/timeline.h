@@ -43,9 +43,16 @@ struct Key {
 /// A message about a key came too late: the frames that it would change are frozen. Nothing
 /// changed.
 struct KeyRejection {
+  enum class Why {
+    kTooLate,         ///< the frame asked for is frozen
+    kFrozen,          ///< the key of this id stands in frozen frames
+    kRejectedBefore,  ///< of a removal: the key was rejected when it came
+    kAlreadyDanced,   ///< the dance goes on from a continuation behind the frame
+  };
   std::string id;
   int64_t frame = 0;           ///< asked for; of a removal, where the key stands
   int64_t earliest_frame = 0;  ///< first frame that a new key could have now
+  Why why = Why::kTooLate;
   std::string reason;
 };
 
@@ -143,7 +150,8 @@ class Timeline {
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
   // First frame that a new key could have now.
   int64_t EarliestFrame() const;
-  KeyRejection Reject(const std::string& id, int64_t frame, std::string reason);
+  KeyRejection Reject(const std::string& id, int64_t frame, KeyRejection::Why why,
+                      std::string reason);
   std::optional<KeyRejection> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);
   void CutIfChanged();

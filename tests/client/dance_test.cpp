@@ -223,6 +223,7 @@ SteeredDance Steer(const Client& client, double fps, const std::function<void()>
       result.reached.push_back(key->id);
     } else if (const auto* rejected = std::get_if<KeyRejected>(&*message)) {
       result.rejected.push_back(rejected->id);
+      EXPECT_EQ(rejected->code, KeyRejected::Code::kTooLate);
     } else if (const auto* resumed = std::get_if<Resumed>(&*message)) {
       result.resumed.push_back(*resumed);
     } else if (const auto* report = std::get_if<Report>(&*message)) {

@@ -93,7 +93,9 @@ test('a dance goes on from its continuation, bit for bit, whatever its seed', as
     const whole = await collect(client.streamDance([{ config: { seed: '18446744073709551615' } }, ...keys]));
     const { continuation } = whole.find((answer) => answer.continuation);
     const rest = await collect(client.streamDance([{ config: { continuation } }, ...keys]));
-    assert.ok(rest.some((answer) => answer.event?.keyframe_rejected?.id === 'at 20'));
+    const rejected = rest.find((answer) => answer.event?.keyframe_rejected)?.event.keyframe_rejected;
+    assert.equal(rejected?.id, 'at 20');
+    assert.equal(rejected.code, 'REJECTION_CODE_ALREADY_DANCED');
     const numbers = (answers) => framesOf(answers).flatMap(({ rotations }) => rotations);
     const end = numbers(rest);
     assert.ok(end.length > 0);

@@ -40,6 +40,49 @@ TEST_F(StreamKeysTest, LateKeysAreRejectedByEvent) {
   EXPECT_EQ(answer.summary->report().keyframes(1).frame(), 90);
 }
 
+TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
+  Start();
+  using Said = std::pair<std::string, v1::RejectionCode>;
+  const auto rejections = [](const Answer& answer) {
+    std::vector<Said> said;
+    for (const v1::Event& event : answer.events) {
+      const auto& rejected = event.keyframe_rejected();
+      if (event.has_keyframe_rejected()) said.emplace_back(rejected.id(), rejected.code());
+    }
+    return said;
+  };
+  const auto remove = [](DanceClient& client, const std::string& id) {
+    v1::StreamDanceRequest request;
+    request.mutable_remove_keyframe()->set_id(id);
+    client.Send(request);
+  };
+  DanceClient client(stub());
+  Begin(client);
+  client.SendKeyframe(Key("a", 50));
+  client.SendGenerateUntil(60);
+  ASSERT_TRUE(client.ReadFrames(51));
+  client.SendKeyframe(Key("late", 20));
+  client.SendKeyframe(Key("a", 80));
+  remove(client, "a");
+  remove(client, "late");
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(rejections(answer), (std::vector<Said>{{"late", v1::REJECTION_CODE_TOO_LATE},
+                                                   {"a", v1::REJECTION_CODE_FROZEN},
+                                                   {"a", v1::REJECTION_CODE_FROZEN},
+                                                   {"late", v1::REJECTION_CODE_REJECTED_BEFORE}}));
+
+  DanceClient other(stub());
+  v1::DanceConfig config = Config();
+  *config.mutable_continuation() = answer.continuations.front();
+  config.set_frames(120);
+  other.Send(config);
+  other.SendKeyframe(Key("a", 50));
+  const Answer& rest = other.Finish();
+  ASSERT_TRUE(rest.status.ok()) << rest.status.error_message();
+  EXPECT_EQ(rejections(rest), (std::vector<Said>{{"a", v1::REJECTION_CODE_ALREADY_DANCED}}));
+}
+
 TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedBehindTheFrontier) {
   Start();
   DanceClient client(stub());
