@@ -44,8 +44,13 @@ bool FindDetail(const grpc::Status& status, T* detail) {
   return false;
 }
 
-/// That the server found fault with; empty where it names none.
+/// That the server found fault with, as its words name it; empty where it names none.
 std::string FieldOf(const grpc::Status& status) {
+  google::rpc::ErrorInfo info;
+  if (FindDetail(status, &info)) {
+    const auto field = info.metadata().find("field");
+    if (field != info.metadata().end()) return field->second;
+  }
   google::rpc::BadRequest bad_request;
   if (!FindDetail(status, &bad_request) || bad_request.field_violations_size() == 0) return "";
   return bad_request.field_violations(0).field();

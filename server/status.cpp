@@ -7,6 +7,7 @@
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "server/field_path.h"
 
 namespace choreo {
 namespace {
@@ -84,7 +85,7 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
   if (!field.empty()) {
     google::rpc::BadRequest bad_request;
     auto* violation = bad_request.add_field_violations();
-    violation->set_field(field);
+    violation->set_field(OneShortLine(PathInMessage(std::string(of_field))));
     // The field is told already.
     const bool repeats = text.starts_with(std::string(of_field) + ": ");
     violation->set_description(repeats ? OneShortLine(text.substr(of_field.size() + 2)) : message);

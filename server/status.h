@@ -9,9 +9,9 @@
 namespace choreo {
 
 /// The one place that maps failures onto gRPC statuses. The status carries google.rpc details:
-/// ErrorInfo always; BadRequest where the error names a field, which its description then does not
-/// repeat; RetryInfo, `retry_after` seconds,
-/// where trying again helps.
+/// ErrorInfo always, with the error's field; BadRequest where there is one, whose own is the path
+/// in the message that was sent, and whose description does not repeat it; RetryInfo, `retry_after`
+/// seconds, where trying again helps.
 grpc::Status ToStatus(const Error& error, double retry_after = 1);
 
 /// Who calls is not known. ErrorInfo goes with it.

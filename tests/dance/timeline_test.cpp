@@ -151,7 +151,7 @@ TEST(Timeline, RefusesWhatCanNeverBe) {
   timeline.GenerateUntil(0);
   Set(timeline, "a", AtFrame{30});
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{30}); }),
-              HasSubstr("keyframes[0].frame: 30 is already that of key \"a\""));
+              HasSubstr("keyframes[0].frame: frame 30 is already that of key \"a\""));
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{31}); }), HasSubstr("closer than 2 frames"));
   EXPECT_THAT(Refusal([&] { Set(timeline, "b", AtFrame{29}); }), HasSubstr("closer than 2 frames"));
   EXPECT_THAT(Refusal([&] { Set(timeline, "", AtFrame{50}); }), HasSubstr("keyframes[0].id"));

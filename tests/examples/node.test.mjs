@@ -111,8 +111,9 @@ test('errors name code, field and value', async () => {
     await assert.rejects(dance, (error) => {
       assert.ok(error instanceof ChoreoError);
       assert.equal(error.code, 'INVALID_ARGUMENT');
-      assert.equal(error.violations[0].field, 'keyframes[0].rotations[0]');
+      assert.equal(error.violations[0].field, 'keyframe.pose.rotations[0]');
       assert.match(error.violations[0].description, /^1000 rad/);
+      assert.match(error.message, /^keyframes\[0\]\.rotations\[0\]: 1000 rad/);
       return true;
     });
     const unknown = collect(client.generateTransition({ config: { model: 'nobody' }, frames: 9 }));

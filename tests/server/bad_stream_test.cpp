@@ -1,5 +1,9 @@
-#include <cmath>
+#include <google/protobuf/descriptor.h>
 
+#include <cmath>
+#include <utility>
+
+#include "server/field_path.h"
 #include "tests/server/bad_stream.h"
 
 namespace choreo::bad_stream_test {
@@ -9,6 +13,37 @@ void FillContinuation(v1::Continuation* from) {
   from->set_fingerprint("fake-1");
   from->mutable_root_positions()->Resize(3 * 10, 0.0F);
   from->mutable_rotations()->Resize(3 * 10 * 24, 0.0F);
+}
+
+/// Whether such a message has a field there, or alternatives of this name.
+bool IsPath(const google::protobuf::Descriptor& type, const std::string& path) {
+  const size_t end = path.find('.');
+  const std::string part = path.substr(0, end);
+  const auto* field = type.FindFieldByName(part.substr(0, part.find('[')));
+  if (field == nullptr) return end == path.npos && type.FindOneofByName(part) != nullptr;
+  if (part.find('[') != part.npos && !field->is_repeated()) return false;
+  if (end == path.npos) return true;
+  return field->message_type() != nullptr && IsPath(*field->message_type(), path.substr(end + 1));
+}
+
+TEST(FieldPathTest, IsThatOfTheMessageThatWasSent) {
+  const std::pair<const char*, const char*> paths[] = {
+      {"keyframes[3].rotations[16]", "keyframe.pose.rotations[16]"},
+      {"keyframes[0].root_position[1]", "keyframe.pose.root_position.y"},
+      {"config.history.poses[4].root_position[2]", "config.history.poses[4].root_position.z"},
+      {"keyframes[12].pose", "keyframe.pose"},
+      {"keyframes[1].mask.joints[2]", "keyframe.mask.joints[2]"},
+      {"keyframes[1].time", "keyframe.time"},
+      {"keyframes[1]", "keyframe"},
+      {"remove_keyframes[4].id", "remove_keyframe.id"},
+      {"controls[1].root_path.points[3]", "controls.root_path.points[3]"},
+      {"music_beats[1].times[1]", "music_beats.times[1]"},
+      {"config.history.poses[0].rotations", "config.history.poses[0].rotations"},
+      {"config.continuation.poses[2].rotations[1]", "config.continuation.rotations"},
+      {"after[1].rotations[3]", "after[1].rotations[3]"},
+      {"", ""},
+  };
+  for (const auto& [named, path] : paths) EXPECT_EQ(PathInMessage(named), path);
 }
 
 TEST_P(BadStreamTest, IsNamedAndTheServerGoesOn) {
@@ -26,11 +61,13 @@ TEST_P(BadStreamTest, IsNamedAndTheServerGoesOn) {
   ASSERT_TRUE(details.error_info);
   EXPECT_EQ(details.error_info->domain(), "choreo");
   ASSERT_TRUE(details.bad_request) << answer.status.error_message();
+  EXPECT_EQ(details.error_info->metadata().at("field"), GetParam().field);
   const auto& violation = details.bad_request->field_violations(0);
-  EXPECT_EQ(violation.field(), GetParam().field);
-  const size_t said = answer.status.error_message().size();
-  if (said < 600) {  // else both are shortened
-    EXPECT_EQ(violation.field() + ": " + violation.description(), answer.status.error_message());
+  EXPECT_TRUE(IsPath(*v1::StreamDanceRequest::descriptor(), violation.field()))
+      << violation.field();
+  const std::string& message = answer.status.error_message();
+  if (message.size() < 600) {  // else both are shortened
+    EXPECT_EQ(GetParam().field + (": " + violation.description()), message);
   }
 
   const Answer good = Dance({ConfigRequest(), key});

@@ -263,7 +263,9 @@ class BadControlsTest : public ControlsServerTest, public testing::WithParamInte
     EXPECT_THAT(status.error_message(), testing::StartsWith(prefix + GetParam().message));
     const Details details = DetailsOf(status);
     ASSERT_TRUE(details.bad_request);
-    EXPECT_THAT(details.bad_request->field_violations(0).field(), testing::StartsWith(prefix));
+    EXPECT_THAT(details.bad_request->field_violations(0).field(), testing::StartsWith("controls"));
+    EXPECT_EQ(details.bad_request->field_violations(0).field().find("controls["),
+              std::string::npos);
   }
 };
 

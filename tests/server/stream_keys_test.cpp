@@ -74,7 +74,10 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
 
   DanceClient other(stub());
   v1::DanceConfig config = Config();
-  *config.mutable_continuation() = answer.continuations.front();
+  const auto behind = std::ranges::find_if(
+      answer.continuations, [](const v1::Continuation& from) { return from.frame() > 50; });
+  ASSERT_NE(behind, answer.continuations.end());
+  *config.mutable_continuation() = *behind;
   config.set_frames(120);
   other.Send(config);
   other.SendKeyframe(Key("a", 50));

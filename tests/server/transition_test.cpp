@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
                          *r.add_after() = r.target();
                          r.mutable_after(1)->mutable_root_position()->set_x(2e4);
                        },
-                       kInvalid, "after[1].root_position[0]", "10000"},
+                       kInvalid, "after[1].root_position.x", "10000"},
         BadRequestCase{"TooManyAfter",
                        [](R& r) {
                          for (int i = 0; i < 61; ++i) *r.add_after() = r.target();

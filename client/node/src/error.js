@@ -9,7 +9,7 @@ export class ChoreoError extends Error {
     super(failure.details || failure.message || 'the server failed without saying why');
     this.name = 'ChoreoError';
     this.code = grpc.status[failure.code] ?? 'UNKNOWN';
-    /** [{field: 'keyframes[0].rotations', description: '69 numbers are 23 joints; ...'}] */
+    /** [{field: 'keyframe.pose.rotations', description: '69 numbers are 23 joints; ...'}] */
     this.violations = violations;
     /** Try again after so many seconds, where that may help. */
     this.retryAfter = undefined;

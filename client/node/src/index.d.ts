@@ -63,7 +63,7 @@ export class ChoreoError extends Error {
   private constructor();
   /** As in 'INVALID_ARGUMENT'. */
   readonly code: string;
-  /** What is wrong: the field as in 'keyframes[0].rotations'. */
+  /** What is wrong: the field's path in the message that was sent, as in 'keyframe.pose.rotations'. */
   readonly violations: { field: string; description: string }[];
   /** Try again after so many seconds, where that may help. */
   readonly retryAfter?: number;

@@ -9,7 +9,7 @@ from ._protos import contents
 _rpc = types.SimpleNamespace(**contents(*ERRORS))
 
 Violation = collections.namedtuple("Violation", "field description")
-Violation.__doc__ = "What the server finds wrong: a field, as in 'keyframes[0].rotations', and what of it."
+Violation.__doc__ = "What the server finds wrong: a field's path in the message that was sent, as in 'keyframe.pose.rotations', and what of it."
 
 
 class ChoreoError(Exception):
