@@ -1,6 +1,7 @@
 // How well beats are heard, without a shift between beats and songs: the F measure at 70 ms from
 // the first second and from the tenth, of what is found in the whole song (FindBeats) and of what a
-// live dance of transitions of 2 s predicts (MusicBeats). Songs: with a tempo map (SONG.beats
+// live dance of transitions of 2 s predicts (MusicBeats), or what `choreo live` tells it (BeatEar).
+// Songs: with a tempo map (SONG.beats
 // beside SONG.ogg: seconds, one a line), or made ones of every tempo and metre, whose downbeats are
 // known, too. An octave is told, and counts half.
 
@@ -17,6 +18,8 @@
 #include <vector>
 
 #include "bench/beat_patterns.h"
+#include "client/live/beat_ear.h"
+#include "client/live/sound.h"
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
 #include "model/audio/made_song.h"
@@ -57,6 +60,26 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   return music.told();
 }
 
+/// What `choreo live` tells its server, as soon as it is found.
+std::vector<double> HearByClient(const std::vector<float>& mono) {
+  constexpr double kSettled = 0.3;  // seconds ahead that are danced already
+  live::BeatEar ear(kModelSampleRate, 1);
+  std::vector<double> told;
+  const auto piece = static_cast<size_t>(live::kPieceSeconds * kModelSampleRate);
+  for (size_t at = 0; at < mono.size(); at += piece) {
+    std::vector<double> ahead =
+        ear.Hear(std::span(mono).subspan(at, std::min(piece, mono.size() - at)));
+    ear.Wait();
+    const double settled = static_cast<double>(at + piece) / kModelSampleRate + kSettled;
+    std::erase_if(ahead, [settled](double beat) { return beat < settled; });
+    if (ahead.empty()) continue;
+    const double half = ahead.size() > 1 ? (ahead[1] - ahead[0]) / 2 : 0;
+    std::erase_if(told, [&](double beat) { return beat > ahead.front() - half; });
+    told.insert(told.end(), ahead.begin(), ahead.end());
+  }
+  return told;
+}
+
 std::vector<double> ReadSeconds(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<double> seconds;
@@ -73,8 +96,8 @@ struct Judged {
 };
 
 void PrintHead() {
-  std::printf("%-34s %6s %6s %6s %6s %6s %6s %6s %6s  %s\n", "song", "F", "from10", "librosa",
-              "down", "bpm", "off %", "live", "live10", "");
+  std::printf("%-34s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s  %s\n", "song", "F", "from10",
+              "librosa", "down", "bpm", "off %", "live", "live10", "client", "cli.10", "");
 }
 
 /// Returns F, half of an octave's.
@@ -92,10 +115,12 @@ double Judge(const Judged& song) {
   std::optional<double> down;
   if (!song.downbeats.empty()) down = BeatFMeasure(track.DownbeatSeconds(), song.downbeats);
   const double tempo = TempoOf(song.beats);
-  std::printf("%-34s %6.2f %6.2f %s %s %6.1f %6.1f %6.2f %6.2f  %s", song.name.c_str(), f,
-              BeatFMeasure(found, song.beats, kLate), number(song.librosa).c_str(),
+  const std::vector<double> client = HearByClient(song.mono);
+  std::printf("%-34s %6.2f %6.2f %s %s %6.1f %6.1f %6.2f %6.2f %6.2f %6.2f  %s", song.name.c_str(),
+              f, BeatFMeasure(found, song.beats, kLate), number(song.librosa).c_str(),
               number(down).c_str(), tempo, 100 * (track.tempo_bpm / tempo - 1),
               BeatFMeasure(live, song.beats), BeatFMeasure(live, song.beats, kLate),
+              BeatFMeasure(client, song.beats), BeatFMeasure(client, song.beats, kLate),
               octave.c_str());
   for (const SongPlan::Span& span : song.spans)
     std::printf(" %.0f-%.0f s: %.2f", span.begin, span.end,

@@ -103,9 +103,11 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   dance_->CompleteKeys();
 }
 
-// Those that are settled already would come too late.
+// Those that are settled already would come too late, and none are taken behind the longest music.
 void LiveDance::SendBeats(std::vector<double> beats, double now) {
-  std::erase_if(beats, [&](double beat) { return beat < now + options_.look_ahead_s; });
+  std::erase_if(beats, [&](double beat) {
+    return beat < now + options_.look_ahead_s || beat > kMaxAudioSeconds;
+  });
   if (!beats.empty()) dance_->SendBeats(beats);
 }
 

@@ -1,5 +1,6 @@
 #include "client/live/passage_ear.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace choreo::live {
@@ -23,9 +24,10 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> interleaved) {
     const int64_t now = listener_.moments();
     if (lag == told_lag_ && (!lag || now - told_at_ < kEvery)) continue;
     const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
+    if (from >= kMaxAudioSeconds) break;
     // One that ends has no length: what was told ahead does not hold any more.
     told = Passage{
-        from, lag ? from + kAheadSeconds : from,
+        from, lag ? std::min<double>(from + kAheadSeconds, kMaxAudioSeconds) : from,
         from - static_cast<double>(lag.value_or(*told_lag_)) * PassageListener::kMomentSeconds};
     told_lag_ = lag;
     told_at_ = now;

@@ -17,7 +17,7 @@ inline constexpr int kMaxChannels = 8;
 inline constexpr int kMaxAudioSeconds = 600;
 /// Beats that may be told with a song: 20 a second.
 inline constexpr size_t kMostBeats = size_t{20} * kMaxAudioSeconds;
-inline constexpr size_t kMostPassages = 1000;  ///< that may be told to come back
+inline constexpr size_t kMostPassages = 6000;  ///< that may be told to come back: ten a second
 /// Of all channels of a file together: ten minutes of 192 kHz in stereo, or of 48 kHz in 8
 /// channels.
 inline constexpr int64_t kMaxFileSamples = 240'000'000;

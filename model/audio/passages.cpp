@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "model/audio/beats.h"
+
 namespace choreo {
 namespace {
 
@@ -67,7 +69,12 @@ Eigen::VectorXf PassageListener::LikenessOfLast() const {
     return seen;
   };
   Eigen::VectorXf likeness = Eigen::VectorXf::Zero(moments_);
-  if (!sounds_.back()) return likeness;
+  if (!sounds_.back()) {  // of two silences nobody can tell whether one is the other
+    for (int64_t moment = 0; moment < moments_; ++moment)
+      if (!sounds_[static_cast<size_t>(moment)])
+        likeness[moment] = static_cast<float>(options_.alike);
+    return likeness;
+  }
   const Moment last = of(moments_ - 1);
   for (int64_t moment = 0; moment + soonest_ < moments_; ++moment)
     if (sounds_[static_cast<size_t>(moment)]) likeness[moment] = last.dot(of(moment));
@@ -97,32 +104,41 @@ void PassageListener::Add(std::span<const float> window) {
     worth_[at] = std::max(worth_[at], begun) +
                  (likeness[moments_ - 1 - lag] - options_.alike) * kMomentSeconds;
   }
+  const auto now = std::ranges::max_element(worth_);
+  best_.push_back(*now > worth_of_none_ ? now - worth_.begin() : -1);
 }
 
 std::optional<int64_t> PassageListener::Lag() const {
-  const auto best = std::ranges::max_element(worth_);
-  if (best == worth_.end() || *best <= worth_of_none_) return std::nullopt;
-  return best - worth_.begin();
+  if (moments_ == 0 || best_.back() < 0) return std::nullopt;
+  return best_.back();
+}
+
+// What comes later than kLater moves nothing, so the beginning of a song has its passages, too.
+int64_t PassageListener::LagAt(int64_t moment) const {
+  constexpr int64_t kLater = kTempoWindowSeconds * kModelSampleRate / kHop;
+  int64_t at = std::min(moment + kLater, moments_ - 1);
+  int64_t lag = best_[static_cast<size_t>(at)];
+  for (; at > moment; --at) {
+    const auto here = static_cast<size_t>(at);
+    if (lag < 0) {
+      lag = ended_[here];
+    } else if (begins_[here][static_cast<size_t>(lag)]) {
+      lag = -1;
+    }
+  }
+  return lag;
 }
 
 std::vector<Passage> PassageListener::Passages() const {
-  std::vector<Passage> passages;
-  std::optional<int64_t> lag = Lag();
   const auto seconds = [](int64_t moment) { return static_cast<double>(moment) * kMomentSeconds; };
-  int64_t end = moments_;
-  for (int64_t moment = moments_ - 1; moment >= 0; --moment) {
-    const auto at = static_cast<size_t>(moment);
-    if (!lag) {
-      if (ended_[at] < 0) continue;
-      lag = ended_[at];  // it ended with the moment before
-      end = moment;
-      continue;
-    }
-    if (!begins_[at][static_cast<size_t>(*lag)]) continue;
-    passages.push_back({seconds(moment), seconds(end), seconds(moment - *lag)});
-    lag.reset();
+  std::vector<Passage> passages;
+  int64_t before = -1;
+  for (int64_t moment = 0; moment < moments_; ++moment) {
+    const int64_t lag = LagAt(moment);
+    if (lag >= 0 && lag != before) passages.push_back({seconds(moment), 0, seconds(moment - lag)});
+    if (lag >= 0) passages.back().to = seconds(moment + 1);
+    before = lag;
   }
-  std::ranges::reverse(passages);
   return passages;
 }
 

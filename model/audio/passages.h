@@ -45,7 +45,7 @@ class PassageListener {
   int64_t moments() const { return moments_; }
   /// By how many moments the last one lies behind the one that it is like; none: it is new.
   std::optional<int64_t> Lag() const;
-  /// All passages, the likeliest way to the last moment.
+  /// All passages: of each moment what is likeliest kTempoWindowSeconds later.
   std::vector<Passage> Passages() const;
 
  private:
@@ -53,6 +53,8 @@ class PassageListener {
   using Moment = Eigen::Matrix<float, kNumbers, 1>;
 
   Moment Hear(std::span<const float> window);
+  // Of the likeliest way; -1: it is new.
+  int64_t LagAt(int64_t moment) const;
   // [moments], the last one's likeness to each.
   Eigen::VectorXf LikenessOfLast() const;
 
@@ -74,6 +76,7 @@ class PassageListener {
   // (-1: none before).
   std::vector<std::vector<bool>> begins_;
   std::vector<int64_t> ended_;
+  std::vector<int64_t> best_;  // by moment, the lag that the best way ends with, or -1
 };
 
 /// Where a whole song at 22 050 Hz comes back: ascending, apart, from beat to beat where `beats`,

@@ -10,6 +10,7 @@
 namespace choreo {
 namespace {
 
+const std::vector<Passage> kNoPassages;
 constexpr size_t kMostAhead = 1;  // transitions sampled ahead of the one that is handed out
 
 }  // namespace
@@ -113,10 +114,10 @@ DanceChain::DanceChain(SampleQueue& queue, const DanceConfig& config,
                                   : std::nullopt),
       beats_(model_.fps, config.music_beats,
              config.continuation ? config.continuation->last_beat : std::nullopt, audio()),
-      recurrence_(model_.fps, config.music_passages) {
+      recurrence_(model_.fps, config.variation < 1 ? config.music_passages : kNoPassages) {
   if (!config.Before().empty()) history_ = FillHistory(model_, config.Before());
   if (config.continuation) stage_ = config.continuation->stage;
-  timeline_.SetCuts(recurrence_.cuts());
+  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(config.music_passages, model_.fps));
 }
 
 void DanceChain::Begin() {
@@ -159,8 +160,7 @@ void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::string
 void DanceChain::GivePassages(const std::vector<Passage>& passages, const std::string& field) {
   Change([&](Timeline& timeline) {
     CheckPassages(passages, field);
-    recurrence_.Give(passages, timeline.Frontier(field));
-    timeline.SetCuts(recurrence_.cuts());
+    recurrence_.Give(passages, timeline.Frontier(field), field);
   });
 }
 
@@ -169,9 +169,9 @@ void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<Pa
   std::lock_guard lock(mutex_);
   if (config_.music_id == 0) config_.music_id = music_id;
   if (config_.music_beats.empty()) beats_.Find(beats);
-  if (!config_.music_passages.empty()) return;
-  recurrence_.Give(passages, 0);
-  timeline_.SetCuts(recurrence_.cuts());
+  if (!recurrence_.empty() || passages.empty() || config_.variation >= 1) return;
+  recurrence_ = Recurrence(model_.fps, passages);
+  timeline_.SetCuts(CutsOf(passages, model_.fps));
 }
 
 void DanceChain::SetPaused(bool paused) {
@@ -292,6 +292,7 @@ void DanceChain::AskNext() {
 void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
   // Who waited for itself is due from now on: no right to be first grows out of waiting.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
+  recurrence_.Begin(segment.from);
   try {
     const Job* before = jobs_.empty() ? nullptr : jobs_.back().get();
     AskedTransition asked =

@@ -114,7 +114,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   QualityMeter meter_;
   OutputRate output_;
   MusicBeats beats_;
-  Recurrence recurrence_;  // the timeline has its cuts
+  Recurrence recurrence_;
 };
 
 }  // namespace choreo

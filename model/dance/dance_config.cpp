@@ -38,6 +38,11 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   ValidateShare(music_dynamics, "config.music_dynamics");
   ValidateShare(variation, "config.variation");
   CheckPassages(music_passages, "config.music_passages");
+  if (music_passages.size() > kMostPassages) {
+    throw InvalidArgument("config.music_passages", std::to_string(music_passages.size()) +
+                                                       " passages, the limit is " +
+                                                       std::to_string(kMostPassages));
+  }
   ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.output_fps");
   if (history.size() > static_cast<size_t>(model.history_frames)) {

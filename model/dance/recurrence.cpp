@@ -5,45 +5,48 @@
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
-#include "model/core/limits.h"
 #include "model/dance/validation.h"
 
 namespace choreo {
-namespace {
-
-constexpr double kShortestApart_s = 0.5;  // of cuts
-
-}  // namespace
 
 void CheckPassages(std::span<const Passage> passages, const std::string& field) {
-  if (passages.size() > kMostPassages) {
-    throw InvalidArgument(field, std::to_string(passages.size()) + " passages, the limit is " +
-                                     std::to_string(kMostPassages));
-  }
-  double end = 0;
+  double end = kLeastReturn_s;
   for (size_t i = 0; i < passages.size(); ++i) {
     const Passage& passage = passages[i];
     const std::string at = field + "[" + std::to_string(i) + "]";
-    const auto check = [&](const char* name, double seconds, double least, double most,
-                           bool is_inside) {
-      const bool good = seconds >= least && (is_inside ? seconds < most : seconds <= most);
-      if (!good) {
-        throw InvalidArgument(at + name, Show(seconds) + " s is not in [" + Show(least) + ", " +
-                                             Show(most) + (is_inside ? ")" : "]"));
-      }
+    const auto check = [&](const char* name, double seconds, double least, double most) {
+      if (seconds >= least && seconds <= most) return;
+      throw InvalidArgument(
+          at + name, Show(seconds) + " s is not in [" + Show(least) + ", " + Show(most) + "]");
     };
-    check(".from", passage.from, end, kMaxAudioSeconds, true);
-    check(".to", passage.to, passage.from, kMaxAudioSeconds, false);
-    check(".like", passage.like, 0, passage.from, true);
+    check(".from", passage.from, end, kMaxAudioSeconds);
+    check(".to", passage.to, passage.from, kMaxAudioSeconds);
+    check(".like", passage.like, 0, passage.from - kLeastReturn_s);
     end = passage.to;
   }
 }
 
-Recurrence::Recurrence(double fps, std::span<const Passage> passages) : fps_(fps) {
-  Give(passages, 0);
+Recurrence::Recurrence(double fps, std::span<const Passage> passages)
+    : fps_(fps), count_(passages.size()) {
+  Take(passages, 0);
 }
 
-void Recurrence::Give(std::span<const Passage> passages, int64_t from) {
+void Recurrence::Give(std::span<const Passage> passages, int64_t from, const std::string& field) {
+  if (count_ + passages.size() > kMostPassages) {
+    throw InvalidArgument(field, std::to_string(count_ + passages.size()) +
+                                     " passages in all, the limit is " +
+                                     std::to_string(kMostPassages));
+  }
+  count_ += passages.size();
+  given_.push_back({from, {passages.begin(), passages.end()}});
+}
+
+void Recurrence::Begin(int64_t frame) {
+  for (; !given_.empty() && given_.front().from <= frame; given_.pop_front())
+    Take(given_.front().passages, given_.front().from);
+}
+
+void Recurrence::Take(std::span<const Passage> passages, int64_t from) {
   if (passages.empty()) return;
   const auto frame = [this](double seconds) -> int64_t { return std::llround(seconds * fps_); };
   const int64_t begin = std::max<int64_t>(from, frame(passages.front().from));
@@ -52,7 +55,7 @@ void Recurrence::Give(std::span<const Passage> passages, int64_t from) {
   for (const Passage& passage : passages) {
     const int64_t first = frame(passage.from);
     const Stretch stretch{std::max(first, begin), frame(passage.to), first - frame(passage.like)};
-    if (stretch.to <= stretch.from || stretch.lag <= 0) continue;
+    if (stretch.to <= stretch.from) continue;
     const bool goes_on = !stretches_.empty() && stretches_.back().to == stretch.from &&
                          stretches_.back().lag == stretch.lag;
     if (goes_on) {
@@ -61,7 +64,6 @@ void Recurrence::Give(std::span<const Passage> passages, int64_t from) {
       stretches_.push_back(stretch);
     }
   }
-  Cut();
 }
 
 int64_t Recurrence::Origin(int64_t frame) const {
@@ -85,17 +87,17 @@ std::vector<int64_t> Recurrence::Origins(int64_t from, int64_t to) const {
   return any ? origins : std::vector<int64_t>();
 }
 
-void Recurrence::Cut() {
-  std::vector<int64_t> all;
-  for (const Stretch& stretch : stretches_)
-    all.insert(all.end(),
-               {stretch.from - stretch.lag, stretch.to - stretch.lag, stretch.from, stretch.to});
-  std::ranges::sort(all);
-  cuts_.clear();
-  const auto apart = static_cast<int64_t>(std::lround(kShortestApart_s * fps_));
-  for (const int64_t frame : all) {
-    if (cuts_.empty() || frame - cuts_.back() >= apart) cuts_.push_back(frame);
+std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps) {
+  std::vector<int64_t> cuts;
+  for (const Passage& passage : passages) {
+    const double length = passage.to - passage.from;
+    for (const double second : {passage.like, passage.like + length, passage.from, passage.to})
+      cuts.push_back(std::llround(second * fps));
   }
+  std::ranges::sort(cuts);
+  const auto doubled = std::ranges::unique(cuts);
+  cuts.erase(doubled.begin(), doubled.end());
+  return cuts;
 }
 
 }  // namespace choreo

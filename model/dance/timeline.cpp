@@ -10,6 +10,8 @@
 namespace choreo {
 namespace {
 
+constexpr double kShortestToCut_s = 0.5;
+
 std::string Frames(int64_t frames) { return std::to_string(frames); }
 
 double FiniteSeconds(double seconds, const std::string& field) {
@@ -193,6 +195,14 @@ void Timeline::Complete() {
   CutIfChanged();
 }
 
+void Timeline::SetCuts(std::vector<int64_t> frames) {
+  cuts_ = std::move(frames);
+  if (planned_.empty()) return;
+  planned_.clear();
+  planned_to_ = options_.first_frame;
+  PlanTo(frontier_);
+}
+
 void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 
 Segment Timeline::From(int64_t frame) const {
@@ -201,7 +211,8 @@ Segment Timeline::From(int64_t frame) const {
   int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
-    const auto cut = std::ranges::upper_bound(cuts_, frame);
+    const auto cut =
+        std::ranges::lower_bound(cuts_, frame + std::lround(kShortestToCut_s * options_.fps));
     // What would be left behind the usual end is never shorter than half of it.
     if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
         *cut - frame <= options_.max_transition_frames)

@@ -120,8 +120,8 @@ class Timeline {
   void Complete();
 
   /// Where transitions without a key should end, ascending: one whose usual end is near the next of
-  /// these ends there. Of transitions that are planned from now on.
-  void SetCuts(std::vector<int64_t> frames) { cuts_ = std::move(frames); }
+  /// these ends there, if that is half a second away at least. Before anything is danced.
+  void SetCuts(std::vector<int64_t> frames);
 
   /// The music ends before `frame`.
   void SetAudioEnd(int64_t frame);

@@ -70,6 +70,18 @@ TEST(Passages, SilenceDoesNotComeBack) {
   EXPECT_TRUE(FindPassages({}, {}).empty());
 }
 
+// What comes later moves no passage but by its last seconds.
+TEST(Passages, TheBeginningOfASongHasThemToo) {
+  const std::vector<float> song = SongOf({11, 12, 11, 12});
+  const auto cut = [&](double seconds) {
+    return FindPassages(std::span(song).first(static_cast<size_t>(seconds * kModelSampleRate)), {});
+  };
+  const std::vector<Passage> whole = cut(4 * kPart), part = cut(2.8 * kPart);
+  ASSERT_FALSE(part.empty());
+  EXPECT_EQ(part.front().from, whole.front().from);
+  EXPECT_EQ(part.front().like, whole.front().like);
+}
+
 // What is told of a moment while it sounds is what was heard up to it.
 TEST(Passages, AreHeardWhileTheySound) {
   const std::vector<float> song = SongOf({11, 12, 11});

@@ -44,9 +44,10 @@ Message RandomMessage(int64_t granted, int64_t frames, std::mt19937& random) {
       return [request](DanceStream& stream) { stream.SetControls(request); };
     }
     case 4: {
-      const double from = static_cast<double>(ahead(-10, 200)) / 30 + 0.1;
-      const std::vector<Passage> passages{{from, from + 0.1 * static_cast<double>(random() % 60),
-                                           from * 0.01 * static_cast<double>(random() % 90)}};
+      const double from = static_cast<double>(ahead(-10, 200)) / 30 + 2.1;
+      const std::vector<Passage> passages{
+          {from, from + 0.1 * static_cast<double>(random() % 60),
+           (from - 2) * 0.01 * static_cast<double>(random() % 100)}};
       return [passages](DanceStream& stream) { stream.GivePassages(passages); };
     }
     default: {

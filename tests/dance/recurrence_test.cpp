@@ -31,25 +31,32 @@ TEST(Recurrence, ALoopIsLikeItsFirstRound) {
   EXPECT_EQ(recurrence.Origin(60 * 5 + 7), 7);
 }
 
-TEST(Recurrence, WhatIsGivenLaterHoldsBehindTheFrozenFrames) {
+TEST(Recurrence, WhatIsGivenLaterHoldsForTransitionsBehindTheFrozenFrames) {
   const std::vector<Passage> first{{10, 20, 0}}, later{{12, 30, 4}};
   Recurrence recurrence(30, first);
-  recurrence.Give(later, 450);
-  EXPECT_EQ(recurrence.Origin(449), 149) << "frozen: as it was";
+  recurrence.Give(later, 450, "p");
+  recurrence.Begin(420);
+  EXPECT_EQ(recurrence.Origin(460), 160) << "of one that began before";
+  recurrence.Begin(450);
   EXPECT_EQ(recurrence.Origin(450), 210);
   const std::vector<Passage> none{{20, 20, 0}};
-  recurrence.Give(none, 0);
+  recurrence.Give(none, 470, "p");
+  recurrence.Begin(480);
   EXPECT_EQ(recurrence.Origin(599), 59) << "359, which was 59";
   EXPECT_EQ(recurrence.Origin(600), 600) << "it ended there";
 }
 
-TEST(Recurrence, OneThatGoesOnHasCutsAtItsEndsAlone) {
+TEST(Recurrence, TakesAsManyAsAStreamMayGive) {
   Recurrence recurrence(30, {});
-  for (int second = 20; second < 26; ++second) {
-    const std::vector<Passage> heard{{1.0 * second, second + 4.0, second - 15.0}};
-    recurrence.Give(heard, 0);
-  }
-  EXPECT_THAT(recurrence.cuts(), ElementsAre(150, 420, 600, 870));
+  const std::vector<Passage> one{{10, 20, 0}};
+  for (size_t i = 0; i < kMostPassages; ++i) recurrence.Give(one, 0, "p");
+  ExpectError(ErrorCode::kInvalidArgument, "p: 6001 passages in all, the limit is 6000",
+              [&] { recurrence.Give(one, 0, "p"); });
+}
+
+TEST(Recurrence, CutsAreWherePassagesAndTheirLikesBeginAndEnd) {
+  const std::vector<Passage> passages{{10, 20, 0}, {30, 36, 20}};
+  EXPECT_THAT(CutsOf(passages, 30), ElementsAre(0, 300, 600, 780, 900, 1080));
 }
 
 TEST(Recurrence, PassagesAreRefusedByNameValueAndLimit) {
@@ -57,11 +64,10 @@ TEST(Recurrence, PassagesAreRefusedByNameValueAndLimit) {
     ExpectError(ErrorCode::kInvalidArgument, message, [&] { CheckPassages(passages, "p"); });
   };
   refuses({{10, 9, 0}}, "p[0].to: 9 s is not in [10, 600]");
-  refuses({{10, 12, 10}}, "p[0].like: 10 s is not in [0, 10)");
-  refuses({{10, 12, 0}, {11, 14, 0}}, "p[1].from: 11 s is not in [12, 600)");
-  refuses({{600, 700, 0}}, "p[0].from: 600 s is not in [0, 600)");
+  refuses({{10, 12, 9}}, "p[0].like: 9 s is not in [0, 8]");
+  refuses({{10, 12, 0}, {11, 14, 0}}, "p[1].from: 11 s is not in [12, 600]");
+  refuses({{601, 700, 0}}, "p[0].from: 601 s is not in [2, 600]");
   refuses({{std::nan(""), 12, 0}}, "p[0].from: nan s");
-  refuses(std::vector<Passage>(1001), "p: 1001 passages, the limit is 1000");
 }
 
 // The music of seconds 0 to 6 comes back at 8: noise decides what this dancer does.
@@ -98,6 +104,34 @@ TEST(RecurringDance, ComesBackAsMuchAsItIsNotToVary) {
   EXPECT_GT(varied, 1.5 * same);
   EXPECT_LT(varied, 0.9 * usual);
   EXPECT_TRUE(SameDance(DanceTo(passages, 1, {}), DanceTo(passages, 1, {})));
+}
+
+TEST(RecurringDance, IsTheUsualOneWhereAllMayVary) {
+  EXPECT_TRUE(SameDance(DanceTo({{8, 14, 0}}, 1, {}), DanceTo({}, 1, {})));
+}
+
+// Whether a transition was sampled before they came or not: those under way keep what they had.
+TEST(RecurringDance, DoesNotDependOnWhenItIsSampled) {
+  const std::vector<Passage> passages{{2.4, 6, 0}};
+  const auto dance = [&](bool patient) {
+    const auto queue = QueueOf<FakeSampler>();
+    Dance asked = RandomDance(3);
+    asked.config.temperature = 1;
+    asked.config.end_frame = 240;
+    asked.config.generate_until = 0;
+    asked.config.variation = 0;
+    auto sink = std::make_shared<Recorder>();
+    DanceStream stream(*queue, asked.config, sink);
+    stream.GenerateUntil(70);
+    if (patient) sink->WaitForFrames(70);
+    stream.GivePassages(passages);
+    stream.GenerateUntil(240);
+    stream.HalfClose();
+    return sink->WaitForEnd();
+  };
+  const Recording patient = dance(true);
+  ASSERT_TRUE(patient.summary) << patient.error->what();
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(SameDance(dance(false), patient));
 }
 
 TEST(RecurringDance, HitsItsKeysAllTheSame) {

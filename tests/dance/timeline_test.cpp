@@ -67,6 +67,14 @@ TEST(Timeline, TransitionsWithoutAKeyEndAtCuts) {
                                                 {360, 420, ""}}));
 }
 
+TEST(Timeline, CutsHoldForWhatWasPlannedBeforeTheyWereKnown) {
+  Timeline timeline({.end_frame = 200});
+  timeline.GenerateUntil(200);
+  timeline.SetCuts({70, 75});
+  EXPECT_EQ(Drain(timeline),
+            (std::vector<Span>{{0, 70, ""}, {70, 130, ""}, {130, 190, ""}, {190, 250, ""}}));
+}
+
 TEST(Timeline, TransitionsToAKeyKnowNoCuts) {
   Timeline timeline({});
   timeline.SetCuts({20});

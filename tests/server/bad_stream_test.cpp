@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                                   },
                                   kInvalid,
                                   "music_passages[0].passages[0].like",
-                                  {"4 s", "[0, 3)"}},
+                                  {"4 s", "[0, 1]"}},
                     BadStreamCase{"GenerateUntilBackwards",
                                   [](const KeyMessage&) {
                                     v1::StreamDanceRequest until;
@@ -288,7 +288,10 @@ INSTANTIATE_TEST_SUITE_P(
                       "config.music_beats[1]",
                       {"1 s"}},
         BadStreamCase{"Passages",
-                      WithConfig([](auto& c) { c.add_music_passages()->set_to(601); }),
+                      WithConfig([](auto& c) {
+                        c.add_music_passages()->set_from(3);
+                        c.mutable_music_passages(0)->set_to(601);
+                      }),
                       kInvalid,
                       "config.music_passages[0].to",
                       {"601 s", "600"}},
