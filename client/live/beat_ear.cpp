@@ -45,7 +45,7 @@ std::vector<double> BeatEar::Hear(std::span<const float> interleaved) {
     first_ += old;
   }
   found_ = std::async(std::launch::async, [onsets = onsets_, first = first_] {
-    BeatTrack track = TrackSureBeats(onsets);
+    BeatTrack track = TrackBeats(onsets);
     for (int64_t& frame : track.frames) frame += first;
     return track;
   });
