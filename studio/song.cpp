@@ -60,6 +60,15 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
   song.heard.set_seconds(seconds);
   song.heard.set_tempo(song.music.track.tempo_bpm);
   song.heard.mutable_beats()->Add(beats.begin(), beats.end());
+  song.heard.set_beats_in_bar(static_cast<uint32_t>(song.music.track.beats_in_bar));
+  for (const int place : song.music.track.in_bar)
+    song.heard.add_counts(static_cast<uint32_t>(place + 1));
+  for (const Passage& passage : song.music.passages) {
+    v1::MusicPassage* added = song.heard.add_passages();
+    added->set_from(passage.from);
+    added->set_to(passage.to);
+    added->set_like(passage.like);
+  }
   const int64_t count =
       std::min(Room(beats), static_cast<int64_t>(std::ceil(seconds / kSuggestedEvery)));
   if (count > 0) {

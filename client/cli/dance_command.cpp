@@ -73,6 +73,8 @@ void TakeProject(DanceOptions* options) {
     options->style = project.style;
     options->style_name = options->project + ":style";
   }
+  if (!options->music_dynamics) options->music_dynamics = project.music_dynamics;
+  if (!options->variation) options->variation = project.variation;
   options->controls.path_text = project.path;
   options->controls.path_text_name = options->project + ":path";
   // Of several sources the last that speaks of a part counts: those of the command line.
@@ -266,10 +268,10 @@ void AddDanceCommand(CLI::App& program) {
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   AddAllowBends(*command, options->allow_bends);
   command
-      ->add_option(
-          "--project", options->project,
-          "A project that `choreo studio` saved: its keys, path, seed, style, liveliness and "
-          "the song beside it, as far as nothing else is said here.")
+      ->add_option("--project", options->project,
+                   "A project that `choreo studio` saved: its keys, path, seed, style, liveliness, "
+                   "music and "
+                   "the song beside it, as far as nothing else is said here.")
       ->check(CLI::ExistingFile)
       ->excludes("--keyframes");
   command

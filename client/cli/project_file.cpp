@@ -21,6 +21,15 @@ std::string Text(const json& file, const std::string& name, const char* member) 
   return file[member].get<std::string>();
 }
 
+std::optional<double> Share(const json& file, const std::string& name, const char* member) {
+  if (!file.contains(member)) return std::nullopt;
+  const std::string field = name + ":" + member;
+  const double share = JsonNumber(file[member], field);
+  if (!(share >= 0 && share <= 1))
+    throw InvalidArgument(field, Shown(file[member]) + " is not a number from 0 to 1");
+  return share;
+}
+
 /// "left_arm=1.5" of each part, unless all are as usual.
 std::vector<std::string> Velocities(const json& lively, const std::string& field) {
   if (!lively.is_object()) throw InvalidArgument(field, Shown(lively) + " is no object");
@@ -57,13 +66,15 @@ Project ParseProject(const json& file, const std::string& name) {
   }
   // song_data: of the studio's messages, whose song comes along (studio/project_calls).
   CheckFileMembers(file, name,
-                   {"studio", "song", "song_data", "seconds", "seed", "style", "lively", "path",
-                    "keyframes", "about"},
-                   "a project has studio, song, seconds, seed, style, lively, path, keyframes and "
-                   "perhaps about");
+                   {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics",
+                    "variation", "lively", "path", "keyframes", "about"},
+                   "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
+                   "lively, path, keyframes and perhaps about");
   Project project;
   project.song = Text(file, name, "song");
   project.style = Text(file, name, "style");
+  project.music_dynamics = Share(file, name, "music_dynamics");
+  project.variation = Share(file, name, "variation");
   if (file.contains("seconds")) {
     project.seconds = JsonNumber(file["seconds"], name + ":seconds");
     if (!(*project.seconds > 0 && *project.seconds <= kLongestDance)) {

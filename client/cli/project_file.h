@@ -14,14 +14,16 @@ struct Project {
   std::string song = {};  ///< the file's name; empty: it has none
   std::optional<double> seconds = {};
   std::optional<uint64_t> seed = {};
-  std::string style = {};                    ///< empty: as it comes
+  std::string style = {};                                     ///< empty: as it comes
+  std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
   std::vector<std::string> velocities = {};  ///< as --velocity takes them; none where all are 1
   std::string path = {};                     ///< the text of a path file (control_options.h)
 };
 
-/// Reads a project, JSON with `studio`, which is 1, `song`, `seconds`, `seed`, `style`, `lively` (a
-/// factor for each part of the body), `path` and `keyframes`. `name` is the file's. Throws
-/// Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
+/// Reads a project, JSON with `studio`, which is 1, `song`, `seconds`, `seed`, `style`,
+/// `music_dynamics`, `variation`, `lively` (a factor for each part of the body), `path` and
+/// `keyframes`. `name` is the file's. Throws Error(kInvalidArgument) whose field is NAME:MEMBER,
+/// naming value and limit.
 Project ParseProject(const nlohmann::json& file, const std::string& name);
 
 /// The same of a file, whose song is the one beside it. Throws Error(kNotFound) where it cannot be

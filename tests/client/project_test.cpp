@@ -6,6 +6,7 @@
 
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
+#include "tests/support/music_files.h"
 
 namespace choreo::project_test {
 
@@ -66,6 +67,27 @@ TEST_F(ProjectTest, TheCommandLineWins) {
   EXPECT_THAT(Bytes("short.bvh"), HasSubstr("Frames: 90\n"));
 }
 
+TEST_F(ProjectTest, IsDancedToItsMusicAsItSays) {
+  std::vector<float> swelling = Clicks(5);
+  for (size_t i = 0; i < swelling.size() / 4; ++i) swelling[i] *= 0.05F;
+  WriteWav(folder_ / "song.wav", swelling);
+  project_.erase("lively");
+  ASSERT_EQ(Dance("--project " + At("p.json"), "usual.bvh").code, 0);
+  project_["music_dynamics"] = 1;
+  project_["variation"] = 0;
+  ASSERT_EQ(Dance("--project " + At("p.json"), "lively.bvh").code, 0);
+  const Outcome usual =
+      Dance("--project " + At("p.json") + " --music-dynamics 0.5 --variation 0.3", "as_usual.bvh");
+  ASSERT_EQ(usual.code, 0) << usual.said;
+  EXPECT_EQ(Bytes("as_usual.bvh"), Bytes("usual.bvh"));
+  project_.erase("music_dynamics");
+  project_.erase("variation");
+  ASSERT_EQ(
+      Dance("--project " + At("p.json") + " --music-dynamics 1 --variation 0", "told.bvh").code, 0);
+  EXPECT_EQ(Bytes("told.bvh"), Bytes("lively.bvh"));
+  EXPECT_TRUE(Bytes("usual.bvh") != Bytes("lively.bvh"));
+}
+
 TEST_F(ProjectTest, ItsPathLeadsAsAPathFileDoes) {
   ASSERT_EQ(Dance("--project " + At("p.json"), "anywhere.bvh").code, 0);
   const json path = {
@@ -113,6 +135,8 @@ TEST_F(ProjectTest, WhatCannotBeIsNamed) {
   with("song", 7, ": 7 is no text");
   with("lively", {{"tail", 1}}, ".tail: is none of trunk");
   with("lively", {{"trunk", 11}}, ".trunk: 11 is not a number from 0 to 10");
+  with("music_dynamics", 1.5, ": 1.5 is not a number from 0 to 1");
+  with("variation", -1, ": -1 is not a number from 0 to 1");
   with("path", 7, ": 7 is no object");
   with("path", {{"points", json::array()}}, ":points");
   with("path",

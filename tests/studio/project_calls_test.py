@@ -112,6 +112,7 @@ class ProjectCalls(unittest.TestCase):
             ({"seconds": 601}, "project:seconds: 601 is beyond 600, the most that is danced"),
             ({"seed": 1.5}, "project:seed"),
             ({"style": "foxtrot"}, "foxtrot"),
+            ({"variation": 2}, "project:variation: 2 is not a number from 0 to 1"),
             ({"song": "a.wav"}, "project:song_data: is missing beside song"),
             ({"song_data": "AAAA"}, "project:song: is missing beside song_data"),
             ({"song": "a.wav", "song_data": "?!"}, "project:song_data: is no base64"),

@@ -49,6 +49,9 @@ export function readKey({ id, when, pose, mask }: Keyframe, fps: number, height:
   };
 }
 
+/// How all of a dance is danced.
+export const how = ({ seed, style, dynamics, variation }: Project) => ({ seed: BigInt(seed), style, musicDynamics: dynamics, variation });
+
 export class Dancer {
   constructor(private readonly wire: Wire, private readonly model: ModelInfo) {}
 
@@ -151,7 +154,7 @@ export class Dancer {
   }
 
   private config(project: Project, before: Motion, whole: boolean): Init<typeof DanceConfigSchema> {
-    const config: Init<typeof DanceConfigSchema> = { seed: BigInt(project.seed), style: project.style };
+    const config: Init<typeof DanceConfigSchema> = how(project);
     if (whole) config.frames = BigInt(this.frames(project));
     if (before.count > 0) {
       config.start = {

@@ -2,7 +2,7 @@
 import { computed, signal } from '@preact/signals';
 import { AudioEncoding } from './generated/choreo/v1/choreography_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
-import { keyMessage } from './dancer';
+import { how, keyMessage } from './dancer';
 import { drawing } from './floor_path';
 import { push } from './history';
 import { dancer, skeleton, wire } from './link';
@@ -62,15 +62,15 @@ export const startLive = () => work(async () => {
   [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
   [pieces, samples, granted, latency, isLost, drawing.value] = [[], 0, 0, 0, false, false];
   const asked = emptyProject(name, shownAhead);
-  const { style, lively, seed } = moment.value?.project ?? asked;
+  const { style, dynamics, variation, lively, seed } = moment.value?.project ?? asked;
   const early: Float32Array[] = [];
   microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
   rate = microphone.rate;
   const motion = new Motion(skeleton.joints, dancer.fps);
-  live.value = { project: { ...asked, style, lively, seed }, motion, beats: [] };
+  live.value = { project: { ...asked, style, dynamics, variation, lively, seed }, motion, beats: [] };
   call = wire.open(
     { case: 'dance', value: { request: { case: 'config', value: {
-      seed: BigInt(seed), style, generateUntil: 0n,
+      ...how(live.value.project), generateUntil: 0n,
       audioFormat: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 },
     } } } },
     { heard: ({ response }) => response.case === 'dance' && hearOf(response.value.response, motion), failed },

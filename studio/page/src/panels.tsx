@@ -1,4 +1,4 @@
-// What is beside the stage: the chosen key, takes, style, liveliness.
+// What is beside the stage: the chosen key, takes, music, style, liveliness.
 import { signal } from '@preact/signals';
 import { KeepTake } from './keep_take';
 import { PathPoints } from './path_points';
@@ -67,6 +67,37 @@ function StylePanel() {
   );
 }
 
+type SliderProps = { name: string; title?: string; low: number; high: number; value: number; set: (value: number) => void };
+
+function Slider({ name, title, low, high, value, set }: SliderProps) {
+  return (
+    <label class="slider" title={title}>
+      <span>{name}</span>
+      <input type="range" min={low} max={high} step="0.1" disabled={!studio.project.value} value={value}
+        onChange={(event) => set(Number(event.currentTarget.value))} />
+      <output>{value.toFixed(1)}</output>
+    </label>
+  );
+}
+
+/// How the song is danced to.
+function MusicPanel() {
+  const { value } = studio.project;
+  const song = studio.shownSong.value;
+  if (!value || !song || !studio.canHear()) return null;
+  return (
+    <section aria-label="Music">
+      <h2>Music</h2>
+      <Slider name="energy" title="How much the music's energy is that of the dance" low={0} high={1} value={value.dynamics}
+        set={(dynamics) => studio.change({ dynamics })} />
+      {song.heard.passages.length > 0 && (
+        <Slider name="variation" title="How much the dance differs where the music comes back" low={0} high={1} value={value.variation}
+          set={(variation) => studio.change({ variation })} />
+      )}
+    </section>
+  );
+}
+
 function LivelyPanel() {
   if (!studio.canBeLively()) return null;
   const { value } = studio.project;
@@ -76,12 +107,7 @@ function LivelyPanel() {
     <section aria-label="Liveliness">
       <h2>Liveliness</h2>
       {parts.map((part, i) => (
-        <label class="slider" key={part}>
-          <span>{part}</span>
-          <input type="range" min="0.2" max="2" step="0.1" disabled={!value} value={value?.lively[i] ?? 1}
-            onChange={(event) => set(i, Number(event.currentTarget.value))} />
-          <output>{(value?.lively[i] ?? 1).toFixed(1)}</output>
-        </label>
+        <Slider key={part} name={part} low={0.2} high={2} value={value?.lively[i] ?? 1} set={(factor) => set(i, factor)} />
       ))}
     </section>
   );
@@ -147,6 +173,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
       <KeyPanel stage={stage} />
       <TakesPanel />
       <PathPanel />
+      <MusicPanel />
       <StylePanel />
       <LivelyPanel />
       <section aria-label="View">

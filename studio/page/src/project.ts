@@ -15,12 +15,19 @@ export const closest = 2;
 
 export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg'];
 
+/// What the program does where nothing is said: kUsualDynamics, kUsualVariation.
+const [usualDynamics, usualVariation] = [0.5, 0.3];
+
 export type Project = {
   song: string;
   seconds: number;
   seed: number;
   /// One of the model's; empty: as it comes.
   style: string;
+  /// How much the music's energy is that of the dance, 0 to 1.
+  dynamics: number;
+  /// How much the dance to music that comes back differs, 0 to 1.
+  variation: number;
   /// How lively each of `parts` is; 1 is as usual.
   lively: number[];
   /// Where the dancer goes; empty: anywhere.
@@ -34,6 +41,8 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   seconds,
   seed: 1,
   style: '',
+  dynamics: usualDynamics,
+  variation: usualVariation,
   lively: parts.map(() => 1),
   path: [],
   keys: [],

@@ -24,10 +24,10 @@ export function toJson(project: Project, fps: number, names: string[]): string {
       pose.rotations.slice(3 * joint, 3 * joint + 3).map(round),
     ),
   }));
-  const { song, seconds, seed, style } = project;
+  const { song, seconds, seed, style, dynamics, variation } = project;
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
-  const text = JSON.stringify({ studio: format, song, seconds, seed, style, lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
+  const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation, lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
   // A line for each vector and each list of joints, not for each number and name.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
     .replace(/"joints": \[\s+([^\]]*?)\s+\]/g, (_, joints: string) => `"joints": [${joints.replace(/\s*\n\s*/g, ' ')}]`)
@@ -100,6 +100,8 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
     tell(`The model has no style "${project.style}", only ${known.styles.join(', ') || 'none'}.`);
     project.style = '';
   }
+  project.dynamics = number(json.music_dynamics ?? project.dynamics, at('music_dynamics'), 0, 1);
+  project.variation = number(json.variation ?? project.variation, at('variation'), 0, 1);
   const lively = (json.lively ?? {}) as Json;
   project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
   if (json.path !== undefined) project.path = readPath(json.path as Json, name, known);

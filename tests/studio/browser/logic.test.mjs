@@ -85,13 +85,21 @@ test('of a pose some joints are taken', () => {
 
 test('a project is read as it was written', () => {
   const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null };
-  const project = { ...emptyProject('song.mp3', 4), seed: 7, path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key] };
+  const project = { ...emptyProject('song.mp3', 4), seed: 7, dynamics: 0.9, variation: 0, path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key] };
   const text = toJson(project, 30, ['pelvis', 'left_hip']);
   const said = [];
   const read = fromJson(text, 'p.json', { fps: 30, styles: [] }, (words) => said.push(words));
   assert.deepEqual({ ...read, keys: [key] }, project);
   assert.deepEqual(said, []);
   assert.equal(JSON.parse(text).keyframes[0].time, 0.5);
+});
+
+test('what an old project does not say is as usual, and what cannot be is named', () => {
+  const known = { fps: 30, styles: [] };
+  const read = (more) => fromJson(JSON.stringify({ studio: 1, keyframes: [], ...more }), 'p.json', known, () => {});
+  assert.deepEqual([read({}).dynamics, read({}).variation], [0.5, 0.3]);
+  assert.throws(() => read({ music_dynamics: 1.5 }), /^Error: p.json: music_dynamics: 1.5 is not a number from 0 to 1/);
+  assert.throws(() => read({ variation: 'much' }), /^Error: p.json: variation: "much" is not a number/);
 });
 
 test('keys that stand too close are refused', () => {
