@@ -1,11 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "client/cli/key_file.h"
 #include "client/cli/photo_pose.h"
 #include "client/convert.h"
+#include "model/audio/made_song.h"
 #include "tests/studio/fixture.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/music_files.h"
 #include "tests/support/rig_files.h"
 
 namespace choreo::studio::files_test {
@@ -20,10 +24,30 @@ TEST_F(StudioTest, HearsASongAndComposesOnItsBeats) {
   EXPECT_NEAR(heard.song().tempo(), 120, 3);
   EXPECT_EQ(heard.song().suggested_size(), 5);
   EXPECT_EQ(heard.song().peaks_size(), 480);
+  EXPECT_EQ(heard.song().counts_size(), heard.song().beats_size());
+  EXPECT_GE(heard.song().beats_in_bar(), 2);
+  EXPECT_THAT(heard.song().counts(), testing::Contains(1));
   Request compose;
   compose.mutable_compose()->set_seconds(12);
   const Response keys = page.Ask(compose);
   EXPECT_GE(keys.keyframes().keyframes_size(), 5);
+}
+
+// A song whose first part follows its second.
+TEST_F(StudioTest, HearsWhatComesBack) {
+  std::vector<float> samples;
+  for (const uint64_t seed : {11, 12, 11}) {
+    const std::vector<float> part =
+        MakeSong({.seed = seed, .seconds = 24, .tempo = {{0, 120}}}).mono;
+    samples.insert(samples.end(), part.begin(), part.end());
+  }
+  WriteWav(folder_ / "song.wav", samples);
+  const Song song = HearSong(folder_ / "song.wav", "song.wav", 600);
+  double again = 0;  // seconds
+  for (const v1::MusicPassage& passage : song.heard.passages()) {
+    if (std::abs(passage.from() - passage.like() - 48) < 1) again += passage.to() - passage.from();
+  }
+  EXPECT_GT(again, 16);
 }
 
 TEST_F(StudioTest, RefusesASongThatIsLongerThanADance) {

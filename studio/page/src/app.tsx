@@ -2,6 +2,7 @@
 import { effect, signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { Pose } from './body';
+import { tempo } from './counts';
 import { Doll } from './doll';
 import { KeepTake } from './keep_take';
 import { Library } from './library';
@@ -106,7 +107,7 @@ function Bar() {
     <header>
       <strong class="name">Choreo <span>studio</span></strong>
       <span class="song">
-        {song.value ? `${song.value.name} · ${Math.round(song.value.heard.tempo)} beats a minute` : live.value ? 'live' : isConnected.value ? '' : 'connecting …'}
+        {song.value ? `${song.value.name} · ${Math.round(tempo(studio.beats.value))} beats a minute` : live.value ? 'live' : isConnected.value ? '' : 'connecting …'}
       </span>
       <nav aria-label="Project">
         <button class="icon" aria-label="Undo" title="Undo (Ctrl+Z)" disabled={present.value < 1 || !!live.value} onClick={studio.undo}>↶</button>

@@ -7,6 +7,7 @@ import { audio, returnTo, takeSong, tellOfSong } from './songs';
 import { stopLive } from './live';
 import { begin, complain, isUnsaved, live, moment, song, tell, welcome, work } from './state';
 
+export * from './beats';
 export * from './files';
 export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_path';
 export { change, motionAt, redo, total, undo } from './history';

@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import WaveSurfer from 'wavesurfer.js';
+import { eight, isDownbeat, tempo } from './counts';
 import type { Pose } from './body';
 import { colour } from './palette';
 import { spoken } from './project';
@@ -16,6 +17,8 @@ const isDark = signal(dark.matches);
 dark.addEventListener('change', () => (isDark.value = dark.matches));
 const edge = 40; // pixels beside the song
 const snap = 10; // pixels to a beat
+const digit = 15; // pixels that a count takes
+const hues = 5; // of sections (style.css)
 let content: HTMLElement | null = null;
 
 /// The frame over which a pose is carried.
@@ -25,7 +28,7 @@ const x = (seconds: number) => edge + seconds * zoom.value;
 const clock = (seconds: number) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')}`;
 const seconds = () => studio.project.value?.seconds ?? 0;
 
-const beats = () => (studio.live.value ? studio.liveBeats.value : studio.song.value?.heard.beats ?? []);
+const beats = () => (studio.live.value ? studio.liveBeats.value : studio.beats.value.list.map(({ time }) => time));
 
 /// The nearest beat's frame, if one is near on the screen.
 function snapped(time: number): number {
@@ -60,7 +63,7 @@ function Wave() {
       media: studio.audio,
       peaks: [value.heard.peaks],
       duration: value.heard.seconds,
-      height: 56,
+      height: 50,
       interact: false,
       cursorWidth: 0,
       normalize: true,
@@ -75,6 +78,30 @@ function Wave() {
   // As wide as the song, which may be there before the project is: wavesurfer.js breaks on a width of nothing.
   const width = Math.max(1, (value?.heard.seconds ?? 0) * zoom.value);
   return <div class="wave" ref={box} style={{ left: `${edge}px`, width: `${width}px` }} />;
+}
+
+/// Beats, bars and counts, as far as there is room for them.
+function Ruler() {
+  if (studio.live.value) return studio.liveBeats.value.map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />);
+  const { bar, list } = studio.beats.value;
+  const room = (60 / Math.max(tempo(studio.beats.value), 1)) * zoom.value; // for a beat
+  return list.map((beat) => {
+    const isOne = beat.count === 1;
+    const isCounted = beat.count > 0 && (room >= digit || (isOne && room * eight(bar) >= digit));
+    return (
+      <i class={`beat${isDownbeat(beat, bar) ? ' down' : ''}${isOne ? ' one' : ''}`} key={beat.time} style={{ left: `${x(beat.time)}px` }}>
+        {isCounted && beat.count}
+      </i>
+    );
+  });
+}
+
+/// What comes back wears one letter and colour wherever it is.
+function Sections() {
+  return studio.form.value.map(({ from, to, nth, letter, others }) => (
+    <i class="section" key={from} title={`${letter}: alike at ${others.map(clock).join(', ')}`}
+      style={{ left: `${x(from)}px`, width: `${(to - from) * zoom.value}px`, '--hue': `var(--form-${nth % hues})` }}>{letter}</i>
+  ));
 }
 
 function Scrubber() {
@@ -96,8 +123,9 @@ function Scrubber() {
   return (
     <div class="scrubber" role="slider" tabIndex={0} aria-label="Playhead" aria-valuemin={0} aria-valuemax={Math.round(seconds())}
       aria-valuenow={0} onPointerDown={slide} onPointerMove={slide} onKeyDown={press}>
+      <Sections />
       <Wave />
-      {beats().map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />)}
+      <Ruler />
       {heard?.suggested.map((beat) => <i class="suggested" key={`s${beat}`} style={{ left: `${x(beat)}px` }} />)}
     </div>
   );

@@ -13,9 +13,26 @@ mkdirSync(pictures, { recursive: true });
 /// Where a picture goes, or another file.
 export const inFolder = (name) => join(pictures, name);
 
+const rate = 22050;
+
 /// A click every half second over a soft tone, as a WAV file.
-export function clicks(seconds) {
-  const rate = 22050;
+export const clicks = (seconds) => asWav(seconds, (i) => {
+  const since = i % (rate / 2);
+  return 2000 * Math.sin(i * 0.06) + 20000 * Math.exp(-since / 200) * Math.sin(since * 0.5);
+});
+
+/// A song at 120 beats a minute of parts of 16 seconds, each named by a letter: ABA comes back to its first one.
+export const song = (parts) => asWav(16 * parts.length, (i) => {
+  const part = parts.charCodeAt(Math.floor(i / (16 * rate))) - 65;
+  const [beat, since] = [Math.floor(i / (rate / 2)), (i % (rate / 2)) / rate];
+  const root = 110 * 2 ** ([[0, 5, 9, 7], [3, 10, 1, 6]][part][Math.floor(beat / 4) % 4] / 12);
+  const voices = part ? [1, 1.189, 1.498, 6, 7] : [1, 1.26, 1.498, 2];
+  const chord = voices.reduce((sum, over) => sum + Math.sin(2 * Math.PI * root * over * (i / rate)), 0);
+  const drum = Math.exp(-30 * since) * Math.sin(2 * Math.PI * (beat % 4 === 0 ? 60 : 180) * since);
+  return 2200 * chord * Math.exp(-2 * since) + (beat % 4 === 0 ? 16000 : 8000) * drum;
+});
+
+function asWav(seconds, sampleAt) {
   const wav = Buffer.alloc(44 + 2 * rate * seconds);
   wav.write('RIFF');
   wav.writeUInt32LE(wav.length - 8, 4);
@@ -23,11 +40,7 @@ export function clicks(seconds) {
   [[16, 4], [1, 2], [1, 2], [rate, 4], [2 * rate, 4], [2, 2], [16, 2]].reduce((at, [value, bytes]) => wav.writeUIntLE(value, at, bytes), 16);
   wav.write('data', 36);
   wav.writeUInt32LE(wav.length - 44, 40);
-  for (let i = 0; i < rate * seconds; ++i) {
-    const since = i % (rate / 2);
-    const value = 2000 * Math.sin(i * 0.06) + 20000 * Math.exp(-since / 200) * Math.sin(since * 0.5);
-    wav.writeInt16LE(Math.round(value), 44 + 2 * i);
-  }
+  for (let i = 0; i < rate * seconds; ++i) wav.writeInt16LE(Math.round(sampleAt(i)), 44 + 2 * i);
   return wav;
 }
 

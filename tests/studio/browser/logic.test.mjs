@@ -19,6 +19,8 @@ async function load(name) {
 const { roughly, timeLeft } = await load('time_left');
 const { closest, emptyProject, freeId, sorted, spoken } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
+const { counted, doubled, eight, halved, isDownbeat, nudged, pulseOf, tapped, tempo, withOne } = await load('counts');
+const { sections } = await load('form');
 const { mostUnlike, unlikeness } = await load('unlike');
 const { only, toQuaternion, toVector, turned, heading } = await load('body');
 
@@ -100,6 +102,76 @@ test('what an old project does not say is as usual, and what cannot be is named'
   assert.deepEqual([read({}).dynamics, read({}).variation], [0.5, 0.3]);
   assert.throws(() => read({ music_dynamics: 1.5 }), /^Error: p.json: music_dynamics: 1.5 is not a number from 0 to 1/);
   assert.throws(() => read({ variation: 'much' }), /^Error: p.json: variation: "much" is not a number/);
+});
+
+const every = (period, count, first = 0) => Array.from({ length: count }, (_, i) => first + i * period);
+const counts = ({ list }) => list.map(({ count }) => count).join('');
+const inBars = (bar, count, first = 1) => every(1, count).map((i) => (i + first - 1) % bar + 1);
+
+test('beats are counted in eights, which begin with the first bar', () => {
+  assert.equal(counts(counted(every(0.5, 10), inBars(4, 10), 4)), '1234567812');
+  assert.equal(counts(counted(every(0.5, 10), inBars(4, 10, 3), 4)), '7812345678');
+  assert.equal(counts(counted(every(0.5, 10), inBars(3, 10), 3)), '1234561234');
+  assert.equal(counts(counted(every(0.5, 10), inBars(2, 10), 2)), '1234567812');
+  // A bar that is cut short: they begin anew.
+  assert.equal(counts(counted(every(0.5, 9), [1, 2, 3, 1, 2, 3, 4, 1, 2], 4)), '123123456');
+  assert.equal(counts(counted([], [], 0)), '');
+  assert.deepEqual([4, 3, 2, 7].map(eight), [8, 6, 8, 7]);
+  assert.deepEqual([1, 4, 5].map((count) => isDownbeat({ time: 0, count }, 4)), [true, false, true]);
+});
+
+test('beats are halved, doubled and nudged, and one of them is a 1', () => {
+  const beats = counted(every(0.5, 8, 1), inBars(4, 8, 4), 4);
+  assert.equal(counts(beats), '81234567');
+  assert.deepEqual(halved(beats).list.slice(0, 3).map(({ time, count }) => [time, count]), [[1.5, 1], [2.5, 2], [3.5, 3]]);
+  const twice = doubled(beats);
+  assert.equal(twice.list.length, 15);
+  assert.deepEqual(twice.list.slice(0, 4).map(({ time, count }) => [time, count]), [[1, 7], [1.25, 8], [1.5, 1], [1.75, 2]]);
+  assert.deepEqual([beats, halved(beats), twice].map((some) => Math.round(tempo(some))), [120, 60, 240]);
+  assert.equal(doubled(counted([1, 1.5, 2, 9, 9.5, 10], [], 4)).list.length, 10, 'none in a pause');
+  const late = nudged(beats, 0.01, 4.5);
+  assert.deepEqual([late.list[0], late.list.length], [{ time: 1.01, count: 8 }, 7]);
+  assert.equal(counts(withOne(beats, 2.1)), '78123456');
+});
+
+test('taps have a pulse, also where some are missing', () => {
+  assert.equal(pulseOf([1, 2, 3]), null);
+  const { phase, period } = pulseOf([10.02, 10.49, 11.01, 12, 12.51]);
+  near(Math.round(period * 50) / 50, 0.5);
+  near(Math.round(phase * 20) / 20, 10);
+});
+
+test('taps say which beats, and the song exactly when', () => {
+  const heard = counted(every(0.5, 40), inBars(4, 40), 4);
+  const hand = (period, first) => every(period, 8, first).map((time, i) => time + 0.02 * (-1) ** i);
+  const times = (found) => found.list.map(({ time }) => time);
+  // As they are; half as fast, on the second and fourth; twice as fast; beside them.
+  assert.deepEqual(times(tapped(heard, heard, hand(0.5, 4), 20)), times(heard));
+  assert.deepEqual(times(tapped(heard, heard, hand(1, 4.5), 20)), every(1, 20, 0.5));
+  assert.deepEqual(times(tapped(heard, heard, hand(0.25, 4), 20)).slice(0, 4), [0, 0.25, 0.5, 0.75]);
+  near(Math.abs(times(tapped(heard, heard, hand(0.5, 4.25), 20))[3] - 1.5), 0.25);
+  // A 1 stays where it was, and is the first tap where there was none.
+  assert.equal(tapped(heard, heard, hand(0.5, 4), 20).list[8].count, 1);
+  // Another tempo, and a song without beats: evenly over all of it.
+  const other = tapped(heard, heard, every(0.4, 8, 3), 20);
+  assert.deepEqual([other.list.length, Math.round(tempo(other))], [50, 150]);
+  const none = tapped(counted([], [], 0), counted([], [], 0), every(0.4, 8, 3), 20);
+  assert.equal(none.list.find(({ time }) => Math.abs(time - 3) < 0.01).count, 1);
+  assert.equal(tapped(heard, heard, [1, 2], 20), null);
+});
+
+test('what comes back has the letter of what it is like', () => {
+  const letters = (passages) => sections(passages).map(({ from, to, letter }) => `${letter} ${from}-${to}`);
+  assert.deepEqual(letters([]), []);
+  assert.deepEqual(letters([{ from: 60, to: 90, like: 10 }]), ['A 10-40', 'A 60-90']);
+  // Twice, the second time as the first return; and another part.
+  assert.deepEqual(letters([{ from: 40, to: 60, like: 0 }, { from: 60, to: 70, like: 25 }, { from: 80, to: 100, like: 40 }]),
+    ['A 0-20', 'B 25-35', 'A 40-60', 'B 60-70', 'A 80-100']);
+  // One that is like a part and what follows it.
+  assert.deepEqual(letters([{ from: 40, to: 60, like: 0 }, { from: 80, to: 110, like: 0 }]), ['A 0-30', 'A 40-60', 'A 80-110']);
+  // Longer than its way back: again and again.
+  assert.deepEqual(letters([{ from: 20, to: 60, like: 0 }]), ['A 0-20', 'A 20-40', 'A 40-60']);
+  assert.deepEqual(sections([{ from: 60, to: 90, like: 10 }])[0].others, [60]);
 });
 
 test('keys that stand too close are refused', () => {

@@ -1,0 +1,145 @@
+// How a song is counted: its beats, bars, and the eights that dancers count in.
+
+/// `count`: in its eight, from 1 on; 0 where nobody counts.
+export type Beat = { time: number; count: number };
+/// `bar`: beats in a bar.
+export type Beats = { bar: number; list: Beat[] };
+
+const usualBar = 4;
+const fewestTaps = 4;
+const slack = 0.06; // of a tempo, either way: within it two are one
+const missed = 0.07; // seconds by which hands miss a beat that they mean
+const gap = 1.6; // intervals: what is longer is a pause
+
+/// Beats in what is counted as an eight: two bars of four, two of three.
+export const eight = (bar: number) => bar * Math.max(1, Math.floor(8 / bar));
+export const isDownbeat = ({ count }: Beat, bar: number) => count > 0 && (count - 1) % bar === 0;
+/// What a project keeps of a time.
+const kept = (seconds: number) => Math.round(seconds * 1e4) / 1e4;
+const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+const intervals = (times: number[]) => times.slice(1).map((time, i) => time - times[i]);
+
+/// As the program heard it: `inBar` counts from 1 on in each bar. Eights begin with the first bar, and anew where a bar is cut short.
+export function counted(times: number[], inBar: number[], bar: number): Beats {
+  const length = bar || usualBar;
+  const bars = eight(length) / length;
+  let nth = bars - 1;
+  let isFirst = true;
+  const list = times.map((time, i) => {
+    const at = Math.min(inBar[i] ?? 0, length);
+    if (at === 1) {
+      const isWhole = !isFirst && inBar[i - 1] === length;
+      nth = isWhole ? (nth + 1) % bars : 0;
+      isFirst = false;
+    }
+    return { time, count: at && nth * length + at };
+  });
+  return { bar: length, list };
+}
+
+/// Counts from one of the beats on, and backwards before it.
+function countedFrom(times: number[], one: number, bar: number): Beats {
+  const length = eight(bar);
+  return { bar, list: times.map((time, i) => ({ time: kept(time), count: (((i - one) % length) + length) % length + 1 })) };
+}
+
+const nearest = (times: number[], wanted: number) =>
+  times.reduce((best, time, i) => (Math.abs(time - wanted) < Math.abs(times[best] - wanted) ? i : best), 0);
+const timesOf = ({ list }: Beats) => list.map(({ time }) => time);
+const firstOne = ({ list }: Beats) => Math.max(0, list.findIndex(({ count }) => count === 1));
+
+/// The beat nearest to a second is a 1.
+export const withOne = (beats: Beats, seconds: number) => countedFrom(timesOf(beats), nearest(timesOf(beats), seconds), beats.bar);
+
+const eachOf = (times: number[], nth: number, first: number) => times.filter((_, i) => i % nth === first % nth);
+
+/// So many in place of each, but none in a pause.
+function split(times: number[], into: number): number[] {
+  const longest = gap * median(intervals(times));
+  return times.flatMap((time, i) => {
+    const length = times[i + 1] - time;
+    return length <= longest ? Array.from({ length: into }, (_, part) => time + (length * part) / into) : [time];
+  });
+}
+
+/// Every second beat alone: those that the first 1 is among.
+export function halved(beats: Beats): Beats {
+  const one = firstOne(beats);
+  return countedFrom(eachOf(timesOf(beats), 2, one), Math.floor(one / 2), beats.bar);
+}
+
+export function doubled(beats: Beats): Beats {
+  const times = split(timesOf(beats), 2);
+  return countedFrom(times, nearest(times, beats.list[firstOne(beats)]?.time ?? 0), beats.bar);
+}
+
+/// All of them later, or earlier; within the song, which has so many seconds.
+export const nudged = ({ bar, list }: Beats, by: number, seconds: number): Beats => ({
+  bar,
+  list: list.map(({ time, count }) => ({ time: kept(time + by), count })).filter(({ time }) => time >= 0 && time <= seconds),
+});
+
+/// Most beats a minute; 0 where there are none.
+export function tempo({ list }: Beats): number {
+  const all = intervals(list.map(({ time }) => time));
+  const usual = median(all);
+  const near = all.filter((length) => Math.abs(length / usual - 1) < 0.2);
+  return near.length ? (60 * near.length) / near.reduce((sum, length) => sum + length, 0) : 0;
+}
+
+/// The pulse of taps, some of which may be missing: one second of it, and its seconds a beat. Null for too few.
+export function pulseOf(taps: number[]): { phase: number; period: number } | null {
+  if (taps.length < fewestTaps) return null;
+  const usual = median(intervals(taps));
+  const places = [0];
+  for (const length of intervals(taps)) places.push(places.at(-1)! + Math.max(1, Math.round(length / usual)));
+  const mean = (values: number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
+  const [place, time] = [mean(places), mean(taps)];
+  const spread = mean(places.map((at) => (at - place) ** 2));
+  const period = mean(taps.map((at, i) => (at - time) * (places[i] - place))) / spread;
+  return { phase: time - period * place, period };
+}
+
+/// Beats where somebody tapped: hands say which ones, and the song, `heard`, exactly when, as long as it has such beats. Otherwise they go
+/// on evenly over all of its seconds. Eights stay where they were in `before`.
+export function tapped(heard: Beats, before: Beats, taps: number[], seconds: number): Beats | null {
+  const pulse = pulseOf(taps);
+  if (!pulse) return null;
+  const { phase, period } = pulse;
+  const times = along(timesOf(heard), taps, period) ?? evenly(phase % period, period, seconds);
+  const ones = before.list.filter(({ count }) => count === 1).map(({ time }) => time);
+  const one = ones.length ? ones[nearest(ones, taps[0])] : taps[0];
+  return countedFrom(times, nearest(times, one), before.bar);
+}
+
+const evenly = (first: number, period: number, seconds: number) =>
+  Array.from({ length: Math.max(0, Math.floor((seconds - first) / period) + 1) }, (_, i) => first + i * period);
+
+/// The beats that are heard, more or fewer of them, as taps have them; null where these have another tempo.
+function along(heard: number[], taps: number[], period: number): number[] | null {
+  const there = heard.filter((time) => time > taps[0] - 1 && time < taps.at(-1)! + 1);
+  if (there.length < 3) return null;
+  const ratio = median(intervals(there)) / period;
+  const isNear = (value: number) => Math.abs(value - 1) < slack;
+  // Half a beat too late is half a beat too early: a mean on the circle.
+  const away = (times: number[]) => {
+    const turns = taps.map((tap) => (2 * Math.PI * (tap - times[nearest(times, tap)])) / period);
+    const sum = (of: (turn: number) => number) => turns.reduce((all, turn) => all + of(turn), 0);
+    return (Math.atan2(sum(Math.sin), sum(Math.cos)) * period) / (2 * Math.PI);
+  };
+  const more = [1, 2, 3, 4].find((n) => isNear(ratio / n));
+  if (more) return shifted(more > 1 ? split(heard, more) : heard, away, period);
+  const fewer = [2, 3, 4].find((n) => isNear(ratio * n));
+  if (!fewer) return null;
+  const ways = Array.from({ length: fewer }, (_, first) => eachOf(heard, fewer, first));
+  ways.sort((a, b) => Math.abs(away(a)) - Math.abs(away(b)));
+  return shifted(ways[0], away, period);
+}
+
+/// Beside the beats, where hands keep beside them: by the same share of each.
+function shifted(times: number[], away: (times: number[]) => number, period: number): number[] {
+  const by = away(times);
+  if (Math.abs(by) <= missed) return times;
+  const moved = times.map((time, i) => time + (by / period) * Math.min((times[i + 1] ?? time + period) - time, gap * period));
+  return moved.filter((time, i) => time >= 0 && (i === 0 || time > moved[i - 1]));
+}
