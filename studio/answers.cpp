@@ -6,6 +6,7 @@
 #include "client/cli/choreography.h"
 #include "client/cli/key_faults.h"
 #include "client/cli/key_file.h"
+#include "client/cli/music_beats.h"
 #include "client/cli/photo_pose.h"
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
@@ -67,7 +68,9 @@ std::vector<Response> MakeTransition(const House& house, const Song* music,
 Response ComposeKeys(const House& house, const Song* music, const Compose& request) {
   cli::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
   composition.named = "compose.seconds";
-  if (music) composition.beats = music->music.track.Seconds();
+  composition.beats.assign(request.beats().begin(), request.beats().end());
+  cli::CheckBeats(composition.beats, "compose.beats");
+  if (music && composition.beats.empty()) composition.beats = music->music.track.Seconds();
   Response response;
   response.mutable_keyframes();
   const auto library = cli::PosesToDance(house.model().skeleton);

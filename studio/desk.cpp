@@ -82,7 +82,7 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
     case v1::StreamDanceRequest::kEndOfAudio:
       return dance.EndAudio();
     default:
-      throw InvalidArgument("dance", "beats come from the studio, not from the page");
+      throw InvalidArgument("dance", "beats come with the configuration");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <climits>
 #include <cstring>
 
+#include "client/cli/music_beats.h"
 #include "client/convert.h"
 #include "model/audio/format.h"
 #include "model/formats/own_arrays.h"
@@ -102,7 +103,6 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
     throw InvalidArgument(field, "must be absent: the studio sees to it");
   };
   if (!config.model().empty()) refuse("config.model");
-  if (config.music_beats_size() > 0) refuse("config.music_beats");
   if (config.music_id() != 0) refuse("config.music_id");
   if (config.music_passages_size() > 0) refuse("config.music_passages");
   if (config.frame_rate() != 0) refuse("config.frame_rate");
@@ -122,6 +122,8 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.has_temperature()) out.temperature = config.temperature();
   if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();
   if (config.has_variation()) out.variation = config.variation();
+  out.music_beats.assign(config.music_beats().begin(), config.music_beats().end());
+  cli::CheckBeats(out.music_beats, "config.music_beats");
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {

@@ -179,6 +179,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   }
   client::Audio audio;
   if (song) {
+    config.music_beats = project.beats;
     cli::TellMusic(song->music, seconds, &config);
     if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
   }

@@ -36,6 +36,7 @@ struct DanceOptions {
   BeatOptions beats;
   std::vector<std::string> keys;
   std::string project;
+  std::vector<double> project_beats;
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;
@@ -66,6 +67,16 @@ void TakeProject(DanceOptions* options) {
           project.song + " is not there; name it: choreo dance SONG --project " + options->project);
     }
     options->song = project.song;
+  }
+  // Of its song alone.
+  const auto file_of = [](const std::string& song) {
+    return std::filesystem::path(song).filename();
+  };
+  if (options->beats == BeatOptions() && file_of(options->song) == file_of(project.song)) {
+    for (const double beat : project.beats) {
+      if (beat >= options->song_start_s)
+        options->project_beats.push_back(beat - options->song_start_s);
+    }
   }
   if (!options->seconds) options->seconds = project.seconds;
   if (!options->seed) options->seed = project.seed;
@@ -225,6 +236,7 @@ void Run(const DanceOptions& options) {
   config.style = options.style;
   config.frames = length.frames;
   config.controls = controls;
+  config.music_beats = options.project_beats;
   if (music) TellMusic(*music, seconds, &config);
   const client::Audio audio =
       music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};

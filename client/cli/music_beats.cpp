@@ -17,7 +17,7 @@ namespace choreo::cli {
 namespace {
 
 constexpr double kTempoSlack = 1.06;  // either way: a semitone
-constexpr int kUsualBar = 4, kMostInBar = 16;
+constexpr int kUsualBar = 4;
 constexpr double kMostSeconds = 1e6;  // of a song that only a part of is danced to
 constexpr std::streamsize kLongestLine = 1000;
 
@@ -206,6 +206,24 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   }
   track.tempo_bpm = TempoOf(track.Seconds());
   return track;
+}
+
+void CheckBeats(std::span<const double> beats, const std::string& field) {
+  if (beats.size() > kMostBeats) {
+    throw InvalidArgument(
+        field, std::to_string(beats.size()) + " beats, the limit is " + std::to_string(kMostBeats));
+  }
+  for (size_t i = 0; i < beats.size(); ++i) {
+    const std::string at = field + "[" + std::to_string(i) + "]";
+    if (!(beats[i] >= 0 && beats[i] <= kMaxAudioSeconds)) {
+      throw InvalidArgument(
+          at, InFull(beats[i]) + " s is not within 0 to " + std::to_string(kMaxAudioSeconds));
+    }
+    if (i > 0 && beats[i] <= beats[i - 1]) {
+      throw InvalidArgument(at, InFull(beats[i]) + " s is not after the beat before it, " +
+                                    InFull(beats[i - 1]) + " s");
+    }
+  }
 }
 
 }  // namespace choreo::cli

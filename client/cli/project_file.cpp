@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "client/cli/json_fields.h"
+#include "client/cli/music_beats.h"
 #include "model/core/error.h"
 #include "model/motion/velocity_factors.h"
 
@@ -28,6 +29,26 @@ std::optional<double> Share(const json& file, const std::string& name, const cha
   if (!(share >= 0 && share <= 1))
     throw InvalidArgument(field, Shown(file[member]) + " is not a number from 0 to 1");
   return share;
+}
+
+bool IsCount(const json& value) {
+  return IsFrameNumber(value) && value.get<uint64_t>() >= 1 && value.get<uint64_t>() <= kMostInBar;
+}
+
+/// The seconds of [[0.52, 1], [1.02, 2], ...]; how they are counted is for people.
+std::vector<double> Beats(const json& list, const std::string& field) {
+  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
+  std::vector<double> out;
+  for (const json& beat : list) {
+    const std::string at = field + "[" + std::to_string(out.size()) + "]";
+    if (!beat.is_array() || beat.size() != 2 || !IsCount(beat[1])) {
+      throw InvalidArgument(at, Shown(beat) + " is no beat: its second and its count, 1 to " +
+                                    std::to_string(kMostInBar) + ", as in [12.5, 1]");
+    }
+    out.push_back(JsonNumber(beat[0], at));
+  }
+  CheckBeats(out, field);
+  return out;
 }
 
 /// "left_arm=1.5" of each part, unless all are as usual.
@@ -67,9 +88,9 @@ Project ParseProject(const json& file, const std::string& name) {
   // song_data: of the studio's messages, whose song comes along (studio/project_calls).
   CheckFileMembers(file, name,
                    {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics",
-                    "variation", "lively", "path", "keyframes", "about"},
+                    "variation", "beats", "bar", "lively", "path", "keyframes", "about"},
                    "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
-                   "lively, path, keyframes and perhaps about");
+                   "beats, bar, lively, path, keyframes and perhaps about");
   Project project;
   project.song = Text(file, name, "song");
   project.style = Text(file, name, "style");
@@ -87,6 +108,11 @@ Project ParseProject(const json& file, const std::string& name) {
     if (!file["seed"].is_number_unsigned())
       throw InvalidArgument(name + ":seed", Shown(file["seed"]) + " is no whole number from 0 on");
     project.seed = file["seed"].get<uint64_t>();
+  }
+  if (file.contains("beats")) project.beats = Beats(file["beats"], name + ":beats");
+  if (file.contains("bar") && !IsCount(file["bar"])) {
+    throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
+                                             std::to_string(kMostInBar));
   }
   if (file.contains("lively")) project.velocities = Velocities(file["lively"], name + ":lively");
   if (file.contains("path")) {

@@ -88,6 +88,30 @@ TEST_F(ProjectTest, IsDancedToItsMusicAsItSays) {
   EXPECT_TRUE(Bytes("usual.bvh") != Bytes("lively.bvh"));
 }
 
+TEST_F(ProjectTest, ItsBeatsAreThoseOfItsSong) {
+  ASSERT_EQ(Dance("--project " + At("p.json"), "found.bvh").code, 0);
+  project_["beats"] = {{0.4, 1}, {1.2, 2}, {2.0, 3}, {2.8, 4}};
+  project_["bar"] = 4;
+  const Outcome outcome = Dance("--project " + At("p.json"), "said.bvh");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  std::ofstream(folder_ / "beats.txt") << "0.4\n1.2\n2\n2.8\n";
+  WriteClicks(folder_ / "other.wav", 5);
+  // The command line wins, and another song has beats of its own.
+  const json beats = project_["beats"];
+  project_["beats"] = {{0.1, 1}};
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --beats " + At("beats.txt"), "told.bvh").code, 0);
+  ASSERT_EQ(Dance(At("other.wav") + " --project " + At("p.json"), "other.bvh").code, 0);
+  EXPECT_TRUE(Bytes("told.bvh") == Bytes("said.bvh"));
+  EXPECT_TRUE(Bytes("other.bvh") == Bytes("found.bvh"));
+  EXPECT_TRUE(Bytes("said.bvh") != Bytes("found.bvh"));
+  // Those of a song that is danced to from its second 1 on.
+  project_["beats"] = beats;
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --seconds 3 --song-start 1", "late.bvh").code, 0);
+  project_["beats"] = {{1.2, 1}, {2.0, 2}, {2.8, 3}};
+  ASSERT_EQ(Dance("--project " + At("p.json") + " --seconds 3 --song-start 1", "same.bvh").code, 0);
+  EXPECT_EQ(Bytes("late.bvh"), Bytes("same.bvh"));
+}
+
 TEST_F(ProjectTest, ItsPathLeadsAsAPathFileDoes) {
   ASSERT_EQ(Dance("--project " + At("p.json"), "anywhere.bvh").code, 0);
   const json path = {
@@ -137,6 +161,12 @@ TEST_F(ProjectTest, WhatCannotBeIsNamed) {
   with("lively", {{"trunk", 11}}, ".trunk: 11 is not a number from 0 to 10");
   with("music_dynamics", 1.5, ": 1.5 is not a number from 0 to 1");
   with("variation", -1, ": -1 is not a number from 0 to 1");
+  with("beats", 7, ": 7 is no list");
+  with("beats", {7}, "[0]: 7 is no beat: its second and its count, 1 to 16, as in [12.5, 1]");
+  with("beats", json::array({{0.5, 17}}), "[0]: [0.5,17] is no beat");
+  with("beats", json::array({{601, 1}}), "[0]: 601 s is not within 0 to 600");
+  with("beats", {{1, 1}, {1, 2}}, "[1]: 1 s is not after the beat before it, 1 s");
+  with("bar", 0, ": 0 is no whole number from 1 to 16");
   with("path", 7, ": 7 is no object");
   with("path", {{"points", json::array()}}, ":points");
   with("path",

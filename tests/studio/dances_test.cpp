@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cmath>
+
 #include "client/cli/key_file.h"
 #include "client/convert.h"
 #include "model/motion/kinematics.h"
@@ -42,6 +44,36 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
           << "frame " << frame;
     }
   }
+}
+
+// Beats that the page says are danced, in place of those that were heard.
+TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  ASSERT_TRUE(page.Ask(SongRequest("clicks.wav", Clicks(4))).has_song());
+  const auto danced = [&](const std::vector<double>& beats) {
+    Request request = DanceRequest(60, 7);
+    request.mutable_dance()->mutable_config()->mutable_music_beats()->Add(beats.begin(),
+                                                                          beats.end());
+    page.Say(2, request);
+    page.Say(2, Complete());
+    return ReadDance(page).SerializeAsString();
+  };
+  const Song song = HearSong(folder_ / "clicks.wav", "clicks.wav", 600);
+  const std::string heard = danced({});
+  EXPECT_EQ(danced(cli::BeatsBefore(song.music, 4)), heard);
+  EXPECT_NE(danced({0.3, 1.3}), heard);
+
+  Request request = DanceRequest(60, 7);
+  auto* beats = request.mutable_dance()->mutable_config()->mutable_music_beats();
+  beats->Add(1);
+  beats->Add(std::nan(""));
+  page.Say(3, request);
+  EXPECT_EQ(page.Read().failure().message(), "config.music_beats[1]: nan s is not within 0 to 600");
+  beats->Set(1, 1);
+  page.Say(3, request);
+  EXPECT_THAT(page.Read().failure().message(),
+              HasSubstr("config.music_beats[1]: 1 s is not after"));
 }
 
 // Of a key that no body could dance, once all are there; and of one that an interval leads to.

@@ -97,6 +97,12 @@ class ProjectCalls(unittest.TestCase):
         self.assertNotEqual(json.loads(text)["rotations"], silent)
         self.assertEqual(len(json.loads(dance(song="c.wav", song_data=clicks(3), seconds=2)[1])["rotations"]), 60)
 
+    def test_beats_of_a_project_are_danced_on(self):
+        song = {"song": "clicks.wav", "song_data": clicks(3), "seconds": None}
+        heard, said = dance(**song), dance(**song, beats=[[0.3, 1], [1.1, 2], [1.9, 3]], bar=4)
+        self.assertEqual((heard[0], said[0]), (200, 200), said[1])
+        self.assertNotEqual(heard[1], said[1])
+
     def test_what_cannot_be_is_named(self):
         key = {"id": "a", "time": 1, "rotations": REST}
         for changes, words in (
@@ -112,6 +118,7 @@ class ProjectCalls(unittest.TestCase):
             ({"seconds": 601}, "project:seconds: 601 is beyond 600, the most that is danced"),
             ({"seed": 1.5}, "project:seed"),
             ({"style": "foxtrot"}, "foxtrot"),
+            ({"beats": [[1, 0]]}, "project:beats[0]: [1,0] is no beat"),
             ({"variation": 2}, "project:variation: 2 is not a number from 0 to 1"),
             ({"song": "a.wav"}, "project:song_data: is missing beside song"),
             ({"song_data": "AAAA"}, "project:song: is missing beside song_data"),

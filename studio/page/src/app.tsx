@@ -152,6 +152,7 @@ function useKeyboard() {
       const at = event.target as HTMLElement;
       if (event.defaultPrevented || at.matches('input, select')) return;
       if (event.key === ' ' && playsOn(at)) studio.togglePlay();
+      else if (event.key === 't' && !event.ctrlKey && !event.metaKey && studio.shownSong.value && studio.project.value) studio.tap();
       else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') event.shiftKey ? studio.redo() : studio.undo();
       else if (event.key === 'Escape') {
         [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];

@@ -1,19 +1,69 @@
-// The beats of the song that is danced to.
-import { computed } from '@preact/signals';
-import { counted } from './counts';
+// The beats of the song that is danced to: as the program hears them, or as people say.
+import { computed, signal } from '@preact/signals';
+import { counted, doubled, halved, nudged, tapped, tempo, withOne } from './counts';
 import type { Beats } from './counts';
 import { sections } from './form';
-import { shownSong } from './state';
+import { change, note } from './history';
+import { audio } from './songs';
+import { project, shownSong, tell } from './state';
 
 const none: Beats = { bar: 4, list: [] };
+const nudge = 0.01; // seconds
+const pause = 2500; // ms behind the last tap, after which they count
+const longest = 3; // seconds from tap to tap
 
-/// As the program heard them.
-export const heardBeats = computed(() => {
+const heardBeats = computed(() => {
   const heard = shownSong.value?.heard;
   return heard ? counted(heard.beats, heard.counts, heard.beatsInBar) : none;
 });
 
-export const beats = heardBeats;
+export const beats = computed(() => project.value?.beats ?? heardBeats.value);
+
+/// Beats on which key poses would sit well, seconds: of the ones that are danced to.
+export const suggested = computed(() => {
+  const all = shownSong.value?.heard.suggested ?? [];
+  if (!project.value?.beats) return all;
+  const near = 0.12; // seconds
+  const times = beats.value.list.map(({ time }) => time);
+  const moved = all.map((wanted) => times.find((time) => Math.abs(time - wanted) < near) ?? -1);
+  return [...new Set(moved.filter((time) => time >= 0))];
+});
 
 /// What comes back in the song.
 export const form = computed(() => sections(shownSong.value?.heard.passages ?? []));
+
+const length = () => shownSong.value!.heard.seconds;
+
+export const halveBeats = () => change({ beats: halved(beats.value) });
+export const doubleBeats = () => change({ beats: doubled(beats.value) });
+/// Later by so many steps, or earlier.
+export const nudgeBeats = (steps: number) => change({ beats: nudged(beats.value, nudge * steps, length()) });
+/// How beats are counted changes no dance.
+export const countFromHere = () => note({ beats: withOne(beats.value, audio.currentTime) });
+export const hearBeats = () => change({ beats: null });
+
+/// Taps along with the song, seconds of it, that are not applied yet.
+export const taps = signal<number[]>([]);
+let waiting: ReturnType<typeof setTimeout>;
+
+/// Taps along. Once the hand rests, or the song does, these are the beats.
+export function tap() {
+  if (audio.paused) return void audio.play().catch(() => {}); // who pauses at once takes it back
+  const now = audio.currentTime;
+  const last = taps.value.at(-1) ?? now;
+  taps.value = now < last || now - last > longest ? [now] : [...taps.value, now];
+  clearTimeout(waiting);
+  waiting = setTimeout(applyTaps, pause / audio.playbackRate);
+}
+
+function applyTaps() {
+  clearTimeout(waiting);
+  const told = taps.value;
+  taps.value = [];
+  if (told.length === 0 || !shownSong.value || !project.value) return;
+  const found = tapped(heardBeats.value, beats.value, told, length());
+  if (!found) return tell('Tap four beats at least.');
+  change({ beats: found });
+  tell(`${Math.round(tempo(found))} beats a minute, of ${told.length} taps.`);
+}
+audio.addEventListener('pause', applyTaps);

@@ -154,7 +154,7 @@ export class Dancer {
   }
 
   private config(project: Project, before: Motion, whole: boolean): Init<typeof DanceConfigSchema> {
-    const config: Init<typeof DanceConfigSchema> = how(project);
+    const config: Init<typeof DanceConfigSchema> = { ...how(project), musicBeats: project.beats?.list.map(({ time }) => time) };
     if (whole) config.frames = BigInt(this.frames(project));
     if (before.count > 0) {
       config.start = {

@@ -66,7 +66,9 @@ async function openProject(name: string, bytes: Uint8Array) {
   const inside = read.keys.filter(({ frame }) => frame < dancer.frames(read));
   const outside = read.keys.length - inside.length;
   if (outside > 0) said.push(`${outside} of its keys lie behind the end of the song, and are left out.`);
-  if (read.song && read.song !== song.value?.name) said.push(`It was made to ${read.song}: drop that song, too.`);
+  const isOther = !!read.song && read.song !== song.value?.name;
+  if (isOther && song.value) read.beats = null;
+  if (isOther) said.push(`It was made to ${read.song}: drop that song, too.`);
   if (!song.value) playSilence(read.seconds);
   danceFrom({ ...read, keys: inside }, -1);
   if (said.length) tell(`${name}: ${said.join(' ')}`);
@@ -78,7 +80,8 @@ async function openMotion(name: string, bytes: Uint8Array) {
   const motion = Motion.fromClip(answer.value, skeleton.joints, dancer.fps);
   const from = project.value ?? emptyProject(song.value?.name ?? '', 0);
   const seconds = song.value?.heard.seconds ?? motion.count / dancer.fps;
-  push({ ...from, seconds, keys: [] }, motion, async () => motion);
+  const beats = moment.value?.song === song.value ? from.beats : null;
+  push({ ...from, song: song.value?.name ?? from.song, beats, seconds, keys: [] }, motion, async () => motion);
   if (!song.value) playSilence(seconds);
   tell(opened(name, `${(motion.count / dancer.fps).toFixed(1)} s of dance`, answer.value.notes));
 }

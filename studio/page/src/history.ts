@@ -24,7 +24,7 @@ export const motionAt = (time: number) => {
 };
 
 /// Notes warnings where they belong; the rest is told.
-const note = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
+const noted = (list: Signal<Warning[]>) => (text: string, frame?: number) => {
   if (frame === undefined) return tell(text);
   if (!list.value.some((known) => known.frame === frame && known.text === text)) list.value = [...list.value, { frame, text }];
 };
@@ -38,7 +38,7 @@ function fill(filled: Moment, make: Make) {
   busy.value += 1;
   filled.isReady = false;
   filled.unmade = null;
-  filled.ready = make({ grown: show, noted: note(filled.warnings) })
+  filled.ready = make({ grown: show, noted: noted(filled.warnings) })
     .then(show, (error) => {
       filled.unmade = make;
       complain(error);
@@ -122,6 +122,12 @@ export function edit(next: Project, frames: number[]) {
 
 /// Changes what all of the dance depends on.
 export const change = (what: Partial<Project>) => danceFrom({ ...project.value, ...what }, -1);
+
+/// Changes what no frame depends on.
+export function note(what: Partial<Project>) {
+  const before = moment.value;
+  push({ ...project.value, ...what }, before.motion.value, () => made(before), warnings.value);
+}
 
 export const undo = () => step(-1);
 export const redo = () => step(1);

@@ -22,7 +22,9 @@ const reach = 15; // frames within which a key that finds its place taken looks 
 export async function compose() {
   const seconds = song.value?.heard.seconds ?? 20;
   const seed = Math.max(1, (project.value?.seed ?? 0) + 1);
-  const answer = await wire.ask({ case: 'compose', value: { seconds, seed: BigInt(seed) } });
+  // Of the same song, not of one by the same name.
+  const beats = (moment.value?.song === song.value && project.value?.beats) || null;
+  const answer = await wire.ask({ case: 'compose', value: { seconds, seed: BigInt(seed), beats: beats?.list.map(({ time }) => time) } });
   if (answer.case !== 'keyframes') return;
   const keys = answer.value.keyframes.map((key) => readKey({ ...key, id: key.id.replace(/^\d+-/, '') }, dancer.fps, skeleton.height));
   const named: Key[] = [];
@@ -30,7 +32,7 @@ export async function compose() {
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
   const { dynamics, variation, lively, style, path } = project.value ?? asked;
-  danceFrom({ ...asked, dynamics, variation, lively, style, path, seed, keys: named.map((key) => onPath(path, key)) }, -1);
+  danceFrom({ ...asked, beats, dynamics, variation, lively, style, path, seed, keys: named.map((key) => onPath(path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.

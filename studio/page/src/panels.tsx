@@ -1,5 +1,6 @@
-// What is beside the stage: the chosen key, takes, music, style, liveliness.
+// What is beside the stage: the chosen key, takes, beats, music, style, liveliness.
 import { signal } from '@preact/signals';
+import { tempo } from './counts';
 import { KeepTake } from './keep_take';
 import { PathPoints } from './path_points';
 import { PoseTools } from './pose_tools';
@@ -98,6 +99,34 @@ function MusicPanel() {
   );
 }
 
+/// The choreographer's word on the beats.
+function BeatsPanel() {
+  const { value } = studio.project;
+  const { beats, taps } = studio;
+  if (!value || !studio.shownSong.value) return null;
+  const isNone = beats.value.list.length === 0;
+  return (
+    <section aria-label="Beats">
+      <h2>Beats <small>{isNone ? 'none heard' : `${tempo(beats.value).toFixed(1)} a minute`}</small></h2>
+      <div class="row">
+        <button title="Tap along while it plays (T)" aria-pressed={taps.value.length > 0} onClick={studio.tap}>
+          {taps.value.length > 0 ? `Tap ${taps.value.length}` : 'Tap'}
+        </button>
+        <div class="choices" role="group" aria-label="Tempo">
+          <button disabled={isNone} title="Every second beat alone" onClick={studio.halveBeats}>Halve</button>
+          <button disabled={isNone} title="One between two beats, too" onClick={studio.doubleBeats}>Double</button>
+        </div>
+        <div class="choices" role="group" aria-label="When">
+          <button disabled={isNone} aria-label="Beats 10 ms earlier" title="10 ms earlier" onClick={() => studio.nudgeBeats(-1)}>◂</button>
+          <button disabled={isNone} aria-label="Beats 10 ms later" title="10 ms later" onClick={() => studio.nudgeBeats(1)}>▸</button>
+        </div>
+        <button disabled={isNone} title="The beat at the playhead is the first of a bar" onClick={studio.countFromHere}>This is 1</button>
+        {value.beats && <button title="Back to the beats that were heard" onClick={studio.hearBeats}>As heard</button>}
+      </div>
+    </section>
+  );
+}
+
 function LivelyPanel() {
   if (!studio.canBeLively()) return null;
   const { value } = studio.project;
@@ -173,6 +202,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
       <KeyPanel stage={stage} />
       <TakesPanel />
       <PathPanel />
+      <BeatsPanel />
       <MusicPanel />
       <StylePanel />
       <LivelyPanel />

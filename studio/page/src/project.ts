@@ -1,5 +1,6 @@
 // What people make: key poses, and how to dance between them.
 import type { Pose } from './body';
+import type { Beats } from './counts';
 
 /// A place on the floor; metres.
 export type Spot = { x: number; z: number };
@@ -28,6 +29,8 @@ export type Project = {
   dynamics: number;
   /// How much the dance to music that comes back differs, 0 to 1.
   variation: number;
+  /// Of the song, where they are not as the program hears them.
+  beats: Beats | null;
   /// How lively each of `parts` is; 1 is as usual.
   lively: number[];
   /// Where the dancer goes; empty: anywhere.
@@ -43,6 +46,7 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   style: '',
   dynamics: usualDynamics,
   variation: usualVariation,
+  beats: null,
   lively: parts.map(() => 1),
   path: [],
   keys: [],

@@ -1,10 +1,13 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
+import type { Beats } from './counts';
 import { closest, emptyProject, parts, sorted } from './project';
 import type { Key, Project, Step } from './project';
 
 const format = 1; // of the file
-// As the program has them: kLongestDance, kMaxVelocityFactor, kMaxPosition.
+// As the program has them: kLongestDance, kMaxAudioSeconds, kMostInBar, kMaxVelocityFactor, kMaxPosition.
 const mostSeconds = 3600;
+const mostSong = 600; // seconds
+const mostInBar = 16;
 const mostLively = 10;
 const most = 10000; // metres from the origin along an axis
 
@@ -24,12 +27,14 @@ export function toJson(project: Project, fps: number, names: string[]): string {
       pose.rotations.slice(3 * joint, 3 * joint + 3).map(round),
     ),
   }));
-  const { song, seconds, seed, style, dynamics, variation } = project;
+  const { song, seconds, seed, style, dynamics, variation, beats } = project;
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
-  const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation, lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
-  // A line for each vector and each list of joints, not for each number and name.
+  const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation,
+    ...(beats ? { bar: beats.bar, beats: beats.list.map(({ time, count }) => [time, count]) } : {}), lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
+  // A line for each vector, beat and list of joints, not for each number and name.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
+    .replace(/\[\s+([\d.e-]+),\s+(\d+)\s+\]/g, '[$1, $2]')
     .replace(/"joints": \[\s+([^\]]*?)\s+\]/g, (_, joints: string) => `"joints": [${joints.replace(/\s*\n\s*/g, ' ')}]`)
     .replace(/\{\s+"frame": (\d+),\s+"x": (-?[\d.e-]+),\s+"z": (-?[\d.e-]+)\s+\}/g, '{"frame": $1, "x": $2, "z": $3}') + '\n';
 }
@@ -71,6 +76,22 @@ function readPath(path: Json, name: string, known: Known): Step[] {
   return steps;
 }
 
+function readBeats({ beats, bar = 4 }: Json, name: string): Beats {
+  if (!Array.isArray(beats)) throw new Error(`${name}: beats: ${shown(beats)} is no list.`);
+  const count = (value: unknown, where: string) => {
+    if (!Number.isInteger(value)) throw new Error(`${where}: ${shown(value)} is no count.`);
+    return number(value, where, 1, mostInBar);
+  };
+  const list = beats.map((beat: unknown, i) => {
+    const at = `${name}: beats[${i}]`;
+    if (!Array.isArray(beat) || beat.length !== 2) throw new Error(`${at}: ${shown(beat)} is no beat: its second and its count.`);
+    return { time: number(beat[0], at, 0, mostSong), count: count(beat[1], at) };
+  });
+  const back = list.findIndex(({ time }, i) => i > 0 && time <= list[i - 1].time);
+  if (back > 0) throw new Error(`${name}: beats[${back}] does not stand behind the beat before it.`);
+  return { bar: count(bar, `${name}: bar`), list };
+}
+
 /// The keys of a file as the program read them, in order. Throws for those that no dance here has.
 export function inOrder(keys: Key[], name: string, fps: number): Key[] {
   for (const { id, frame, pose } of keys) {
@@ -102,6 +123,7 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
   }
   project.dynamics = number(json.music_dynamics ?? project.dynamics, at('music_dynamics'), 0, 1);
   project.variation = number(json.variation ?? project.variation, at('variation'), 0, 1);
+  if (json.beats !== undefined) project.beats = readBeats(json, name);
   const lively = (json.lively ?? {}) as Json;
   project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
   if (json.path !== undefined) project.path = readPath(json.path as Json, name, known);

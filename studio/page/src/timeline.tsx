@@ -35,7 +35,7 @@ function snapped(time: number): number {
   const at = Math.min(Math.max(time, 0), seconds());
   let best = at;
   let away = snap / zoom.value;
-  for (const beat of [...(studio.shownSong.value?.heard.suggested ?? []), ...beats()]) {
+  for (const beat of [...studio.suggested.value, ...beats()]) {
     if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
   }
   return Math.round(best * studio.dancer.fps);
@@ -119,14 +119,13 @@ function Scrubber() {
     else return;
     event.preventDefault();
   };
-  const heard = studio.shownSong.value?.heard;
   return (
     <div class="scrubber" role="slider" tabIndex={0} aria-label="Playhead" aria-valuemin={0} aria-valuemax={Math.round(seconds())}
       aria-valuenow={0} onPointerDown={slide} onPointerMove={slide} onKeyDown={press}>
       <Sections />
       <Wave />
       <Ruler />
-      {heard?.suggested.map((beat) => <i class="suggested" key={`s${beat}`} style={{ left: `${x(beat)}px` }} />)}
+      {studio.suggested.value.map((beat) => <i class="suggested" key={`s${beat}`} style={{ left: `${x(beat)}px` }} />)}
     </div>
   );
 }

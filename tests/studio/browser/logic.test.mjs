@@ -174,6 +174,21 @@ test('what comes back has the letter of what it is like', () => {
   assert.deepEqual(sections([{ from: 60, to: 90, like: 10 }])[0].others, [60]);
 });
 
+test('beats that people said are kept with the project, a line each', () => {
+  const beats = withOne(counted([0.5, 1, 1.5], [], 3), 1);
+  const text = toJson({ ...emptyProject('song.mp3', 4), beats }, 30, []);
+  assert.match(text, /"bar": 3,\n "beats": \[\n {2}\[0.5, 6\],\n {2}\[1, 1\],/);
+  const read = (json) => fromJson(json, 'p.json', { fps: 30, styles: [] }, () => {});
+  assert.deepEqual(read(text).beats, beats);
+  const refused = (beats, words, bar = 4) => assert.throws(() => read(JSON.stringify({ keyframes: [], beats, bar })), words);
+  refused(7, /beats: 7 is no list/);
+  refused([7], /beats\[0\]: 7 is no beat/);
+  refused([[601, 1]], /beats\[0\]: 601 is not a number from 0 to 600/);
+  refused([[1, 1], [1, 2]], /beats\[1\] does not stand behind/);
+  refused([[1, 17]], /beats\[0\]: 17 is not a number from 1 to 16/);
+  refused([[1, 1]], /bar: 0.5 is no count/, 0.5);
+});
+
 test('keys that stand too close are refused', () => {
   const keys = [0, closest - 1].map((frame, i) => ({ id: `k${i}`, frame, pose: still(1) }));
   assert.throws(() => inOrder(keys, 'p.json', 30), /"k0" and "k1" stand closer/);
