@@ -151,9 +151,16 @@ function useKeyboard() {
     const press = (event: KeyboardEvent) => {
       const at = event.target as HTMLElement;
       if (event.defaultPrevented || at.matches('input, select')) return;
+      const withControl = event.ctrlKey || event.metaKey;
+      const key = event.key.toLowerCase();
       if (event.key === ' ' && playsOn(at)) studio.togglePlay();
-      else if (event.key === 't' && !event.ctrlKey && !event.metaKey && studio.shownSong.value && studio.project.value) studio.tap();
-      else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') event.shiftKey ? studio.redo() : studio.undo();
+      else if (key === 't' && !withControl && studio.shownSong.value && studio.project.value) studio.tap();
+      else if (withControl && key === 'z') event.shiftKey ? studio.redo() : studio.undo();
+      else if (withControl && key === 'd' && studio.selectedKey.value) studio.duplicateKey();
+      else if (withControl && key === 'v') studio.pasteKeys();
+      else if (withControl && key === 'c') {
+        if (!getSelection()?.isCollapsed || !studio.copyKeys()) return;
+      }
       else if (event.key === 'Escape') {
         [studio.selectedKey.value, studio.chosen.value, studio.takes.value] = [null, null, []];
         studio.dropSketch();

@@ -36,7 +36,7 @@ export async function compose() {
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.
-function freeFrame(keys: Key[], frame: number): number | null {
+export function freeFrame(keys: Key[], frame: number): number | null {
   const most = dancer.frames(project.value) - 1;
   for (let away = 0; away < reach; ++away) {
     for (const at of [frame + away, frame - away]) {

@@ -78,6 +78,49 @@ await inStudio(async ({ page, until, settle, message, scale, give }) => {
     assert.deepEqual(await keys(), before);
   });
 
+  await check('a key is set again on the next beat, or at the playhead; undo takes it back', async () => {
+    const before = await keys();
+    await page.locator('.key').nth(1).click();
+    await page.keyboard.press('Control+d');
+    await settle();
+    const { id, frame } = before[1];
+    const [again] = (await keys()).filter((key) => !before.some((old) => old.id === key.id));
+    assert.equal(again.id.replace(/-\d+$/, ''), id.replace(/-\d+$/, ''));
+    assert.ok(again.frame > frame && again.frame <= frame + 60, `${frame} again at ${again.frame}`);
+    await page.keyboard.press('Control+z');
+    await settle();
+    assert.deepEqual(await keys(), before);
+    await page.locator('.key').nth(1).click();
+    await page.evaluate((seconds) => (window.choreo.audio.currentTime = seconds), (frame + 10) / 30);
+    await page.getByRole('button', { name: 'Duplicate' }).click();
+    await settle();
+    assert.ok((await keys()).some((key) => key.frame === frame + 10));
+    await page.keyboard.press('Control+z');
+    await settle();
+  });
+
+  await check('the keys of an interval are copied to the playhead, and stand to each other as before', async () => {
+    const before = await keys();
+    await page.keyboard.press('Escape');
+    await page.locator('.interval').nth(0).click();
+    await page.keyboard.press('Control+c');
+    assert.equal((await message()).text, '2 keys are copied.');
+    const at = before.at(-1).frame - 40;
+    await page.evaluate((seconds) => (window.choreo.audio.currentTime = seconds), at / 30);
+    const placeOf = () => page.evaluate(() => window.choreo.project.value.keys.map(({ id, pose }) => [id, pose.root]));
+    const places = new Map(await placeOf());
+    await page.keyboard.press('Control+v');
+    await settle();
+    const added = (await placeOf()).filter(([id]) => !places.has(id)).map(([, root]) => root);
+    assert.equal(added.length, 2);
+    const apart = ([a, b]) => Math.hypot(a[0] - b[0], a[2] - b[2]);
+    const copied = before.slice(0, 2).map(({ id }) => places.get(id));
+    assert.ok(Math.abs(apart(added) - apart(copied)) < 1e-3, `${apart(added)}, not ${apart(copied)}`);
+    await page.keyboard.press('Control+z');
+    await settle();
+    assert.deepEqual(await keys(), before);
+  });
+
   await check('a pose is added to the poses, a take is kept: two words for two things', async () => {
     await page.locator('.key').nth(1).click();
     await page.getByRole('button', { name: 'Try 3 more' }).click();

@@ -1,0 +1,75 @@
+// Keys that are set again: one of them, or those of an interval.
+import { beats } from './beats';
+import { heading, turned } from './body';
+import type { Triple } from './body';
+import { onPath } from './floor_path';
+import { edit } from './history';
+import { freeFrame, keyOf } from './keys';
+import { dancer } from './link';
+import { freeId, sorted } from './project';
+import type { Key } from './project';
+import { audio } from './songs';
+import { chosen, complain, live, motion, project, selectedKey, tell } from './state';
+
+let copied: Key[] = [];
+
+/// Those of the chosen interval, or the chosen key where it is none of them.
+function taken(): Key[] {
+  const key = keyOf(selectedKey.value);
+  const [from, to] = chosen.value ?? [0, -1];
+  const inside = project.value?.keys.filter(({ frame }) => frame >= from && frame <= to) ?? [];
+  return inside.length && (!key || inside.includes(key)) ? inside : key ? [key] : [];
+}
+
+/// Whether there was something to copy.
+export function copyKeys(): boolean {
+  const keys = live.value ? [] : taken();
+  if (keys.length === 0) return false;
+  copied = keys;
+  tell(keys.length === 1 ? 'The key is copied.' : `${keys.length} keys are copied.`);
+  return true;
+}
+
+/// The copied keys again, from the playhead on: as if the dancer began with them where she is by then.
+export const pasteKeys = () => void (copied.length && set(copied, Math.round(audio.currentTime * dancer.fps)));
+
+/// The chosen key again, at the playhead; on the next free beat where that rests on a key.
+export function duplicateKey() {
+  const key = keyOf(selectedKey.value);
+  if (!key || live.value) return;
+  const near = 5; // frames
+  const now = Math.round(audio.currentTime * dancer.fps);
+  const isTaken = (frame: number) => project.value.keys.some((other) => Math.abs(other.frame - frame) <= near);
+  const next = beats.value.list.map(({ time }) => Math.round(time * dancer.fps)).find((frame) => frame > key.frame && !isTaken(frame));
+  set([key], isTaken(now) ? next ?? now + 15 : now);
+}
+
+function set(keys: Key[], at: number) {
+  if (live.value || !project.value) return;
+  const first = keys[0];
+  let all = project.value.keys;
+  const added: Key[] = [];
+  for (const key of keys) {
+    const frame = freeFrame(all, at + key.frame - first.frame);
+    if (frame === null) continue;
+    const set = onPath(project.value.path, { ...moved(key, first, at), id: freeId(all, key.id), frame });
+    added.push(set);
+    all = sorted([...all, set]);
+  }
+  if (added.length === 0) return complain(new Error('There is no room for a key here.'));
+  selectedKey.value = added[0].id;
+  edit({ ...project.value, keys: all }, added.map(({ frame }) => frame));
+  if (added.length < keys.length) tell(`${keys.length - added.length} of ${keys.length} keys found no room.`);
+}
+
+/// Turned and moved as takes the first key to where the dancer is at that frame.
+function moved(key: Key, first: Key, at: number): Key {
+  if (!key.hasPlace || !first.hasPlace || motion.value.count <= at) return key;
+  const here = motion.value.pose(at);
+  const angle = heading(here) - heading(first.pose);
+  const [x, z] = [key.pose.root[0] - first.pose.root[0], key.pose.root[2] - first.pose.root[2]];
+  const root: Triple = [
+    here.root[0] + x * Math.cos(angle) + z * Math.sin(angle), key.pose.root[1], here.root[2] - x * Math.sin(angle) + z * Math.cos(angle),
+  ];
+  return { ...key, pose: { ...turned(key.pose, angle), root } };
+}
