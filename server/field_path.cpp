@@ -19,6 +19,7 @@ constexpr std::array kKinds = {
     Kind{"remove_keyframes[", "remove_keyframe"},
     Kind{"controls[", "controls"},
     Kind{"music_beats[", "music_beats"},
+    Kind{"music_passages[", "music_passages"},
 };
 
 /// What a continuation has for the poses that errors speak of.

@@ -14,7 +14,7 @@ const pod = ofKind('Deployment').spec.template.spec;
 const container = pod.containers[0];
 const setting = (name) => container.env.find((variable) => variable.name === name)?.value;
 const alerts = ofKind('PrometheusRule').spec.groups.flatMap((group) => group.rules);
-const metricSource = readSource('server/metrics.cpp');
+const metricSource = readSource('server/metrics.cpp') + readSource('server/figures.cpp');
 const exported = new Set([...metricSource.matchAll(/"([a-z_]+)",\s*\n?\s*(?:"|\[)/g)].map(([, name]) => `choreo_${name}`));
 
 async function validate(object) {

@@ -14,7 +14,8 @@ namespace choreo::studio::dances_test {
 
 using ::testing::HasSubstr;
 
-// The same frames as the client library gets: the studio adds the song and its beats, no more.
+// The same frames as the client library gets: the studio adds the song and what is heard in it, no
+// more.
 TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   const Opened studio(server_.address());
   Page page(studio.port());
@@ -34,7 +35,7 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   key.pose.rotations =
       Eigen::Map<const Eigen::Matrix3Xf>(kick.pose().rotations().data(), 3, 24).cast<double>();
   client::DanceConfig config{.seed = 7, .frames = 120};
-  config.music_beats = cli::BeatsBefore(song.music, song.heard.seconds());
+  cli::TellMusic(song.music, song.heard.seconds(), &config);
   const client::DanceResult own = studio.house().client().Dance(config, {key}, song.audio);
   ASSERT_EQ(own.motion.frames.size(), 120U);
   for (int frame = 0; frame < 120; ++frame) {

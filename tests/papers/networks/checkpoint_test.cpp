@@ -18,7 +18,10 @@ using testing::HasSubstr;
 class CheckpointTest : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = std::filesystem::path(testing::TempDir()) / "checkpoint_test.safetensors";
+    // Tests run beside each other.
+    path_ = std::filesystem::path(testing::TempDir()) /
+            (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+             ".safetensors");
     torch::manual_seed(2);
     FlowConfig config;
     config.flow_steps = 1;
