@@ -17,7 +17,8 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> interleaved) {
   resampler_.Push(interleaved);
   resampler_.Pull(mono_);
   std::optional<Passage> told;
-  while (mono_.size() >= PassageListener::kWindow) {
+  static_assert(PassageListener::kHop >= PassageListener::kWindow);
+  while (mono_.size() >= PassageListener::kHop) {
     listener_.Add(std::span(mono_).first(PassageListener::kWindow));
     mono_.erase(mono_.begin(), mono_.begin() + PassageListener::kHop);
     const std::optional<int64_t> lag = listener_.Lag();
@@ -26,9 +27,9 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> interleaved) {
     const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
     if (from >= kMaxAudioSeconds) break;
     // One that ends has no length: what was told ahead does not hold any more.
-    told = Passage{
-        from, lag ? std::min<double>(from + kAheadSeconds, kMaxAudioSeconds) : from,
-        from - static_cast<double>(lag.value_or(*told_lag_)) * PassageListener::kMomentSeconds};
+    const int64_t behind = lag ? *lag : *told_lag_;
+    told = Passage{from, lag ? std::min<double>(from + kAheadSeconds, kMaxAudioSeconds) : from,
+                   from - static_cast<double>(behind) * PassageListener::kMomentSeconds};
     told_lag_ = lag;
     told_at_ = now;
   }

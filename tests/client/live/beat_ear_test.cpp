@@ -14,7 +14,7 @@ namespace choreo::live::beat_ear_test {
 std::vector<double> Told(const std::vector<float>& song, double from) {
   BeatEar ear(kModelSampleRate, 1);
   std::vector<double> told;
-  constexpr size_t kPiece = 441;  // 20 ms
+  constexpr size_t kPiece = 437;  // 20 ms, of whatever length
   for (size_t at = 0; at < song.size(); at += kPiece) {
     const double now = static_cast<double>(at + kPiece) / kModelSampleRate;
     const auto piece = std::span(song).subspan(at, std::min(kPiece, song.size() - at));

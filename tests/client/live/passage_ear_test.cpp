@@ -23,7 +23,7 @@ std::vector<float> SongOf(std::initializer_list<uint64_t> parts) {
 std::vector<Passage> Hear(const std::vector<float>& song) {
   PassageEar ear(kModelSampleRate, 1);
   std::vector<Passage> told;
-  constexpr size_t kPiece = 441;  // 20 ms
+  constexpr size_t kPiece = 437;  // 20 ms, of whatever length
   for (size_t at = 0; at < song.size(); at += kPiece) {
     const auto passage = ear.Hear(std::span(song).subspan(at, std::min(kPiece, song.size() - at)));
     if (passage) told.push_back(*passage);
