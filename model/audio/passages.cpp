@@ -15,6 +15,7 @@ constexpr double kLowestTone_hz = 60, kHighestTone_hz = 4000, kConcertPitch_hz =
 constexpr double kLowestBand_hz = 40, kHighestBand_hz = kModelSampleRate / 2.0;
 constexpr double kSilentPower = 1e-7;  // of a window's mean square: -70 dB
 constexpr double kFarFromBeat_s = 0.3;
+constexpr double kMoment_s = 0.5;
 constexpr double kShortest_s = 4;  // of a passage
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -164,6 +165,16 @@ std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const d
     if (!passages.empty() && passage.from < passages.back().to) {
       passage.like += passages.back().to - passage.from;
       passage.from = passages.back().to;
+    }
+    // What begins a moment from where the song or another passage does begins with it.
+    const double least = passages.empty() ? 0 : passages.back().to - kMoment_s;
+    for (size_t i = 0; i <= passages.size(); ++i) {
+      const double ahead = passage.like - (i == 0 ? 0 : passages[i - 1].from);
+      if (std::abs(ahead) >= kMoment_s || passage.from - ahead < least) continue;
+      passage.from -= ahead;
+      passage.like -= ahead;
+      if (!passages.empty()) passages.back().to = std::min(passages.back().to, passage.from);
+      break;
     }
     if (passage.to - passage.from >= kShortest_s && passage.like < passage.from)
       passages.push_back(passage);

@@ -40,16 +40,19 @@ TEST(Passages, APartThatReturnsIsFound) {
   EXPECT_EQ(Found(passages, 2 * kPart, 0, 2 * kPart), 0);
 }
 
-TEST(Passages, BeginAndEndOnBeatsWhereTheyAreKnown) {
+TEST(Passages, ComeBackWholeBeatsLaterWhereTheseAreKnown) {
   std::vector<double> beats;
   for (double beat = 0.1; beat < 4 * kPart; beat += 0.5) beats.push_back(beat);
-  const auto is_beat = [](double second) {
-    return std::abs(std::remainder(second - 0.1, 0.5)) < 1e-9;
-  };
   const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 13}), beats);
   ASSERT_FALSE(passages.empty());
   for (const Passage& passage : passages)
-    EXPECT_TRUE(is_beat(passage.from) && is_beat(passage.like)) << passage.from;
+    EXPECT_NEAR(std::remainder(passage.from - passage.like, 0.5), 0, 1e-9) << passage.from;
+}
+
+TEST(Passages, BeginWithWhatTheyAreLike) {
+  const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 12, 11}), {});
+  ASSERT_GE(passages.size(), 2U);
+  EXPECT_EQ(passages.front().like, 0) << "with the song, not a moment behind it";
 }
 
 TEST(Passages, AreInOrderApartAndLikeWhatWasBefore) {
