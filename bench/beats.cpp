@@ -1,9 +1,8 @@
 // How well beats are heard, without a shift between beats and songs: the F measure at 70 ms from
 // the first second and from the tenth, of what is found in the whole song (FindBeats) and of what a
 // live dance of transitions of 2 s predicts (MusicBeats), or what `choreo live` tells it (BeatEar).
-// Songs: with a tempo map (SONG.beats
-// beside SONG.ogg: seconds, one a line), or made ones of every tempo and metre, whose downbeats are
-// known, too. An octave is told, and counts half.
+// Songs: with a tempo map (SONG.beats beside SONG.ogg: seconds, one a line), or made ones of every
+// tempo and metre, whose downbeats are known, too. An octave is told, and counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,6 +18,7 @@
 
 #include "bench/beat_patterns.h"
 #include "client/live/beat_ear.h"
+#include "client/live/live_dance.h"
 #include "client/live/sound.h"
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"
@@ -62,15 +62,15 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
 
 /// What `choreo live` tells its server, as soon as it is found.
 std::vector<double> HearByClient(const std::vector<float>& mono) {
-  constexpr double kSettled = 0.3;  // seconds ahead that are danced already
-  live::BeatEar ear(kModelSampleRate, 1);
+  const double settled_s = live::LiveOptions().look_ahead_s;
+  live::BeatEar ear;
   std::vector<double> told;
   const auto piece = static_cast<size_t>(live::kPieceSeconds * kModelSampleRate);
   for (size_t at = 0; at < mono.size(); at += piece) {
     std::vector<double> ahead =
         ear.Hear(std::span(mono).subspan(at, std::min(piece, mono.size() - at)));
     ear.Wait();
-    const double settled = static_cast<double>(at + piece) / kModelSampleRate + kSettled;
+    const double settled = static_cast<double>(at + piece) / kModelSampleRate + settled_s;
     std::erase_if(ahead, [settled](double beat) { return beat < settled; });
     if (ahead.empty()) continue;
     const double half = ahead.size() > 1 ? (ahead[1] - ahead[0]) / 2 : 0;

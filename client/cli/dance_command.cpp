@@ -282,8 +282,7 @@ void AddDanceCommand(CLI::App& program) {
   command
       ->add_option("--project", options->project,
                    "A project that `choreo studio` saved: its keys, path, seed, style, liveliness, "
-                   "music and "
-                   "the song beside it, as far as nothing else is said here.")
+                   "music and the song beside it, as far as nothing else is said here.")
       ->check(CLI::ExistingFile)
       ->excludes("--keyframes");
   command

@@ -20,12 +20,10 @@ int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 }  // namespace
 
 // Before the music there is silence.
-BeatEar::BeatEar(double sample_rate, int channels)
-    : resampler_(sample_rate, channels), mono_(kOnsetWindow / 2) {}
+BeatEar::BeatEar() : mono_(kOnsetWindow / 2) {}
 
-std::vector<double> BeatEar::Hear(std::span<const float> interleaved) {
-  resampler_.Push(interleaved);
-  resampler_.Pull(mono_);
+std::vector<double> BeatEar::Hear(std::span<const float> mono) {
+  mono_.insert(mono_.end(), mono.begin(), mono.end());
   size_t from = 0;
   for (; mono_.size() - from >= kOnsetWindow; from += kOnsetHop)
     onsets_.push_back(meter_.Add(std::span(mono_).subspan(from, kOnsetWindow)));

@@ -7,7 +7,6 @@
 
 #include "model/audio/beats.h"
 #include "model/audio/onset.h"
-#include "model/audio/resample.h"
 
 namespace choreo::live {
 
@@ -19,11 +18,11 @@ class BeatEar {
   /// What is told reaches so far ahead of the music, seconds: as transitions do.
   static constexpr double kAheadSeconds = 5;
 
-  BeatEar(double sample_rate, int channels);
+  BeatEar();
 
-  /// Interleaved samples, the next ones. Beats ahead, seconds, ascending, every other second or so;
-  /// none while nothing beats clearly.
-  std::vector<double> Hear(std::span<const float> interleaved);
+  /// The next mono samples, at 22 050 Hz. Beats ahead, seconds, ascending, every other second or
+  /// so; none while nothing beats clearly.
+  std::vector<double> Hear(std::span<const float> mono);
   /// Until beats that are looked for are found: the next Hear tells them. For who is not in time.
   void Wait() const {
     if (found_.valid()) found_.wait();
@@ -32,7 +31,6 @@ class BeatEar {
  private:
   std::vector<double> GoOn(const BeatTrack& track, double now) const;
 
-  Resampler resampler_;
   OnsetMeter meter_;
   std::vector<float> mono_;    // of the next onset's window on
   std::vector<Onset> onsets_;  // the last minutes'

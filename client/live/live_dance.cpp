@@ -9,6 +9,7 @@
 
 #include "client/live/beat_ear.h"
 #include "client/live/passage_ear.h"
+#include "model/audio/resample.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
 
@@ -72,8 +73,10 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   int64_t samples = 0;
   double now = 0, told = 0;
   bool clock_missed = midi == nullptr;
-  PassageEar passages(sound.sample_rate(), sound.channels());
-  BeatEar beats(sound.sample_rate(), sound.channels());
+  Resampler resampler(sound.sample_rate(), sound.channels());
+  std::vector<float> mono;  // of the piece
+  PassageEar passages;
+  BeatEar beats;
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;
@@ -82,13 +85,18 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     for (const auto& source : cues) {
       for (const Cue& cue : source->Take()) Follow(cue, now);
     }
+    mono.clear();
+    resampler.Push(piece);
+    resampler.Pull(mono);
     if (midi) SendBeats(midi->Take(now), now);
-    if (!midi || !midi->runs()) SendBeats(beats.Hear(piece), now);
+    // It hears all, so that it knows the time when the clock stops.
+    std::vector<double> heard = beats.Hear(mono);
+    if (!midi || !midi->runs()) SendBeats(std::move(heard), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
       clock_missed = true;
       if (!midi->runs()) Note("no MIDI clock was started yet; until it is, beats are heard");
     }
-    if (const std::optional<Passage> passage = passages.Hear(piece))
+    if (const std::optional<Passage> passage = passages.Hear(mono))
       dance_->SendPassages(std::array{*passage});
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);

@@ -11,11 +11,8 @@ const auto kEvery = std::lround(1 / PassageListener::kMomentSeconds);
 
 }  // namespace
 
-PassageEar::PassageEar(double sample_rate, int channels) : resampler_(sample_rate, channels) {}
-
-std::optional<Passage> PassageEar::Hear(std::span<const float> interleaved) {
-  resampler_.Push(interleaved);
-  resampler_.Pull(mono_);
+std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
+  mono_.insert(mono_.end(), mono.begin(), mono.end());
   std::optional<Passage> told;
   static_assert(PassageListener::kHop >= PassageListener::kWindow);
   while (mono_.size() >= PassageListener::kHop) {

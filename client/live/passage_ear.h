@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "model/audio/passages.h"
-#include "model/audio/resample.h"
 
 namespace choreo::live {
 
@@ -15,14 +14,11 @@ class PassageEar {
   /// What is told reaches so far ahead of the music, seconds: as transitions do.
   static constexpr double kAheadSeconds = 4;
 
-  PassageEar(double sample_rate, int channels);
-
-  /// Interleaved samples, the next ones. What there is to tell, once a second while the music comes
-  /// back, and where it begins or ends to.
-  std::optional<Passage> Hear(std::span<const float> interleaved);
+  /// The next mono samples, at 22 050 Hz. What there is to tell, once a second while the music
+  /// comes back, and where it begins or ends to.
+  std::optional<Passage> Hear(std::span<const float> mono);
 
  private:
-  Resampler resampler_;
   PassageListener listener_;
   std::vector<float> mono_;  // from the listener's next moment on
   std::optional<int64_t> told_lag_;

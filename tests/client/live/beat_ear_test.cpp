@@ -12,7 +12,7 @@ namespace choreo::live::beat_ear_test {
 
 /// What is told from `from` s on, each beat before it sounds; what is told later counts.
 std::vector<double> Told(const std::vector<float>& song, double from) {
-  BeatEar ear(kModelSampleRate, 1);
+  BeatEar ear;
   std::vector<double> told;
   constexpr size_t kPiece = 437;  // 20 ms, of whatever length
   for (size_t at = 0; at < song.size(); at += kPiece) {

@@ -21,7 +21,7 @@ std::vector<float> SongOf(std::initializer_list<uint64_t> parts) {
 }
 
 std::vector<Passage> Hear(const std::vector<float>& song) {
-  PassageEar ear(kModelSampleRate, 1);
+  PassageEar ear;
   std::vector<Passage> told;
   constexpr size_t kPiece = 437;  // 20 ms, of whatever length
   for (size_t at = 0; at < song.size(); at += kPiece) {
