@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <map>
@@ -15,6 +16,7 @@
 
 #include "model/core/error.h"
 #include "model/core/npy.h"
+#include "model/formats/pickled_text.h"
 
 namespace choreo {
 namespace {
@@ -45,7 +47,11 @@ const std::set<std::string> kKnownGlobals = {"numpy.ndarray",
                                              "numpy.core.multiarray._reconstruct",
                                              "numpy.core.multiarray.scalar",
                                              "numpy.core.numeric._frombuffer",
-                                             "_codecs.encode"};
+                                             "_codecs.encode",
+                                             "builtins.dict",
+                                             "__builtin__.dict",
+                                             "collections.defaultdict",
+                                             "collections.OrderedDict"};
 
 /// The machine that pickles are written for, as far as dicts of arrays need it.
 class Unpickler {
@@ -53,9 +59,11 @@ class Unpickler {
   Unpickler(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
 
   NpzArchive Run() {
-    opcode_ = Byte();
-    const int protocol = Byte();
-    if (opcode_ != 0x80 || protocol < 2 || protocol > 5) Refuse("no pickle of protocol 2 to 5");
+    // Protocols 0 and 1 begin with their first operation.
+    opcode_ = bytes_.empty() ? 0 : static_cast<unsigned char>(bytes_.front());
+    if (opcode_ == 0x80) Take(1);
+    if (opcode_ == 0x80 ? Byte() > 5 : !kOperations.contains(opcode_))
+      Refuse("no pickle of protocol 0 to 5");
     for (int operation = 0; operation < kMostOperations; ++operation) {
       start_ = at_;
       opcode_ = Byte();
@@ -92,11 +100,20 @@ class Unpickler {
     return value;
   }
   double BigEndianDouble() { return std::bit_cast<double>(__builtin_bswap64(Unsigned(8))); }
-  Ref Line() {
-    PushText(std::min(bytes_.find('\n', at_), bytes_.size()) - at_);
+  std::string_view Line() {
+    const std::string_view line = Take(std::min(bytes_.find('\n', at_), bytes_.size()) - at_);
     Take(1);
-    return Pop();
+    return line;
   }
+  template <typename T>
+  std::optional<T> NumberIn(std::string_view line) const {
+    T number{};
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+    if (error == std::errc::result_out_of_range) return std::nullopt;
+    if (error != std::errc() || end != line.data() + line.size()) Refuse("no number follows");
+    return number;
+  }
+  uint64_t Index() { return NumberIn<uint64_t>(Line()).value_or(UINT64_MAX); }
 
   // The stack; a null pointer is a mark.
   void Push(Ref object) { stack_.push_back(std::move(object)); }
@@ -138,7 +155,24 @@ class Unpickler {
     Push(Object{.kind = kNumber, .array = NpyArray{{}, std::move(value)}});
   }
   void PushInteger(int64_t value) { PushNumber(std::vector{value}); }
-  void PushText(uint64_t size) { Push(Object{.kind = kText, .text = std::string(Take(size))}); }
+  // A number beyond int64 says nothing of a motion.
+  void PushInteger(std::string_view line) {
+    if (line.ends_with('L')) line.remove_suffix(1);
+    const std::optional<int64_t> value = NumberIn<int64_t>(line);
+    value ? PushInteger(*value) : Push(Object{.kind = kNone});
+  }
+  void PushLong(uint64_t size) {
+    if (size > 8) return Take(size), Push(Object{.kind = kNone});
+    const int unused = static_cast<int>(64 - 8 * size);
+    PushInteger(size == 0 ? 0 : static_cast<int64_t>(Unsigned(size) << unused) >> unused);
+  }
+  void PushText(std::string text) { Push(Object{.kind = kText, .text = std::move(text)}); }
+  void PushText(uint64_t size) { PushText(std::string(Take(size))); }
+  void PushWritten(std::optional<std::string> (*read)(std::string_view line)) {
+    std::optional<std::string> text = read(Line());
+    if (!text) Refuse("no text follows");
+    PushText(std::move(*text));
+  }
   void PushTuple(std::vector<Ref> items) {
     Push(Object{.kind = kTuple, .items = std::move(items)});
   }
@@ -147,8 +181,8 @@ class Unpickler {
     if (!memo_.contains(index)) Refuse("nothing was stored as " + std::to_string(index));
     Push(memo_[index]);
   }
-  void PushGlobal(const std::vector<Ref>& words) {
-    std::string name = Expect(words[0], kText)->text + "." + Expect(words[1], kText)->text;
+  void PushGlobal(std::string_view module, std::string_view of_it) {
+    std::string name = std::string(module).append(".").append(of_it);
     if (name.starts_with("numpy._core.")) name.erase(6, 1);  // since NumPy 2
     if (!kKnownGlobals.contains(name)) Refuse("it names '" + name + "'");
     Push(Object{.kind = kGlobal, .text = name});
@@ -172,8 +206,10 @@ class Unpickler {
       Fill(stack_.back(), Item(given, 2, kTuple), Item(given, 1, kDtype),
            Item(given, 3, kText)->text == "F", Item(given, 0, kText));
     } else if (callee == "_codecs.encode" && Item(given, 1, kText)->text == "latin1") {
-      // Protocol 2 has no bytes; Python 3 writes them as text with the same codes.
+      // Protocols up to 2 have no bytes; Python 3 writes them as text with the same codes.
       Push(Object{.kind = kText, .text = Latin1(Item(given, 0, kText)->text)});
+    } else if (callee.starts_with("collections.")) {
+      Push(Object{.kind = kDict});
     } else {
       Refuse("a call of '" + callee + "'");
     }
@@ -228,7 +264,9 @@ class Unpickler {
   void SetItems(const std::vector<Ref>& items) {
     const Ref dict = Pop(kDict);
     for (size_t i = 0; i + 1 < items.size(); i += 2) {
-      const std::string& key = Expect(items[i], kText)->text;
+      // A track's number names it, too.
+      const std::string key = items[i]->kind == kNumber ? std::to_string(Integer(items[i]))
+                                                        : Expect(items[i], kText)->text;
       const auto holds = [](const Ref& item) { return item->array.has_value(); };
       if (items[i + 1]->kind == kList && std::ranges::count_if(items[i + 1]->items, holds) > 1)
         Refuse("'" + key + "' is a list of several arrays, as of several bodies");
@@ -276,6 +314,16 @@ const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
     {'M', [](Unpickler& u) { u.PushInteger(static_cast<int64_t>(u.Unsigned(2))); }},  // BININT2
     {'J', [](Unpickler& u) { u.PushInteger(static_cast<int32_t>(u.Unsigned(4))); }},  // BININT
     {'G', [](Unpickler& u) { u.PushNumber(std::vector{u.BigEndianDouble()}); }},      // BINFLOAT
+    {'I', [](Unpickler& u) { u.PushInteger(u.Line()); }},             // INT
+    {'L', [](Unpickler& u) { u.PushInteger(u.Line()); }},             // LONG
+    {0x8a, [](Unpickler& u) { u.PushLong(u.Unsigned(1)); }},          // LONG1
+    {'F',
+     [](Unpickler& u) {
+       const auto value = u.NumberIn<double>(u.Line());
+       value ? u.PushNumber(std::vector{*value}) : u.Push(Object{.kind = kNone});
+     }},                                                              // FLOAT
+    {'S', [](Unpickler& u) { u.PushWritten(ReadPickledString); }},    // STRING
+    {'V', [](Unpickler& u) { u.PushWritten(ReadPickledUnicode); }},   // UNICODE
     {'U', [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},           // SHORT_BINSTRING
     {'C', [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},           // SHORT_BINBYTES
     {0x8c, [](Unpickler& u) { u.PushText(u.Unsigned(1)); }},          // SHORT_BINUNICODE
@@ -289,19 +337,41 @@ const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
     {0x86, [](Unpickler& u) { u.PushTuple(u.PopSome(2)); }},          // TUPLE2
     {0x87, [](Unpickler& u) { u.PushTuple(u.PopSome(3)); }},          // TUPLE3
     {'t', [](Unpickler& u) { u.PushTuple(u.PopToMark()); }},          // TUPLE
+    {'l',
+     [](Unpickler& u) {
+       const std::vector<Ref> items = u.PopToMark();
+       u.Push(Object{.kind = kList});
+       u.Append(items);
+     }},                                                              // LIST
+    {'d',
+     [](Unpickler& u) {
+       const std::vector<Ref> items = u.PopToMark();
+       u.Push(Object{.kind = kDict});
+       u.SetItems(items);
+     }},                                                              // DICT
     {']', [](Unpickler& u) { u.Push(Object{.kind = kList}); }},       // EMPTY_LIST
     {'a', [](Unpickler& u) { u.Append(u.PopSome(1)); }},              // APPEND
     {'e', [](Unpickler& u) { u.Append(u.PopToMark()); }},             // APPENDS
     {'}', [](Unpickler& u) { u.Push(Object{.kind = kDict}); }},       // EMPTY_DICT
     {'s', [](Unpickler& u) { u.SetItems(u.PopSome(2)); }},            // SETITEM
     {'u', [](Unpickler& u) { u.SetItems(u.PopToMark()); }},           // SETITEMS
+    {'p', [](Unpickler& u) { u.Remember(u.Index()); }},               // PUT
+    {'g', [](Unpickler& u) { u.Recall(u.Index()); }},                 // GET
     {'q', [](Unpickler& u) { u.Remember(u.Unsigned(1)); }},           // BINPUT
     {'r', [](Unpickler& u) { u.Remember(u.Unsigned(4)); }},           // LONG_BINPUT
     {0x94, [](Unpickler& u) { u.Remember(u.memo_.size()); }},         // MEMOIZE
     {'h', [](Unpickler& u) { u.Recall(u.Unsigned(1)); }},             // BINGET
     {'j', [](Unpickler& u) { u.Recall(u.Unsigned(4)); }},             // LONG_BINGET
-    {'c', [](Unpickler& u) { u.PushGlobal({u.Line(), u.Line()}); }},  // GLOBAL
-    {0x93, [](Unpickler& u) { u.PushGlobal(u.PopSome(2)); }},         // STACK_GLOBAL
+    {'c',
+     [](Unpickler& u) {
+       const std::string_view module = u.Line();
+       u.PushGlobal(module, u.Line());
+     }},  // GLOBAL
+    {0x93,
+     [](Unpickler& u) {
+       const Ref of_it = u.Pop(kText);
+       u.PushGlobal(u.Pop(kText)->text, of_it->text);
+     }},  // STACK_GLOBAL
     {'R', [](Unpickler& u) { u.Reduce(); }},                          // REDUCE
     {'b', [](Unpickler& u) { u.Build(); }},                           // BUILD
 };

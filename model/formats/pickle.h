@@ -7,9 +7,9 @@
 
 namespace choreo {
 
-/// Reads a Python pickle (protocols 2 to 5) of one dict whose keys are texts, such as AIST++'s
-/// motions, or of such a dict in an array of objects, as numpy.save writes it: NumPy arrays,
-/// numbers (arrays without dimensions here), texts, lists of one of these, dicts of them
+/// Reads a Python pickle (protocols 0 to 5) of one dict whose keys are texts or numbers, such as
+/// AIST++'s motions, or of such a dict in an array of objects, as numpy.save writes it: NumPy
+/// arrays, numbers (arrays without dimensions here), texts, lists of one of these, dicts of them
 /// (NpzArchive::Nested). Values of other kinds
 /// are left out. A pickle is a program; nothing of it is run: of its opcodes and of what they may
 /// name we know those that build such a dict, and refuse the others. Arrays as NpyArray has them.

@@ -36,7 +36,7 @@ void Refused(const std::string& bytes, const std::string& part) {
 }
 
 TEST(PickleTest, ReadsWhatNumpyPickled) {
-  for (const int protocol : {2, 3, 4, 5}) {
+  for (const int protocol : {0, 1, 2, 3, 4, 5}) {
     const NpzArchive arrays = Parse(Bytes(ByNumpy(protocol)));
     const NpyArray table = arrays.Array("table");
     EXPECT_EQ(table.shape, (std::vector<int64_t>{3, 4}));
@@ -58,7 +58,7 @@ TEST(PickleTest, ReadsWhatNumpyPickled) {
 /// pickle.dumps({'smpl_scaling': np.float32(93.5), 'smpl_loss': np.float64(0.25), 'frames':
 /// np.int64(-70000)}, protocol), as some of AIST++'s files hold them.
 TEST(PickleTest, ReadsNumbersThatNumpyPickled) {
-  for (const char* protocol : {"2", "4"}) {
+  for (const char* protocol : {"0", "2", "4"}) {
     const NpzArchive numbers = Parse(Bytes(std::filesystem::path(CHOREO_TEST_DATA) / "pickles" /
                                            ("scalars" + std::string(protocol) + ".pkl")));
     EXPECT_EQ(numbers.Array("smpl_scaling").As<double>(), std::vector<double>{93.5});
@@ -119,14 +119,88 @@ TEST(PickleTest, LeavesOutWhatIsNoArray) {
       "'k' is a list of several arrays");
 }
 
+/// dict(fps=30, gender='f', poses=np.array([1.5, -2])), as Python 2 writes bytes and numbers.
+TEST(PickleTest, ReadsWhatPython2Wrote) {
+  const NpzArchive arrays = Parse(R"((dp0
+S'fps'
+p1
+I30
+sS"gender"
+S'f\x6f\'\n'
+sS'many'
+L123456789012345678901234567890L
+sS'few'
+L-7L
+sS'loss'
+F-0.25
+sS'names'
+(lp2
+S'a'
+asS'poses'
+cnumpy.core.multiarray
+_reconstruct
+(cnumpy
+ndarray
+(I0
+tS'b'
+tR(I1
+(I2
+tcnumpy
+dtype
+(S'f8'
+I00
+I01
+tR(I3
+S'<'
+NNNI-1
+I-1
+I0
+tbI00
+S'\x00\x00\x00\x00\x00\x00\xf8?\x00\x00\x00\x00\x00\x00\x00\xc0'
+tbsg1
+I31
+s.)");
+  EXPECT_EQ(arrays.Array("fps").As<double>(), std::vector<double>{31});
+  EXPECT_EQ(arrays.Text("gender"), "fo'\n");
+  EXPECT_FALSE(arrays.Has("many"));
+  EXPECT_EQ(arrays.Array("few").As<double>(), std::vector<double>{-7});
+  EXPECT_EQ(arrays.Array("loss").As<double>(), std::vector<double>{-0.25});
+  EXPECT_EQ(arrays.Array("poses").As<double>(), (std::vector<double>{1.5, -2}));
+  Refused("(dS'a\\q'\n", "no text follows");
+  Refused("(dVa\\u12\n", "no text follows");
+  Refused("(dI1x\n", "no number follows");
+  Refused("(dg5\n.", "nothing was stored as 5");
+}
+
+TEST(PickleTest, ReadsLongNumbers) {
+  const NpzArchive numbers = Parse(
+      "\x80\x02}(U\x01"
+      "a\x8a\x05\0\0\0\0\xffU\x01"
+      "b\x8a\0U\x01"
+      "c\x8a\x09"
+      "123456789u."s);
+  EXPECT_EQ(numbers.Array("a").As<int64_t>(), std::vector<int64_t>{-(int64_t{1} << 32)});
+  EXPECT_EQ(numbers.Array("b").As<int64_t>(), std::vector<int64_t>{0});
+  EXPECT_FALSE(numbers.Has("c"));
+}
+
+TEST(PickleTest, ReadsDictsOfOtherClassesAndKeys) {
+  const NpzArchive arrays = Parse(
+      "\x80\x02"
+      "ccollections\ndefaultdict\nc__builtin__\ndict\n\x85RK\x07"
+      "ccollections\nOrderedDict\n)RU\x01kK\x05ss."s);
+  EXPECT_EQ(arrays.Nested("7").Array("k").As<int64_t>(), std::vector<int64_t>{5});
+}
+
 TEST(PickleTest, OnlyDictsOfArraysAndNumbers) {
-  Refused("", "the file ends within it");
-  Refused("(dp0\n.", "no pickle of protocol 2 to 5");
-  Refused("\x80\x06}.", "no pickle of protocol 2 to 5");
+  Refused("", "no pickle of protocol 0 to 5");
+  Refused("}", "the file ends within it");
+  Refused("no pickle", "no pickle of protocol 0 to 5");
+  Refused("\x80\x06}.", "no pickle of protocol 0 to 5");
   Refused("\x80\x02)."s, "expected a dict");
   Refused("\x80\x02."s, "nothing on the stack");
   Refused("\x80\x02}u."s, "no mark on the stack");
-  Refused("\x80\x02}K\x01K\x02s."s, "expected a text");
+  Refused("\x80\x02})K\x02s."s, "expected a text");
   Refused("\x80\x02}h\x05."s, "nothing was stored as 5");
   const std::string whole = Bytes(ByNumpy(4));
   std::string other = whole;
@@ -158,7 +232,7 @@ TEST(PickleTest, SmallFilesStaySmall) {
 }
 
 TEST(PickleTest, DamagedFilesAreRefusedOrRead) {
-  for (const int protocol : {2, 4, 5}) {
+  for (const int protocol : {0, 2, 4, 5}) {
     const std::string whole = Bytes(ByNumpy(protocol));
     for (size_t size = 0; size < whole.size(); ++size)
       EXPECT_THROW(Parse(whole.substr(0, size)), Error) << protocol << ' ' << size;

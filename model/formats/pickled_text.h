@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// How the protocols of text, 0 and 1, write what is not printable. Private to this folder.
+namespace choreo {
+
+/// 'a\x00b' between quotes, as Python writes bytes: \n, \r, \t, \\, quotes and two digits after
+/// \x. Nothing for what is none.
+std::optional<std::string> ReadPickledString(std::string_view line);
+
+/// Latin-1 with \uXXXX and \UXXXXXXXX, as UTF-8. Nothing for what is none.
+std::optional<std::string> ReadPickledUnicode(std::string_view line);
+
+}  // namespace choreo
