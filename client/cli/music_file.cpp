@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ namespace {
 /// A file in memory that ends with its owner.
 class MemoryFile {
  public:
-  MemoryFile() : descriptor_(memfd_create("song", MFD_CLOEXEC)) {
+  MemoryFile() : descriptor_(memfd_create("choreo", MFD_CLOEXEC)) {
     if (descriptor_ < 0) throw Error(ErrorCode::kInternal, "", "no memory for a song");
   }
   ~MemoryFile() { close(descriptor_); }
@@ -33,18 +34,23 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Whether ffmpeg is there and could write `path` as WAV into `wav`.
-bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav) {
+/// Whether ffmpeg is there and could write `path` as WAV into `wav`: from the container's second 0
+/// on, as players show it, also where the sound begins later. Into `log` goes what it says.
+bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
+                     const MemoryFile& log) {
   const std::string input = "file:" + path.string();  // a name, whatever it looks like
-  std::vector<std::string> words{"ffmpeg", "-loglevel", "error", "-nostdin", "-i",        input,
-                                 "-vn",    "-f",        "wav",   "-c:a",     "pcm_f32le", "pipe:1"};
+  std::vector<std::string> words{"ffmpeg",    "-hide_banner", "-nostats",
+                                 "-nostdin",  "-i",           input,
+                                 "-vn",       "-af",          "aresample=async=1:first_pts=0",
+                                 "-f",        "wav",          "-c:a",
+                                 "pcm_f32le", "pipe:1"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, wav.descriptor(), STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, log.descriptor(), STDERR_FILENO);
   pid_t process = 0;
   const int failed = posix_spawnp(&process, "ffmpeg", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -55,15 +61,31 @@ bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+/// How many sound tracks the input has, by what ffmpeg says of it.
+int CountTracks(const MemoryFile& log) {
+  std::ifstream lines(log.path());
+  int tracks = 0;
+  for (std::string line; std::getline(lines, line) && !line.starts_with("Output #");) {
+    if (line.find("Stream #0:") != std::string::npos && line.find(": Audio: ") != std::string::npos)
+      ++tracks;
+  }
+  return tracks;
+}
+
 std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, double seconds,
                                            double start) {
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  const MemoryFile wav;
-  if (!ConvertByFfmpeg(path, wav)) return std::nullopt;
+  const MemoryFile wav, log;
+  if (!ConvertByFfmpeg(path, wav, log)) return std::nullopt;
   try {
     DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start);
     // Into a pipe it can't write the length.
-    audio.notes = {"read by ffmpeg, as it is not " + std::string(kSoundFormats)};
+    audio.notes = {"read by ffmpeg"};
+    if (const int tracks = CountTracks(log); tracks > 1) {
+      audio.notes.push_back("has " + std::to_string(tracks) +
+                            " sound tracks, of which ffmpeg chose one; `ffmpeg -i FILE -map 0:a:1 "
+                            "song.wav` takes the second");
+    }
     return audio;
   } catch (const Error& error) {
     throw error.Of(path.string());

@@ -61,6 +61,16 @@ std::optional<Frame> FrameAt(const ByteSource& source, int64_t at) {
   return frame;
 }
 
+/// Where an ID3v2 tag that begins at `at` ends, or `at` where there is none: its length is in four
+/// bytes of seven bits, behind ten that it does not count.
+int64_t TagEnd(const ByteSource& source, int64_t at) {
+  if (!source.Has(at, "ID3")) return at;
+  const uint32_t size = __builtin_bswap32(source.Word(at + 6));
+  return at + 10 +
+         (int64_t{size & 0x7f} | int64_t{(size & 0x7f00) >> 1} | int64_t{(size & 0x7f0000) >> 2} |
+          int64_t{(size & 0x7f000000) >> 3});
+}
+
 /// A frame that two of its kind follow.
 std::optional<Frame> SyncAt(const ByteSource& source, int64_t at) {
   const std::optional<Frame> frame = FrameAt(source, at);
@@ -86,6 +96,17 @@ std::optional<int64_t> FindSync(const ByteSource& source, int64_t from, int64_t 
   return std::nullopt;
 }
 
+/// The first sync at or behind `at`; behind the tag that begins there, if its length leads to one:
+/// it may hold sound of its own.
+std::optional<int64_t> FindSyncBehindTag(const ByteSource& source, int64_t at) {
+  const int64_t end = TagEnd(source, at);
+  if (end > at && end < source.size) {
+    if (const auto behind = FindSync(source, end, std::min(end + kSearched, source.size)))
+      return behind;
+  }
+  return FindSync(source, at, source.size);
+}
+
 /// Frames that were encoded together: from one encoder's tag to the next.
 struct Stretch {
   int64_t begin = 0, end = 0;
@@ -108,7 +129,7 @@ struct Walk {
 
 Walk WalkFrames(const ByteSource& source) {
   Walk walk;
-  std::optional<int64_t> at = FindSync(source, 0, source.size);
+  std::optional<int64_t> at = FindSyncBehindTag(source, 0);
   if (at) walk.left_out = *at;
   if (at && source.Has(0, "ID3")) walk.left_out = 0;
   while (at && *at < source.size) {
@@ -116,7 +137,9 @@ Walk WalkFrames(const ByteSource& source) {
     if (!frame) {
       const bool is_tag = source.Has(*at, "TAG") || source.Has(*at, "ID3") ||
                           source.Has(*at, "APETAGEX") || source.Has(*at, "LYRICSBEGIN");
-      const std::optional<int64_t> next = FindSync(source, *at + 1, source.size);
+      const std::optional<int64_t> next = source.Has(*at, "ID3")
+                                              ? FindSyncBehindTag(source, *at)
+                                              : FindSync(source, *at + 1, source.size);
       if (!is_tag) walk.left_out += next.value_or(source.size) - *at;
       at = next;
       continue;
@@ -250,13 +273,7 @@ class MpegReader final : public SoundReader {
 }  // namespace
 
 bool LooksLikeMpeg(const ByteSource& source) {
-  int64_t to = kSearched;
-  if (source.Has(0, "ID3")) {  // whose length is in four bytes of seven bits, behind two of others
-    const uint32_t size = __builtin_bswap32(source.Word(6));
-    to += int64_t{size & 0x7f} | int64_t{(size & 0x7f00) >> 1} | int64_t{(size & 0x7f0000) >> 2} |
-          int64_t{(size & 0x7f000000) >> 3};
-  }
-  return FindSync(source, 0, std::min(to, source.size)).has_value();
+  return FindSync(source, 0, std::min(TagEnd(source, 0) + kSearched, source.size)).has_value();
 }
 
 std::unique_ptr<SoundReader> ReadMpeg(const ByteSource& source, const std::string& name) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/audio/decode.h"
 #include "model/audio/sound_reader.h"
 #include "model/core/error.h"
 
@@ -45,7 +46,10 @@ class WavReader final : public SoundReader {
     SF_VIRTUAL_IO io{CursorSize, CursorSeek, CursorRead, nullptr, CursorTell};
     SF_INFO info{};
     file_.reset(sf_open_virtual(&io, SFM_READ, &info, &cursor_));
-    if (!file_) throw InvalidArgument(name_, std::string("not WAV audio: ") + sf_strerror(nullptr));
+    if (!file_) {
+      throw InvalidArgument(name_, std::string("not WAV audio that is known here: ") +
+                                       sf_strerror(nullptr) + " " + kAskFfmpeg + " may know it");
+    }
     sample_rate_ = info.samplerate;
     channels_ = info.channels;
   }
@@ -83,10 +87,19 @@ bool IsChunk(const ByteSource& source, int64_t at) {
   return at + 8 + int64_t{source.Word(at + 4)} <= source.size + 1;
 }
 
+/// Whether what should be samples is a compressed stream for a receiver (IEC 61937), as of AC-3.
+bool IsBurst(const ByteSource& source, int64_t body) {
+  constexpr int64_t kSearched = 16384;
+  constexpr uint32_t kSync = 0x4e1ff872;
+  for (int64_t at = body; at < std::min(body + kSearched, source.size - 4); at += 2)
+    if (source.Word(at) == kSync) return true;
+  return false;
+}
+
 }  // namespace
 
 std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string& name) {
-  constexpr uint32_t kMpegLayer3 = 0x55;
+  constexpr uint32_t kPcm = 1, kMpegLayer3 = 0x55;
   uint32_t format = 0;
   if (!source.Has(0, "RIFF"))  // RF64 and others, whose lengths stand elsewhere
     return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
@@ -102,6 +115,10 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     const bool is_right = size > 0 && size <= held && IsChunk(source, body + size + size % 2);
     if (format == kMpegLayer3)
       return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
+    if (format == kPcm && IsBurst(source, body)) {
+      throw InvalidArgument(name, std::string("no samples but AC-3 or the like, for a receiver: ") +
+                                      kAskFfmpeg + " makes a file that is taken");
+    }
     if (is_right || held == 0)
       return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
     std::vector<std::string> notes;

@@ -1,6 +1,7 @@
 // The table of docs/song.md, made out of files that ffmpeg writes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -10,6 +11,7 @@
 #include "client/cli/music_file.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
@@ -30,6 +32,7 @@ const std::vector<Container>& Containers() {
        {{"PCM", "pcm_s16le"},
         {"float", "pcm_f32le"},
         {"µ-law", "pcm_mulaw"},
+        {"A-law", "pcm_alaw"},
         {"ADPCM", "adpcm_ms"},
         {"MP3", "libmp3lame"}}},
       {".flac", {{"FLAC", "flac"}}},
@@ -104,6 +107,46 @@ TEST(SoundTable, IsWhatBecomesOfThem) {
                             *outcomes.begin() + " |";
     EXPECT_NE(page.find(row), std::string::npos) << "docs/song.md should say\n" << row;
   }
+}
+
+void Make(const std::string& words, const std::filesystem::path& file) {
+  const Outcome made = Shell("ffmpeg -nostdin -v error -y " + words + " " + file.string());
+  ASSERT_EQ(made.code, 0) << made.said;
+}
+
+TEST(SoundTable, AFilmsSoundCountsFromItsBeginning) {
+  if (Shell("ffmpeg -version").code != 0)
+    GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "late.mkv";
+  Make(
+      "-itsoffset 1.5 -f lavfi -i sine=330:duration=2 -f lavfi -i color=size=16x16:duration=3 "
+      "-map 0:a -map 1:v -c:v mpeg4 -c:a pcm_s16le",
+      file);
+  const DecodedAudio late = DecodeSong(file, INFINITY, 0);
+  EXPECT_NEAR(late.seconds(), 3.5, kPadding);
+  const auto loud = std::ranges::find_if(late.interleaved, [](float x) { return x > 0.05F; });
+  EXPECT_NEAR(
+      static_cast<double>(loud - late.interleaved.begin()) / late.channels / late.sample_rate, 1.5,
+      0.05);
+  // Which of two tracks is heard is said.
+  Make("-f lavfi -i sine=330:duration=1 -f lavfi -i sine=440:duration=1 -map 0 -map 1 -c:a flac",
+       folder / "two.mka");
+  const std::vector<std::string> notes = DecodeSong(folder / "two.mka", INFINITY, 0).notes;
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[1].find("has 2 sound tracks, of which ffmpeg chose one"), std::string::npos);
+  // A tag may hold sound of its own.
+  Make("-f lavfi -i sine=330:duration=2 -c:a libmp3lame", folder / "a.mp3");
+  const std::string song = ReadFile(folder / "a.mp3"), held = song.substr(0, song.size() / 2);
+  std::string tag = "ID3" + std::string(3, '\3');
+  for (const int bits : {21, 14, 7, 0}) tag += static_cast<char>(held.size() >> bits & 0x7f);
+  WriteFile(folder / "tagged.mp3", tag + held + song);
+  EXPECT_NEAR(DecodeAudioFile(folder / "tagged.mp3").seconds(), 2, kPadding);
+  // A stream for a receiver is no noise.
+  Make("-f lavfi -i sine=330:duration=2 -c:a ac3 -f spdif", folder / "a.spdif");
+  Make("-f s16le -ar 48000 -ac 2 -i " + (folder / "a.spdif").string(), folder / "ac3.wav");
+  ExpectError(ErrorCode::kInvalidArgument, "no samples but AC-3",
+              [&] { DecodeAudioFile(folder / "ac3.wav"); });
 }
 
 }  // namespace choreo::cli::sound_table_test
