@@ -102,6 +102,9 @@ void AddConvertCommand(CLI::App& program) {
       "--animation", options->reading.animation,
       "Of a file with several, its name or its number from 0 on; default: the first "
       "that moves most bones.");
+  command->add_option("--body", options->reading.body,
+                      "Of a file with several that move, its name or its number from 0 on; "
+                      "default: the first.");
   command
       ->add_option("--motion-map", options->motion_map,
                    "FILE.json that says which nodes of the motion are which bones; without "

@@ -14,7 +14,7 @@ namespace choreo {
 namespace {
 
 constexpr size_t kMostGroups = 16, kMostRigNodes = 5000;  // a hostile file has any number
-constexpr size_t kFewestBones = 12;
+constexpr size_t kFewestBones = 12, kMostBodies = 8;
 // Of `Needed`: six of each limb's side, and the head or the neck.
 constexpr int kAllNeeded = 2 * static_cast<int>(std::size(kNeededLimbBones)) + 1;
 
@@ -214,16 +214,14 @@ HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen)
   return found;
 }
 
-int OtherMovingBodies(const RigNodes& rig, const HumanBones& found) {
-  int others = 0;
-  if (rig.names.size() > kMostRigNodes) return others;
+std::vector<HumanBones> MovingBodies(const RigNodes& rig, const HumanBones& found) {
+  std::vector<HumanBones> bodies = {found};
+  if (rig.names.size() > kMostRigNodes) return bodies;
   RigNodes rest = rig;
-  for (int tries = 0; tries < 4; ++tries) {
+  while (bodies.size() < kMostBodies && !bodies.back().bones.empty()) {
     // Without the skeleton that is known.
-    const HumanBones& last = tries == 0 ? found : rest.table;
-    if (last.bones.empty()) break;
-    int top = last.bones.begin()->second;
-    for (const auto& [bone, node] : last.bones) {
+    int top = bodies.back().bones.begin()->second;
+    for (const auto& [bone, node] : bodies.back().bones) {
       while (top >= 0 && !IsBelow(node, top, rig.parents)) top = rig.parents[top];
     }
     for (size_t node = 0; node < rest.names.size(); ++node) {
@@ -231,10 +229,14 @@ int OtherMovingBodies(const RigNodes& rig, const HumanBones& found) {
     }
     HumanBones next = ByNames(rest);
     if (Needed(next) < Needed(found) || 2 * Count(next, rig.moves) < Count(found, rig.moves)) break;
-    ++others;
-    rest.table = std::move(next);
+    FindPelvis(rig, &next);
+    FindChest(rig, &next);
+    bodies.push_back(std::move(next));
   }
-  return others;
+  std::ranges::stable_sort(bodies, {}, [](const HumanBones& body) {
+    return body.bones.empty() ? -1 : body.Find("left_hip");
+  });
+  return bodies;
 }
 
 UnknownBones::UnknownBones(const std::string& field, const std::string& missing, RigNodes rig,

@@ -36,8 +36,9 @@ struct BoneChoice {
 /// Error(kInvalidArgument) whose field is the choice's for a bone or node that there is not.
 HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen = {});
 
-/// How many other bodies of as many bones, of which no bone is one of `found`, move as well.
-int OtherMovingBodies(const RigNodes& rig, const HumanBones& found);
+/// The bodies that move: `found`, and others of as many bones that share none with it, in the order
+/// in which they stand in the file.
+std::vector<HumanBones> MovingBodies(const RigNodes& rig, const HumanBones& found);
 
 /// A rig whose names tell too little. Whoever asked may look at it (guess_bones.h).
 class UnknownBones : public Error {

@@ -1,5 +1,6 @@
 #include "model/formats/amass_npz.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "model/formats/joint_arrays.h"
 #include "model/formats/motion_check.h"
 #include "model/formats/own_arrays.h"
+#include "model/formats/people.h"
 #include "model/formats/rotation_rows.h"
 #include "model/motion/pose_limits.h"
 #include "model/motion/rotation.h"
@@ -25,9 +27,6 @@ constexpr int kSmplHJoints = 52;  // AMASS: the body and 15 joints a hand
 constexpr int kSmplXJoints = 55;  // and jaw and eyes between body and hands
 constexpr int kBetas = 16;
 constexpr double kNoBeta = 1e-6;
-
-// SMPL-X's neutral body has its pelvis elsewhere.
-const Eigen::Vector3d kSmplXRestPelvis(0.00312326, -0.35140747, 0.01203655);
 
 const Eigen::Matrix3d kYUpFromZUp{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 
@@ -46,8 +45,10 @@ constexpr Layout kLayouts[] = {
     {"global_orient", "body_pose", "transl"},
     {nullptr, "fullpose", "transl"},
     {nullptr, "full_pose", "trans"},
+    {nullptr, "pose_world", "trans_world"},
     {nullptr, "pose", "trans"},
     {nullptr, "thetas", "trans"},
+    {nullptr, "q", "pos"},
 };
 // Other names of the same place.
 constexpr const char* kTransNames[] = {"trans", "transl", "smpl_trans", "translation"};
@@ -77,20 +78,18 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   return otherwise;
 }
 
-// The one dict within that holds a motion, or "". Throws where there are several.
-std::string DictWithin(const NpzArchive& npz) {
+// The one dict within that holds a motion, or "". Of several the one that --body names, which has
+// then done its work.
+std::string DictWithin(const NpzArchive& npz, MotionReading* reading) {
   std::vector<std::string> holding;
   for (const std::string& name : npz.NestedNames()) {
     if (FindLayout(npz.Nested(name))) holding.push_back(name);
   }
   if (holding.empty()) return "";
-  if (holding.size() > 1) {
-    throw InvalidArgument("", "holds " + std::to_string(holding.size()) + " motions, \"" +
-                                  Printable(holding[0]) + "\" and \"" + Printable(holding[1]) +
-                                  (holding.size() > 2 ? "\" ..." : "\"") +
-                                  ": write the arrays of one by numpy.savez");
-  }
-  return holding[0];
+  if (holding.size() == 1) return holding[0];
+  if (!reading->body.empty()) return holding[ChooseBody(std::exchange(reading->body, ""), holding)];
+  throw InvalidArgument("", "holds " + std::to_string(holding.size()) + " motions, " +
+                                ListBodies(holding) + ": choreo convert --body reads one");
 }
 
 // Poses as they stand in the file, with the 22 joints of the body or SMPL's 24.
@@ -124,15 +123,28 @@ bool HasBetas(const NpzArchive& npz) {
   return false;
 }
 
+std::vector<int64_t> JointsOf(const Layout& layout) {
+  if (layout.root != nullptr) return {21, 23};
+  if (std::string_view(layout.body) == "smpl_poses") return {24};
+  return {24, kSmplHJoints, kSmplXJoints, kBodyJoints};
+}
+
+// Of arrays of several people those of one.
+NpzArchive PersonOf(const NpzArchive& npz, const Layout& layout, int64_t people, int64_t person) {
+  NpzArchive one = npz;
+  for (const char* key : {layout.root, layout.body, layout.trans}) {
+    if (key == nullptr || !npz.Has(key)) continue;
+    const NpyArray all = npz.Array(key);
+    if (all.shape.size() > 1 && all.shape[0] == people) one.SetArray(key, PersonOf(all, person));
+  }
+  return one;
+}
+
 // The rotations of a layout, [3 joints, frames].
 Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout) {
-  const bool is_edge = std::string_view(layout.body) == "smpl_poses";
-  if (layout.root == nullptr) {
-    return is_edge ? ReadRotationRows(npz, layout.body, {24})
-                   : ReadRotationRows(npz, layout.body, {24, kSmplHJoints, kSmplXJoints, 22});
-  }
+  if (layout.root == nullptr) return ReadRotationRows(npz, layout.body, JointsOf(layout));
   const Eigen::MatrixXd root = ReadRotationRows(npz, layout.root, {1});
-  const Eigen::MatrixXd body = ReadRotationRows(npz, layout.body, {21, 23});
+  const Eigen::MatrixXd body = ReadRotationRows(npz, layout.body, JointsOf(layout));
   if (root.cols() != body.cols()) {
     throw InvalidArgument(layout.body, std::to_string(body.cols()) + " frames, but there are " +
                                            std::to_string(root.cols()) + " of " + layout.root);
@@ -159,6 +171,7 @@ bool AreDegrees(const Eigen::MatrixXd& turns) {
 }  // namespace
 
 Eigen::Vector3d SmplRestPelvis() { return {-0.00179506, -0.22333382, 0.02821918}; }
+Eigen::Vector3d SmplXRestPelvis() { return {0.00312326, -0.35140747, 0.01203655}; }
 
 Pose ToAmass(const Pose& pose) {
   const Eigen::Matrix3d z_up = kYUpFromZUp.transpose();
@@ -177,26 +190,39 @@ Pose FromAmass(const Pose& amass) {
 
 Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   if (npz.Has("rotations") && npz.Has("root_positions")) {
+    reading.RefuseBody();
     Motion motion = ReadOwnArrays(Skeleton::Smpl24(), npz);
     CheckMotionLimits(motion);
     return motion;
   }
   const std::optional<Layout> found = FindLayout(npz);
   if (!found && !FindJointArray(npz)) {
-    if (const std::string within = DictWithin(npz); !within.empty()) {
+    MotionReading inner = reading;
+    if (const std::string within = DictWithin(npz, &inner); !within.empty()) {
       NpzArchive nested = npz.Nested(within);
       for (const char* rate : kRateNames) {
         if (npz.Has(rate) && !nested.Has(rate)) nested.SetArray(rate, npz.Array(rate));
       }
       reading.Note("the arrays of its \"" + Printable(within) + "\" are read");
-      return ReadSmplMotion(nested, reading);
+      return ReadSmplMotion(nested, inner);
     }
   }
   if (const auto joints = found ? std::nullopt : FindJointArray(npz))
     return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
   if (!found) npz.Array("poses");  // which is not there: names what is
   const Layout& layout = *found;
-  const bool aist = npz.Has("smpl_scaling");
+  const int64_t people = PeopleIn(
+      npz.Array(layout.body), [&](int64_t width) { return AreRotations(width, JointsOf(layout)); });
+  if (people > 1) {
+    MotionReading inner = reading;
+    const int64_t person = ChoosePerson(people, layout.body, reading);
+    inner.body.clear();
+    return ReadSmplMotion(PersonOf(npz, layout, people, person), inner);
+  }
+  reading.RefuseBody();
+  if (std::string_view(layout.body) == "pose_world")
+    reading.Note("its pose_world and trans_world are read, not what its camera saw");
+  const bool aist = npz.Has("smpl_scaling"), slices = std::string_view(layout.body) == "q";
   const bool edge = std::string_view(layout.body) == "smpl_poses" && !aist;
   Eigen::MatrixXd turns = ReadTurns(npz, layout);
   if (AreDegrees(turns)) {
@@ -209,18 +235,19 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   } else {
     reading.Note(std::string("has no ") + layout.trans + ": the body stays in its place");
   }
-  if (aist) {
-    const double scaling = NpzNumber(npz, "smpl_scaling");
-    if (!(scaling > 0)) throw InvalidArgument("smpl_scaling", "must be above 0");
+  const char* scale = slices ? "scale" : "smpl_scaling";
+  if (npz.Has(scale)) {
+    const double scaling = NpzNumber(npz, scale);
+    if (!(scaling > 0)) throw InvalidArgument(scale, "must be above 0");
     trans /= scaling;
   }
   const double fps = ReadRate(npz, aist ? 60 : kModelFps, aist || edge, reading);
   FileMotion file{.skeleton = Skeleton::Smpl24(),
                   .motion = Assemble(trans, turns, fps, layout.body),
                   .other_shape = HasBetas(npz)};
-  if (!aist) file.up = Eigen::Vector3d::UnitZ();
+  if (!aist && !slices) file.up = Eigen::Vector3d::UnitZ();
   if (!edge)
-    file.root_offset = IsSmplX(npz, turns.rows() / 3) ? kSmplXRestPelvis : SmplRestPelvis();
+    file.root_offset = IsSmplX(npz, turns.rows() / 3) ? SmplXRestPelvis() : SmplRestPelvis();
   return Settle(std::move(file), reading);
 }
 

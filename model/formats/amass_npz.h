@@ -17,6 +17,7 @@
 /// | smplx   | global_orient [F,3], body_pose [F,63 or 69], transl    | z  | pelvis minus J0 |
 /// | AIST++  | smpl_poses [F,72], smpl_trans, smpl_scaling            | y  | pelvis minus J0 |
 /// | EDGE    | smpl_poses [F,72], smpl_trans                          | z  | the pelvis      |
+/// | slices  | q [F,72], pos, scale: AIST++ as EDGE cuts it           | y  | pelvis minus J0 |
 ///
 /// The poses' other names are fullpose, full_pose, pose and thetas. Rotations are axis-angle,
 /// matrices or 6D (rotation_rows.h). The rate is mocap_framerate, mocap_frame_rate, fps, frame_rate
@@ -27,6 +28,8 @@ namespace choreo {
 
 /// Rest position of the neutral body's pelvis in SMPL's own coordinates, metres.
 Eigen::Vector3d SmplRestPelvis();
+/// The same of SMPL-X, whose pelvis is elsewhere.
+Eigen::Vector3d SmplXRestPelvis();
 
 /// A pose of our world (Y up, position of the pelvis) as AMASS states it (Z up, SMPL's translation
 /// in `root_position`), and back. Only the root changes; its angle is in [0, pi] afterwards.

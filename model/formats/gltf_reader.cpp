@@ -86,7 +86,7 @@ SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted
     const GltfNodes& nodes = scene.nodes;
     const auto own = OwnSkeleton(nodes.names, nodes.parents, PlacesOf(nodes.PlaceAtRest()));
     for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
-      if (known == nullptr || !reading.bones.empty()) continue;
+      if (known == nullptr || reading.chooses()) continue;
       if (const auto ours = FindOurs(nodes, *known))
         return {*known, TakeOurs(scene, *ours, *known)};
     }

@@ -1,7 +1,6 @@
 #include "model/formats/gltf_scene.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "model/core/rounded.h"
 #include "model/formats/glb_chunks.h"
 #include "model/formats/gltf_document.h"
+#include "model/formats/node_motion.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"
 #include "model/motion/resample.h"
@@ -32,10 +32,7 @@ size_t NamedAnimation(const tinygltf::Model& model, const std::string& name) {
     if (model.animations[i].name == name) return i;
     names += (i == 0 ? "\"" : ", \"") + Printable(model.animations[i].name) + '"';
   }
-  size_t number = 0;
-  const auto [end, code] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (code == std::errc() && end == name.data() + name.size() && number < model.animations.size())
-    return number;
+  if (const auto number = NumberBelow(name, model.animations.size())) return *number;
   throw InvalidArgument("--animation", '"' + Printable(name) + "\" is none of its " +
                                            std::to_string(model.animations.size()) +
                                            " animations, " + names);
@@ -253,7 +250,9 @@ GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& 
   scene.nodes = ReadGltfNodes(model);
   scene.rig = ReadRigNodes(document, model);
   const size_t animation = ChooseAnimation(model, reading, &scene);
-  scene.bound = BoundPlaces(model, scene.nodes, FindBones(scene.rig, reading.bones));
+  MotionReading quietly = reading;
+  quietly.notes = nullptr;
+  scene.bound = BoundPlaces(model, scene.nodes, FindBody(scene.rig, quietly));
   MendTimes(reading, &scene);
   ChooseTimes(model, animation, scene);
   return scene;

@@ -9,12 +9,14 @@
 #include "model/fit/fit_clip.h"
 #include "model/fit/sources.h"
 #include "model/formats/motion_check.h"
+#include "model/formats/people.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
 namespace {
 
-constexpr const char* kPlacesNames[] = {"joints", "joints3d", "joint_positions", "positions"};
+constexpr const char* kPlacesNames[] = {"joints", "joints3d", "joint_positions", "positions",
+                                        "pred_position"};
 constexpr int64_t kPlacedBody = 22;
 // Of a limb's mean length: networks stretch bones a little.
 constexpr double kStretch = 0.1;
@@ -23,14 +25,16 @@ constexpr double kHand = 0.33, kHandWeight = 0.05;
 
 const Skeleton& PlacedBody() { return Skeleton::Smpl24(); }
 
+bool IsPlacedFrame(int64_t width) {
+  return width == 3 * kPlacedBody || width == 3 * PlacedBody().joints();
+}
+
 /// Joints of all frames, [3, joints] each; none where the shape is another.
 std::vector<Eigen::Matrix3Xd> PlacesOfFrames(const NpyArray& array) {
   std::vector<int64_t> shape = array.shape;
   if (shape.size() == 4 && shape[0] == 1) shape.erase(shape.begin());
   std::vector<Eigen::Matrix3Xd> frames;
-  if (shape.size() != 3 || shape[2] != 3 ||
-      (shape[1] != kPlacedBody && shape[1] != PlacedBody().joints()))
-    return frames;
+  if (shape.size() != 3 || shape[2] != 3 || !IsPlacedFrame(3 * shape[1])) return frames;
   const std::vector<double> values = array.As<double>();
   for (int64_t frame = 0; frame < shape[0]; ++frame)
     frames.emplace_back(
@@ -87,18 +91,32 @@ void ExchangeSides(std::vector<Eigen::Matrix3Xd>* frames) {
 
 std::optional<NpyArray> FindJointArray(const NpzArchive& npz) {
   for (const char* name : kPlacesNames) {
-    if (npz.Has(name)) return npz.Array(name);
+    if (!npz.Has(name)) continue;
+    NpyArray array = npz.Array(name);
+    // Flat, as Bailando's.
+    if (array.shape.size() > 1 && array.shape.back() > 3 && array.shape.back() % 3 == 0) {
+      array.shape.back() /= 3;
+      array.shape.push_back(3);
+    }
+    return array;
   }
   return std::nullopt;
 }
 
 bool AreJointPlaces(const NpyArray& array) {
+  if (PeopleIn(array, IsPlacedFrame) > 1) return AreJointPlaces(PersonOf(array, 0));
   const std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
   // Those of a single frame keep theirs, whatever they are.
   return frames.size() > 1 && KeepLengths(frames);
 }
 
 Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& reading) {
+  if (const int64_t people = PeopleIn(array, IsPlacedFrame); people > 1) {
+    MotionReading inner = reading;
+    inner.body.clear();
+    return ReadJointPlaces(PersonOf(array, ChoosePerson(people, "joints", reading)), fps, inner);
+  }
+  reading.RefuseBody();
   std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
   if (frames.empty() || !AreJointPlaces(array)) {
     throw InvalidArgument("joints",

@@ -11,11 +11,12 @@
 /// this folder.
 namespace choreo {
 
-/// The array joints, joints3d, joint_positions or positions of an archive, if there is one.
+/// The array joints, joints3d, joint_positions, positions or pred_position of an archive, if there
+/// is one, as [..., joints, 3].
 std::optional<NpyArray> FindJointArray(const NpzArchive& npz);
 
 /// Whether they are places: [F, 22 or 24, 3], also in a batch of one, whose limbs keep their
-/// lengths. Rotation vectors do not.
+/// lengths. Rotation vectors do not. Of several people, [people, F, ...], the first is looked at.
 bool AreJointPlaces(const NpyArray& array);
 
 /// SMPL's body fitted to them (fit/fit_clip.h), in its size and on the floor; how head, hands and

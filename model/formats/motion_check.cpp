@@ -224,31 +224,6 @@ double ShareOfFaults(const Skeleton& skeleton, const Motion& motion, std::string
   return static_cast<double>(bent) / static_cast<double>(std::max<size_t>(1, motion.frames.size()));
 }
 
-void MotionReading::NoteRate(double taken) const {
-  Note("states no rate; taken as " + Rounded(taken) + " frames a second, --fps says another");
-}
-
-Eigen::Vector3d ParseUp(const std::string& up) {
-  const bool negative = up.starts_with('-');
-  const std::string axis = up.substr(negative || up.starts_with('+') ? 1 : 0);
-  const size_t index = std::string("xyz").find(axis);
-  if (axis.size() != 1 || index == std::string::npos)
-    throw InvalidArgument("--up", "\"" + up + "\" is none of x, y, z, -x, -y, -z");
-  return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(index)) * (negative ? -1 : 1);
-}
-
-std::string UpName(const Eigen::Vector3d& up) {
-  Eigen::Index axis = 0;
-  up.cwiseAbs().maxCoeff(&axis);
-  return std::string(up[axis] < 0 ? "-" : "") + "xyz"[axis];
-}
-
-Eigen::Matrix3d TurnToYUp(const Eigen::Vector3d& up) {
-  if (up == -Eigen::Vector3d::UnitY())  // there is no shortest one: about X
-    return Eigen::Vector3d(1, -1, -1).asDiagonal();
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY()).toRotationMatrix();
-}
-
 Motion Settle(FileMotion file, const MotionReading& reading) {
   if (file.motion.frames.empty()) return std::move(file.motion);
   const Eigen::Vector3d up = FindUp(file, reading);

@@ -15,6 +15,7 @@
 #include "model/fit/retarget.h"
 #include "model/formats/amass_npz.h"
 #include "model/formats/bvh.h"
+#include "model/formats/frame_rows.h"
 #include "model/formats/gltf.h"
 #include "model/formats/joint_arrays.h"
 #include "model/formats/motion_check.h"
@@ -39,6 +40,7 @@ SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*,
   if (const std::string_view pickle = npz.OnlyPickle(); !pickle.empty())
     return ReadPickled(pickle, path, reading);
   if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz, reading)};
+  reading.RefuseBody();
   const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));
   return {skeleton, ReadOwnArrays(skeleton, npz)};
 }
@@ -60,9 +62,12 @@ SkeletonMotion ReadObjects(const std::filesystem::path& path, const Skeleton*,
       if (!(reading.fps > 0)) reading.NoteRate(fps);
       return {Skeleton::Smpl24(), ReadJointPlaces(array, fps, reading)};
     }
-    throw InvalidArgument(path.string(),
-                          "holds one array and does not say of what: write rotations and places "
-                          "by numpy.savez(\"FILE.npz\", poses=..., trans=..., fps=...)");
+    if (auto motion = ReadFrameRows(array, reading))
+      return {Skeleton::Smpl24(), std::move(*motion)};
+    throw InvalidArgument(
+        path.string(), "holds one array and does not say of what, as rows of " + FrameRowWidths() +
+                           " numbers do: write rotations and places by "
+                           "numpy.savez(\"FILE.npz\", poses=..., trans=..., fps=...)");
   }
   return ReadPickled(parts.values, path, reading);
 }
@@ -131,7 +136,7 @@ SkeletonMotion TakeBvh(const BvhFile& file, const Skeleton* wanted, const Motion
   const Skeleton& smpl = Skeleton::Smpl24();
   const auto own = BvhSkeleton(file);
   for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
-    if (known == nullptr || !reading.bones.empty()) continue;
+    if (known == nullptr || reading.chooses()) continue;
     if (auto motion = BvhToMotion(file, *known)) return {*known, std::move(*motion)};
   }
   return {smpl, FitBvh(file, reading)};

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "model/core/error.h"
 #include "model/fit/character_body.h"
 #include "model/fit/guess_bones.h"
 #include "model/formats/motion_check.h"
@@ -64,19 +65,35 @@ void Tell(const RigFit& fit, const MotionReading& reading) {
 
 }  // namespace
 
-Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
+HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
   HumanBones found = FindBones(nodes, reading.bones);
+  if (!reading.bones.empty() && !reading.body.empty())
+    throw InvalidArgument("--body", "a map says which bones are read: give one of both");
+  if (!reading.bones.empty() || !MissingBone(found).empty()) return found;
+  std::vector<HumanBones> bodies = MovingBodies(nodes, found);
+  std::vector<std::string> names;
+  for (const HumanBones& body : bodies) {
+    const char* bone = body.Find("pelvis") >= 0 ? "pelvis" : "left_hip";
+    names.push_back(nodes.names[static_cast<size_t>(body.Find(bone))]);
+  }
+  if (!reading.body.empty()) return bodies[ChooseBody(reading.body, names)];
+  if (bodies.size() > 1) {
+    const auto same = [&](const HumanBones& body) { return body.bones == found.bones; };
+    const auto read = std::ranges::find_if(bodies, same) - bodies.begin();
+    reading.Note("holds " + std::to_string(bodies.size()) + " bodies that move, " +
+                 ListBodies(names) + "; " + std::to_string(read) + " is read, --body chooses");
+  }
+  return found;
+}
+
+Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
+  HumanBones found = FindBody(nodes, reading);
   if (const std::string missing = MissingBone(found); !missing.empty()) {
     // A rest pose that is no body tells less than the first frame.
     const bool guessable =
         MissingBone(GuessBones(nodes.parents, nodes.places, nodes.joints)).empty();
     if (!guessable) nodes.places = motion.frame(0).places;
     throw UnknownBones("", missing, std::move(nodes), found);
-  }
-  if (reading.bones.empty() && OtherMovingBodies(nodes, found) > 0) {
-    reading.Note("holds several bodies that move; the one of \"" +
-                 nodes.names[static_cast<size_t>(found.Find("left_hip"))] +
-                 "\" that stands first is read, --map chooses by the nodes' numbers");
   }
   found.bones["pelvis"] = TurningPelvis(found, nodes.parents);
   RigMotion rig;

@@ -20,7 +20,12 @@ struct NodeMotion {
   std::function<RigPlacement(int64_t frame)> frame = {};
 };
 
-/// Finds the bones (fit/find_bones.h), turns SMPL's body as they turn (fit/rig_motion.h), and looks
+/// The bones that `reading` says: its map's, those of the body that it names, or those of the first
+/// that moves (fit/find_bones.h), which is noted where others do. Some may be missing. Throws
+/// Error(kInvalidArgument) whose field is --body for a body that there is not.
+HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading);
+
+/// Finds the bones (FindBody), turns SMPL's body as they turn (fit/rig_motion.h), and looks
 /// at it (motion_check.h). Throws UnknownBones without a field where bones are missing.
 Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading);
 

@@ -13,6 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr double kNoRotation = 0.05;  // of a matrix's product with its transpose from 1
+constexpr double kNoSixD = 0.5;       // of Skew, in the mean: networks miss it by far less
 
 /// An array seen as frames of values.
 struct Rows {
@@ -56,21 +57,8 @@ Rows ReadRows(const NpzArchive& npz, const std::string& key, const auto& is_widt
   for (const int64_t size : rows.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(size);
   for (const int64_t count : joints)
     wanted += (wanted.empty() ? "" : " or ") + std::to_string(3 * count);
-  // [people, frames, ...], as those that see several people write.
-  std::string people;
-  if (rows.shape.size() > 2 && rows.shape[0] > 1) {
-    int64_t width = 1;
-    for (size_t i = 2; i < rows.shape.size(); ++i) width *= rows.shape[i];
-    const bool each = std::ranges::any_of(joints, [&](int64_t count) {
-      return width == 3 * count || width == 4 * count || width == 6 * count || width == 9 * count;
-    });
-    if (each) {
-      people = ": are these " + std::to_string(rows.shape[0]) +
-               " people? Write the arrays of one, as in " + key + "[0]";
-    }
-  }
   throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted +
-                                 "], or matrices, 6D or quaternions of as many joints" + people);
+                                 "], or matrices, 6D or quaternions of as many joints");
 }
 
 Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {
@@ -110,6 +98,11 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
     mixed += Skew(six, 2);
   }
   const bool is_mixed = mixed < in_turn;
+  if (6 * std::min(mixed, in_turn) > kNoSixD * static_cast<double>(rows.values.size())) {
+    throw InvalidArgument(key,
+                          "are no rotations in 6D, whose vectors are of length 1 and at right "
+                          "angles: were they normalised? Undo that");
+  }
   for (Eigen::Index frame = 0; frame < rows.values.cols(); ++frame) {
     for (Eigen::Index joint = 0; joint < rows.width / 6; ++joint) {
       try {
@@ -164,19 +157,26 @@ Eigen::MatrixXd FromQuaternions(const Rows& rows, const std::string& key) {
   return turns;
 }
 
+bool IsWidthOf(int64_t width, int64_t values, const std::vector<int64_t>& joints) {
+  return width % values == 0 && std::ranges::find(joints, width / values) != joints.end();
+}
+
 }  // namespace
 
-Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
-                                 std::initializer_list<int64_t> joints) {
-  const auto is_width_of = [&](int64_t width, int64_t values) {
-    return width % values == 0 && std::ranges::find(joints, width / values) != joints.end();
-  };
-  // The root alone does not say where a quaternion has its real part.
-  const auto is_quaternions = [&](int64_t width) { return width > 4 && is_width_of(width, 4); };
-  const Rows rows = ReadRows(npz, key, [&](int64_t width) {
-    return is_width_of(width, 3) || is_width_of(width, 6) || is_width_of(width, 9) ||
-           is_quaternions(width);
+bool AreRotations(int64_t width, const std::vector<int64_t>& joints) {
+  return std::ranges::any_of(std::initializer_list<int64_t>{3, 4, 6, 9}, [&](int64_t values) {
+    // The root alone does not say where a quaternion has its real part.
+    return width != 4 && IsWidthOf(width, values, joints);
   });
+}
+
+Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
+                                 const std::vector<int64_t>& joints) {
+  const auto is_width_of = [&](int64_t width, int64_t values) {
+    return IsWidthOf(width, values, joints);
+  };
+  const auto is_quaternions = [&](int64_t width) { return width > 4 && is_width_of(width, 4); };
+  const Rows rows = ReadRows(npz, key, [&](int64_t width) { return AreRotations(width, joints); });
   const bool says_matrices = rows.last == 9 || (rows.last == 3 && rows.last_but_one == 3);
   if (is_width_of(rows.width, 9) && (says_matrices || !is_width_of(rows.width, 3)))
     return FromMatrices(rows, key);

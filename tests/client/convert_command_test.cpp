@@ -34,6 +34,7 @@ TEST_F(ConvertCommandTest, WhatAFileSaysWronglyIsNotedInOneLine) {
   EXPECT_EQ(Convert("z.bvh", "--up z").said, "");
   EXPECT_THAT(Convert("z.bvh", "--up w").said, HasSubstr("--up: \"w\" is none of x, y, z"));
   EXPECT_THAT(Convert("z.bvh", "--animation a").said, HasSubstr("--animation: is for .glb"));
+  EXPECT_THAT(Convert("z.bvh", "--body B").said, HasSubstr("--body: \"B\" is none of its bodies"));
 }
 
 TEST_F(ConvertCommandTest, AMotionWhoseNamesSayNothingHasAMap) {

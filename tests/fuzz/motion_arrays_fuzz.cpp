@@ -11,11 +11,28 @@ namespace choreo {
 namespace {
 
 // Behind an archive's checksums, which no mutation gets past: what the arrays of a motion may be.
-constexpr std::array kKeys = {"root_positions",  "rotations",   "fps",        "poses",
-                              "trans",           "smpl_poses",  "smpl_trans", "smpl_scaling",
-                              "mocap_framerate", "root_orient", "pose_body",  "global_orient",
-                              "body_pose",       "transl",      "betas",      "jaw_pose",
-                              "joints"};
+constexpr std::array kKeys = {"root_positions",
+                              "rotations",
+                              "fps",
+                              "poses",
+                              "trans",
+                              "smpl_poses",
+                              "smpl_trans",
+                              "smpl_scaling",
+                              "mocap_framerate",
+                              "root_orient",
+                              "pose_body",
+                              "global_orient",
+                              "body_pose",
+                              "transl",
+                              "betas",
+                              "jaw_pose",
+                              "joints",
+                              "pose_world",
+                              "trans_world",
+                              "q",
+                              "pos",
+                              "scale"};
 constexpr std::array<int64_t, 19> kExtents = {0, 1, 2,  3,  24,  25,  72, 156, 165, 4,
                                               6, 9, 21, 63, 144, 216, 22, 88,  96};
 

@@ -6,7 +6,6 @@
 
 #include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/pickles.h"
 
 namespace choreo::bodies_test {
 
@@ -96,7 +95,7 @@ TEST_F(CasesTest, TheLogOfBodiesInBvh) {
   for (const Row& row : std::vector<Row>{
            {"a partner below a second root",
             BvhText(Together(Dancing(With("A:", names)), Dancing(With("B:", names), Walk))),
-            Expressive, "several bodies that move"},
+            Expressive, "holds 2 bodies that move"},
            {"a still twin of another namespace first",
             BvhText(Together(Still(With("Dummy:", names)), Dancing(With("Actor:", names))))},
            {"a still twin first, numbers behind the names of the one that moves",
@@ -237,61 +236,62 @@ TEST_F(CasesTest, APoseOfADanceIsNoRestPose) {
   EXPECT_LT(Compare(read.motion, Expressive).limbs, 0.1);
 }
 
-TEST_F(CasesTest, TheLogOfBodiesInArrays) {
-  constexpr int kFrames = 20;
-  std::vector<double> poses, trans, places;
-  Motion mirrored{.fps = 30, .frames = {}};
-  for (int frame = 0; frame < kFrames; ++frame) {
-    Pose pose = RestPose(kSmpl);
-    pose.root_position.x() = 0.05 * frame;
-    pose.rotations.col(kSmpl.left_hip) << -0.02 * frame, 0, 0;
-    pose.rotations.col(kSmpl.left_knee) << 0.03 * frame, 0, 0;
-    pose.rotations.col(kSmpl.right_shoulder) << 0, 0, 1.2;
-    mirrored.frames.push_back(pose);
-    poses.insert(poses.end(), pose.rotations.data(), pose.rotations.data() + 66);
-    trans.insert(trans.end(), pose.root_position.begin(), pose.root_position.end());
-    Eigen::Matrix3Xd at = JointPositions(kSmpl, pose);
-    at.row(0) *= -1;
-    places.insert(places.end(), at.data(), at.data() + 66);
+TEST_F(CasesTest, BodiesAreChosen) {
+  const RigNames names = NamesOf(kHumanIkRig);
+  const auto reads = [&](const std::string& body, const RigTurn& right) {
+    SCOPED_TRACE(body);
+    const Read read = ReadFile("a.bvh", {.body = body});
+    EXPECT_LT(Compare(read.motion, right).turns, kOpen);
+    EXPECT_TRUE(read.notes.empty()) << Said(read);
+  };
+  const std::string hips = names("pelvis");
+  const BvhFile pair = Together(Dancing(With("A:", names)), Dancing(With("B:", names), Walk));
+  EXPECT_TRUE(ReadBytes("a.bvh", BvhText(pair))
+                  .Says("holds 2 bodies that move, 0 \"A:" + hips + "\", 1 \"B:" + hips +
+                        "\"; 0 is read, --body chooses"));
+  reads("A:" + hips, Expressive), reads("0", Expressive);
+  reads("B:" + hips, Walk), reads("1", Walk);
+  for (const std::string body : {"2", "C"}) {
+    ExpectError(ErrorCode::kInvalidArgument,
+                "--body: \"" + body + "\" is none of its bodies, 0 \"A:", [&] {
+                  ReadFile("a.bvh", {.body = body});
+                });
   }
-  const NpyArray rate{{}, std::vector<double>{30}};
-  NpzArchive joints;
-  joints.SetArray("joints", {{kFrames, 22, 3}, places});
-  joints.SetArray("fps", rate);
-  const Read read = ReadNpz(joints);
-  EXPECT_TRUE(read.Says("its left and right are exchanged")) << Said(read);
-  // The dance in a mirror: the other leg is lifted, and the way goes the other way.
-  const JointPlacement end = ForwardKinematics(kSmpl, read.motion.frames.back());
-  EXPECT_GT(end.positions(1, kSmpl.Find("right_ankle")),
-            end.positions(1, kSmpl.Find("left_ankle")) + 0.03);
-  EXPECT_NEAR(read.motion.frames.back().root_position.x(),
-              read.motion.frames.front().root_position.x() - 0.95, 0.05);
+  ExpectError(ErrorCode::kInvalidArgument, "--body: a map says which bones are read", [&] {
+    ReadFile("a.bvh", {.body = "1", .bones = {{.bone = "head", .node = 5, .field = "map"}}});
+  });
+  WriteFile(folder_ / "a.bvh", BvhText(Together(Dancing(names), Dancing(names, Walk))));
+  reads("1", Walk);
+  ExpectError(ErrorCode::kInvalidArgument, "--body: \"" + hips + "\" is several of its bodies, 0 ",
+              [&] { ReadFile("a.bvh", {.body = hips}); });
+  // Of a file of one, too.
+  WriteFile(folder_ / "a.bvh", BvhText(Dancing(names)));
+  reads("0", Expressive);
+  ExpectError(ErrorCode::kInvalidArgument, "--body: \"1\" is none of its bodies, 0 \"" + hips,
+              [&] { ReadFile("a.bvh", {.body = "1"}); });
+}
 
-  const std::map<std::string, NpyArray> arrays = {
-      {"poses", {{kFrames, 66}, poses}}, {"trans", {{kFrames, 3}, trans}}, {"fps", rate}};
-  NpzArchive flat;
-  for (const auto& [key, array] : arrays) flat.SetArray(key, array);
-  const Motion base = ReadNpz(flat, {.up = "y"}).motion;
-  WritePickledDicts(folder_ / "a.pkl", {{"smpl", arrays}});
-  const Read nested = ReadFile("a.pkl", {.up = "y"});
-  EXPECT_TRUE(nested.Says("the arrays of its \"smpl\" are read")) << Said(nested);
-  EXPECT_LT(WorstJoint(base, nested.motion), 1e-6);
-  WritePickledDicts(folder_ / "a.pkl", {{"camera", arrays}, {"world", arrays}});
-  ExpectError(ErrorCode::kInvalidArgument,
-              "a.pkl: holds 2 motions, \"camera\" and \"world\": write the arrays of one by",
-              [&] { ReadFile("a.pkl"); });
-
-  NpzArchive two;
-  std::vector<double> twice = poses, places_twice = trans;
-  twice.insert(twice.end(), poses.begin(), poses.end());
-  places_twice.insert(places_twice.end(), trans.begin(), trans.end());
-  two.SetArray("poses", {{2, kFrames, 66}, twice});
-  two.SetArray("trans", {{2, kFrames, 3}, places_twice});
-  ExpectError(ErrorCode::kInvalidArgument,
-              "a.npz: poses: has the shape [2, 20, 66], expected [frames, 72",
-              [&] { ReadNpz(two); });
-  ExpectError(ErrorCode::kInvalidArgument,
-              "are these 2 people? Write the arrays of one, as in poses[0]", [&] { ReadNpz(two); });
+// The bodies of one animation, each bound by a skin of its own.
+TEST_F(CasesTest, BodiesOfGltfAreChosen) {
+  GlbRigs glb;
+  const RigNames names = NamesOf(kHumanIkRig);
+  for (const RigTurn& turn : {RigTurn(Expressive), RigTurn(Walk)}) {
+    const int body = glb.AddBody(names);
+    glb.AddSkin(body);
+    glb.AddAnimation("dance", body, turn, 20);
+  }
+  GlbRigs::Json& animations = glb.document["animations"];
+  const size_t samplers = animations[0]["samplers"].size();
+  for (GlbRigs::Json channel : animations[1]["channels"]) {
+    channel["sampler"] = channel["sampler"].get<size_t>() + samplers;
+    animations[0]["channels"].push_back(channel);
+  }
+  for (const GlbRigs::Json& sampler : animations[1]["samplers"])
+    animations[0]["samplers"].push_back(sampler);
+  animations.erase(1);
+  EXPECT_TRUE(ReadBytes("a.glb", glb.Bytes()).Says("holds 2 bodies that move"));
+  EXPECT_LT(Compare(ReadFile("a.glb", {.body = "0"}).motion, Expressive).turns, kOpen);
+  EXPECT_LT(Compare(ReadFile("a.glb", {.body = "1"}).motion, Walk).turns, kOpen);
 }
 
 }  // namespace choreo::bodies_test

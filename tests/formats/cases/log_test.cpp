@@ -328,7 +328,8 @@ TEST_F(CasesTest, ADictThatNumpySaved) {
   const std::string pickle = choreo::ReadFile(folder_ / "a.pkl");
   const std::string npy = JoinNpy({.descr = "|O", .shape = {}, .values = pickle});
   EXPECT_LT(WorstJoint(smpl.motion, ReadBytes("a.npy", npy).motion), 1e-6);
-  ExpectError(ErrorCode::kInvalidArgument, "a.npy: holds one array and does not say of what",
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.npy: holds one array and does not say of what, as rows of 135, ",
               [&] { ReadBytes("a.npy", SerializeNpy(poses)); });
 }
 

@@ -51,6 +51,35 @@ TEST_F(CasesTest, NamesAreSpeltInManyWays) {
   }
 }
 
+// As CMU's, whose collars begin where the neck does. They shrug.
+TEST_F(CasesTest, CollarsThatBeginAtTheNecksBase) {
+  const RigNames names = NamesOf("CMU");
+  const RigTurn shrugs = [](const std::string& bone, int frame) -> Eigen::Matrix3d {
+    if (bone == "left_collar") return About(0, 0, 1, 12 * std::sin(frame * 0.3));
+    return Expressive(bone, frame);
+  };
+  for (const RigTurn& turn : {RigTurn(Expressive), shrugs}) {
+    BvhFile file = MakeBvh({.names = names, .turn = turn});
+    const auto offset = [&](const std::string& bone) -> Eigen::Vector3d& {
+      const auto named = [&](const BvhJoint& joint) { return joint.name == names(bone); };
+      return std::ranges::find_if(file.joints, named)->offset;
+    };
+    for (const std::string side : {"left_", "right_"}) {
+      offset(side + "shoulder") += offset(side + "collar") - offset("neck");
+      offset(side + "collar") = offset("neck");
+    }
+    const Read read = ReadBytes("a.bvh", BvhText(file));
+    const Wrong wrong = Compare(read.motion, turn);
+    EXPECT_LT(wrong.limbs, 0.1);
+    EXPECT_LT(wrong.turns, kOpen) << wrong.where;
+    const int left = kSmpl.left_shoulder, right = kSmpl.right_shoulder;
+    const Eigen::Matrix3Xd rest = JointPositions(kSmpl, RestPose(kSmpl));
+    const Eigen::Matrix3Xd ours = JointPositions(kSmpl, read.motion.frames[0]);
+    EXPECT_NEAR((ours.col(left) - ours.col(right)).norm(),
+                (rest.col(left) - rest.col(right)).norm(), 0.02);
+  }
+}
+
 TEST_F(CasesTest, ARestPoseThatIsNoBodyIsMadeOutOfTheClip) {
   // As Maya writes it: all bones along x.
   BvhRig rig{.turn = Walk, .frames = 60};
