@@ -196,7 +196,8 @@ void MendTimes(const MotionReading& reading, GltfScene* scene) {
                " s apart; their times are taken as milliseconds");
 }
 
-void ChooseTimes(const tinygltf::Model& model, size_t number, GltfScene& scene) {
+void ChooseTimes(const tinygltf::Model& model, size_t number, const MotionReading& reading,
+                 GltfScene& scene) {
   const tinygltf::Animation& animation = model.animations[number];
   const GltfChannel* densest = &scene.channels[0];
   scene.start = scene.channels[0].times[0];
@@ -205,6 +206,10 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, GltfScene& scene) 
     scene.start = std::min(scene.start, channel.times[0]);
     end = std::max(end, channel.times[channel.times.size() - 1]);
     if (channel.times.size() > densest->times.size()) densest = &channel;
+  }
+  if (scene.start >= 1) {
+    reading.Note("its first key is at " + Rounded(scene.start) +
+                 " s, which is the motion's beginning");
   }
   scene.fps = kModelFps;
   const Eigen::Index keys = densest->times.size();
@@ -254,7 +259,7 @@ GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& 
   quietly.notes = nullptr;
   scene.bound = BoundPlaces(model, scene.nodes, FindBody(scene.rig, quietly));
   MendTimes(reading, &scene);
-  ChooseTimes(model, animation, scene);
+  ChooseTimes(model, animation, reading, scene);
   return scene;
 }
 

@@ -11,7 +11,6 @@
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/core/rounded.h"
-#include "model/fit/fit_clip.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_faults.h"
@@ -71,15 +70,16 @@ double ShareStanding(const std::vector<Eigen::Vector3d>& trunks, const Eigen::Ve
   return static_cast<double>(standing) / static_cast<double>(std::max<size_t>(1, trunks.size()));
 }
 
-/// How far the lowest joint is along `up`, in the middle of all frames: 0 on the file's floor.
-double LowestAlong(const FileMotion& file, const Eigen::Vector3d& up) {
+/// How far the lowest joint is along `up`, in the middle of all frames or in another share of them:
+/// 0 on the file's floor.
+double LowestAlong(const FileMotion& file, const Eigen::Vector3d& up, double share = 0.5) {
   std::vector<double> lowest;
   JointPlacement placement;
   for (const Pose& pose : file.motion.frames) {
     ForwardKinematics(file.skeleton, pose, placement);
     lowest.push_back((up.transpose() * placement.positions).minCoeff() + up.dot(file.root_offset));
   }
-  return Median(std::move(lowest));
+  return Quantile(std::move(lowest), share);
 }
 
 /// Whether the body is on the file's floor, and its pelvis above it, if `up` is up.
@@ -131,7 +131,7 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
     }
     // Who lies on the file's floor, and would stand in the air, lies.
     const bool lies = std::abs(LowestAlong(file, file.up)) < kOnFloor &&
-                      std::abs(LowestAlong(file, axis)) > kOnFloor;
+                      std::abs(LowestAlong(file, axis, kFloorShare)) > kOnFloor;
     if (lies || trunks.size() < kFewFrames || axis == -file.up) {
       reading.Note(std::string("its body ") + (axis == -file.up ? "stands on its head" : "lies") +
                    "; --up " + UpName(axis) + " stands it up, if it should stand");
@@ -192,6 +192,19 @@ void TellOfBends(const Skeleton& skeleton, const Motion& motion, const MotionRea
   }
 }
 
+// Puts a rig on the floor, as a whole: who steps onto a stage, or is lifted, stays up there.
+void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* motion) {
+  std::vector<double> heights, hips;
+  for (const Pose& pose : motion->frames) {
+    heights.push_back(HeightAboveFloor(skeleton, pose));
+    hips.push_back(pose.root_position.y());
+  }
+  const double floor = Quantile(heights, kFloorShare), hip = Median(std::move(hips));
+  for (Pose& pose : motion->frames) pose.root_position.y() -= floor;
+  if (std::abs(floor) > kHangs && std::abs(hip) > kStill)
+    reading.Note("moved by " + Metres(-floor) + " in height onto the floor");
+}
+
 // Puts the clip as a whole where its floor is.
 void FindFloor(const FileMotion& file, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights;
@@ -235,7 +248,7 @@ Motion Settle(FileMotion file, const MotionReading& reading) {
     for (Pose& pose : motion.frames) pose.root_position = unit * pose.root_position + offset;
     FindFloor(file, reading, &motion);
   } else {
-    Ground(file.skeleton, motion);
+    PutOnFloor(file.skeleton, reading, &motion);
   }
   MakeContinuous(motion);
   TellOfStillness(motion, reading);

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
+#include "model/core/rounded.h"
 #include "model/fit/character_body.h"
 #include "model/fit/guess_bones.h"
 #include "model/formats/motion_check.h"
@@ -63,6 +65,30 @@ void Tell(const RigFit& fit, const MotionReading& reading) {
     reading.Note("has no " + Joined(fit.missing) + ": our own go along with what carries them");
 }
 
+// Files made at home have bones in centimetres and the root's places in metres.
+void TellOfUnits(const RigMotion& rig, const RigFit& fit, const MotionReading& reading) {
+  constexpr double kLowest = 0.5,
+                   kHighest = 2;  // of the pelvis above the floor, in lengths of legs
+  const Eigen::Vector3d up = fit.up.value_or(Eigen::Vector3d::UnitY());
+  const auto place = [&](const RigPlacement& at, const char* bone) -> Eigen::Vector3d {
+    return at.places.col(rig.bones.Find(bone));
+  };
+  std::vector<double> heights;
+  for (int64_t frame = 0; frame < rig.count; frame += 1 + rig.count / 100)
+    heights.push_back(up.dot(place(rig.frame(frame), "pelvis")));
+  const RigPlacement first = rig.frame(0);
+  const double leg = (place(first, "left_hip") - place(first, "left_knee")).norm() +
+                     (place(first, "left_knee") - place(first, "left_ankle")).norm();
+  const double height = Median(std::move(heights)) / leg;
+  for (const double unit : {100.0, 0.01}) {
+    if (height * unit < kLowest || height * unit > kHighest) continue;
+    reading.Note("its pelvis stands at " + Rounded(height) +
+                 " lengths of its legs: are its root's " +
+                 "places in another unit than its bones? Then its ways are " + Rounded(1 / unit) +
+                 " times as long as they were");
+  }
+}
+
 }  // namespace
 
 HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
@@ -115,6 +141,7 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
   RigFit fit = FitRig(rig, reading.scale);
   CheckMotionLimits(fit.motion);
   Tell(fit, reading);
+  TellOfUnits(rig, fit, reading);
   return Settle({.skeleton = Skeleton::Smpl24(),
                  .motion = std::move(fit.motion),
                  .rest_up = fit.up,

@@ -297,6 +297,23 @@ TEST_F(CasesTest, NamesOfTheTrade) {
             0.03);
 }
 
+// Y up, and upright: up a staircase, away from where the floor was.
+TEST_F(CasesTest, WhoClimbsDoesNotLie) {
+  const SmplArrays smpl(60);
+  std::vector<double> poses, trans;
+  for (size_t frame = 0; frame < 60; ++frame) {
+    const Pose& pose = smpl.motion.frames[frame];
+    poses.insert(poses.end(), pose.rotations.data(), pose.rotations.data() + 72);
+    trans.insert(trans.end(), {0, 1.15 + 0.02 * static_cast<double>(frame), 0.9});
+  }
+  NpzArchive npz;
+  npz.SetArray("poses", {{60, 72}, poses});
+  npz.SetArray("trans", {{60, 3}, trans});
+  npz.SetArray("fps", {{}, std::vector<double>{30}});
+  const Read read = ReadNpz(npz);
+  EXPECT_TRUE(read.Says("taken as y up, not z")) << Said(read);
+}
+
 TEST_F(CasesTest, AnotherBodysFeetStandOnTheFloor) {
   SmplArrays smpl;
   for (size_t i = 2; i < smpl.trans.size(); i += 3) smpl.trans[i] -= 0.09;

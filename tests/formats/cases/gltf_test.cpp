@@ -123,6 +123,19 @@ TEST_F(CasesTest, BonesAreFoundByWhatTheyAre) {
   }
 }
 
+TEST_F(CasesTest, SecondsCountFromTheFirstKey) {
+  GlbRigs glb;
+  const int body = glb.AddBody(NamesOf(kHumanIkRig));
+  glb.AddAnimation("dance", body, Expressive, 20);
+  std::vector<float> times;
+  for (int frame = 0; frame < 20; ++frame) times.push_back(12 + static_cast<float>(frame) / 30);
+  const size_t input = glb.AddFloats(times, "SCALAR");
+  for (auto& sampler : glb.document["animations"][0]["samplers"]) sampler["input"] = input;
+  const Read read = ReadBytes("a.glb", glb.Bytes());
+  EXPECT_EQ(read.motion.frames.size(), 20U);
+  EXPECT_TRUE(read.Says("its first key is at 12 s, which is the motion's beginning")) << Said(read);
+}
+
 TEST_F(CasesTest, TwoBodiesThatMoveAreSaid) {
   GlbRigs glb;
   const RigNames names = NamesOf(kHumanIkRig);

@@ -80,6 +80,40 @@ TEST_F(CasesTest, CollarsThatBeginAtTheNecksBase) {
   }
 }
 
+double LowestToe(const Pose& pose) {
+  const Eigen::Matrix3Xd at = JointPositions(kSmpl, pose);
+  return std::min(at(1, kSmpl.feet[1]), at(1, kSmpl.feet[3]));
+}
+
+// For how long she stands there does not matter.
+TEST_F(CasesTest, WhoStepsOntoAStageStaysUpThere) {
+  BvhFile file = MakeBvh({.turn = Expressive, .frames = 600});
+  const auto rise = [&](double height, double whole) {
+    for (int frame = 0; frame < 600; ++frame)
+      file.values(1, frame) += whole + (frame >= 200 && frame < 500 ? height : 0);
+  };
+  const Motion level = ReadBytes("a.bvh", BvhText(file)).motion;
+  rise(60, 0);
+  const Read read = ReadBytes("a.bvh", BvhText(file));
+  EXPECT_TRUE(read.notes.empty()) << Said(read);
+  for (const size_t frame : {100U, 220U, 350U, 480U, 550U}) {
+    EXPECT_NEAR(LowestToe(read.motion.frames[frame]) - LowestToe(level.frames[frame]),
+                frame >= 200 && frame < 500 ? 0.6 : 0, 0.02)
+        << frame;
+  }
+  rise(0, 150);
+  const Read hangs = ReadBytes("a.bvh", BvhText(file));
+  EXPECT_TRUE(hangs.Says("in height onto the floor")) << Said(hangs);
+  EXPECT_LT(WorstJoint(read.motion, hangs.motion), 1e-6);
+}
+
+TEST_F(CasesTest, PlacesInAnotherUnitThanBonesAreSaid) {
+  BvhFile file = MakeBvh({.turn = Expressive});
+  file.values.topRows(3) /= 100;
+  const Read read = ReadBytes("a.bvh", BvhText(file));
+  EXPECT_TRUE(read.Says("are its root's places in another unit than its bones?")) << Said(read);
+}
+
 TEST_F(CasesTest, ARestPoseThatIsNoBodyIsMadeOutOfTheClip) {
   // As Maya writes it: all bones along x.
   BvhRig rig{.turn = Walk, .frames = 60};
