@@ -131,7 +131,7 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
     }
     // Who lies on the file's floor, and would stand in the air, lies.
     const bool lies = std::abs(LowestAlong(file, file.up)) < kOnFloor &&
-                      std::abs(LowestAlong(file, axis, kFloorShare)) > kOnFloor;
+                      std::abs(LowestAlong(file, axis, 0)) > kOnFloor;
     if (lies || trunks.size() < kFewFrames || axis == -file.up) {
       reading.Note(std::string("its body ") + (axis == -file.up ? "stands on its head" : "lies") +
                    "; --up " + UpName(axis) + " stands it up, if it should stand");
@@ -192,13 +192,16 @@ void TellOfBends(const Skeleton& skeleton, const Motion& motion, const MotionRea
   }
 }
 
-// Puts a rig on the floor, as a whole: who steps onto a stage, or is lifted, stays up there.
+// Puts a rig on the floor, as a whole: who steps onto a stage, or is lifted, stays up there. It is
+// the file's own where the body comes down to that.
 void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights, hips;
   for (const Pose& pose : motion->frames) {
     heights.push_back(HeightAboveFloor(skeleton, pose));
     hips.push_back(pose.root_position.y());
   }
+  if (std::abs(*std::ranges::min_element(heights)) < kHangs)
+    std::erase_if(heights, [](double height) { return height > kHangs; });
   const double floor = Quantile(heights, kFloorShare), hip = Median(std::move(hips));
   for (Pose& pose : motion->frames) pose.root_position.y() -= floor;
   if (std::abs(floor) > kHangs && std::abs(hip) > kStill)

@@ -304,7 +304,7 @@ TEST_F(CasesTest, WhoClimbsDoesNotLie) {
   for (size_t frame = 0; frame < 60; ++frame) {
     const Pose& pose = smpl.motion.frames[frame];
     poses.insert(poses.end(), pose.rotations.data(), pose.rotations.data() + 72);
-    trans.insert(trans.end(), {0, 1.15 + 0.02 * static_cast<double>(frame), 0.9});
+    trans.insert(trans.end(), {0, 1.15 + 0.05 * static_cast<double>(frame), 0.9});
   }
   NpzArchive npz;
   npz.SetArray("poses", {{60, 72}, poses});

@@ -101,10 +101,16 @@ TEST_F(CasesTest, WhoStepsOntoAStageStaysUpThere) {
                 frame >= 200 && frame < 500 ? 0.6 : 0, 0.02)
         << frame;
   }
+  // Nor for how short she is on the floor.
+  BvhFile stairs = MakeBvh({.turn = Expressive, .frames = 600});
+  for (int frame = 0; frame < 600; ++frame) stairs.values(1, frame) += 0.5 * frame;
+  const Motion climbs = ReadBytes("a.bvh", BvhText(stairs)).motion;
+  EXPECT_NEAR(LowestToe(climbs.frames[0]), LowestToe(level.frames[0]), 0.05);
+  EXPECT_NEAR(LowestToe(climbs.frames[599]) - LowestToe(level.frames[599]), 3, 0.06);
   rise(0, 150);
   const Read hangs = ReadBytes("a.bvh", BvhText(file));
   EXPECT_TRUE(hangs.Says("in height onto the floor")) << Said(hangs);
-  EXPECT_LT(WorstJoint(read.motion, hangs.motion), 1e-6);
+  EXPECT_LT(WorstJoint(read.motion, hangs.motion), 0.01);
 }
 
 TEST_F(CasesTest, PlacesInAnotherUnitThanBonesAreSaid) {
