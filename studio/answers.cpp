@@ -71,6 +71,7 @@ Response ComposeKeys(const House& house, const Song* music, const Compose& reque
   composition.beats.assign(request.beats().begin(), request.beats().end());
   cli::CheckBeats(composition.beats, "compose.beats");
   if (music && composition.beats.empty()) composition.beats = music->music.track.Seconds();
+  if (music) composition.passages = music->music.passages;
   Response response;
   response.mutable_keyframes();
   const auto library = cli::PosesToDance(house.model().skeleton);

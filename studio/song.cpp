@@ -73,7 +73,7 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
       std::min(Room(beats), static_cast<int64_t>(std::ceil(seconds / kSuggestedEvery)));
   if (count > 0) {
     for (const SuggestedKey& key :
-         SuggestKeys(song.music.track, song.music.onset_strength, count, "suggested"))
+         SuggestKeys(song.music.track, song.music.onset_strength, song.music.passages, {count}))
       song.heard.add_suggested(key.time_s);
   }
   for (const std::string& note : song.music.audio.notes) song.heard.add_notes(note);

@@ -5,10 +5,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/cli/choreography.h"
 #include "client/cli/commands.h"
 #include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "client/cli/pose_library.h"
 #include "model/audio/mfcc.h"
 #include "model/audio/suggest_keys.h"
 #include "model/core/error.h"
@@ -24,6 +26,7 @@ struct AnalyzeOptions {
   std::string features;
   BeatOptions beats;
   std::optional<int64_t> suggest_keys;
+  std::optional<uint64_t> seed;
   double from_s = 0;
   double until_s = std::numeric_limits<double>::infinity();
 };
@@ -40,26 +43,33 @@ void CheckPart(const Music& music, const AnalyzeOptions& options) {
   }
 }
 
-/// Suggestions among the beats from one second to another; they count the beats of the song.
-std::vector<SuggestedKey> Suggest(const Music& music, const AnalyzeOptions& options) {
+/// A beat, and the pose of the library for it.
+struct ProposedKey {
+  SuggestedKey on;
+  std::string id, pose;
+};
+
+std::vector<ProposedKey> Propose(const Music& music, const AnalyzeOptions& options) {
   CheckPart(music, options);
-  const std::vector<double> beats = music.track.Seconds();
-  BeatTrack part;
-  size_t before = 0;
-  for (size_t i = 0; i < beats.size(); ++i) {
-    if (beats[i] < options.from_s) {
-      ++before;
-    } else if (beats[i] <= options.until_s) {
-      part.frames.push_back(music.track.frames[i]);
-    }
-  }
-  std::vector<SuggestedKey> keys =
-      SuggestKeys(part, music.onset_strength, *options.suggest_keys, "--suggest-keys");
-  for (SuggestedKey& key : keys) key.beat += before;
-  return keys;
+  const std::vector<SuggestedKey> keys =
+      SuggestKeys(music.track, music.onset_strength, music.passages,
+                  {*options.suggest_keys, options.from_s, options.until_s, "--suggest-keys"});
+  std::vector<double> times;
+  for (const SuggestedKey& key : keys) times.push_back(key.time_s);
+  const std::vector<LibraryPose> poses = PosesToDance(Skeleton::Smpl24());
+  const std::vector<size_t> drawn =
+      DrawPoses(times, music.passages, options.seed.value_or(0), poses.size());
+  std::vector<ProposedKey> proposed;
+  for (size_t i = 0; i < keys.size(); ++i)
+    proposed.push_back({keys[i], IdOfKey(i + 1, poses[drawn[i]]), poses[drawn[i]].id});
+  return proposed;
 }
 
-void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>>& keys) {
+/// In the order of Phrase.
+constexpr const char* kBegins[] = {"a beat", "a bar", "an eight", "a passage"};
+const char* Begins(const SuggestedKey& key) { return kBegins[static_cast<size_t>(key.begins)]; }
+
+void PrintJson(const Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
   nlohmann::ordered_json json;
   json["duration_s"] = music.audio.seconds();
   json["sample_rate"] = music.audio.sample_rate;
@@ -76,9 +86,13 @@ void PrintJson(const Music& music, const std::optional<std::vector<SuggestedKey>
   json["notes"] = music.audio.notes;
   if (keys) {
     json["suggested_keys"] = nlohmann::ordered_json::array();
-    for (const SuggestedKey& key : *keys) {
-      json["suggested_keys"].push_back(
-          {{"time_s", key.time_s}, {"beat", key.beat}, {"strength", key.strength}});
+    json["keyframes"] = nlohmann::ordered_json::array();
+    for (const auto& [on, id, pose] : *keys) {
+      json["suggested_keys"].push_back({{"time_s", on.time_s},
+                                        {"beat", on.beat},
+                                        {"strength", on.strength},
+                                        {"begins", Begins(on)}});
+      json["keyframes"].push_back({{"id", id}, {"time", on.time_s}, {"pose", pose}});
     }
   }
   std::cout << json.dump(2) << std::endl;
@@ -109,7 +123,7 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
-void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>>& keys) {
+void PrintText(const Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
   std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats, %zu bars of %d\n",
               music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
               music.track.tempo_bpm, music.track.frames.size(),
@@ -120,8 +134,9 @@ void PrintText(const Music& music, const std::optional<std::vector<SuggestedKey>
                 passage.like);
   if (!keys) return;
   std::printf("key poses would sit well at\n");
-  for (const SuggestedKey& key : *keys)
-    std::printf("%9.3f s  beat %zu, strength %.2f\n", key.time_s, key.beat, key.strength);
+  for (const auto& [on, id, pose] : *keys)
+    std::printf("%9.3f s  beat %zu, strength %.2f, begins %s: %s\n", on.time_s, on.beat,
+                on.strength, Begins(on), pose.c_str());
 }
 
 void Run(const AnalyzeOptions& options) {
@@ -134,8 +149,8 @@ void Run(const AnalyzeOptions& options) {
     WriteNpy(options.features, {{rows.rows(), rows.cols()},
                                 std::vector<float>(rows.data(), rows.data() + rows.size())});
   }
-  std::optional<std::vector<SuggestedKey>> keys;
-  if (options.suggest_keys) keys = Suggest(music, options);
+  std::optional<std::vector<ProposedKey>> keys;
+  if (options.suggest_keys) keys = Propose(music, options);
   options.json ? PrintJson(music, keys) : PrintText(music, keys);
 }
 
@@ -163,14 +178,17 @@ void AddAnalyzeCommand(CLI::App& program) {
       command
           ->add_option(
               "--suggest-keys", options->suggest_keys,
-              "Name so many beats on which key poses would sit well: strong ones, spread over "
-              "the song.")
+              "Name so many beats on which key poses would sit well, spread over the song, where "
+              "passages begin, eights and bars, and a pose of the library for each: the same where "
+              "a passage returns. With --json they are a file for `choreo dance --keyframes`.")
           ->check(WholeNumberFrom(1, 1'000'000));
   command->add_option("--from", options->from_s, "Second from which on keys are suggested.")
       ->check(TimeInSeconds())
       ->needs(suggest);
   command->add_option("--until", options->until_s, "Second up to which keys are suggested.")
       ->check(TimeInSeconds())
+      ->needs(suggest);
+  AddSeed(*command, options->seed, "Another seed suggests other poses. Default: 0.")
       ->needs(suggest);
   command->callback([options] { Run(*options); });
 }

@@ -34,7 +34,7 @@ class Dice {
 /// that leave time to move. Before the first and after the last beat that is heard, the count goes
 /// on.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
-  const auto& [seconds, beats, seed, end, named] = request;
+  const auto& [seconds, beats, passages, seed, end, named] = request;
   double period = kPlainInterval;
   std::vector<double> counts = {0};
   if (beats.size() >= 2) {
@@ -81,7 +81,70 @@ class Walk {
   GroundFrame place_;
 };
 
+/// The library's poses, in the order in which keys have them.
+class Deck {
+ public:
+  Deck(Dice* dice, size_t poses, std::span<const Passage> passages)
+      : dice_(dice), poses_(poses), passages_(passages) {}
+
+  /// The pose of the next key, which stands behind the ones before.
+  size_t Next(double time) {
+    std::optional<size_t> pose = Before(time);
+    if (!pose || (!drawn_.empty() && *pose == drawn_.back().pose)) pose = Draw();
+    drawn_.push_back({time, *pose});
+    return *pose;
+  }
+
+ private:
+  struct Drawn {
+    double time;
+    size_t pose;
+  };
+
+  /// That of the key which stood there when the passage was there before.
+  std::optional<size_t> Before(double time) const {
+    for (const Passage& passage : passages_) {
+      if (time < passage.from || time >= passage.to) continue;
+      const double then = time - passage.from + passage.like;
+      for (const Drawn& key : drawn_) {
+        if (std::abs(key.time - then) < kShortestKeyInterval / 2) return key.pose;
+      }
+    }
+    return std::nullopt;
+  }
+
+  size_t Draw() {
+    if (left_.empty()) {  // a pose comes again when all have been danced
+      for (size_t i = 0; i < poses_; ++i) left_.push_back(i);
+    }
+    size_t card = dice_->Below(left_.size());
+    if (!drawn_.empty() && left_[card] == drawn_.back().pose) card = (card + 1) % left_.size();
+    const size_t pose = left_[card];
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(card));
+    return pose;
+  }
+
+  Dice* dice_;
+  size_t poses_;
+  std::span<const Passage> passages_;
+  std::vector<Drawn> drawn_;
+  std::vector<size_t> left_;
+};
+
 }  // namespace
+
+std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
+                              uint64_t seed, size_t poses) {
+  Dice dice(seed);
+  Deck deck(&dice, poses, passages);
+  std::vector<size_t> drawn;
+  for (const double time : times) drawn.push_back(deck.Next(time));
+  return drawn;
+}
+
+std::string IdOfKey(size_t number, const LibraryPose& pose) {
+  return std::to_string(number) + "-" + pose.id;
+}
 
 std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
                                          std::span<const LibraryPose> poses) {
@@ -91,26 +154,18 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
     throw InvalidArgument(request.named, message.str());
   }
   Dice dice(request.seed);
+  Deck deck(&dice, poses.size(), request.passages);
   Walk walk(&dice);
   std::vector<client::KeyPose> keys;
-  std::vector<size_t> deck;  // a pose comes again when all have been danced
-  size_t last = poses.size();
   double before = 0;
   for (const double time : KeyTimes(request)) {
-    if (deck.empty()) {
-      for (size_t i = 0; i < poses.size(); ++i) deck.push_back(i);
-    }
-    size_t drawn = dice.Below(deck.size());
-    if (deck[drawn] == last) drawn = (drawn + 1) % deck.size();
-    last = deck[drawn];
-    deck.erase(deck.begin() + static_cast<std::ptrdiff_t>(drawn));
-
+    const LibraryPose& pose = poses[deck.Next(time)];
     const GroundFrame place = keys.empty() ? walk.place() : walk.Next(time - before);
     before = time;
     client::KeyPose& key = keys.emplace_back();
-    key.id = std::to_string(keys.size()) + "-" + poses[last].id;
+    key.id = IdOfKey(keys.size(), pose);
     key.time_s = time;
-    key.pose = place.ToWorld(poses[last].pose);
+    key.pose = place.ToWorld(pose.pose);
   }
   return keys;
 }

@@ -150,7 +150,10 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
   }
   CompositionRequest request{.seconds = seconds, .seed = options.seed.value_or(0)};
   if (!options.seconds) request.named = music ? options.song : "--path";
-  if (music) request.beats = music->track.Seconds();
+  if (music) {
+    request.beats = music->track.Seconds();
+    request.passages = music->passages;
+  }
   // Its dancers hardly dance where no key is ahead.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   DanceKeys keys;

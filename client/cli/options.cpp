@@ -144,7 +144,7 @@ void NoteDeterministic(const client::ModelDescription& model,
   }
 }
 
-void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help) {
+CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help) {
   static const CLI::Validator kCheck(
       [](const std::string& text) -> std::string {
         uint64_t value = 0;
@@ -154,7 +154,7 @@ void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string
         return text + " is not a whole number from 0 to 18446744073709551615";
       },
       "");
-  command.add_option("--seed", seed, help)->check(kCheck);
+  return command.add_option("--seed", seed, help)->check(kCheck);
 }
 
 }  // namespace choreo::cli

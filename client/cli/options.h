@@ -54,7 +54,7 @@ void NoteDeterministic(const client::ModelDescription& model,
                        std::initializer_list<std::pair<std::string_view, bool>> options);
 
 /// `--seed`: a whole number of 64 bits, never negative.
-void AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
+CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
 
 /// An error of what an option sets, as the library or the server names it, by the option's name.
 Error AsTyped(const Error& error);

@@ -1,8 +1,10 @@
 #include "model/audio/suggest_keys.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 
 #include "model/core/error.h"
 
@@ -14,11 +16,12 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 double Squared(double value) { return value * value; }
 
 constexpr int64_t kOnsetNear = 2;  // frames around a beat in which its onset is
+constexpr int kEight = 8;          // counts, at most
 
-/// The envelope's peak near each beat, in units of the strongest.
-std::vector<double> Strengths(const BeatTrack& track, std::span<const float> envelope) {
+/// The envelope's peak near each beat, in units of the strongest. At least one beat.
+std::vector<double> Strengths(std::span<const int64_t> frames, std::span<const float> envelope) {
   std::vector<double> strengths;
-  for (const int64_t frame : track.frames) {
+  for (const int64_t frame : frames) {
     double peak = 0;
     for (int64_t f = frame - kOnsetNear; f <= frame + kOnsetNear; ++f) {
       if (f >= 0 && f < static_cast<int64_t>(envelope.size()))
@@ -34,7 +37,7 @@ std::vector<double> Strengths(const BeatTrack& track, std::span<const float> env
 }
 
 /// How many keys fit: each on the first beat that is far enough from the one before.
-int64_t MostKeys(const std::vector<double>& times) {
+int64_t MostKeys(std::span<const double> times) {
   int64_t most = 0;
   double last = kNever;
   for (const double time : times) {
@@ -45,7 +48,7 @@ int64_t MostKeys(const std::vector<double>& times) {
   return most;
 }
 
-void CheckCount(const std::vector<double>& times, int64_t count, const std::string& name) {
+void CheckCount(std::span<const double> times, int64_t count, const std::string& name) {
   if (times.empty()) {
     throw InvalidArgument(
         name, std::to_string(count) + " keys, but no beat is heard that they could stand on");
@@ -59,13 +62,79 @@ void CheckCount(const std::vector<double>& times, int64_t count, const std::stri
   throw InvalidArgument(name, text);
 }
 
+double SecondOf(const BeatTrack& track, size_t beat) {
+  return static_cast<double>(track.frames[beat]) / kOnsetRate;
+}
+
+/// The beat, or the downbeat, nearest to a second; none where there are none.
+std::optional<size_t> BeatNear(const BeatTrack& track, double second, bool downbeat) {
+  std::optional<size_t> best;
+  const auto away = [&](size_t beat) { return std::abs(SecondOf(track, beat) - second); };
+  for (size_t i = 0; i < track.in_bar.size(); ++i) {
+    if (downbeat && track.in_bar[i] != 0) continue;
+    if (!best || away(i) < away(*best)) best = i;
+  }
+  return best;
+}
+
+/// What returns is counted as it was, however its bars are heard now.
+void CountAgain(const BeatTrack& track, const Passage& passage, size_t begin,
+                std::vector<Phrase>* phrases) {
+  const double lag = passage.from - passage.like;
+  const double from = std::min(passage.from, SecondOf(track, begin) + lag);
+  const std::vector<Phrase> before = *phrases;
+  for (size_t i = begin + 1; i < track.frames.size(); ++i) {
+    const double second = SecondOf(track, i);
+    if (second > from && second < passage.to) (*phrases)[i] = Phrase::kBeat;
+  }
+  for (size_t i = begin; i < before.size(); ++i) {
+    if (SecondOf(track, i) + lag >= passage.to) break;
+    Phrase& again = (*phrases)[*BeatNear(track, SecondOf(track, i) + lag, false)];
+    again = std::max(again, before[i]);
+  }
+}
+
 }  // namespace
 
+std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage> passages) {
+  std::vector<Phrase> phrases(track.frames.size(), Phrase::kBeat);
+  std::vector<size_t> begins;  // of what returns
+  for (const Passage& passage : passages) {
+    const auto beat = BeatNear(track, passage.like, true);
+    if (!beat) return phrases;
+    begins.push_back(*beat);
+    phrases[*beat] = Phrase::kPassage;
+  }
+  const int bars = std::max(1, kEight / std::max(1, track.beats_in_bar));
+  int nth = -1;  // bar of its eight
+  for (size_t i = 0; i < track.in_bar.size(); ++i) {
+    if (track.in_bar[i] != 0) continue;
+    const bool follows = nth >= 0 && track.in_bar[i - 1] + 1 == track.beats_in_bar;
+    nth = follows && phrases[i] != Phrase::kPassage ? (nth + 1) % bars : 0;
+    phrases[i] = std::max(phrases[i], nth == 0 ? Phrase::kEight : Phrase::kBar);
+  }
+  for (size_t i = 0; i < begins.size(); ++i) CountAgain(track, passages[i], begins[i], &phrases);
+  return phrases;
+}
+
 std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const float> onset_strength,
-                                      int64_t count, const std::string& name) {
-  const std::vector<double> times = track.Seconds();
-  CheckCount(times, count, name);
-  const std::vector<double> strengths = Strengths(track, onset_strength);
+                                      std::span<const Passage> passages,
+                                      const SuggestionRequest& request) {
+  const auto& [count, from_s, until_s, named] = request;
+  const std::vector<double> all = track.Seconds();
+  const auto part = [&](const auto& of_beats) {
+    const auto first = std::ranges::lower_bound(all, from_s) - all.begin();
+    const auto end = std::ranges::upper_bound(all, until_s) - all.begin();
+    return std::span(of_beats).subspan(static_cast<size_t>(first),
+                                       static_cast<size_t>(std::max(first, end) - first));
+  };
+  const std::span<const double> times = part(all);
+  CheckCount(times, count, named);
+  const auto before = static_cast<size_t>(times.data() - all.data());
+  const std::vector<double> strengths = Strengths(part(track.frames), onset_strength);
+  const std::vector<Phrase> all_phrases = FindPhrases(track, passages);
+  const std::span<const Phrase> phrases = part(all_phrases);
+  const auto worth = [&](size_t i) { return strengths[i] + static_cast<double>(phrases[i]); };
   const size_t beats = times.size();
   const double even = (times.back() - times.front()) / static_cast<double>(count);
   // Half an interval of an even spread lies before the first key and behind the last.
@@ -75,7 +144,7 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
 
   // total[i]: the best choice so far whose last key stands on beat i.
   std::vector<double> total(beats);
-  for (size_t i = 0; i < beats; ++i) total[i] = strengths[i] - off_end(times[i] - times.front());
+  for (size_t i = 0; i < beats; ++i) total[i] = worth(i) - off_end(times[i] - times.front());
   std::vector<std::vector<size_t>> previous;  // [key behind the first][beat]
   for (int64_t key = 1; key < count; ++key) {
     std::vector<double> best_until(total);  // the largest total up to each beat
@@ -94,7 +163,7 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
           from[i] = j;
         }
       }
-      next[i] += strengths[i];
+      next[i] += worth(i);
     }
     total = std::move(next);
   }
@@ -103,7 +172,7 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
   auto beat = static_cast<size_t>(std::max_element(total.begin(), total.end()) - total.begin());
   std::vector<SuggestedKey> keys(static_cast<size_t>(count));
   for (size_t key = keys.size(); key-- > 0;) {
-    keys[key] = {times[beat], beat, strengths[beat]};
+    keys[key] = {times[beat], before + beat, strengths[beat], phrases[beat]};
     if (key > 0) beat = previous[key - 1][beat];
   }
   return keys;

@@ -1,5 +1,6 @@
 #include "model/audio/suggest_keys.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,10 +24,17 @@ struct Song {
     }
   }
   std::vector<SuggestedKey> Suggest(int64_t count) const {
-    return SuggestKeys(track, envelope, count, "n");
+    return SuggestKeys(track, envelope, passages, {.count = count, .named = "n"});
+  }
+  /// Counts the beats from `first` on in bars.
+  void Count(int64_t first, int bar) {
+    track.beats_in_bar = bar;
+    for (int64_t beat = 0; beat < std::ssize(track.frames); ++beat)
+      track.in_bar.push_back(static_cast<int>(((beat - first) % bar + bar) % bar));
   }
   BeatTrack track;
   std::vector<float> envelope;
+  std::vector<Passage> passages;
 };
 
 std::vector<size_t> BeatsOf(const std::vector<SuggestedKey>& keys) {
@@ -96,6 +104,47 @@ double BestByTryingAll(const Song& song, size_t first, int64_t left, double last
   return top;
 }
 
+TEST(SuggestKeysTest, StandWherePhrasesBegin) {
+  Song song(64, 1);
+  song.Count(2, 4);  // eights at 2, 10, ... 58
+  EXPECT_EQ(BeatsOf(song.Suggest(8)), (std::vector<size_t>{2, 10, 18, 26, 34, 42, 50, 58}));
+  for (const SuggestedKey& key : song.Suggest(15)) EXPECT_GE(key.begins, Phrase::kBar) << key.beat;
+  // What began at 6 returns at 24, where the bars that are heard do not begin.
+  const std::vector<double> times = song.track.Seconds();
+  song.passages = {{.from = times[24] + 0.1, .to = times[34], .like = times[6] - 0.1}};
+  EXPECT_THAT(BeatsOf(song.Suggest(8)), testing::IsSupersetOf({6, 24}));
+  const std::vector<Phrase> phrases = FindPhrases(song.track, song.passages);
+  EXPECT_EQ(phrases[2], Phrase::kEight);
+  EXPECT_EQ(phrases[6], Phrase::kPassage);
+  EXPECT_EQ(phrases[10], Phrase::kBar);  // eights are counted anew
+  EXPECT_EQ(phrases[11], Phrase::kBeat);
+  EXPECT_EQ(phrases[14], Phrase::kEight);
+  for (size_t i = 24; i < 34; ++i) EXPECT_EQ(phrases[i], phrases[i - 18]) << i;
+  EXPECT_EQ(phrases[38], Phrase::kEight);  // as if nothing had returned
+}
+
+TEST(SuggestKeysTest, EightsBeginAnewWhereABarIsCutShort) {
+  Song song(24, 1);
+  song.Count(0, 3);  // two bars
+  for (size_t i = 10; i < 24; ++i) song.track.in_bar[i] = static_cast<int>(i + 2) % 3;
+  const std::vector<Phrase> phrases = FindPhrases(song.track, {});
+  std::vector<size_t> eights;
+  for (size_t i = 0; i < phrases.size(); ++i) {
+    if (phrases[i] == Phrase::kEight) eights.push_back(i);
+  }
+  EXPECT_EQ(eights, (std::vector<size_t>{0, 6, 10, 16, 22}));
+}
+
+TEST(SuggestKeysTest, APartHasTheBeatsOfTheSong) {
+  Song song(64, 1);
+  song.Count(2, 4);
+  const std::vector<double> times = song.track.Seconds();
+  const std::vector<SuggestedKey> keys = SuggestKeys(
+      song.track, song.envelope, {}, {.count = 2, .from_s = times[11], .until_s = times[30]});
+  EXPECT_EQ(BeatsOf(keys), (std::vector<size_t>{18, 26}));
+  EXPECT_EQ(keys[1].time_s, times[26]);
+}
+
 TEST(SuggestKeysTest, NoOtherChoiceIsBetter) {
   for (uint64_t seed = 0; seed < 12; ++seed) {
     Song song(15, 1);
@@ -118,14 +167,15 @@ TEST(SuggestKeysTest, ARealTrackOfClicksIsDividedWhereItsBeatsAre) {
   const std::vector<Onset> onsets = FindOnsets(song);
   const std::vector<float> envelope = OnsetStrength(onsets);
   const BeatTrack track = TrackBeats(onsets);
-  const std::vector<SuggestedKey> keys = SuggestKeys(track, envelope, 6, "n");
+  const auto suggest = [&] { return SuggestKeys(track, envelope, {}, {.count = 6}); };
+  const std::vector<SuggestedKey> keys = suggest();
   const std::vector<double> beats = track.Seconds();
   for (const SuggestedKey& key : keys) {
     EXPECT_EQ(key.time_s, beats.at(key.beat));
     EXPECT_GT(key.strength, 0);
     EXPECT_LE(key.strength, 1);
   }
-  EXPECT_EQ(BeatsOf(keys), BeatsOf(SuggestKeys(track, envelope, 6, "n")));
+  EXPECT_EQ(BeatsOf(keys), BeatsOf(suggest()));
 }
 
 TEST(SuggestKeysTest, MoreThanFitOrNoneAreRefused) {
@@ -138,7 +188,7 @@ TEST(SuggestKeysTest, MoreThanFitOrNoneAreRefused) {
   refused(0, "n: 0 keys, must be 1 to 7");
   refused(-3, "n: -3 keys, must be 1 to 7");
   ExpectError(ErrorCode::kInvalidArgument, "n: 2 keys, but no beat is heard",
-              [] { SuggestKeys(BeatTrack{}, {}, 2, "n"); });
+              [] { SuggestKeys(BeatTrack{}, {}, {}, {.count = 2, .named = "n"}); });
   EXPECT_EQ(BeatsOf(Song(1, 1).Suggest(1)), std::vector<size_t>{0});
   // Whatever fits is found, also where it leaves no freedom.
   EXPECT_EQ(BeatsOf(Song(19, 4).Suggest(7)), (std::vector<size_t>{0, 3, 6, 9, 12, 15, 18}));

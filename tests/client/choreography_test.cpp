@@ -80,6 +80,31 @@ TEST(ChoreographyTest, NeverRepeatsAPoseAtOnceAndDancesThemAll) {
   EXPECT_EQ(danced.size(), PoseLibrary().size());
 }
 
+TEST(ChoreographyTest, WhatReturnsHasItsPosesAgain) {
+  CompositionRequest request{.seconds = 60, .beats = EvenBeats(0, 0.5, 120), .seed = 4};
+  const auto without = ComposeKeys(request, PoseLibrary());
+  request.passages = {{.from = 32, .to = 44, .like = 8.1}};
+  const auto keys = ComposeKeys(request, PoseLibrary());
+  ASSERT_EQ(keys.size(), 30U);
+  int alike = 0;
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const bool returns = keys[i].time_s >= 32 && keys[i].time_s < 44;
+    if (returns) {
+      EXPECT_EQ(PoseOf(keys[i]), PoseOf(keys[i - 12])) << keys[i].time_s;
+    }
+    if (i < 16) {
+      EXPECT_EQ(keys[i].id, without[i].id);  // nothing has returned yet
+    }
+    alike += keys[i].id == without[i].id;
+  }
+  EXPECT_LT(alike, 30);
+  std::vector<double> times;
+  for (const client::KeyPose& key : keys) times.push_back(key.time_s);
+  const std::vector<size_t> drawn = DrawPoses(times, request.passages, 4, PoseLibrary().size());
+  for (size_t i = 16; i < 22; ++i) EXPECT_EQ(drawn[i], drawn[i - 12]);
+  EXPECT_EQ(std::set<size_t>(drawn.begin(), drawn.end()).size(), 24U);
+}
+
 TEST(ChoreographyTest, WalksAtALeisurelyPaceOnTheStage) {
   const auto keys = ComposeKeys({.seconds = 300, .beats = {}, .seed = 2}, PoseLibrary());
   double furthest = 0;

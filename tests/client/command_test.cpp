@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "client/cli/key_file.h"
 #include "client/cli/pose_library.h"
@@ -114,6 +115,19 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   std::snprintf(line, sizeof line, "%.3f s  beat %zu", keys[2]["time_s"].get<double>(),
                 keys[2]["beat"].get<size_t>());
   EXPECT_THAT(text.said, HasSubstr(line));
+
+  // What is printed is a key file, of poses of the library.
+  WriteFile(folder_ / "keys.json", outcome.said);
+  const auto proposed = cli::ReadKeys(folder_ / "keys.json", Body());
+  ASSERT_EQ(proposed.size(), 4U);
+  std::set<std::string> poses;
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(proposed[i].time_s, keys[i]["time_s"]);
+    poses.insert(heard["keyframes"][i]["pose"]);
+  }
+  EXPECT_EQ(poses.size(), 4U);
+  EXPECT_NE(nlohmann::json::parse(Choreo(analyze + "4 --json --seed 5").said)["keyframes"],
+            heard["keyframes"]);
 
   const Outcome many = Choreo(analyze + "500");
   EXPECT_EQ(many.code, 1);
