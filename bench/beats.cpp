@@ -68,7 +68,7 @@ std::vector<double> HearByClient(const std::vector<float>& mono) {
   const auto piece = static_cast<size_t>(live::kPieceSeconds * kModelSampleRate);
   for (size_t at = 0; at < mono.size(); at += piece) {
     std::vector<double> ahead =
-        ear.Hear(std::span(mono).subspan(at, std::min(piece, mono.size() - at)));
+        ear.Hear(std::span(mono).subspan(at, std::min(piece, mono.size() - at))).beats;
     ear.Wait();
     const double settled = static_cast<double>(at + piece) / kModelSampleRate + settled_s;
     std::erase_if(ahead, [settled](double beat) { return beat < settled; });

@@ -181,9 +181,11 @@ void RemoteDance::GenerateUntil(int64_t frame) {
   impl_->Send(std::move(request));
 }
 
-void RemoteDance::SendBeats(std::span<const double> seconds) {
+void RemoteDance::SendBeats(std::span<const double> seconds, std::span<const double> downbeats) {
   v1::StreamDanceRequest request;
-  request.mutable_music_beats()->mutable_times()->Add(seconds.begin(), seconds.end());
+  v1::MusicBeats& beats = *request.mutable_music_beats();
+  beats.mutable_times()->Add(seconds.begin(), seconds.end());
+  beats.mutable_downbeats()->Add(downbeats.begin(), downbeats.end());
   impl_->Send(std::move(request));
 }
 

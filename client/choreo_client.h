@@ -89,8 +89,9 @@ class RemoteDance {
   /// DanceConfig::generate_until, too: until this is said each key grants the frames up to itself.
   void GenerateUntil(int64_t frame);
   /// Beats ahead, seconds, strictly ascending, at least one: they replace those known from the
-  /// first of them on, for transitions that begin behind the frozen frames. Not after CompleteKeys.
-  void SendBeats(std::span<const double> seconds);
+  /// first of them on, for transitions that begin behind the frozen frames. `downbeats`: those of
+  /// them that begin a bar. Not after CompleteKeys.
+  void SendBeats(std::span<const double> seconds, std::span<const double> downbeats = {});
   /// Passages ahead, ascending, at least one: from the first of them on they replace those known,
   /// for transitions that begin behind the frozen frames. Not after CompleteKeys.
   void SendPassages(std::span<const Passage> passages);

@@ -94,6 +94,8 @@ struct DanceConfig {
   /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and in a
   /// kPcmFloat predicts each transition's from the 12 s before it.
   std::vector<double> music_beats = {};
+  /// Those of them that begin a bar: Beat messages tell of it.
+  std::vector<double> music_downbeats = {};
   /// A number that tells this music from other music, a part of the seed; 0: the server's own for a
   /// kFile, none for kPcmFloat.
   uint64_t music_id = 0;

@@ -78,6 +78,8 @@ struct Beat {
   double time_s = 0;  ///< exact
   Source source = Source::kUnknown;
   double confidence = 0;  ///< 0 to 1, of the pulse that predicted it; 1 where none did
+  bool downbeat =
+      false;  ///< a bar begins, where somebody told or the server heard all of the music
 };
 
 struct Warning {

@@ -197,7 +197,7 @@ std::optional<Message> FromProto(const v1::Event& event) {
           event.keyframe_rejected().reason(), ToCode(event.keyframe_rejected().code())};
     case v1::Event::kBeat:
       return Beat{event.frame(), event.time(), ToSource(event.beat().source()),
-                  event.beat().confidence()};
+                  event.beat().confidence(), event.beat().downbeat()};
     case v1::Event::kWarning:
       return Warning{event.frame(), event.warning().message()};
     case v1::Event::EVENT_NOT_SET:

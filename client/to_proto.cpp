@@ -126,6 +126,7 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   }
   if (config.frames) out.set_frames(*config.frames);
   out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
+  out.mutable_music_downbeats()->Add(config.music_downbeats.begin(), config.music_downbeats.end());
   for (const Passage& passage : config.music_passages) *out.add_music_passages() = ToProto(passage);
   out.set_music_id(config.music_id);
   if (config.variation) out.set_variation(*config.variation);

@@ -112,6 +112,8 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
   if (config.has_continuation())
     out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
   out->music_beats = ToBeats(config.music_beats(), "config.music_beats");
+  out->music_downbeats =
+      ToDownbeats(config.music_downbeats(), out->music_beats, "config.music_downbeats");
   out->music_id = config.music_id();
   out->music_passages = ToPassages(config.music_passages());
 }
@@ -281,6 +283,18 @@ std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times
     }
   }
   return {times.begin(), times.end()};
+}
+
+std::vector<double> ToDownbeats(const google::protobuf::RepeatedField<double>& times,
+                                std::span<const double> beats, const std::string& field) {
+  std::vector<double> downbeats = ToBeats(times, field);
+  for (size_t i = 0; i < downbeats.size(); ++i) {
+    if (!std::ranges::binary_search(beats, downbeats[i])) {
+      throw InvalidArgument(At(field, static_cast<int>(i)),
+                            Show(downbeats[i]) + " s is none of the beats beside it");
+    }
+  }
+  return downbeats;
 }
 
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {

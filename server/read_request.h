@@ -29,6 +29,10 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const 
 std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
                             const std::string& field);
 
+/// Those of the beats, ascending, that begin a bar: each is one of them.
+std::vector<double> ToDownbeats(const google::protobuf::RepeatedField<double>& times,
+                                std::span<const double> beats, const std::string& field);
+
 /// As they came; CheckPassages says whether they are good.
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 

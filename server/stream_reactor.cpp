@@ -184,9 +184,10 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     file_decoded_ = true;
     const std::vector<float> mono = DecodeMono(file_.bytes(), [this] { RequireOpen(); });
     file_.Clear();
-    const std::vector<double> beats =
-        music_beats_.empty() ? FindBeats(mono).Seconds() : music_beats_;
-    stream.SetMusic(beats, FindPassages(mono, beats), MusicId(mono));
+    BeatTrack track;
+    if (music_beats_.empty()) track = FindBeats(mono);
+    const std::vector<double> beats = music_beats_.empty() ? track.Seconds() : music_beats_;
+    stream.SetMusic(beats, track.DownbeatSeconds(), FindPassages(mono, beats), MusicId(mono));
     stream.PushAudio(mono, 0);
   }
 
@@ -201,9 +202,10 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {
-    const std::string field = stream.NextMusicBeats() + ".times";
-    if (message.times().empty()) throw InvalidArgument(field, "empty");
-    stream.GiveBeats(ToBeats(message.times(), field));
+    const std::string field = stream.NextMusicBeats();
+    if (message.times().empty()) throw InvalidArgument(field + ".times", "empty");
+    const std::vector<double> beats = ToBeats(message.times(), field + ".times");
+    stream.GiveBeats(beats, ToDownbeats(message.downbeats(), beats, field + ".downbeats"));
   }
 
   void TakePassages(DanceStream& stream, const v1::MusicPassages& message) {

@@ -171,6 +171,7 @@ void FromEvent(const DanceEvent& event, double fps, v1::Event* out) {
     out->set_time(beat->seconds);
     out->mutable_beat()->set_source(ToSource(beat->source));
     out->mutable_beat()->set_confidence(beat->confidence);
+    out->mutable_beat()->set_downbeat(beat->downbeat);
     return;
   }
   if (const auto* reached = std::get_if<KeyReached>(&event)) {

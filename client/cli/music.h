@@ -34,8 +34,8 @@ Music ReadMusic(const std::filesystem::path& path,
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);
 
-/// Those, the passages before `seconds`, and which music it is. Beats that the configuration has
-/// already stay, as far as they are before `seconds`.
+/// Those, with their downbeats, the passages before `seconds`, and which music it is. Beats that
+/// the configuration has already stay, as far as they are before `seconds`.
 void TellMusic(const Music& music, double seconds, client::DanceConfig* config);
 
 /// What to send for a dance of `seconds`: the song's beginning, as samples.

@@ -22,7 +22,12 @@ int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 // Before the music there is silence.
 BeatEar::BeatEar() : mono_(kOnsetWindow / 2) {}
 
-std::vector<double> BeatEar::Hear(std::span<const float> mono) {
+void BeatsAhead::Keep(double from, double to) {
+  for (std::vector<double>* some : {&beats, &downbeats})
+    std::erase_if(*some, [=](double beat) { return beat < from || beat > to; });
+}
+
+BeatsAhead BeatEar::Hear(std::span<const float> mono) {
   mono_.insert(mono_.end(), mono.begin(), mono.end());
   size_t from = 0;
   for (; mono_.size() - from >= kOnsetWindow; from += kOnsetHop)
@@ -50,16 +55,21 @@ std::vector<double> BeatEar::Hear(std::span<const float> mono) {
   return {};
 }
 
-std::vector<double> BeatEar::GoOn(const BeatTrack& track, double now) const {
+BeatsAhead BeatEar::GoOn(const BeatTrack& track, double now) const {
   const std::vector<double> beats = track.Seconds();
   if (beats.size() <= kSureBeats || now - beats.back() > kStoppedSeconds) return {};
   const std::span<const double> confidence = std::span(track.confidence).last(kSureBeats);
   const double sure = std::accumulate(confidence.begin(), confidence.end(), 0.0) / kSureBeats;
   if (sure < kLeastConfidence) return {};
   const double period = 60 / TempoOf(std::span(beats).last(kSureBeats + 1));
-  std::vector<double> ahead;
-  for (double beat = beats.back() + period; beat < now + kAheadSeconds; beat += period)
-    if (beat > now) ahead.push_back(beat);
+  BeatsAhead ahead;
+  int in_bar = track.in_bar.back();
+  for (double beat = beats.back() + period; beat < now + kAheadSeconds; beat += period) {
+    ++in_bar;
+    if (beat <= now) continue;
+    ahead.beats.push_back(beat);
+    if (track.beats_in_bar > 0 && in_bar % track.beats_in_bar == 0) ahead.downbeats.push_back(beat);
+  }
   return ahead;
 }
 

@@ -10,6 +10,14 @@
 
 namespace choreo::live {
 
+/// Beats that are still to sound, seconds, ascending, and those of them that begin a bar.
+struct BeatsAhead {
+  std::vector<double> beats, downbeats;
+
+  /// Leaves those of [from, to].
+  void Keep(double from, double to);
+};
+
 /// Hears in music that sounds now where it will beat: the beats of its last minutes, found as in a
 /// whole song (TrackBeats), go on as they are. They are found in a thread of their own, so who
 /// listens never waits.
@@ -20,16 +28,16 @@ class BeatEar {
 
   BeatEar();
 
-  /// The next mono samples, at 22 050 Hz. Beats ahead, seconds, ascending, every other second or
-  /// so; none while nothing beats clearly.
-  std::vector<double> Hear(std::span<const float> mono);
+  /// The next mono samples, at 22 050 Hz. Beats ahead, every other second or so; none while
+  /// nothing beats clearly.
+  BeatsAhead Hear(std::span<const float> mono);
   /// Until beats that are looked for are found: the next Hear tells them. For who is not in time.
   void Wait() const {
     if (found_.valid()) found_.wait();
   }
 
  private:
-  std::vector<double> GoOn(const BeatTrack& track, double now) const;
+  BeatsAhead GoOn(const BeatTrack& track, double now) const;
 
   OnsetMeter meter_;
   std::vector<float> mono_;    // of the next onset's window on

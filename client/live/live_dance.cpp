@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "client/live/beat_ear.h"
 #include "client/live/passage_ear.h"
 #include "model/audio/resample.h"
 #include "model/core/printable.h"
@@ -88,9 +87,9 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     mono.clear();
     resampler.Push(piece);
     resampler.Pull(mono);
-    if (midi) SendBeats(midi->Take(now), now);
+    if (midi) SendBeats({.beats = midi->Take(now), .downbeats = {}}, now);
     // It hears all, so that it knows the time when the clock stops.
-    std::vector<double> heard = beats.Hear(mono);
+    BeatsAhead heard = beats.Hear(mono);
     if (!midi || !midi->runs()) SendBeats(std::move(heard), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
       clock_missed = true;
@@ -112,11 +111,9 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
 }
 
 // Those that are settled already would come too late, and none are taken behind the longest music.
-void LiveDance::SendBeats(std::vector<double> beats, double now) {
-  std::erase_if(beats, [&](double beat) {
-    return beat < now + options_.look_ahead_s || beat > kMaxAudioSeconds;
-  });
-  if (!beats.empty()) dance_->SendBeats(beats);
+void LiveDance::SendBeats(BeatsAhead ahead, double now) {
+  ahead.Keep(now + options_.look_ahead_s, kMaxAudioSeconds);
+  if (!ahead.beats.empty()) dance_->SendBeats(ahead.beats, ahead.downbeats);
 }
 
 void LiveDance::Follow(const Cue& cue, double now) {

@@ -14,6 +14,7 @@
 
 #include "client/choreo_client.h"
 #include "client/live/beat_clock.h"
+#include "client/live/beat_ear.h"
 #include "client/live/cues.h"
 #include "client/live/midi_clock.h"
 #include "client/live/pose_player.h"
@@ -72,7 +73,7 @@ class LiveDance {
  private:
   // Of the thread that runs.
   void Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi);
-  void SendBeats(std::vector<double> beats, double now);
+  void SendBeats(BeatsAhead ahead, double now);
   void Follow(const Cue& cue, double now);
   void TakeBack();
   void Refuse(const std::string& reason);

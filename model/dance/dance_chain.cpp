@@ -113,7 +113,8 @@ DanceChain::DanceChain(SampleQueue& queue, const DanceConfig& config,
               config.continuation ? std::optional(RoundToFloat(config.continuation->poses.back()))
                                   : std::nullopt),
       beats_(model_.fps, config.music_beats,
-             config.continuation ? config.continuation->last_beat : std::nullopt, audio()),
+             config.continuation ? config.continuation->last_beat : std::nullopt, audio(),
+             config.music_downbeats),
       recurrence_(model_.fps, config.variation < 1 ? config.music_passages : kNoPassages) {
   if (!config.Before().empty()) history_ = FillHistory(model_, config.Before());
   if (config.continuation) stage_ = config.continuation->stage;
@@ -149,10 +150,11 @@ void DanceChain::SetControls(const ControlRequest& request, const std::string& f
   });
 }
 
-void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::string& field) {
+void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats,
+                           const std::string& field) {
   Change([&](Timeline& timeline) {
     const int64_t from = timeline.Frontier(field);
-    if (const int64_t late = beats_.Give(seconds, from, field); late > 0)
+    if (const int64_t late = beats_.Give(seconds, from, field, downbeats); late > 0)
       Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
   });
 }
@@ -164,11 +166,11 @@ void DanceChain::GivePassages(const std::vector<Passage>& passages, const std::s
   });
 }
 
-void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
-                          uint64_t music_id) {
+void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
+                          const std::vector<Passage>& passages, uint64_t music_id) {
   std::lock_guard lock(mutex_);
   if (config_.music_id == 0) config_.music_id = music_id;
-  if (config_.music_beats.empty()) beats_.Find(beats);
+  if (config_.music_beats.empty()) beats_.Find(beats, downbeats);
   if (!recurrence_.empty() || passages.empty() || config_.variation >= 1) return;
   recurrence_ = Recurrence(model_.fps, passages);
   timeline_.SetCuts(CutsOf(passages, model_.fps));

@@ -45,7 +45,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// The request is valid.
   void SetControls(const ControlRequest& request, const std::string& field);
   /// Ascending; at least one.
-  void GiveBeats(const std::vector<double>& seconds, const std::string& field);
+  void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats,
+                 const std::string& field);
 
   /// Tells the sink of an event; only inside a change.
   void Post(const DanceEvent& event);
@@ -60,8 +61,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void GivePassages(const std::vector<Passage>& passages, const std::string& field);
 
   /// Of the whole music, before its first sample.
-  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
-                uint64_t music_id);
+  void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
+                const std::vector<Passage>& passages, uint64_t music_id);
   void SetPaused(bool paused);
   void Cancel() noexcept;
 

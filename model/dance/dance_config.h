@@ -34,6 +34,7 @@ struct DanceStart {
   bool allow_inexact_resume = false;
   /// Seconds, ascending: the dance is timed to them. None: to what a dance hears of the music.
   std::vector<double> music_beats;
+  std::vector<double> music_downbeats;  ///< those of them that begin a bar: told, not danced
   /// Where the music comes back, as CheckPassages wants them, and so does the dance, with so much
   /// `variation`: 0: the same noise, 1: as if nothing came back.
   std::vector<Passage> music_passages;

@@ -49,9 +49,9 @@ void DanceStream::EndOfAudio() {
   FinishAudio();
 }
 
-void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
-                           uint64_t music_id) {
-  chain_->SetMusic(beats, passages, music_id);
+void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
+                           const std::vector<Passage>& passages, uint64_t music_id) {
+  chain_->SetMusic(beats, downbeats, passages, music_id);
 }
 
 std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }
@@ -88,9 +88,10 @@ void DanceStream::SetControls(const ControlRequest& request) {
   ++controls_;
 }
 
-void DanceStream::GiveBeats(const std::vector<double>& seconds) {
+void DanceStream::GiveBeats(const std::vector<double>& seconds,
+                            const std::vector<double>& downbeats) {
   std::lock_guard lock(messages_);
-  chain_->GiveBeats(seconds, NextMusicBeats() + ".times");
+  chain_->GiveBeats(seconds, downbeats, NextMusicBeats() + ".times");
   ++beats_;
 }
 

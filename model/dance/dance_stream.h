@@ -44,8 +44,8 @@ class DanceStream {
   void EndOfAudio();
   /// What is found in the whole music before its first sample is pushed, as far as DanceConfig does
   /// not say it: beats (none, then nothing is listened for either), passages, and which it is.
-  void SetMusic(const std::vector<double>& beats, const std::vector<Passage>& passages,
-                uint64_t music_id);
+  void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
+                const std::vector<Passage>& passages, uint64_t music_id);
 
   /// What errors call the next message of a kind, "keyframes[i]", i counting those that were taken.
   /// For who reads a message before handing it over.
@@ -64,7 +64,7 @@ class DanceStream {
   /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
   /// and told of by a DanceWarning. Errors name the times of NextMusicBeats(); none may come after
   /// KeysComplete.
-  void GiveBeats(const std::vector<double>& seconds);
+  void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
   /// As CheckPassages wants them, at least one: from the first of them on they hold in place of
   /// those that were known, for transitions that begin behind the frozen frames. Errors name those
   /// of NextMusicPassages(); none may come after KeysComplete.

@@ -47,16 +47,17 @@ std::vector<double> SecondsOf(std::span<const MusicBeat> beats) {
 }  // namespace
 
 MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
-                       const AudioFeed* audio)
+                       const AudioFeed* audio, std::span<const double> downbeats)
     : fps_(fps),
       audio_(audio),
       hears_(audio != nullptr && given.empty()),
       count_(given.size()),
       last_(last) {
-  if (!given.empty()) Replace(given.front(), given, MusicBeat::Source::kGiven);
+  if (!given.empty()) Replace(given.front(), given, downbeats, MusicBeat::Source::kGiven);
 }
 
-void MusicBeats::Replace(double begin, std::span<const double> seconds, MusicBeat::Source source) {
+void MusicBeats::Replace(double begin, std::span<const double> seconds,
+                         std::span<const double> downbeats, MusicBeat::Source source) {
   const auto at = [&](double time) {
     return std::ranges::lower_bound(known_, time, {}, &MusicBeat::seconds);
   };
@@ -68,17 +69,21 @@ void MusicBeats::Replace(double begin, std::span<const double> seconds, MusicBea
   const double first = seconds.front();
   while (!spans_.empty() && spans_.back().begin >= first) spans_.pop_back();
   if (!spans_.empty()) spans_.back().end = std::min(spans_.back().end, first);
-  for (const double second : seconds) known_.push_back({second, source});
+  for (const double second : seconds) {
+    MusicBeat& beat = known_.emplace_back(MusicBeat{second, source});
+    beat.downbeat = std::ranges::binary_search(downbeats, second);
+  }
   spans_.push_back({first, seconds.back()});
 }
 
-void MusicBeats::Find(const std::vector<double>& seconds) {
+void MusicBeats::Find(const std::vector<double>& seconds, std::span<const double> downbeats) {
   hears_ = false;
   known_.clear();
-  if (!seconds.empty()) Replace(seconds.front(), seconds, MusicBeat::Source::kFound);
+  if (!seconds.empty()) Replace(seconds.front(), seconds, downbeats, MusicBeat::Source::kFound);
 }
 
-int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field) {
+int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field,
+                         std::span<const double> downbeats) {
   if (count_ + seconds.size() > kMostBeats) {
     throw InvalidArgument(field, "bring the dance's beats to " +
                                      std::to_string(count_ + seconds.size()) + ", the limit is " +
@@ -86,13 +91,18 @@ int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const st
   }
   count_ += seconds.size();
   const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));
-  if (ahead != seconds.end()) given_.push_back({from, seconds.front(), {ahead, seconds.end()}});
+  if (ahead != seconds.end()) {
+    given_.push_back(
+        {from, seconds.front(), {ahead, seconds.end()}, {downbeats.begin(), downbeats.end()}});
+  }
   return ahead - seconds.begin();
 }
 
 std::vector<MusicBeat> MusicBeats::For(int64_t from, int64_t to) {
-  for (; !given_.empty() && given_.front().from <= from; given_.pop_front())
-    Replace(given_.front().begin, given_.front().seconds, MusicBeat::Source::kGiven);
+  for (; !given_.empty() && given_.front().from <= from; given_.pop_front()) {
+    const Given& given = given_.front();
+    Replace(given.begin, given.seconds, given.downbeats, MusicBeat::Source::kGiven);
+  }
   std::vector<MusicBeat> beats = known_;
   if (hears_) Predict(from, to, &beats);
   return beats;

@@ -25,6 +25,7 @@ struct MusicBeat {
   Source source = Source::kGiven;
   double confidence = 1;  ///< of the pulse that it was predicted by, 0 to 1; 1 otherwise
   int64_t frame = 0;      ///< once told: the nearest that had been danced
+  bool downbeat = false;  ///< a bar begins; nobody knows that of predicted ones
 };
 
 /// Where the music of a dance beats. Beats are given or found; where none are, a dance that is
@@ -37,17 +38,19 @@ class MusicBeats {
   /// `audio`: of the dance, or null, when there is nothing to hear. `last`: of a dance that goes
   /// on, last() at its first frame.
   MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
-             const AudioFeed* audio);
+             const AudioFeed* audio, std::span<const double> downbeats = {});
 
-  /// In the whole music; in place of all, and nothing is heard any more.
-  void Find(const std::vector<double>& seconds);
+  /// In the whole music; in place of all, and nothing is heard any more. Here as elsewhere
+  /// downbeats are some of the beats.
+  void Find(const std::vector<double>& seconds, std::span<const double> downbeats = {});
 
   /// Ascending. From the first of them to the last they hold in place of what was given or heard,
   /// and none given before lies behind them or less than half a beat before the first, for
   /// transitions that begin at `from` or later; `from` never shrinks from call to call. Those
   /// before `from` are late, and left out; returns how many. Throws Error(kInvalidArgument) beyond
   /// kMostBeats.
-  int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field);
+  int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field,
+               std::span<const double> downbeats = {});
 
   /// All that is known for a transition of the frames [from, to), ascending; transitions are asked
   /// for in order of time, each once. Rows before `from` must be ready.
@@ -75,6 +78,7 @@ class MusicBeats {
     int64_t from;
     double begin;                 // its first beat, late or not
     std::vector<double> seconds;  // those that are not late
+    std::vector<double> downbeats;
   };
   // Seconds in which only given beats count; one begins where the one before has ended, or later.
   struct Span {
@@ -82,7 +86,8 @@ class MusicBeats {
   };
 
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
-  void Replace(double begin, std::span<const double> seconds, MusicBeat::Source source);
+  void Replace(double begin, std::span<const double> seconds, std::span<const double> downbeats,
+               MusicBeat::Source source);
   void Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const;
 
   double fps_;

@@ -66,18 +66,19 @@ TEST(DanceTest, HitsItsKeysToTheMusic) {
   TestServer server;
   const Client client({.addresses = {server.address()}});
   int blocks = 0;
-  const DanceResult dance =
-      client.Dance({.seed = 4, .frames = 250, .music_beats = {0.5, 1, 1.5, 2, 2.5}}, FourKeys(),
-                   ClicksAudio(9), [&](const Message& message) {
-                     blocks += std::holds_alternative<FrameBlock>(message) ? 1 : 0;
-                   });
+  const DanceResult dance = client.Dance(
+      {.seed = 4, .frames = 250, .music_beats = {0.5, 1, 1.5, 2, 2.5}, .music_downbeats = {1}},
+      FourKeys(), ClicksAudio(9), [&](const Message& message) {
+        blocks += std::holds_alternative<FrameBlock>(message) ? 1 : 0;
+      });
   EXPECT_GT(blocks, 1);
   EXPECT_EQ(dance.header.seed, 4U);
   EXPECT_EQ(dance.motion.fps, 30);
   ASSERT_EQ(dance.motion.frames.size(), 250U);
   EXPECT_EQ(dance.contacts.size(), 250U);
   EXPECT_EQ(dance.report.frames, 250);
-  EXPECT_EQ(dance.beats.size(), 5U);
+  ASSERT_EQ(dance.beats.size(), 5U);
+  for (const Beat& beat : dance.beats) EXPECT_EQ(beat.downbeat, beat.time_s == 1);
   EXPECT_TRUE(dance.rejected.empty());
   ASSERT_EQ(dance.report.keys.size(), 4U);
   for (const KeyPose& key : FourKeys()) {

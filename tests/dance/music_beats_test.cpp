@@ -129,7 +129,8 @@ TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
       const int64_t due = frame - config.FirstFrame();
       if (patient && due > 0) sink->WaitForFrames(static_cast<size_t>(due));
       // Beats a third of a second behind the music's, of which the first two come too late.
-      if (frame == 240) stream.GiveBeats({7.3, 7.8, 8.3, 8.8, 9.3, 9.8, 10.3, 10.8, 11.3});
+      if (frame == 240)
+        stream.GiveBeats({7.3, 7.8, 8.3, 8.8, 9.3, 9.8, 10.3, 10.8, 11.3}, {7.3, 9.3, 11.3});
     }
     stream.HalfClose();
     return sink->WaitForEnd();
@@ -139,15 +140,17 @@ TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
   ASSERT_EQ(recording.warnings.size(), 1U);
   EXPECT_EQ(recording.warnings[0].kind, DanceWarning::Kind::kBeatsTooLate);
   EXPECT_EQ(recording.warnings[0].frame, 219);
-  std::vector<double> given;
+  std::vector<double> given, downbeats;
   double heard_behind = 0;
   for (const MusicBeat& beat : recording.beats) {
+    if (beat.downbeat) downbeats.push_back(beat.seconds);
     if (beat.source == MusicBeat::Source::kGiven)
       given.push_back(beat.seconds);
     else if (!given.empty())
       heard_behind = beat.seconds;
   }
   EXPECT_EQ(given, (std::vector<double>{8.3, 8.8, 9.3, 9.8, 10.3, 10.8, 11.3}));
+  EXPECT_EQ(downbeats, (std::vector<double>{9.3, 11.3}));
   EXPECT_GT(heard_behind, 14) << "behind the last one it listens again";
   EXPECT_TRUE(SameDance(recording, play(dance.config, false)));
   for (const Continuation& continuation : recording.continuations) {

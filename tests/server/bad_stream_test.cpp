@@ -287,6 +287,16 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "config.music_beats[1]",
                       {"1 s"}},
+        BadStreamCase{"Downbeats",
+                      WithConfig([](auto& c) {
+                        c.add_music_beats(1);
+                        c.add_music_beats(1.5);
+                        c.add_music_downbeats(1.5);
+                        c.add_music_downbeats(2);
+                      }),
+                      kInvalid,
+                      "config.music_downbeats[1]",
+                      {"2 s", "none of the beats"}},
         BadStreamCase{"Passages",
                       WithConfig([](auto& c) {
                         c.add_music_passages()->set_from(3);

@@ -193,11 +193,15 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   }
   const Answer& answer = client.Finish();  // half-closing ends file and keys
   ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-  // The server knows the beats of a file: every half second.
+  // The server knows the beats of a file, every half second, and some of them begin bars.
   std::vector<double> beats;
+  int downbeats = 0;
   for (const auto& event : answer.events) {
     if (event.has_beat()) beats.push_back(event.time());
+    downbeats += event.beat().downbeat();
   }
+  EXPECT_GE(downbeats, 1);
+  EXPECT_LE(downbeats, std::ssize(beats) / 2 + 1);
   ASSERT_GE(beats.size(), 3U);
   for (size_t i = 1; i < beats.size(); ++i) EXPECT_NEAR(beats[i] - beats[i - 1], 0.5, 0.06);
   EXPECT_TRUE(answer.summary->report().has_beat_coverage());
@@ -245,16 +249,19 @@ TEST_F(StreamTest, BeatsMayComeAheadOfTheFrontier) {
   ASSERT_TRUE(client.ReadFrames(30));
   v1::StreamDanceRequest beats;
   for (const double time : {0.5, 1.5, 2.0, 2.5}) beats.mutable_music_beats()->add_times(time);
+  beats.mutable_music_beats()->add_downbeats(2.5);
   client.Send(beats);
   const Answer& answer = client.Finish();
   ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
-  std::vector<double> times;
+  std::vector<double> times, downbeats;
   std::vector<v1::WarningCode> warnings;
   for (const v1::Event& event : answer.events) {
     if (event.has_beat()) times.push_back(event.time());
+    if (event.beat().downbeat()) downbeats.push_back(event.time());
     if (event.has_warning()) warnings.push_back(event.warning().code());
   }
   EXPECT_EQ(times, (std::vector<double>{2.0, 2.5})) << "the transition under way has none";
+  EXPECT_EQ(downbeats, std::vector{2.5});
   EXPECT_EQ(warnings, std::vector{v1::WARNING_CODE_BEATS_TOO_LATE});
 }
 

@@ -11,14 +11,17 @@
 namespace choreo::live::beat_ear_test {
 
 /// What is told from `from` s on, each beat before it sounds; what is told later counts.
-std::vector<double> Told(const std::vector<float>& song, double from) {
+std::vector<double> Told(const std::vector<float>& song, double from,
+                         std::vector<double>* downbeats = nullptr) {
   BeatEar ear;
   std::vector<double> told;
   constexpr size_t kPiece = 437;  // 20 ms, of whatever length
   for (size_t at = 0; at < song.size(); at += kPiece) {
     const double now = static_cast<double>(at + kPiece) / kModelSampleRate;
     const auto piece = std::span(song).subspan(at, std::min(kPiece, song.size() - at));
-    for (const double beat : ear.Hear(piece)) {
+    const BeatsAhead ahead = ear.Hear(piece);
+    if (downbeats != nullptr && !ahead.downbeats.empty()) *downbeats = ahead.downbeats;
+    for (const double beat : ahead.beats) {
       EXPECT_GT(beat, now - 0.1) << "it has sounded";
       EXPECT_LT(beat, now + BeatEar::kAheadSeconds + 0.1);
       while (!told.empty() && told.back() >= beat - 0.2) told.pop_back();
@@ -41,15 +44,26 @@ double ShareMet(const std::vector<double>& told, const std::vector<double>& beat
 
 // Of some songs the half beats are heard at first, so not each of them.
 TEST(BeatEar, TellsBeatsBeforeTheySound) {
-  int well = 0;
+  int well = 0, counted = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     const double bpm = 80 + 10 * static_cast<double>(seed);
     const MadeSong song = MakeSong({.seed = seed, .seconds = 30, .tempo = {{0, bpm}}});
-    const std::vector<double> told = Told(song.mono, 12);
+    std::vector<double> last;
+    const std::vector<double> told = Told(song.mono, 12, &last);
     ASSERT_GT(told.size(), 15U) << bpm;
     well += ShareMet(told, song.beats) > 0.9;
+    std::erase_if(last, [](double beat) { return beat > 29; });
+    counted += !last.empty() && ShareMet(last, song.downbeats) == 1;
   }
   EXPECT_GE(well, 4);
+  EXPECT_GE(counted, 3);  // the last bars
+}
+
+TEST(BeatEar, WhatIsTooLateLeavesBothLists) {
+  BeatsAhead ahead{{1, 1.5, 2, 2.5, 3}, {1, 3}};
+  ahead.Keep(1.5, 2.5);
+  EXPECT_EQ(ahead.beats, (std::vector<double>{1.5, 2, 2.5}));
+  EXPECT_TRUE(ahead.downbeats.empty());
 }
 
 TEST(BeatEar, TellsNothingOfSilence) {
