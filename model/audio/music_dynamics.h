@@ -15,8 +15,8 @@ struct MusicDynamicsOptions {
 
   /// As it becomes: so many standard deviations of its own last 30 s above their mean. Of music
   /// that hardly changes at least so much, in dB, dB of onsets a row, dB.
-  double range = 1.5;
-  double least_loud = 4, least_busy = 0.7, least_deep = 6;
+  double range = 0.75;
+  double least_loud = 2, least_busy = 0.35, least_deep = 3;
   /// Onsets of ordinary music, which counts as if it had been heard for so many seconds before.
   double usual_onsets = 1.7, usual_seconds = 20;
 
