@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures the checkpoint that ships on test clips and writes docs/figures/*.json, and what docs/results.md quotes of them.
 #   scripts/evaluate.sh BIN_DIRECTORY RECORDINGS [EVAL_OPTION...]
-# RECORDINGS holds dancedb/ and splits.json (docs/training.md). Five minutes of one core.
+# RECORDINGS holds dancedb/, splits.json (docs/training.md) and music/, songs in Ogg files. Six minutes of one core.
 set -euo pipefail
 (($# >= 2)) || { echo "evaluate.sh: BIN_DIRECTORY and RECORDINGS are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -30,5 +30,6 @@ controls() {  # KIND JSON [OPTION...]
 }
 controls all controls
 controls paper controls_mean --temperature 0
+"$lab" eval --music "$recordings"/music/*.ogg --model model/checkpoints/default.safetensors --json docs/figures/hearing.json
 sed -i '/"fingerprint"/d' docs/figures/*.json  # of a build, which is another everywhere
 scripts/quote_figures.py

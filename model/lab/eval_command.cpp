@@ -17,6 +17,7 @@
 #include "model/evaluation/eval_report.h"
 #include "model/evaluation/motion_encoder.h"
 #include "model/evaluation/paired_sheets.h"
+#include "model/lab/hear_songs.h"
 #include "model/papers/tables/paper_tables.h"
 
 namespace choreo {
@@ -46,6 +47,7 @@ struct Arguments {
   std::span<const Evaluate> tables = kAll;
   bool controls = false;  // tables of controls alone, whose lengths are their own
   bool encode = true, sheets = false;
+  std::vector<std::filesystem::path> music;
 };
 
 void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
@@ -162,12 +164,19 @@ void AddEvalCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("eval", "Measure a model on held-out clips, as it is served");
   command->add_option("--model", arguments->contest.model, "Checkpoint")->required();
+  CLI::Option* data = command->add_option(
+      "--data", arguments->data,
+      "Folders written by `choreo-lab prepare`: each is a set with tables of its own");
+  CLI::Option* splits = command->add_option("--splits", arguments->splits,
+                                            "Which clip trains, validates, tests (JSON)");
+  data->needs(splits);
+  splits->needs(data);
   command
-      ->add_option("--data", arguments->data,
-                   "Folders written by `choreo-lab prepare`: each is a set with tables of its own")
-      ->required();
-  command->add_option("--splits", arguments->splits, "Which clip trains, validates, tests (JSON)")
-      ->required();
+      ->add_option("--music", arguments->music,
+                   "Instead of clips: how far dances show that music is heard, of songs that are "
+                   "made and of these, files and folders of them")
+      ->check(CLI::ExistingPath)
+      ->excludes(data);
   command->add_option("--other", arguments->contest.others,
                       "NAME=CHECKPOINT: a row for another model, danced just as the first");
   command->add_option("--json", arguments->json,
@@ -236,7 +245,12 @@ void AddEvalCommand(CLI::App& app) {
   count("--long-frames", options.long_frames, 60, 100000, "Frames of a long dance");
   count("--free-dances", options.free_dances, 0, 100000,
         "Dances without keys in the table of liveliness; 0: none");
-  command->callback([arguments] { EvaluateAll(*arguments); });
+  command->callback([arguments] {
+    if (!arguments->music.empty())
+      return HearSongs({arguments->contest.model, arguments->music, arguments->json});
+    if (arguments->data.empty()) throw CLI::RequiredError("--data and --splits, or --music");
+    EvaluateAll(*arguments);
+  });
 }
 
 }  // namespace choreo

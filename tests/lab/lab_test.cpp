@@ -54,6 +54,7 @@ TEST(LabTest, MisuseIsCodeTwo) {
        {std::string(), std::string("swim"), std::string("train"), kTrain + "--preset huge"}) {
     EXPECT_EQ(Lab(arguments).code, 2) << arguments;
   }
+  EXPECT_THAT(Lab("eval --model m").said, HasSubstr("--data and --splits, or --music"));
   EXPECT_THAT(Lab(kTrain + "--preset huge").said, HasSubstr("--preset: 'huge' is not one of"));
   for (const std::string value : {"nan", "-nan", "inf", "2.1", "-0.1", "warm"}) {
     const Outcome outcome =

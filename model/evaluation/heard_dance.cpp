@@ -1,0 +1,93 @@
+#include "model/evaluation/heard_dance.h"
+
+#include <cmath>
+#include <condition_variable>
+#include <iterator>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "model/audio/music_id.h"
+#include "model/dance/dance_stream.h"
+
+namespace choreo {
+namespace {
+
+class Listener : public DanceSink {
+ public:
+  void OnFrames(int64_t, std::span<const Pose> poses, std::span<const Contacts>) override {
+    poses_.insert(poses_.end(), poses.begin(), poses.end());
+  }
+  void OnEvent(const DanceEvent&) override {}
+  void OnContinuation(const Continuation&) override {}
+  void OnSummary(const QualityReport&) override { End(std::nullopt); }
+  void OnError(const Error& error) override { End(error); }
+
+  std::vector<Pose> Wait() {
+    std::unique_lock lock(mutex_);
+    ended_.wait(lock, [this] { return is_over_; });
+    if (error_) throw *error_;
+    return std::move(poses_);
+  }
+
+ private:
+  void End(const std::optional<Error>& error) {
+    const std::lock_guard lock(mutex_);
+    error_ = error;
+    is_over_ = true;
+    ended_.notify_all();
+  }
+
+  std::vector<Pose> poses_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::optional<Error> error_;
+  bool is_over_ = false;
+};
+
+}  // namespace
+
+std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config,
+                          std::span<const Key> keys, const ControlRequest& controls) {
+  config.audio = DanceConfig::Audio{kModelSampleRate, 1, 0};
+  config.music_id = MusicId(mono);
+  config.generate_until = 0;
+  const auto listener = std::make_shared<Listener>();
+  DanceStream stream(queue, config, listener);
+  if (controls.root_path || controls.velocity_factors) stream.SetControls(controls);
+  for (const Key& key : keys) stream.SetKey(key.id, AtFrame{key.frame}, key.pose, key.mask);
+  stream.PushAudio(mono, 0);
+  stream.HalfClose();
+  return listener->Wait();
+}
+
+std::vector<Key> KeysOf(std::span<const Pose> dance) {
+  std::vector<Key> keys;
+  for (size_t frame = kUsualFrames; frame < dance.size(); frame += kUsualFrames)
+    keys.push_back({std::to_string(frame),
+                    static_cast<int64_t>(frame),
+                    dance[frame],
+                    {.root_position = false, .joints = {}}});
+  return keys;
+}
+
+ControlRequest Circle(size_t frames) {
+  constexpr double kRadius = 0.75, kAround = 24 * 30;
+  RootPath path;
+  for (size_t frame = 0; frame < frames; frame += 15)
+    path.frames.push_back(static_cast<int64_t>(frame));
+  path.points.resize(3, std::ssize(path.frames));
+  for (Eigen::Index i = 0; i < path.points.cols(); ++i) {
+    const double turn =
+        2 * std::numbers::pi * static_cast<double>(path.frames[static_cast<size_t>(i)]) / kAround;
+    path.points.col(i) << kRadius * std::sin(turn), 0, kRadius * (1 - std::cos(turn));
+  }
+  ControlRequest controls;
+  controls.root_path = std::move(path);
+  return controls;
+}
+
+}  // namespace choreo

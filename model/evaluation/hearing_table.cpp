@@ -1,0 +1,283 @@
+#include "model/evaluation/hearing_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "model/audio/beats.h"
+#include "model/audio/feature_stream.h"
+#include "model/audio/made_song.h"
+#include "model/audio/passages.h"
+#include "model/evaluation/beat_table.h"
+#include "model/evaluation/heard_dance.h"
+#include "model/metrics/joint_track.h"
+#include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
+
+namespace choreo {
+namespace {
+
+constexpr int kHeardSeconds = 4;
+constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
+// Frames of a part that its dance is not judged by: the music is heard up to a transition's begin.
+constexpr size_t kSettles = 2 * kUsualFrames;
+constexpr double kSongSeconds = 80, kHitSeconds = 60;
+
+struct Setting {
+  const char* name;
+  double dynamics = kUsualDynamics, variation = kUsualVariation;
+};
+constexpr Setting kSettings[] = {{"usual"},
+                                 {.name = "music_dynamics 0", .dynamics = 0},
+                                 {.name = "variation 0", .variation = 0},
+                                 {.name = "variation 1", .variation = 1}};
+constexpr const Setting& kUsual = kSettings[0];
+
+double MeanOf(std::span<const float> values) {
+  double sum = 0;
+  for (const float value : values) sum += value;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+double Correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto count = static_cast<double>(a.size());
+  double mean_a = 0, mean_b = 0, ab = 0, aa = 0, bb = 0;
+  for (size_t i = 0; i < a.size(); ++i) mean_a += a[i] / count, mean_b += b[i] / count;
+  for (size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : NAN;
+}
+
+/// LUFS of each window.
+std::vector<double> LoudnessOf(std::span<const float> mono) {
+  FeatureStream stream(kModelSampleRate, 1);
+  stream.Push(mono);
+  stream.Finish();
+  std::vector<double> loudness;
+  constexpr auto kRows = static_cast<int64_t>(kHeardFrames);
+  for (int64_t row = 0; row + kRows <= stream.audio_rows(); row += kRows) {
+    double power = 0;
+    for (int64_t r = row; r < row + kRows; ++r) power += stream.Sound(r).power;
+    loudness.push_back(Loudness(power / kRows));
+  }
+  return loudness;
+}
+
+/// A song of parts, one behind the other.
+std::vector<float> Join(std::initializer_list<const std::vector<float>*> parts) {
+  std::vector<float> song;
+  for (const std::vector<float>* part : parts) song.insert(song.end(), part->begin(), part->end());
+  return song;
+}
+
+/// Mean distance of joints, metres, both dancers standing at one place, facing one way.
+double Apart(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
+  const auto joints = [&](const Pose& pose) {
+    return JointPositions(skeleton, GroundFrame::Of(pose).ToLocal(pose));
+  };
+  double sum = 0;
+  const size_t frames = std::min(a.size(), b.size());
+  for (size_t i = 0; i < frames; ++i) sum += (joints(a[i]) - joints(b[i])).colwise().norm().mean();
+  return sum / static_cast<double>(frames);
+}
+
+class Judge {
+ public:
+  Judge(SampleQueue& queue, const HearingOptions& options, Table* table)
+      : queue_(queue), skeleton_(queue.model().skeleton), options_(options), table_(*table) {}
+
+  void Parts();
+  void Loudness(const std::string& name, const std::vector<std::vector<float>>& songs);
+  void Form();
+  void Hits();
+
+ private:
+  /// A figure at usual settings and at those of which `matters` is another; a dash beside others.
+  template <typename Figure>
+  void Row(const std::string& label, int digits, double Setting::*matters, Figure of) {
+    table_.Begin({label});
+    for (const Setting& setting : kSettings) {
+      const bool told =
+          &setting == &kUsual || (matters != nullptr && setting.*matters != kUsual.*matters);
+      table_.Put(setting.name, digits, told ? of(setting) : NAN);
+    }
+  }
+  std::vector<Pose> Dance(std::span<const float> mono, int seed, const Setting& setting) {
+    DanceConfig config;
+    config.seed = static_cast<uint64_t>(seed);
+    config.music_dynamics = setting.dynamics;
+    return DanceTo(queue_, mono, config);
+  }
+  std::vector<float> Speeds(std::span<const Pose> dance) const {
+    return MeanSpeeds(TrackJoints(skeleton_, dance), kModelFps);
+  }
+  std::vector<float> MakePart(uint64_t nth, bool only_pad) const {
+    const uint64_t seed = options_.first_seed + nth;
+    return MakeSong({.seed = seed,
+                     .seconds = static_cast<double>(options_.part_seconds),
+                     .tempo = {{0, 90 + 10 * static_cast<double>(seed % 5)}},
+                     .only_pad = only_pad})
+        .mono;
+  }
+  size_t part_frames() const { return static_cast<size_t>(options_.part_seconds) * 30; }
+  /// What is judged of the nth part.
+  template <typename Values>
+  auto Part(const Values& of_frames, size_t nth) const {
+    const size_t from = nth * part_frames() + kSettles;
+    return std::span(of_frames).subspan(
+        from, std::min((nth + 1) * part_frames(), of_frames.size()) - from);
+  }
+  double Hits(const MadeSong& song, const std::vector<Pose>& dance) const;
+
+  SampleQueue& queue_;
+  const Skeleton& skeleton_;
+  const HearingOptions& options_;
+  Table& table_;
+};
+
+void Judge::Parts() {
+  struct Speed {
+    double drums = 0, pad = 0, silence = 0;
+  };
+  std::map<std::string, Speed> speeds;
+  for (const Setting& setting : std::span(kSettings).first(2)) {
+    for (int i = 0; i < options_.seeds; ++i) {
+      const auto nth = static_cast<uint64_t>(i);
+      const std::vector<float> drums = MakePart(nth, false), pad = MakePart(nth, true);
+      const std::vector<float> silence(drums.size());
+      const std::vector<float> danced =
+          Speeds(Dance(Join({&drums, &pad, &drums, &silence, &drums}), i, setting));
+      Speed& speed = speeds[setting.name];
+      for (const size_t part : {0, 2, 4}) speed.drums += MeanOf(Part(danced, part)) / 3;
+      speed.pad += MeanOf(Part(danced, 1));
+      speed.silence += MeanOf(Part(danced, 3));
+    }
+  }
+  Row("drums ÷ pad", 2, &Setting::dynamics, [&](const Setting& setting) {
+    return speeds[setting.name].drums / speeds[setting.name].pad;
+  });
+  Row("silence ÷ drums", 2, &Setting::dynamics, [&](const Setting& setting) {
+    return speeds[setting.name].silence / speeds[setting.name].drums;
+  });
+}
+
+void Judge::Loudness(const std::string& name, const std::vector<std::vector<float>>& songs) {
+  Row("loudness and speed, " + name, 2, &Setting::dynamics, [&](const Setting& setting) {
+    double sum = 0;
+    for (const std::vector<float>& song : songs) {
+      for (int seed = 0; seed < options_.seeds; ++seed) {
+        const std::vector<float> speeds = Speeds(Dance(song, seed, setting));
+        std::vector<double> loudness = LoudnessOf(song), moved;
+        for (size_t i = 0; i < loudness.size() && (i + 1) * kHeardFrames <= speeds.size(); ++i)
+          moved.push_back(MeanOf(std::span(speeds).subspan(i * kHeardFrames, kHeardFrames)));
+        loudness.resize(moved.size());
+        sum += Correlation(loudness, moved);
+      }
+    }
+    return sum / static_cast<double>(songs.size()) / options_.seeds;
+  });
+}
+
+void Judge::Form() {
+  double songs = 0, seeds = 0;
+  Row("a part again ÷ another part", 2, &Setting::variation, [&](const Setting& setting) {
+    double same = 0, other = 0;
+    for (int i = 0; i < options_.seeds; ++i) {
+      const uint64_t first = 20 + 3 * static_cast<uint64_t>(i);
+      const std::vector<float> a = MakePart(first, false), b = MakePart(first + 1, false),
+                               c = MakePart(first + 2, false);
+      const std::vector<float> song = Join({&a, &b, &a, &c, &a});
+      DanceConfig config;
+      config.seed = static_cast<uint64_t>(i);
+      config.variation = setting.variation;
+      config.music_beats = FindBeats(song).Seconds();
+      config.music_passages = FindPassages(song, config.music_beats);
+      const std::vector<Pose> dance = DanceTo(queue_, song, config);
+      const auto apart = [&](size_t one, size_t two) {
+        return Apart(skeleton_, Part(dance, one), Part(dance, two));
+      };
+      same += (apart(0, 2) + apart(0, 4) + apart(2, 4)) / 3;
+      other += (apart(0, 1) + apart(0, 3) + apart(1, 2) + apart(2, 3)) / 4;
+      if (&setting != &kUsual) continue;
+      const std::vector<Pose> alone = Dance(a, i, setting);
+      songs += Apart(skeleton_, alone, Dance(b, i, setting));
+      seeds += Apart(skeleton_, alone, Dance(a, i + options_.seeds, setting));
+    }
+    return same / other;
+  });
+  Row("two songs ÷ two seeds", 2, nullptr, [&](const Setting&) { return songs / seeds; });
+}
+
+double Judge::Hits(const MadeSong& song, const std::vector<Pose>& dance) const {
+  const std::vector<float> speeds = Speeds(dance);
+  const auto hits = [&](double moved) {
+    std::vector<double> beats;
+    for (const double beat : song.beats) beats.push_back(beat * kModelFps + moved);
+    return 100 * ScoreBeats(speeds, beats, kModelFps).hit_rate;
+  };
+  const int shifts = static_cast<int>(std::lround(60 * kModelFps / TempoOf(song.beats)));
+  double chance = 0;
+  for (int shift = 0; shift < shifts; ++shift) chance += hits(shift) / shifts;
+  return hits(0) - chance;
+}
+
+void Judge::Hits() {
+  double free = 0, keyed = 0, on_path = 0;
+  for (int i = 0; i < options_.seeds; ++i) {
+    const double bpm = 90 + 20 * static_cast<double>(i);
+    const MadeSong song = MakeSong({.seed = options_.first_seed + 40 + static_cast<uint64_t>(i),
+                                    .seconds = kHitSeconds,
+                                    .tempo = {{0, bpm}}});
+    DanceConfig config;
+    config.seed = static_cast<uint64_t>(i);
+    config.music_beats = FindBeats(song.mono).Seconds();
+    const std::vector<Pose> dance = DanceTo(queue_, song.mono, config);
+    free += Hits(song, dance) / options_.seeds;
+    config.seed += static_cast<uint64_t>(options_.seeds);
+    const std::vector<Key> keys = KeysOf(dance);
+    keyed += Hits(song, DanceTo(queue_, song.mono, config, keys)) / options_.seeds;
+    if (!queue_.model().root_path) continue;
+    on_path +=
+        Hits(song, DanceTo(queue_, song.mono, config, keys, Circle(dance.size()))) / options_.seeds;
+  }
+  const auto row = [&](const std::string& which, double points) {
+    Row("hits over chance, " + which + " points", 0, nullptr,
+        [&](const Setting&) { return points; });
+  };
+  row("free", free);
+  row("keyed", keyed);
+  if (queue_.model().root_path) row("keyed on a path", on_path);
+}
+
+}  // namespace
+
+Table EvaluateHearing(SampleQueue& queue, const std::vector<NamedSong>& songs,
+                      const HearingOptions& options) {
+  Table table;
+  table.name = "hearing";
+  table.title = "Is the music heard";
+  table.label_headings = {"figure"};
+  table.note = std::to_string(options.seeds) + " dances of each song; songs are made from seed " +
+               std::to_string(options.first_seed) + " on, and " + std::to_string(songs.size()) +
+               " are given.";
+  Judge judge(queue, options, &table);
+  judge.Parts();
+  std::vector<std::vector<float>> made;
+  for (int i = 0; i < options.seeds; ++i) {
+    made.push_back(MakeSong({.seed = options.first_seed + 10 + static_cast<uint64_t>(i),
+                             .seconds = kSongSeconds,
+                             .without_drums = {{0, 12}, {40, 56}}})
+                       .mono);
+  }
+  judge.Loudness("made songs with an intro and a break", made);
+  for (const NamedSong& song : songs) judge.Loudness(song.name, {song.mono});
+  judge.Form();
+  judge.Hits();
+  return table;
+}
+
+}  // namespace choreo
