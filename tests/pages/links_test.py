@@ -11,6 +11,7 @@ LOOKED_UP = {"docs/api.md", "docs/decisions.md", "docs/papers.md", "docs/reliabi
 # Five minutes, and what a start page may take of them.
 WORDS, START_WORDS = 900, 450
 PICTURES = 1_150_000
+FILM = 2_000_000  # bytes each, for who asks for it
 
 
 class PagesTest(unittest.TestCase):
@@ -76,6 +77,8 @@ class PagesTest(unittest.TestCase):
 
     def test_pictures_are_quick_to_fetch(self):
         self.assertLess(sum(picture.stat().st_size for picture in (ROOT / "docs/images").iterdir()), PICTURES)
+        for film in (ROOT / "docs/films").iterdir():
+            self.assertLess(film.stat().st_size, FILM, film.name)
 
 
 unittest.main()
