@@ -10,7 +10,8 @@
 /// Music that sounds now: its beats are known before they sound.
 namespace choreo::live::beat_ear_test {
 
-/// What is told from `from` s on, each beat before it sounds; what is told later counts.
+/// What is told from `from` s on, each beat before it sounds; what is told later counts, but for
+/// downbeats, of which each is kept.
 std::vector<double> Told(const std::vector<float>& song, double from,
                          std::vector<double>* downbeats = nullptr) {
   BeatEar ear;
@@ -20,7 +21,8 @@ std::vector<double> Told(const std::vector<float>& song, double from,
     const double now = static_cast<double>(at + kPiece) / kModelSampleRate;
     const auto piece = std::span(song).subspan(at, std::min(kPiece, song.size() - at));
     const BeatsAhead ahead = ear.Hear(piece);
-    if (downbeats != nullptr && !ahead.downbeats.empty()) *downbeats = ahead.downbeats;
+    if (downbeats != nullptr && now > from)
+      downbeats->insert(downbeats->end(), ahead.downbeats.begin(), ahead.downbeats.end());
     for (const double beat : ahead.beats) {
       EXPECT_GT(beat, now - 0.1) << "it has sounded";
       EXPECT_LT(beat, now + BeatEar::kAheadSeconds + 0.1);
@@ -48,15 +50,15 @@ TEST(BeatEar, TellsBeatsBeforeTheySound) {
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     const double bpm = 80 + 10 * static_cast<double>(seed);
     const MadeSong song = MakeSong({.seed = seed, .seconds = 30, .tempo = {{0, bpm}}});
-    std::vector<double> last;
-    const std::vector<double> told = Told(song.mono, 12, &last);
+    std::vector<double> downbeats;
+    const std::vector<double> told = Told(song.mono, 12, &downbeats);
     ASSERT_GT(told.size(), 15U) << bpm;
     well += ShareMet(told, song.beats) > 0.9;
-    std::erase_if(last, [](double beat) { return beat > 29; });
-    counted += !last.empty() && ShareMet(last, song.downbeats) == 1;
+    std::erase_if(downbeats, [](double beat) { return beat > 29.5; });
+    counted += ShareMet(downbeats, song.downbeats) > 0.7;
   }
   EXPECT_GE(well, 4);
-  EXPECT_GE(counted, 3);  // the last bars
+  EXPECT_GE(counted, 3);
 }
 
 TEST(BeatEar, WhatIsTooLateLeavesBothLists) {
