@@ -210,6 +210,23 @@ class ClientTest(unittest.TestCase):
                 self.assert_refused("CANCELLED", "", list, dance)
             stop.set()
 
+    def test_a_server_that_drains_is_looked_at_by_who_says_so(self):
+        def silence():
+            yield {"config": {"audio_format": PCM}}
+            stop.wait()
+
+        stop = threading.Event()
+        with Server() as server, Client(server.address) as client, client.stream_dance(silence()) as dance:
+            next(dance)
+            server.drain()
+            try:
+                while info(server.address).models:  # as long as it has not heard of it
+                    time.sleep(0.02)
+            except ChoreoError as error:
+                self.assertEqual(error.code, "UNAVAILABLE")
+            self.assertTrue(info(server.address, even_draining=True).models)
+            stop.set()
+
     def test_a_mistake_in_the_requests_ends_the_call_with_that_mistake(self):
         def requests():
             yield {"config": {"audio_format": PCM}}

@@ -26,6 +26,9 @@ class Server:
         self._process.wait()
         self._process.stdout.close()
 
+    def drain(self):
+        self._process.send_signal(signal.SIGTERM)
+
     def kill(self):
         self._process.send_signal(signal.SIGKILL)
 

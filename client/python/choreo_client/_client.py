@@ -34,7 +34,8 @@ class Client:
     or fingerprint is tried at the next address. Thread-safe. Every failure is a ChoreoError.
 
     `addresses`: HOST:PORT, unix:PATH or a list of them, which are replicas: when one fails the next is asked. Calls take turns at the
-    addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT), and pass those whose health says that they do not serve.
+    addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT), and pass those whose health says that they do not serve,
+    unless `even_draining`.
     `options`: those of Options."""
 
     def __init__(self, addresses, **options):

@@ -34,6 +34,7 @@ class Options:
     silence_s           a server of which nothing is heard for so long, not even the answer to a ping, is lost; at least 2, or 0: never
     retry_s             how long to try again since a call last made progress; 0: not at all, so nothing goes on elsewhere
     first_backoff_s     between tries; doubled with each, up to 2 s
+    even_draining       ask servers, too, that take no new dances: for who looks at them
     """
 
     tls: bool = False
@@ -47,6 +48,7 @@ class Options:
     silence_s: float = 5
     retry_s: float = 10
     first_backoff_s: float = 0.1
+    even_draining: bool = False
 
     def check(self, addresses):
         """Raises ChoreoError, naming the option, for those that cannot be used."""
@@ -108,8 +110,10 @@ class Options:
         return [] if token is None else [("authorization", f"Bearer {token}")]
 
     def channel_options(self):
-        """Calls take turns at all addresses of a name, but for those that say that they do not serve."""
-        service = {"loadBalancingConfig": [{"round_robin": {}}], "healthCheckConfig": {"serviceName": "choreo.v1.Choreography"}}
+        """Calls take turns at all addresses of a name, but for those that say that they do not serve, or at all."""
+        service = {"loadBalancingConfig": [{"round_robin": {}}]}
+        if not self.even_draining:
+            service["healthCheckConfig"] = {"serviceName": "choreo.v1.Choreography"}
         options = {
             "grpc.service_config": json.dumps(service),
             "grpc.max_receive_message_length": -1,
