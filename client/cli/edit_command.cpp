@@ -2,6 +2,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/edit_session.h"
+#include "client/cli/edit_whole.h"
 #include "client/cli/json_fields.h"
 #include "client/cli/key_file.h"
 #include "client/cli/options.h"
@@ -12,47 +13,80 @@
 namespace choreo::cli {
 namespace {
 
+bool EditsKeys(const EditOptions& options) {
+  return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
+         !options.repeats.empty() || options.loop;
+}
+
+bool EditsWhole(const EditOptions& options) {
+  return options.from_s || options.until_s || options.mirror || !options.join.empty();
+}
+
+void CheckTime(const char* option, double at_s) {
+  if (at_s >= 0 && at_s <= kMaxSeconds) return;
+  throw InvalidArgument(option, InFull(at_s) + " s is not in [0, " + InFull(kMaxSeconds) + "]");
+}
+
+/// Edits that need the report, which names the keys.
+void CheckReported(const EditOptions& options) {
+  for (const auto& [option, given] : {std::pair("--move", !options.moves.empty()),
+                                      {"--remove", !options.removed.empty()},
+                                      {"--repeat", !options.repeats.empty()}}) {
+    if (given && options.report.empty())
+      throw InvalidArgument(option, "needs --report, which names the keys");
+  }
+  for (const auto& [id, at_s] : options.moves) CheckTime("--move", at_s);
+  for (const auto& [from_s, until_s, later] : options.repeats) {
+    CheckTime("--repeat", from_s);
+    CheckTime("--repeat", until_s);
+  }
+}
+
 void CheckOptions(const EditOptions& options) {
-  const bool of_report = !options.moves.empty() || !options.removed.empty();
-  if (options.keys.empty() && !of_report && !options.loop) {
+  if (!EditsKeys(options) && !EditsWhole(options)) {
     throw InvalidArgument("--key",
-                          "is missing, and so are --move, --remove and --loop: nothing is to be "
-                          "changed");
+                          "is missing, and so are --move, --remove, --repeat, --loop, --from, "
+                          "--until, --mirror and --join: nothing is to be changed");
   }
-  if (of_report && options.report.empty()) {
-    throw InvalidArgument(options.moves.empty() ? "--remove" : "--move",
-                          "needs --report, which names the keys");
+  if (EditsKeys(options) && EditsWhole(options)) {
+    throw InvalidArgument("--key",
+                          "and --move, --remove, --repeat, --loop go in a command of their own, "
+                          "behind --from, --until, --mirror, --join, which change the whole dance");
   }
-  for (const auto& [id, at_s] : options.moves) {
-    if (!(at_s >= 0 && at_s <= kMaxSeconds)) {
-      throw InvalidArgument("--move",
-                            InFull(at_s) + " s is not in [0, " + InFull(kMaxSeconds) + "]");
-    }
-  }
+  CheckReported(options);
   if (options.keys.size() != options.at_s.size()) {
     throw InvalidArgument("--at", std::to_string(options.at_s.size()) + " times for " +
                                       std::to_string(options.keys.size()) +
                                       " keys; each --key needs one");
   }
+  if (options.hold_s && options.keys.empty()) throw InvalidArgument("--hold", "goes with --key");
   RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> inputs = options.controls.Files();
   inputs.push_back({"dance", options.dance});
   inputs.push_back({"--report", options.report});
   inputs.push_back({"--song", options.song});
+  inputs.push_back({"--join", options.join});
+  inputs.push_back({"--join-report", options.join_report});
   for (const std::string& key : options.keys) inputs.push_back({"--key", FileOf(key)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
     throw InvalidArgument("--new-report", "needs --report, which it is made of");
   }
+  if (!options.new_report.empty() && !options.join.empty() && options.join_report.empty()) {
+    throw InvalidArgument("--join-report", "is missing: --new-report names both dances' keys");
+  }
 }
 
 void Run(const EditOptions& options) {
   CheckOptions(options);
+  if (EditsWhole(options)) return EditWhole(options);
   const Connection connection(options.server, options.model);
   EditSession session(options, connection);
   try {
     for (const std::string& id : options.removed) session.RemoveKey(id);
     for (const auto& [id, at_s] : options.moves) session.MoveKey(id, at_s);
+    for (const auto& [from_s, until_s, later] : options.repeats)
+      session.Repeat(from_s, until_s, later);
     for (size_t i = 0; i < options.keys.size(); ++i)
       session.SetKey(options.keys[i], options.at_s[i]);
     if (options.loop) session.CloseLoop();
@@ -68,11 +102,12 @@ void AddEditCommand(CLI::App& program) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command = program.add_subcommand(
       "edit",
-      "Set, move and remove key poses of a finished dance, or close it to a loop.\n"
+      "Set, move, remove and repeat key poses of a finished dance, or close it to a loop; or cut, "
+      "mirror and join whole dances.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
       "away. A key at the frame of another one replaces it. Keys are removed first, then moved, "
-      "then set.");
+      "then repeated, then set. Whole dances are cut first, then mirrored, then joined.");
   command->add_option("dance", options->dance, MotionFileExtensions() + " file.")
       ->required()
       ->check(CLI::ExistingFile);
@@ -90,6 +125,18 @@ void AddEditCommand(CLI::App& program) {
   AddRepeated(*command, "--remove", options->removed,
               "ID: a key of --report to dance on without. May be given more than once. Of several "
               "keys of one name: ID@SECOND.");
+  command
+      ->add_option("--hold", options->hold_s,
+                   "Seconds for which the poses of --key are kept. Default: as a key file says, or "
+                   "they are passed.")
+      ->check(AboveZero());
+  command
+      ->add_option("--repeat", options->repeats,
+                   "FROM UNTIL LATER: the keys of --report from second FROM on and before UNTIL "
+                   "once more, LATER seconds or counts of --song later (8c), moved and turned to "
+                   "where the dancer is then. Keys that stood there make way. May be given more "
+                   "than once.")
+      ->allow_extra_args(false);
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files and moved ones, too, where the dancer is and faces at that "
                     "moment.");
@@ -104,6 +151,29 @@ void AddEditCommand(CLI::App& program) {
                    "Seconds that may change before and behind a key, or before the end of a loop. "
                    "Default: up to the neighbouring keys of --report; 2 without it.")
       ->check(AboveZero());
+  command
+      ->add_option("--from", options->from_s,
+                   "Second at which what stays of the dance begins, its second 0 from then on.")
+      ->check(TimeInSeconds());
+  command->add_option("--until", options->until_s, "Second before which it ends.")
+      ->check(TimeInSeconds());
+  command->add_flag("--mirror", options->mirror,
+                    "Exchange left and right of body and stage: the plane x = 0 is the mirror.");
+  CLI::Option* join = command->add_option(
+      "--join", options->join,
+      "Another dance to put behind this one, moved and turned to where this one ends. The way "
+      "there is danced, unless it begins in the pose in which this one ends.");
+  join->check(CLI::ExistingFile);
+  command
+      ->add_option("--gap", options->gap_s,
+                   "Seconds of that way; default: 1. 0: none, the other dance stays where it is.")
+      ->needs(join)
+      ->check(TimeInSeconds());
+  command
+      ->add_option("--join-report", options->join_report,
+                   "Its report, whose keys --new-report takes over.")
+      ->needs(join)
+      ->check(CLI::ExistingFile);
   command->add_option("--song", options->song, "Music that the dance was made to.")
       ->check(CLI::ExistingFile);
   AddSongStart(*command, options->song_start_s);

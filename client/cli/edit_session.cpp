@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <sstream>
 
+#include "client/cli/counts.h"
+#include "client/cli/dance_file.h"
 #include "client/cli/key_faults.h"
-#include "client/cli/motion_input.h"
-#include "client/cli/music.h"
-#include "client/cli/options.h"
-#include "client/cli/output_file.h"
+#include "client/cli/key_file.h"
 #include "client/cli/pose_source.h"
 #include "client/cli/report.h"
-#include "model/core/atomic_file.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
-#include "model/formats/npz.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -24,53 +22,22 @@ namespace {
 
 constexpr double kAround = 2;  // seconds, where nothing says how far an edit may reach
 
-client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton) {
-  client::FinishedDance dance;
-  // A retargeted dance would not be the one that was to stay as it is.
-  dance.motion = ReadMotionNoting(path, skeleton, OtherSkeleton::kRefuse);
-  if (SmallExtension(path) != ".npz") return dance;
-  const NpzArchive npz = NpzArchive::Read(path);
-  if (!npz.Has("contacts")) return dance;
-  const NpyArray array = npz.Array("contacts");
-  if (array.shape != std::vector{static_cast<int64_t>(dance.motion.frames.size()), int64_t{4}}) {
-    throw InvalidArgument(path.string() + ":contacts",
-                          "has not four values for each of the " +
-                              std::to_string(dance.motion.frames.size()) + " frames");
-  }
-  const std::vector<float> values = array.As<float>();
-  dance.contacts.resize(dance.motion.frames.size());
-  for (size_t i = 0; i < values.size(); ++i) dance.contacts[i / 4][i % 4] = values[i];
-  return dance;
+int64_t LastFrame(const client::KeyEdit& edit) {
+  return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
 }
 
 }  // namespace
 
 EditSession::EditSession(const EditOptions& options, const Connection& connection)
-    : options_(options), client_(connection.client()) {
-  edit_.model = connection.model(options.model);
-  edit_.seed = options.seed.value_or(0);
-  edit_.temperature = options.temperature;
-  edit_.music_dynamics = options.music_dynamics;
-  edit_.variation = options.variation;
-  edit_.style = options.style;
-  edit_.controls = options.controls.Read(edit_.model, connection.server());
-  NoteDeterministic(edit_.model, {{"--seed", options.seed.has_value()},
-                                  {"--temperature", edit_.temperature.value_or(0) != 0}});
+    : options_(options), client_(connection.client()), edit_(HowToDance(options, connection)) {
   longest_ = edit_.model.max_transition_frames - 1;
   if (options.around_s) CheckAround(*options.around_s);
   CheckKeys();
   dance_ = ReadDance(options.dance, edit_.model.skeleton);
   frames_ = CountModelFrames(dance_, edit_.model);
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
-  if (!options.report.empty()) ReadKeys();
-  if (!options.song.empty()) {
-    const double end_s = Seconds(frames_ + (options.loop ? LoopFrames().added : 0));
-    const Music music = ReadMusic(options.song, end_s, options.song_start_s);
-    edit_.audio = AudioFor(music.audio, end_s);
-    edit_.music_beats = BeatsBefore(music, end_s);
-    edit_.music_passages = music.passages;
-    edit_.music_id = music.id;
-  }
+  if (!options.report.empty()) known_ = ReadKnown(options.report, frames_, edit_.model.fps);
+  TakeSong(options, Seconds(frames_ + (options.loop ? LoopFrames().added : 0)), &edit_);
 }
 
 void EditSession::SetKey(const std::string& source, double at_s) {
@@ -86,6 +53,13 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     pose = Here(*edit.key.frame).ToWorld(pose);
   else if (options_.in_place)
     pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
+  edit.held = named.held;
+  if (options_.hold_s) edit.held = Holding(edit.key, *options_.hold_s, "--hold");
+  for (client::KeyPose& held : edit.held) {
+    held.frame = Frame(at_s + held.time_s - edit.key.time_s);
+    held.pose = pose;
+  }
+  if (!edit.held.empty()) CheckRoom("--at", at_s, *edit.key.frame, *edit.held.back().frame);
   Set("--at", at_s, std::move(edit));
 }
 
@@ -107,12 +81,6 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
                                         "\" is the first frame, where the dance begins; set it at "
                                         "another second with --key");
   }
-  if (frames.back() + by >= frames_) {
-    throw InvalidArgument("--move", InFull(to_s) + " s: its pose would be held up to " +
-                                        Rounded(Seconds(frames.back() + by)) +
-                                        " s, and the dance has its last frame at " +
-                                        Rounded(Seconds(frames_ - 1)) + " s");
-  }
   client::KeyEdit edit;
   for (const int64_t frame : frames) {
     client::KeyPose& key = frame == frames.front() ? edit.key : edit.held.emplace_back();
@@ -123,25 +91,72 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
       key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
   }
   for (const int64_t frame : frames) keys_.erase(frame);
-  const auto other = keys_.upper_bound(frames.front() + by);
-  if (other != keys_.end() && other->first <= frames.back() + by) {
-    throw InvalidArgument("--move", InFull(to_s) + " s: its pose would be held over the key \"" +
-                                        IdAt(other->first) + "\" at " +
-                                        Rounded(Seconds(other->first)) + " s");
-  }
+  CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
   // What is danced anew around its new place may not reach the old one.
   const auto is_new = [&](int64_t frame) {
     return frame > Before(frames.front() + by) && frame < Behind(frames.back() + by);
   };
   if (!std::ranges::all_of(frames, is_new)) Free(frames, edit.key.id + " leaves its place");
-  const std::string held = edit.key.id;
   Set("--move", to_s, std::move(edit));
-  for (size_t i = 1; i < frames.size(); ++i) MarkHeld(held, &keys_[frames[i] + by]);
+}
+
+void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
+  const Delay delay = ParseDelay(later, "--repeat");
+  const auto moved = [&](double seconds) {
+    return delay.After(seconds, edit_.music_beats, "--repeat");
+  };
+  if (Frame(moved(from_s)) <= Frame(from_s))
+    throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
+  std::vector<client::KeyEdit> phrase;
+  for (auto key = keys_.lower_bound(Frame(from_s)); key != keys_.lower_bound(Frame(until_s));
+       ++key) {
+    const double seconds = Seconds(key->first);
+    client::KeyPose again{.id = IdAt(key->first), .pose = PoseAt(dance_.motion, seconds)};
+    again.frame = FrameInDance("--repeat", moved(seconds));
+    if (HoldsAnother(key->second) && !phrase.empty()) {
+      phrase.back().held.push_back(std::move(again));
+    } else {
+      phrase.push_back({.key = std::move(again)});
+    }
+  }
+  if (phrase.empty()) {
+    throw InvalidArgument("--repeat", "the report has no key from " + Rounded(from_s) +
+                                          " s until " + Rounded(until_s) + " s");
+  }
+  const int64_t first = *phrase.front().key.frame;
+  const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
+  const GroundFrame here = Here(first);
+  const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
+  // What stands there makes way, and what is too near.
+  const int64_t last = LastFrame(phrase.back());
+  keys_.erase(keys_.lower_bound(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1)),
+              keys_.lower_bound(std::max(Frame(moved(until_s)), last + kMinKeyDistance)));
+  for (client::KeyEdit& edit : phrase) {
+    carry(edit.key.pose);
+    for (client::KeyPose& held : edit.held) carry(held.pose);
+    const double at_s = Seconds(*edit.key.frame);
+    Set("--repeat", at_s, std::move(edit));
+  }
+}
+
+void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const {
+  if (last >= frames_) {
+    throw InvalidArgument(field, InFull(at_s) + " s: its pose would be held up to " +
+                                     Rounded(Seconds(last)) +
+                                     " s, and the dance has its last frame at " +
+                                     Rounded(Seconds(frames_ - 1)) + " s");
+  }
+  const auto other = keys_.upper_bound(first);
+  if (other != keys_.end() && other->first <= last) {
+    throw InvalidArgument(field, InFull(at_s) + " s: its pose would be held over the key \"" +
+                                     IdAt(other->first) + "\" at " +
+                                     Rounded(Seconds(other->first)) + " s");
+  }
 }
 
 void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   const int64_t first = *edit.key.frame;
-  const int64_t last = edit.held.empty() ? first : *edit.held.back().frame;
+  const int64_t last = LastFrame(edit);
   edit.from = first == 0 ? -1 : Before(first);
   edit.to = last == frames_ - 1 ? frames_ : Behind(last);
   for (const auto& [frame, other] : {std::pair(first, edit.from), {last, edit.to}}) {
@@ -153,6 +168,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   DropWarnings(edit.from, edit.to);
   WarnOfFaults(edit);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
+  for (const client::KeyPose& held : edit.held) MarkHeld(edit.key.id, &keys_[*held.frame]);
 }
 
 void EditSession::Free(const std::vector<int64_t>& frames, const std::string& what) {
@@ -179,7 +195,7 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
   }
   const auto faults = KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
   ShowWarnings(faults);
-  warnings_.insert(warnings_.end(), faults.begin(), faults.end());
+  known_.warnings.insert(known_.warnings.end(), faults.begin(), faults.end());
 }
 
 EditSession::Loop EditSession::LoopFrames() const {
@@ -210,23 +226,7 @@ void EditSession::Write() const {
               dance_.contacts.empty() ? nullptr : &dance_.contacts);
   std::cout << options_.out << std::endl;
   if (options_.new_report.empty()) return;
-  // Of the old report, only what still holds.
-  nlohmann::ordered_json report = {{"frames", frames_}, {"fps", edit_.model.fps}};
-  report["keyframes"] = nlohmann::ordered_json::array();
-  for (const auto& [frame, key] : keys_) report["keyframes"].push_back(key);
-  report["warnings"] = WarningsJson(warnings_);
-  WriteFile(options_.new_report, report.dump(2) + "\n");
-}
-
-void EditSession::ReadKeys() {
-  const auto report = ReadReport(options_.report);
-  if (report["fps"] != edit_.model.fps) {
-    std::ostringstream message;
-    message << report["fps"].dump() << ", but the model runs at " << edit_.model.fps;
-    throw InvalidArgument(options_.report + ":fps", message.str());
-  }
-  keys_ = KeysOf(report, frames_, options_.report);
-  warnings_ = ReadWarnings(report, options_.report);
+  WriteKnown(options_.new_report, known_, frames_, edit_.model.fps);
 }
 
 void EditSession::CheckKeys() const {
@@ -299,7 +299,7 @@ int64_t EditSession::Behind(int64_t frame) const {
 }
 
 void EditSession::DropWarnings(int64_t from, int64_t to) {
-  std::erase_if(warnings_, [&](const client::Warning& warning) {
+  std::erase_if(known_.warnings, [&](const client::Warning& warning) {
     const bool anew = warning.frame > from && warning.frame <= to;
     return anew || (from < 0 && warning.frame >= frames_);
   });
@@ -307,7 +307,7 @@ void EditSession::DropWarnings(int64_t from, int64_t to) {
 
 void EditSession::Take(client::EditedDance edited, const std::string& what) {
   ShowWarnings(edited.warnings);
-  warnings_.insert(warnings_.end(), edited.warnings.begin(), edited.warnings.end());
+  known_.warnings.insert(known_.warnings.end(), edited.warnings.begin(), edited.warnings.end());
   dance_ = std::move(edited.dance);
   std::cout << what << ": frames " << edited.first_changed << " to " << edited.end_changed - 1
             << " of " << dance_.motion.frames.size() << " are new";

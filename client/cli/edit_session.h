@@ -2,44 +2,15 @@
 
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "client/cli/connection.h"
-#include "client/cli/control_options.h"
-#include "client/cli/report_keys.h"
+#include "client/cli/edit_options.h"
 #include "client/edit.h"
 #include "model/motion/canonical.h"
 
 namespace choreo::cli {
-
-/// What `choreo edit` was asked.
-struct EditOptions {
-  ServerOptions server;
-  std::string dance;
-  std::vector<std::string> keys;
-  std::vector<double> at_s;
-  std::vector<std::pair<std::string, double>> moves;  ///< keys of the report, and seconds
-  std::vector<std::string> removed;                   ///< keys of the report
-  bool in_place = false;
-  bool allow_bends = false;
-  bool loop = false;
-  std::optional<double> around_s;
-  std::string song;
-  double song_start_s = 0;
-  std::string report;
-  std::string new_report;
-  std::optional<uint64_t> seed;
-  std::optional<double> temperature;
-  std::optional<double> music_dynamics;
-  std::optional<double> variation;
-  std::string style;
-  ControlOptions controls;
-  std::string model;
-  std::string out;
-};
 
 /// A dance while its keys are changed, one after another. The options and the connection must
 /// outlive it.
@@ -53,6 +24,9 @@ class EditSession {
   void RemoveKey(const std::string& id);
   /// Takes a key of the report, and what holds it, to another second, as it is danced.
   void MoveKey(const std::string& id, double to_s);
+  /// Sets the keys of the report in [from_s, until_s) once more, so much later, moved and turned to
+  /// where the dancer is then. Those that stood there make way.
+  void Repeat(double from_s, double until_s, const std::string& later);
   /// Leads the last frames back into the first; behind a pose that is held at the end, new ones.
   void CloseLoop();
   /// The dance, and the report of what is known of it, where the options want them.
@@ -62,11 +36,12 @@ class EditSession {
   int64_t Frame(double seconds) const { return std::llround(seconds * edit_.model.fps); }
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / edit_.model.fps; }
 
-  void ReadKeys();
   void CheckKeys() const;
   void CheckAround(double seconds) const;
   /// Throws where a key at this second would be too near to `what` at this frame.
   void CheckDistance(const char* field, double at_s, int64_t other, const std::string& what) const;
+  /// Throws where a pose that is held from one frame to another meets the next key, or the end.
+  void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
   /// The frame of this second; throws where it is behind the dance.
   int64_t FrameInDance(const char* field, double at_s) const;
   int64_t Around() const;
@@ -102,9 +77,9 @@ class EditSession {
   client::EditOptions edit_;
   int64_t longest_ = 0;
   client::FinishedDance dance_;
-  int64_t frames_ = 0;                     // at the model's rate
-  ReportKeys keys_;                        // those known
-  std::vector<client::Warning> warnings_;  // of the report and of the edits
+  int64_t frames_ = 0;  // at the model's rate
+  KnownDance known_;    // of the report and of the edits
+  ReportKeys& keys_ = known_.keys;
 };
 
 }  // namespace choreo::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -71,24 +72,6 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
   return key;
 }
 
-/// Appends keys that keep a pose for so long: so close together that nothing else fits between.
-void AppendHold(const json& value, const std::string& field, std::vector<KeyPose>* keys) {
-  const double seconds = JsonNumber(value["hold"], field + kHold);
-  if (!(seconds >= kHoldStep && seconds <= kLongestHold)) {
-    std::ostringstream message;
-    message << Shown(value["hold"]) << " s, must be " << kHoldStep << " to " << kLongestHold;
-    throw InvalidArgument(field + kHold, message.str());
-  }
-  if (!value.contains("time")) throw InvalidArgument(field + kHold, "goes with time");
-  const KeyPose key = keys->back();
-  const auto steps = static_cast<int>(std::floor(seconds / kHoldStep + 1e-9));
-  for (int step = 1; step <= steps; ++step) {
-    KeyPose& held = keys->emplace_back(key);
-    held.time_s += seconds * step / steps;
-    held.id += " held " + std::to_string(step);
-  }
-}
-
 double ParseSeconds(std::string_view text, const std::string& source) {
   double seconds = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), seconds);
@@ -149,6 +132,22 @@ void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose
 
 }  // namespace
 
+std::vector<KeyPose> Holding(const KeyPose& key, double seconds, const std::string& field) {
+  if (!(seconds >= kHoldStep && seconds <= kLongestHold)) {
+    std::ostringstream message;
+    message << seconds << " s, must be " << kHoldStep << " to " << kLongestHold;
+    throw InvalidArgument(field, message.str());
+  }
+  const auto steps = static_cast<int>(std::floor(seconds / kHoldStep + 1e-9));
+  std::vector<KeyPose> holding(static_cast<size_t>(steps), key);
+  for (int step = 1; step <= steps; ++step) {
+    KeyPose& held = holding[static_cast<size_t>(step) - 1];
+    held.time_s += seconds * step / steps;
+    held.id += " held " + std::to_string(step);
+  }
+  return holding;
+}
+
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                   const Skeleton& skeleton, std::vector<std::string>* places) {
   const json file = ParseJson(text, name);
@@ -163,7 +162,11 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
       throw InvalidArgument(field + ".id",
                             "\"" + keys.back().id + "\" stands for an earlier key already");
     }
-    if (list[i].contains("hold")) AppendHold(list[i], field, &keys);
+    if (list[i].contains("hold")) {
+      if (!list[i].contains("time")) throw InvalidArgument(field + kHold, "goes with time");
+      const double seconds = JsonNumber(list[i]["hold"], field + kHold);
+      std::ranges::copy(Holding(keys.back(), seconds, field + kHold), std::back_inserter(keys));
+    }
     if (!places) continue;
     places->push_back(field);
     places->resize(keys.size(), field + kHold);

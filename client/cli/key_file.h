@@ -21,6 +21,12 @@ std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::stri
                                           const Skeleton& skeleton,
                                           std::vector<std::string>* places = nullptr);
 
+/// Keys that keep the pose of this one for so many seconds, behind it, so close together that
+/// nothing else fits between; its time counts, not its frame. Throws Error(kInvalidArgument, field)
+/// for a time of less than 0.1 or more than 60 s.
+std::vector<client::KeyPose> Holding(const client::KeyPose& key, double seconds,
+                                     const std::string& field);
+
 /// Whether the key at this place only holds the pose of the one before.
 bool IsHeld(const std::string& place);
 

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr double kMostTurn = 360;  // degrees
 
-std::vector<double> Numbers(const json& value, const std::string& field) {
+std::vector<double> NumbersOf(const json& value, const std::string& field) {
   if (!value.is_array()) return {JsonNumber(value, field)};
   std::vector<double> numbers;
   for (size_t i = 0; i < value.size(); ++i)
@@ -86,7 +86,7 @@ client::KeyPose ReadNamedPose(const json& value, const std::string& field,
   }
   key.mask.root_position = value.contains("place");
   if (key.mask.root_position) {
-    const std::vector<double> at = Numbers(value["place"], field + ".place");
+    const std::vector<double> at = NumbersOf(value["place"], field + ".place");
     if (at.size() != 2) {
       throw InvalidArgument(field + ".place", Shown(value["place"]) + " is not [x, z], metres");
     }
@@ -108,7 +108,8 @@ void ReadJoints(const json& joints, const std::string& field, const Skeleton& sk
   for (const auto& [name, degrees] : joints.items()) {
     const int joint = RequireJoint(skeleton, name, field);
     const std::string at = field + "." + name;
-    key->pose.rotations.col(joint) = RotationFromDegrees(skeleton, joint, Numbers(degrees, at), at);
+    key->pose.rotations.col(joint) =
+        RotationFromDegrees(skeleton, joint, NumbersOf(degrees, at), at);
   }
 }
 

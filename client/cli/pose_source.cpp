@@ -17,7 +17,7 @@ NamedPose ReadPose(const std::string& source, const Skeleton& skeleton) {
     const std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places);
     const auto held = std::ranges::count_if(places, IsHeld);
     const auto poses = std::ssize(places) - held;
-    if (poses == 1) return {keys.front()};
+    if (poses == 1) return {keys.front(), true, {keys.begin() + 1, keys.end()}};
     throw InvalidArgument(source, "names " + std::to_string(poses) +
                                       " poses, must be 1: KEYS.json@ID or MOTION@SECOND");
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "client/choreo_client.h"
 
@@ -10,6 +11,8 @@ namespace choreo::cli {
 struct NamedPose {
   client::KeyPose key;
   bool has_place = true;  ///< false for one of the library: it stands around the origin, facing +Z
+  /// Those that keep it, where a key file says that it is held; of a time from its own on.
+  std::vector<client::KeyPose> held = {};
 };
 
 /// A pose by its name in the library, or what ReadKeys takes (key_file.h): a key file with one

@@ -13,11 +13,11 @@ constexpr const char* kHolds = "holds";
 
 std::string IdOf(const nlohmann::ordered_json& key) { return key["id"].get<std::string>(); }
 
+}  // namespace
+
 bool HoldsAnother(const nlohmann::ordered_json& key) {
   return key.contains(kHolds) && key[kHolds].is_string();
 }
-
-}  // namespace
 
 ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name) {
   ReportKeys keys;

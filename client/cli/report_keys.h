@@ -21,6 +21,9 @@ ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const st
 std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,
                              const std::string& field);
 
+/// Whether a key only holds the pose of another one.
+bool HoldsAnother(const nlohmann::ordered_json& key);
+
 /// The last key's frame, if it only holds a pose.
 std::optional<int64_t> HeldEnd(const ReportKeys& keys);
 

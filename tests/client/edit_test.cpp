@@ -256,7 +256,7 @@ TEST_F(EditTest, SaysWhatCannotBe) {
     EXPECT_THAT(outcome.said, HasSubstr(part));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "new.npz"));
   };
-  expect_failure("", "--key: is missing, and so are --move, --remove and --loop");
+  expect_failure("", "--key: is missing, and so are --move, --remove");
   expect_failure("--key kick", "--at: 0 times for 1 keys");
   expect_failure("--key swan --at 1", "swan: is no pose of the library");
   expect_failure("--key kick --at 3 --key groove --at 3.001",

@@ -1,0 +1,47 @@
+#include "client/cli/counts.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "client/cli/json_fields.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+
+namespace choreo::cli {
+namespace {
+
+/// The interval of beats in which a number lies, or the one nearest to it.
+size_t IntervalAt(double place, size_t beats) {
+  return static_cast<size_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(beats - 2)));
+}
+
+}  // namespace
+
+double Delay::After(double seconds, std::span<const double> beats, const std::string& field) const {
+  if (!counts) return seconds + amount;
+  if (beats.size() < 2)
+    throw InvalidArgument(field, "counts need music that has beats; say seconds");
+  const auto behind = std::ranges::upper_bound(beats, seconds) - beats.begin();
+  const size_t at = IntervalAt(static_cast<double>(behind - 1), beats.size());
+  const double place =
+      static_cast<double>(at) + (seconds - beats[at]) / (beats[at + 1] - beats[at]) + amount;
+  const size_t to = IntervalAt(place, beats.size());
+  return beats[to] + (place - static_cast<double>(to)) * (beats[to + 1] - beats[to]);
+}
+
+Delay ParseDelay(const std::string& text, const std::string& field, double least) {
+  Delay delay;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), delay.amount);
+  std::string_view unit(end, text.data() + text.size());
+  if (unit.starts_with(' ')) unit.remove_prefix(1);
+  delay.counts = unit == "c" || unit == "count" || unit == "counts";
+  const bool known = delay.counts || unit.empty() || unit == "s";
+  if (code == std::errc() && known && delay.amount >= least && delay.amount <= kMaxSeconds)
+    return delay;
+  throw InvalidArgument(field, '"' + text + "\" is neither seconds (2.5) nor counts (8c), from " +
+                                   Rounded(least) + " on");
+}
+
+}  // namespace choreo::cli

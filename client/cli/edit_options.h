@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "client/cli/connection.h"
+#include "client/cli/control_options.h"
+#include "client/cli/report_keys.h"
+#include "client/edit.h"
+
+namespace choreo::cli {
+
+/// What `choreo edit` was asked.
+struct EditOptions {
+  ServerOptions server;
+  std::string dance;
+  std::vector<std::string> keys;
+  std::vector<double> at_s;
+  std::vector<std::pair<std::string, double>> moves;  ///< keys of the report, and seconds
+  std::vector<std::string> removed;                   ///< keys of the report
+  /// Phrases: from and until a second, and how much later they come again (counts.h).
+  std::vector<std::tuple<double, double, std::string>> repeats;
+  std::optional<double> hold_s;  ///< of `keys`
+  bool in_place = false;
+  bool allow_bends = false;
+  bool loop = false;
+  std::optional<double> around_s;
+  std::string song;
+  double song_start_s = 0;
+  std::string report;
+  std::string new_report;
+  std::optional<uint64_t> seed;
+  std::optional<double> temperature;
+  std::optional<double> music_dynamics;
+  std::optional<double> variation;
+  std::string style;
+  ControlOptions controls;
+  std::string model;
+  std::string out;
+
+  // Of whole dances (edit_whole.h).
+  std::optional<double> from_s, until_s;
+  bool mirror = false;
+  std::string join, join_report;
+  std::optional<double> gap_s;
+};
+
+/// How the options say that new frames are danced, without a song.
+client::EditOptions HowToDance(const EditOptions& options, const Connection& connection);
+/// The song as far as it sounds before `end_s`, if there is one, for these frames.
+void TakeSong(const EditOptions& options, double end_s, client::EditOptions* edit);
+/// What a dance's report says that edits keep: its keys, by frame, and warnings.
+struct KnownDance {
+  ReportKeys keys = {};
+  std::vector<client::Warning> warnings = {};
+};
+/// From a report, of a dance of so many frames of a model at this rate. Throws
+/// Error(kInvalidArgument) whose field begins with the report's name.
+KnownDance ReadKnown(const std::string& report, int64_t frames, double fps);
+/// As a report, for the next edit.
+void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
+                double fps);
+
+}  // namespace choreo::cli

@@ -1,0 +1,186 @@
+#include "client/cli/edit_whole.h"
+
+#include <cmath>
+#include <iostream>
+#include <regex>
+
+#include "client/arrange.h"
+#include "client/cli/dance_file.h"
+#include "client/cli/report.h"
+#include "model/core/limits.h"
+#include "model/core/rounded.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/mirror.h"
+#include "model/motion/resample.h"
+
+namespace choreo::cli {
+namespace {
+
+constexpr double kUsualGap = 1;  // seconds
+
+/// The first frame at or behind this second.
+int64_t FrameAt(double seconds, double fps) {
+  return static_cast<int64_t>(std::ceil(seconds * fps - kOnFrame));
+}
+
+/// A dance in the making, and what is known of it at the model's rate.
+class Whole {
+ public:
+  Whole(const EditOptions& options, const std::string& path, const std::string& report)
+      : options_(options), path_(path) {
+    auto [skeleton, dance] = ReadDance(path);
+    skeleton_ = std::move(skeleton);
+    dance_ = std::move(dance);
+    if (report.empty()) return;
+    fps_ = ReadReport(report)["fps"].get<double>();
+    known_ = ReadKnown(report, Frames(), fps_);
+  }
+
+  void Cut() {
+    const double fps = dance_.motion.fps;
+    const auto total = std::ssize(dance_.motion.frames);
+    // On a frame of the model, if one is there: keys stand on those.
+    const double start_s = std::round(options_.from_s.value_or(0) * fps_) / fps_;
+    const int64_t first = FrameAt(start_s, fps);
+    const int64_t end =
+        options_.until_s ? std::min<int64_t>(total, FrameAt(*options_.until_s, fps)) : total;
+    if (first >= end) {
+      throw InvalidArgument(options_.from_s ? "--from" : "--until",
+                            "nothing of " + path_ + " is left: it ends at " +
+                                Rounded(static_cast<double>(total) / fps) +
+                                " s, and what stays is to have a frame at least");
+    }
+    dance_ = client::PartOf(dance_, first, end);
+    const int64_t by = std::llround(start_s * fps_);
+    std::erase_if(known_.keys, [&](const auto& key) { return key.first < by; });
+    Shift(-by);
+    std::erase_if(known_.keys, [&](const auto& key) { return key.first >= Frames(); });
+    std::erase_if(known_.warnings, [&](const client::Warning& warning) {
+      return warning.frame < 0 || warning.frame >= Frames();
+    });
+  }
+
+  void Mirror() {
+    dance_ = client::Mirrored(skeleton_, dance_);
+    static const std::regex kSide("left_|right_");
+    for (client::Warning& warning : known_.warnings) {
+      std::string message;
+      std::string rest = warning.message;
+      for (std::smatch side; std::regex_search(rest, side, kSide); rest = side.suffix())
+        message += side.prefix().str() + OtherSide(side.str());
+      warning.message = message + rest;
+    }
+  }
+
+  /// Puts another one behind it.
+  void Join(Whole next) {
+    if (!SameBones(skeleton_, next.skeleton_)) {
+      throw InvalidArgument("--join", next.path_ + " is of the skeleton " +
+                                          next.skeleton_.Describe() + ", " + path_ + " of " +
+                                          skeleton_.Describe());
+    }
+    next.dance_ = client::AtRate(std::move(next.dance_), dance_.motion.fps);
+    const Pose last = dance_.motion.frames.back();
+    const bool as_it_is = options_.gap_s == 0.0;
+    if (!as_it_is) next.dance_ = client::BegunAt(last, std::move(next.dance_));
+    const auto frames = std::ssize(dance_.motion.frames);
+    auto begin = frames;  // of the other one
+    if (as_it_is) {
+      dance_ = client::Join(std::move(dance_), next.dance_);
+      std::cout << "joined as they are";
+    } else if (!options_.gap_s && client::BeginsIn(skeleton_, next.dance_, last)) {
+      --begin;  // where they meet one frame is enough
+      dance_ = client::Join(client::PartOf(dance_, 0, begin), next.dance_);
+      std::cout << "joined where they meet";
+    } else {
+      begin = DanceOver(next.dance_);
+      std::cout << "joined: frames " << frames << " to " << begin - 1 << " are new";
+    }
+    std::cout << "; the second begins at "
+              << Rounded(static_cast<double>(begin) / dance_.motion.fps) << " s\n";
+    next.Shift(std::llround(static_cast<double>(begin) / dance_.motion.fps * fps_));
+    known_.keys.merge(next.known_.keys);
+    known_.warnings.insert(known_.warnings.end(), next.known_.warnings.begin(),
+                           next.known_.warnings.end());
+  }
+
+  void Write() const {
+    WriteMotion(options_.out, skeleton_, dance_.motion,
+                dance_.contacts.empty() ? nullptr : &dance_.contacts);
+    std::cout << options_.out << std::endl;
+    if (!options_.new_report.empty()) WriteKnown(options_.new_report, known_, Frames(), fps_);
+  }
+
+ private:
+  /// At the model's rate.
+  int64_t Frames() const {
+    return static_cast<int64_t>(std::floor(Duration(dance_.motion) * fps_ + kOnFrame)) + 1;
+  }
+
+  /// What is known happens so many frames later.
+  void Shift(int64_t by) {
+    ReportKeys keys;
+    for (auto& [frame, key] : known_.keys) {
+      key["frame"] = frame + by;
+      // Of the file that was.
+      for (const char* member :
+           {"output_frame", "on_output_frame", "output_error_m", "output_error_deg"}) {
+        key.erase(member);
+      }
+      keys.emplace(frame + by, key);
+    }
+    known_.keys = std::move(keys);
+    for (client::Warning& warning : known_.warnings) warning.frame += by;
+  }
+
+  /// Dances to the other one; returns where that begins.
+  int64_t DanceOver(const client::FinishedDance& next) {
+    const Connection connection(options_.server, options_.model);
+    client::EditOptions how = HowToDance(options_, connection);
+    if (!SameBones(how.model.skeleton, skeleton_)) {
+      throw InvalidArgument(path_, "is of the skeleton " + skeleton_.Describe() + ", the model \"" +
+                                       how.model.name + "\" of " + how.model.skeleton.Describe());
+    }
+    const double gap_s = options_.gap_s.value_or(kUsualGap);
+    const int64_t gap = std::llround(gap_s * how.model.fps);
+    const int64_t most = how.model.max_transition_frames;
+    if (gap < kMinKeyDistance || gap > most) {
+      throw InvalidArgument("--gap", Rounded(gap_s) + " s, must be 0, or " +
+                                         Rounded(kMinKeyDistance / how.model.fps) + " to " +
+                                         Rounded(static_cast<double>(most) / how.model.fps) + " s");
+    }
+    TakeSong(options_, Duration(dance_.motion) + gap_s, &how);
+    const auto before = std::ssize(dance_.motion.frames) + std::ssize(next.motion.frames);
+    client::EditedDance joined;
+    try {
+      joined = client::Join(connection.client(), dance_, next, how, gap);
+    } catch (const Error& error) {
+      throw options_.controls.InTermsOf(error);
+    }
+    ShowWarnings(joined.warnings);
+    known_.warnings.insert(known_.warnings.end(), joined.warnings.begin(), joined.warnings.end());
+    const auto added = std::ssize(joined.dance.motion.frames) - before;
+    const int64_t begin = std::ssize(dance_.motion.frames) + added;
+    dance_ = std::move(joined.dance);
+    return begin;
+  }
+
+  const EditOptions& options_;
+  std::string path_;
+  Skeleton skeleton_;
+  client::FinishedDance dance_;
+  KnownDance known_;
+  double fps_ = kModelFps;  // the model's
+};
+
+}  // namespace
+
+void EditWhole(const EditOptions& options) {
+  Whole whole(options, options.dance, options.report);
+  if (options.from_s || options.until_s) whole.Cut();
+  if (options.mirror) whole.Mirror();
+  if (!options.join.empty()) whole.Join({options, options.join, options.join_report});
+  whole.Write();
+}
+
+}  // namespace choreo::cli

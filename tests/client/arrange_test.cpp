@@ -1,0 +1,220 @@
+#include "client/arrange.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "model/motion/kinematics.h"
+#include "model/motion/mirror.h"
+#include "tests/client/stage_fixture.h"
+
+/// `choreo edit` of whole dances and of phrases.
+namespace choreo::arrange_test {
+
+using testing::HasSubstr;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+double LargestAcceleration(const Motion& motion, size_t first, size_t last) {
+  double largest = 0;
+  for (size_t frame = first; frame <= last; ++frame) {
+    const auto joints = [&](size_t at) { return JointPositions(Body(), motion.frames[at]); };
+    const Eigen::Matrix3Xd second = joints(frame - 1) - 2 * joints(frame) + joints(frame + 1);
+    largest = std::max(largest, second.colwise().norm().maxCoeff());
+  }
+  return largest;
+}
+
+void ExpectSame(const Pose& a, const Pose& b) {
+  EXPECT_EQ(a.root_position, b.root_position);
+  EXPECT_EQ(a.rotations, b.rotations);
+}
+
+class ArrangeTest : public StageTest {
+ protected:
+  void SetUp() override {
+    StageTest::SetUp();
+    const Outcome outcome = Dance("dance", "--seed 3");
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+  }
+  /// Edits NAME.npz, by NAME.json, into OUT.npz and OUT.json.
+  Outcome Edit(const std::string& name, const std::string& arguments, const std::string& out,
+               const std::string& server = " --server 127.0.0.1:1 ") const {
+    return Choreo("edit " + At(name + ".npz") + server + arguments + " --report " +
+                  At(name + ".json") + " -o " + At(out + ".npz") + " --new-report " +
+                  At(out + ".json"));
+  }
+  std::vector<int64_t> Keys(const std::string& name) const {
+    std::vector<int64_t> frames;
+    const nlohmann::json report = ReadJson(folder_ / (name + ".json"));
+    for (const auto& key : report["keyframes"]) frames.push_back(key["frame"]);
+    return frames;
+  }
+};
+
+// None of this asks a server: there is none at that address.
+TEST_F(ArrangeTest, PartsOfADanceMakeTheDance) {
+  Outcome outcome = Edit("dance", "--until 4", "begin");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  outcome = Edit("dance", "--from 4", "end");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion whole = Read("dance.npz");
+  EXPECT_EQ(Read("begin.npz").frames.size(), 120U);
+  ASSERT_EQ(Read("end.npz").frames.size(), 180U);
+  ExpectSame(Read("end.npz").frames[0], whole.frames[120]);
+  for (const int64_t frame : Keys("begin")) EXPECT_LT(frame, 120);
+  EXPECT_EQ(Keys("begin").size() + Keys("end").size(), Keys("dance").size());
+
+  outcome = Edit("begin", "--gap 0 --join " + At("end.npz") + " --join-report " + At("end.json"),
+                 "whole");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("joined as they are; the second begins at 4 s"));
+  const Motion again = Read("whole.npz");
+  ASSERT_EQ(again.frames.size(), whole.frames.size());
+  for (size_t i = 0; i < whole.frames.size(); ++i) ExpectSame(again.frames[i], whole.frames[i]);
+  EXPECT_EQ(Keys("whole"), Keys("dance"));
+}
+
+TEST_F(ArrangeTest, WhatMeetsIsJoinedWhereItMeets) {
+  ASSERT_EQ(Edit("dance", "--until 4", "begin").code, 0);
+  ASSERT_EQ(Edit("dance", "--from " + std::to_string(119.0 / 30), "end").code, 0);
+  const Outcome outcome =
+      Edit("begin", "--join " + At("end.npz") + " --join-report " + At("end.json"), "whole");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("joined where they meet"));
+  const Motion whole = Read("dance.npz"), again = Read("whole.npz");
+  ASSERT_EQ(again.frames.size(), whole.frames.size());
+  EXPECT_LT(ComparePoses(Body(), again.frames[250], whole.frames[250]).position_m, 1e-6);
+  EXPECT_EQ(Keys("whole"), Keys("dance"));
+}
+
+TEST_F(ArrangeTest, AMirrorImageIsOneOfBodyAndStage) {
+  const Outcome outcome = Edit("dance", "--mirror", "mirrored");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion mirrored = Read("mirrored.npz"), expected = Mirror(Body(), Read("dance.npz"));
+  ASSERT_EQ(mirrored.frames.size(), expected.frames.size());
+  for (size_t i = 0; i < expected.frames.size(); ++i) {
+    EXPECT_LT(ComparePoses(Body(), mirrored.frames[i], expected.frames[i]).position_m, 1e-6);
+  }
+  EXPECT_EQ(Keys("mirrored"), Keys("dance"));
+}
+
+TEST_F(ArrangeTest, TheWayToAnotherDanceIsDanced) {
+  ASSERT_EQ(Dance("other", "--seed 8 --seconds 4").code, 0);
+  const Outcome outcome = Edit("dance",
+                               "--gap 0.8 --song " + At("song.wav") + " --join " + At("other.npz") +
+                                   " --join-report " + At("other.json"),
+                               "both", Server());
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("frames 300 to 322 are new; the second begins at 10.77 s"));
+  const Motion first = Read("dance.npz"), second = Read("other.npz"), both = Read("both.npz");
+  ASSERT_EQ(both.frames.size(), 300U + 23 + 120);
+  for (size_t i = 0; i < 300; ++i) ExpectSame(both.frames[i], first.frames[i]);
+  // The second begins where the first ends, and goes on as it did.
+  const GroundFrame end = GroundFrame::Of(first.frames.back());
+  const GroundFrame begin = GroundFrame::Of(second.frames.front());
+  for (const size_t i : {0, 60, 119}) {
+    const Pose expected = end.ToWorld(begin.ToLocal(second.frames[i]));
+    EXPECT_LT(ComparePoses(Body(), both.frames[323 + i], expected).position_m, 1e-6) << i;
+  }
+  EXPECT_LE(LargestAcceleration(both, 298, 325), 1.2 * LargestAcceleration(first, 1, 298));
+  std::vector<int64_t> keys = Keys("dance");
+  ASSERT_GE(keys.size(), 5U);
+  for (const int64_t frame : Keys("other")) keys.push_back(frame + 323);
+  EXPECT_EQ(Keys("both"), keys);
+}
+
+TEST_F(ArrangeTest, APhraseComesAgainOnItsCounts) {
+  const std::vector<int64_t> keys = Keys("dance");
+  ASSERT_GE(keys.size(), 5U);
+  const auto seconds = [](int64_t frame) {
+    return std::to_string(static_cast<double>(frame) / 30);
+  };
+  // The keys of the second to the third, eight counts later: four seconds, as a count is half a
+  // one.
+  const Outcome outcome = Edit("dance",
+                               "--song " + At("song.wav") + " --repeat " + seconds(keys[1]) + ' ' +
+                                   seconds(keys[2] + 1) + " 8c",
+                               "again", Server());
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion before = Read("dance.npz"), after = Read("again.npz");
+  const GroundFrame there = GroundFrame::Of(before.frames[static_cast<size_t>(keys[1])]);
+  const auto reported = ReadJson(folder_ / "again.json")["keyframes"];
+  const auto original = ReadJson(folder_ / "dance.json")["keyframes"];
+  GroundFrame here;
+  for (size_t i = 1; i <= 2; ++i) {
+    const auto again = std::ranges::find_if(reported, [&](const auto& key) {
+      return key["id"] == original[i]["id"] && key["frame"].template get<int64_t>() != keys[i];
+    });
+    ASSERT_NE(again, reported.end());
+    const int64_t frame = (*again)["frame"];
+    EXPECT_NEAR(static_cast<double>(frame - keys[i]), 120, 2);
+    const Pose& danced = after.frames[static_cast<size_t>(frame)];
+    if (i == 1) here = GroundFrame::Of(before.frames[static_cast<size_t>(frame)]);
+    const Pose expected = here.ToWorld(there.ToLocal(before.frames[static_cast<size_t>(keys[i])]));
+    EXPECT_LE(ComparePoses(Body(), danced, expected).position_m, 0.001);
+    EXPECT_LE(ComparePoses(Body(), danced, expected).angle_deg, 0.1);
+  }
+  // What was there made way, so that there are no more keys than before and after the phrase.
+  for (const auto& key : reported) {
+    const int64_t frame = key["frame"];
+    if (frame < keys[1] + 110 || frame > keys[2] + 110) continue;
+    EXPECT_TRUE(key["id"] == original[1]["id"] || key["id"] == original[2]["id"]) << key;
+  }
+  ExpectSame(after.frames[static_cast<size_t>(keys[2])],
+             before.frames[static_cast<size_t>(keys[2])]);
+}
+
+TEST_F(ArrangeTest, AKeyIsDweltOn) {
+  const Outcome outcome = Choreo("edit " + At("dance.npz") + Server() +
+                                 "--key kick --at 5 --hold 0.5 --around 1 -o " + At("held.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion held = Read("held.npz");
+  for (const size_t frame : {153, 156, 159, 162, 165}) {
+    EXPECT_LE(ComparePoses(Body(), held.frames[frame], held.frames[150]).position_m, 0.001);
+  }
+  EXPECT_GT(ComparePoses(Body(), held.frames[180], held.frames[150]).position_m, 0.01);
+}
+
+TEST_F(ArrangeTest, SaysWhatCannotBe) {
+  const auto expect_failure = [this](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = Edit("dance", arguments, "new");
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_THAT(outcome.said, HasSubstr("choreo: " + part));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "new.npz"));
+  };
+  expect_failure("--mirror --key kick --at 2", "--key: and --move, --remove");
+  expect_failure("--from 10", "--from: nothing of ");
+  expect_failure("--from 4 --until 4", "--from: nothing of ");
+  expect_failure("--until 0", "--until: nothing of ");
+  expect_failure("--hold 1 --loop", "--hold: goes with --key");
+  expect_failure("--join " + At("dance.npz"), "--join-report: is missing");
+  const auto expect_late = [&](const std::string& arguments, const std::string& part) {
+    const Outcome outcome = Edit("dance", arguments, "new", Server());
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_THAT(outcome.said, HasSubstr("choreo: " + part));
+  };
+  const std::string join = "--join " + At("dance.npz") + " --join-report " + At("dance.json");
+  expect_late(join + " --gap 0.01", "--gap: 0.01 s, must be 0, or 0.067 to 60 s");
+  expect_late("--repeat 0 4 8c", "--repeat: counts need music that has beats; say seconds");
+  expect_late("--repeat 0 4 0", "--repeat: 0 is not later");
+  expect_late("--repeat 0 4 soon", "--repeat: \"soon\" is neither seconds (2.5) nor counts (8c)");
+  expect_late("--repeat 0.1 0.2 4", "--repeat: the report has no key from 0.1 s until 0.2 s");
+  expect_late("--repeat 0 4 9", "--repeat: ");
+  expect_late("--key kick --at 9.8 --hold 1", "--at: 9.8 s: its pose would be held up to 10.8 s");
+}
+
+TEST(ArrangeLibraryTest, ContactsGoAlong) {
+  client::FinishedDance dance;
+  dance.motion.frames.assign(60, RestPose(Body()));
+  for (size_t i = 0; i < 60; ++i)
+    dance.contacts.push_back({static_cast<float>(i), 1, static_cast<float>(100 + i), 2});
+  const client::FinishedDance mirrored = client::Mirrored(Body(), dance);
+  EXPECT_EQ(mirrored.contacts[7], (Contacts{107, 2, 7, 1}));
+  EXPECT_EQ(client::PartOf(dance, 10, 20).contacts.front(), dance.contacts[10]);
+  EXPECT_EQ(client::AtRate(dance, 15).contacts[5], dance.contacts[10]);
+  EXPECT_EQ(client::Join(dance, mirrored).contacts[67], mirrored.contacts[7]);
+}
+
+}  // namespace choreo::arrange_test
