@@ -34,7 +34,7 @@ class Dice {
 /// that leave time to move. Before the first and after the last beat that is heard, the count goes
 /// on.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
-  const auto& [seconds, beats, passages, seed, end, named] = request;
+  const auto& [seconds, beats, passages, seed, way, end, named] = request;
   double period = kPlainInterval;
   std::vector<double> counts = {0};
   if (beats.size() >= 2) {
@@ -131,6 +131,26 @@ class Deck {
   std::vector<size_t> left_;
 };
 
+/// A key: which pose, and where.
+struct Step {
+  size_t pose = 0;
+  GroundFrame place;
+};
+
+/// One for each time, of so many poses.
+std::vector<Step> DrawSteps(uint64_t seed, const std::vector<double>& times,
+                            std::span<const Passage> passages, size_t poses) {
+  Dice dice(seed);
+  Deck deck(&dice, poses, passages);
+  Walk walk(&dice);
+  std::vector<Step> steps;
+  for (size_t i = 0; i < times.size(); ++i) {
+    const size_t pose = deck.Next(times[i]);
+    steps.push_back({pose, i == 0 ? walk.place() : walk.Next(times[i] - times[i - 1])});
+  }
+  return steps;
+}
+
 }  // namespace
 
 std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
@@ -153,19 +173,18 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
     message << request.seconds << " s is shorter than 2 s, the least for key poses of the library";
     throw InvalidArgument(request.named, message.str());
   }
-  Dice dice(request.seed);
-  Deck deck(&dice, poses.size(), request.passages);
-  Walk walk(&dice);
+  const std::vector<double> times = KeyTimes(request);
+  const auto draw = [&](uint64_t seed) {
+    return DrawSteps(seed, times, request.passages, poses.size());
+  };
+  const std::vector<Step> steps = draw(request.seed), way = request.way ? draw(*request.way) : steps;
   std::vector<client::KeyPose> keys;
-  double before = 0;
-  for (const double time : KeyTimes(request)) {
-    const LibraryPose& pose = poses[deck.Next(time)];
-    const GroundFrame place = keys.empty() ? walk.place() : walk.Next(time - before);
-    before = time;
+  for (size_t i = 0; i < times.size(); ++i) {
+    const LibraryPose& pose = poses[steps[i].pose];
     client::KeyPose& key = keys.emplace_back();
     key.id = IdOfKey(keys.size(), pose);
-    key.time_s = time;
-    key.pose = place.ToWorld(pose.pose);
+    key.time_s = times[i];
+    key.pose = way[i].place.ToWorld(pose.pose);
   }
   return keys;
 }

@@ -18,6 +18,8 @@ struct CompositionRequest {
   std::vector<double> beats = {};      ///< seconds, ascending; may be empty
   std::vector<Passage> passages = {};  ///< of the music, that come back
   uint64_t seed = 0;
+  /// The seed of a dance whose way over the floor is kept to, so that a formation stays one.
+  std::optional<uint64_t> way = {};
   /// Where the last key stands, at most `seconds`; none: wherever the count has its last.
   std::optional<double> end_s = {};
   std::string named = "--seconds";  ///< what says `seconds`, as errors name it

@@ -56,7 +56,7 @@ void Draw(const std::vector<Pose>& poses, const std::vector<std::string>& captio
   sheet.columns = size.columns;
   sheet.tile_width = size.tile_width;
   sheet.tile_height = size.tile_height;
-  DrawContactSheet(Body(), {.fps = 1, .frames = poses}, sheet, png);
+  DrawContactSheet({{Body(), {.fps = 1, .frames = poses}}}, sheet, png);
 }
 
 /// All sides of a pose: three quarters from its front, from its left, and from behind.

@@ -16,6 +16,7 @@
 #include "model/draw/contact_sheet.h"
 #include "model/draw/video.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/resample.h"
 
 namespace choreo::cli {
 namespace {
@@ -25,7 +26,7 @@ std::string SizeText(const VideoFormat& format) {
 }
 
 struct RenderOptions {
-  std::string motion;
+  std::vector<std::string> motions;
   std::string out;
   std::string report;
   ContactSheetOptions sheet;
@@ -43,19 +44,33 @@ std::vector<double> KeyTimes(const std::string& path) {
   return times;
 }
 
-void DrawSheet(const RenderOptions& options, const SkeletonMotion& dance,
-               const std::vector<double>& keys) {
-  const auto& [skeleton, motion] = dance;
-  ContactSheetOptions sheet = options.sheet;
-  for (const double seconds : keys) {
-    const int64_t frame = std::llround(seconds * motion.fps);
-    if (frame < static_cast<int64_t>(motion.frames.size())) sheet.key_frames.push_back(frame);
+/// All at the first one's rate.
+Stage ReadStage(const std::vector<std::string>& paths) {
+  Stage stage;
+  for (const std::string& path : paths) {
+    Motion& motion = stage.emplace_back(ReadMotionNoting(path)).motion;
+    if (motion.fps != stage.front().motion.fps) motion = Resample(motion, stage.front().motion.fps);
   }
-  if (sheet.title.empty()) sheet.title = std::filesystem::path(options.motion).filename().string();
-  DrawContactSheet(skeleton, motion, sheet, options.out);
+  return stage;
 }
 
-void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::vector<double> keys) {
+void DrawSheet(const RenderOptions& options, const Stage& stage, const std::vector<double>& keys) {
+  ContactSheetOptions sheet = options.sheet;
+  for (const double seconds : keys) {
+    const int64_t frame = std::llround(seconds * stage.front().motion.fps);
+    if (frame < CountFrames(stage)) sheet.key_frames.push_back(frame);
+  }
+  if (sheet.title.empty()) {
+    for (const std::string& motion : options.motions) {
+      sheet.title +=
+          (sheet.title.empty() ? "" : ", ") + std::filesystem::path(motion).filename().string();
+    }
+  }
+  if (stage.size() > 1) sheet.tile_width *= 2;
+  DrawContactSheet(stage, sheet, options.out);
+}
+
+void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<double> keys) {
   VideoOptions film = options.film;
   film.keys = std::move(keys);
   char end = 0;
@@ -71,7 +86,7 @@ void DrawFilm(const RenderOptions& options, const SkeletonMotion& dance, std::ve
     if (!bar) bar = std::make_unique<ProgressBar>("rendering", frames);
     bar->Advance();
   };
-  DrawVideo(dance.skeleton, dance.motion, film, options.video);
+  DrawVideo(stage, film, options.video);
   bar->Finish();
 }
 
@@ -83,25 +98,29 @@ void Run(const RenderOptions& options) {
   if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
   if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
   const Interruption interruption;  // from here on there may be half a file to take away
-  RequireOutputs({{"--out", options.out}, {"--video", options.video}},
-                 {{"motion", options.motion},
-                  {"--report", options.report},
-                  {"--song", options.film.format.song}});
-  const SkeletonMotion dance = ReadMotionNoting(options.motion);
+  std::vector<NamedFile> inputs = {{"--report", options.report},
+                                   {"--song", options.film.format.song}};
+  for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
+  RequireOutputs({{"--out", options.out}, {"--video", options.video}}, inputs);
+  const Stage stage = ReadStage(options.motions);
   std::vector<double> keys;
   if (!options.report.empty()) keys = KeyTimes(options.report);
-  if (!options.out.empty()) DrawSheet(options, dance, keys);
+  if (!options.out.empty()) DrawSheet(options, stage, keys);
   Interruption::Check();
-  if (!options.video.empty()) DrawFilm(options, dance, keys);
+  if (!options.video.empty()) DrawFilm(options, stage, keys);
 }
 
 }  // namespace
 
 void AddRenderCommand(CLI::App& program) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = program.add_subcommand(
-      "render", "Draw a motion: as a contact sheet (--out), as a video with its song (--video).");
-  command->add_option("motion", options->motion, MotionFileExtensions() + " file.")
+  CLI::App* command = program.add_subcommand("render",
+                                             "Draw a motion, or several on one stage: as a contact "
+                                             "sheet (--out), as a video with its song "
+                                             "(--video).");
+  command
+      ->add_option("motion", options->motions,
+                   MotionFileExtensions() + " file. Of several, all that are seen together.")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");

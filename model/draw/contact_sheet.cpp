@@ -54,12 +54,12 @@ struct Header {
   static constexpr double kTitleFont = 20, kDot = 32;  // with its margins
   static constexpr int kLine = 26;
 
-  Header(const Motion& motion, const ContactSheetOptions& options) {
+  Header(int64_t frames, double fps, const ContactSheetOptions& options) {
     if (!options.rows_apart && options.captions.empty()) {
       char text[96];
-      std::snprintf(text, sizeof(text), "%s   %zu frames at %g fps",
-                    TimeText(static_cast<double>(motion.frames.size()) / motion.fps).c_str(),
-                    motion.frames.size(), motion.fps);
+      std::snprintf(text, sizeof(text), "%s   %lld frames at %g fps",
+                    TimeText(static_cast<double>(frames) / fps).c_str(),
+                    static_cast<long long>(frames), fps);
       facts = text;
     }
     legend = {{kLeftColour, "left"}, {kRightColour, "right"}};
@@ -166,48 +166,43 @@ std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptio
   return frames;
 }
 
-void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
-                      const ContactSheetOptions& options, const std::filesystem::path& png) {
-  if (motion.frames.empty()) {
-    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
-  }
+void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
+                      const std::filesystem::path& png) {
+  CheckStage(stage);
+  const int64_t frames = CountFrames(stage);
+  const double fps = stage.front().motion.fps;
   const bool captioned = !options.captions.empty();
-  if (captioned && options.captions.size() != motion.frames.size()) {
+  if (captioned && std::ssize(options.captions) != frames) {
     throw InvalidArgument("options.captions", std::to_string(options.captions.size()) +
-                                                  " captions for " +
-                                                  std::to_string(motion.frames.size()) + " frames");
+                                                  " captions for " + std::to_string(frames) +
+                                                  " frames");
   }
   CheckWithin("options.columns", options.columns, 1, kMaxSheetColumns);
   CheckWithin("options.tile_width", options.tile_width, 16, 4096);
   CheckWithin("options.tile_height", options.tile_height, 16, 4096);
-  const std::vector<SheetFrame> shown =
-      ChooseSheetFrames(static_cast<int64_t>(motion.frames.size()), options);
+  const std::vector<SheetFrame> shown = ChooseSheetFrames(frames, options);
   const int columns = std::min(options.columns, static_cast<int>(shown.size()));
   const int rows = (static_cast<int>(shown.size()) + columns - 1) / columns;
   const int width = 2 * kMargin + columns * (options.tile_width + kGap) - kGap;
-  const Header heading(motion, options);
+  const Header heading(frames, fps, options);
   const bool wraps = heading.Wraps(Canvas(1, 1, kPaper), options.title, width);
   const int header = kHeader + (wraps ? Header::kLine : 0);
   const Canvas canvas(width, header + kMargin + rows * (options.tile_height + kLabel), kPaper);
   heading.Draw(canvas, options.title, wraps);
 
   Picture picture{.width = options.tile_width, .height = options.tile_height, .rgb = {}};
-  const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
-  std::vector<FramedPose> poses;
-  for (const SheetFrame& one : shown) {
-    const Pose& pose = motion.frames[one.frame];
-    poses.push_back({&pose, pose.root_position.x(), pose.root_position.z()});
-  }
-  const double extent =
-      FitExtent(skeleton, poses, static_cast<double>(options.tile_width) / options.tile_height);
+  std::vector<FramedStage> framed;
+  for (const SheetFrame& one : shown) framed.push_back({one.frame, MiddleOf(stage, one.frame)});
+  const std::vector<View> views =
+      ViewsOf(stage, framed, static_cast<double>(options.tile_width) / options.tile_height);
   for (size_t i = 0; i < shown.size(); ++i) {
-    DrawFrame(skeleton, *poses[i].pose, StandingView(poses[i], azimuth, extent),
-              shown[i].key ? kKeyPose : kPlain, picture);
+    DrawFrame(FiguresAt(stage, shown[i].frame), views[i], shown[i].key ? kKeyPose : kPlain,
+              picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const int64_t since = options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0;
-    const std::string caption =
-        captioned ? options.captions[static_cast<size_t>(shown[i].frame)]
-                  : TimeText(static_cast<double>(shown[i].frame - since) / motion.fps);
+    const std::string caption = captioned
+                                    ? options.captions[static_cast<size_t>(shown[i].frame)]
+                                    : TimeText(static_cast<double>(shown[i].frame - since) / fps);
     DrawTile(canvas, picture, kMargin + column * (options.tile_width + kGap),
              header + row * (options.tile_height + kLabel), shown[i], caption,
              !options.rows_apart && !captioned);

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "model/draw/render.h"
-#include "model/motion/motion.h"
-#include "model/motion/skeleton.h"
+#include "model/draw/stage.h"
 
 namespace choreo {
 
@@ -30,13 +29,13 @@ struct ContactSheetOptions {
   std::vector<std::string> captions;
 };
 
-/// Draws a motion as rows of frames, in time from left to right, into a PNG. All frames are seen
-/// from one side, three quarters from the front of the first; the camera goes along with the
-/// dancer over a floor whose grid stands still. Throws Error(kInvalidArgument) for a motion without
-/// frames, a key frame that it does not have, another count of captions than of frames, or sizes
-/// outside their limits; Error(kInternal) where the file cannot be written. Thread-safe.
-void DrawContactSheet(const Skeleton& skeleton, const Motion& motion,
-                      const ContactSheetOptions& options, const std::filesystem::path& png);
+/// Draws dancers (stage.h) as rows of frames, in time from left to right, into a PNG. All frames
+/// are seen from one side; the camera goes along with the dancers over a floor whose grid stands
+/// still. Throws Error(kInvalidArgument) as CheckStage, for a key frame that they do not have,
+/// another count of captions than of frames, or sizes outside their limits; Error(kInternal) where
+/// the file cannot be written. Thread-safe.
+void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
+                      const std::filesystem::path& png);
 
 /// The frames that a sheet of `total` frames shows, in order, each once; and which are keys.
 struct SheetFrame {

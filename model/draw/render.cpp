@@ -282,12 +282,16 @@ class Renderer {
 
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture) {
-  CheckWithin("style.samples", style.samples, 1, 8);
   if (!pose.root_position.allFinite() || !pose.rotations.allFinite()) {
     throw InvalidArgument("pose", "holds values that are not finite");
   }
-  const std::vector<PlacedPart> figure = BuildFigure(skeleton, pose);
-  Renderer(figure, view, style, picture).Render(picture);
+  DrawFrame(BuildFigure(skeleton, pose), view, style, picture);
+}
+
+void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
+               Picture& picture) {
+  CheckWithin("style.samples", style.samples, 1, 8);
+  Renderer(figures, view, style, picture).Render(picture);
 }
 
 }  // namespace choreo

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "model/body/colour.h"
+#include "model/body/doll.h"
 #include "model/draw/picture.h"
 #include "model/draw/view.h"
 #include "model/motion/motion.h"
@@ -25,5 +28,8 @@ inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 /// Thread-safe.
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture);
+/// The same of all bodies on a stage (BuildFigure), one behind the other.
+void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
+               Picture& picture);
 
 }  // namespace choreo

@@ -19,22 +19,19 @@ constexpr double kKeyGlow = 0.15;   // seconds
 constexpr int kFrameShare = 90;     // of the picture's height a key's frame is this part wide
 constexpr int kSamples = 2;         // what the encoder keeps of more does not show
 
-// The camera's way follows the root's over the floor, low-passed by a Gaussian, which looks ahead
+// The camera's way follows the dancers' over the floor, low-passed by a Gaussian, which looks ahead
 // as far as back.
-std::vector<FramedPose> FollowRoot(const Motion& motion) {
-  const double sigma = kCameraLag * motion.fps;
+std::vector<FramedStage> Follow(const Stage& stage) {
+  const double sigma = kCameraLag * stage.front().motion.fps;
   const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
-  const auto frames = static_cast<int64_t>(motion.frames.size());
+  const int64_t frames = CountFrames(stage);
   const auto place = [&](int64_t frame) {
-    const auto at = static_cast<size_t>(std::clamp<int64_t>(frame, 0, frames - 1));
-    const Eigen::Vector3d& root = motion.frames[at].root_position;
-    return Eigen::Vector2d(root.x(), root.z());
+    return MiddleOf(stage, std::clamp<int64_t>(frame, 0, frames - 1));
   };
-  std::vector<FramedPose> framed;
+  std::vector<FramedStage> framed;
   for (int64_t frame = 0; frame < frames; ++frame) {
-    const auto smooth = GaussianMean<Eigen::Vector2d>(frame - reach, frame + reach, frame, sigma,
-                                                      Eigen::Vector2d::Zero(), place);
-    framed.push_back({&motion.frames[static_cast<size_t>(frame)], smooth.x(), smooth.y()});
+    framed.push_back({frame, GaussianMean<Eigen::Vector2d>(frame - reach, frame + reach, frame,
+                                                           sigma, Eigen::Vector2d::Zero(), place)});
   }
   return framed;
 }
@@ -68,28 +65,25 @@ void DrawKeyFrame(double amount, Picture* picture) {
 
 }  // namespace
 
-std::vector<View> VideoViews(const Skeleton& skeleton, const Motion& motion, double aspect) {
-  const std::vector<FramedPose> framed = FollowRoot(motion);
-  const double azimuth = ThreeQuarterAzimuth(motion.frames.front());
-  const double extent = FitExtent(skeleton, framed, aspect);
-  std::vector<View> views;
-  for (const FramedPose& one : framed) views.push_back(StandingView(one, azimuth, extent));
-  return views;
+std::vector<View> VideoViews(const Stage& stage, double aspect) {
+  return ViewsOf(stage, Follow(stage), aspect);
 }
 
-void DrawVideo(const Skeleton& skeleton, const Motion& source, const VideoOptions& options,
-               const std::filesystem::path& mp4) {
-  if (source.frames.empty())
-    throw InvalidArgument("motion.frames", "0 frames, at least 1 is needed");
+void DrawVideo(const Stage& source, const VideoOptions& options, const std::filesystem::path& mp4) {
+  CheckStage(source);
   const VideoFormat& format = options.format;
-  const Motion motion = source.fps == format.fps ? source : Resample(source, format.fps);
-  const auto frames = static_cast<int64_t>(motion.frames.size());
+  Stage stage = source;
+  for (SkeletonMotion& dancer : stage) {
+    if (dancer.motion.fps != format.fps) dancer.motion = Resample(dancer.motion, format.fps);
+  }
+  const int64_t frames = CountFrames(stage);
   VideoEncoder encoder(mp4, format, frames);
   const std::vector<View> views =
-      VideoViews(skeleton, motion, static_cast<double>(format.width) / format.height);
-  const auto draw = [&](size_t frame) {
+      VideoViews(stage, static_cast<double>(format.width) / format.height);
+  const auto draw = [&](int64_t frame) {
     Picture picture{.width = format.width, .height = format.height, .rgb = {}};
-    DrawFrame(skeleton, motion.frames[frame], views[frame], {.samples = kSamples}, picture);
+    DrawFrame(FiguresAt(stage, frame), views[static_cast<size_t>(frame)], {.samples = kSamples},
+              picture);
     const double glow = Glow(static_cast<double>(frame) / format.fps, options.keys);
     if (glow > 0.01) DrawKeyFrame(glow, &picture);
     return picture;
@@ -97,9 +91,9 @@ void DrawVideo(const Skeleton& skeleton, const Motion& source, const VideoOption
   // A few frames are drawn ahead, and written in order.
   std::deque<std::future<Picture>> ahead;
   const auto width = static_cast<size_t>(UsableCores());
-  size_t next = 0;
+  int64_t next = 0;
   for (int64_t written = 0; written < frames; ++written) {
-    while (next < motion.frames.size() && ahead.size() < width)
+    while (next < frames && ahead.size() < width)
       ahead.push_back(std::async(std::launch::async, draw, next++));
     encoder.Write(ahead.front().get());
     ahead.pop_front();

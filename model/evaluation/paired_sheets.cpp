@@ -48,7 +48,7 @@ void DrawPairedSheets(const ClipSet& set, const Method& method, float temperatur
       }
     }
     sheet.title = clip + ": A, B, A, B, ..., a row a second";
-    DrawContactSheet(model.skeleton, rows, sheet, PictureBeside(json, name + "_" + clip));
+    DrawContactSheet({{model.skeleton, rows}}, sheet, PictureBeside(json, name + "_" + clip));
     answers += clip + (real_first ? " A\n" : " B\n");
   }
   std::ofstream(PictureBeside(json, name).replace_extension(".txt")) << answers;

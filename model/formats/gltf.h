@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "model/formats/motion_reading.h"
 #include "model/formats/own_arrays.h"
@@ -17,6 +19,17 @@ namespace choreo {
 /// Throws Error(kInvalidArgument) for a motion without frames or of another joint count,
 /// Error(kInternal) where the file cannot be written.
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
+
+/// A dancer of several in one file.
+struct NamedMotion {
+  std::string name;
+  Motion motion;
+};
+/// The same of several dancers of one skeleton, whose nodes are called NAME:JOINT: one body and
+/// skin each, and one animation for all. Throws as above, and Error(kInvalidArgument) for nobody,
+/// and motions of other rates or other numbers of frames.
+void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
+              const std::vector<NamedMotion>& dancers);
 
 /// Writes SMPL's body as VRM's avatars take a motion (.vrma, VRMC_vrm_animation 1.0): glTF binary
 /// with nodes, the table of its human bones and the animation, without a mesh. At rest arms are

@@ -39,15 +39,18 @@ Json Material(const Colour& colour) {
             {"roughnessFactor", kRoughness}}}};
 }
 
-// Joint i becomes node i.
-void AddJoints(const Skeleton& skeleton, GltfBuilder* gltf) {
+// Joint i becomes node first + i.
+void AddJoints(const Skeleton& skeleton, GltfBuilder* gltf, const std::string& prefix = "") {
   Json& nodes = gltf->List("nodes");
+  const size_t first = nodes.size();
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     Eigen::Vector3d rest = skeleton.offsets.col(joint);
     if (joint == 0) rest.y() = skeleton.pelvis_height;
-    nodes.push_back(
-        {{"name", skeleton.joint_names[joint]}, {"translation", {rest.x(), rest.y(), rest.z()}}});
-    if (joint > 0) nodes[skeleton.parents[joint]]["children"].push_back(joint);
+    nodes.push_back({{"name", prefix + skeleton.joint_names[joint]},
+                     {"translation", {rest.x(), rest.y(), rest.z()}}});
+    if (joint > 0)
+      nodes[first + static_cast<size_t>(skeleton.parents[joint])]["children"].push_back(first +
+                                                                                        joint);
   }
 }
 
@@ -79,41 +82,47 @@ Json AddPatch(const SkinPatch& patch, GltfBuilder* gltf) {
           {"mode", kTriangleMode}};
 }
 
-// The doll, bound to the joints.
-void AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
+// The doll and where its joints are at rest: a mesh and the accessor of a skin's matrices.
+size_t AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
   Json primitives = Json::array();
   for (const SkinPatch& patch : MakeSkin(skeleton)) primitives.push_back(AddPatch(patch, gltf));
   gltf->List("meshes").push_back({{"name", "body"}, {"primitives", primitives}});
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   std::vector<float> inverse_bind;
-  Json joints = Json::array();
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
     matrix.topRightCorner<3, 1>() = -rest.col(joint).cast<float>();
     inverse_bind.insert(inverse_bind.end(), matrix.data(), matrix.data() + matrix.size());
-    joints.push_back(joint);
   }
-  const size_t matrices = gltf->Add<float>(inverse_bind, "MAT4");
-  gltf->List("skins").push_back({{"name", skeleton.name},
-                                 {"skeleton", 0},
-                                 {"joints", joints},
-                                 {"inverseBindMatrices", matrices}});
-  gltf->List("nodes").push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
-  // The skinned mesh stands beside its skeleton: what is above it would not move it anyway.
-  gltf->List("scenes").push_back({{"name", "dance"}, {"nodes", {0, skeleton.joints()}}});
+  return gltf->Add<float>(inverse_bind, "MAT4");
 }
 
-void AddMotion(const Skeleton& skeleton, const Motion& motion, GltfBuilder* gltf) {
-  std::vector<GltfTrack> tracks(static_cast<size_t>(skeleton.joints()));
+// The body once more, bound to the joints that are the nodes from `first` on; returns its nodes.
+Json AddSkin(const Skeleton& skeleton, size_t matrices, size_t first, const std::string& prefix,
+             GltfBuilder* gltf) {
+  Json joints = Json::array();
+  for (int joint = 0; joint < skeleton.joints(); ++joint) joints.push_back(first + joint);
+  Json& skins = gltf->List("skins");
+  skins.push_back({{"name", prefix + skeleton.name},
+                   {"skeleton", first},
+                   {"joints", joints},
+                   {"inverseBindMatrices", matrices}});
+  Json& nodes = gltf->List("nodes");
+  nodes.push_back({{"name", prefix + "body"}, {"mesh", 0}, {"skin", skins.size() - 1}});
+  // The skinned mesh stands beside its skeleton: what is above it would not move it anyway.
+  return {first, nodes.size() - 1};
+}
+
+void AddTracks(const Skeleton& skeleton, const Motion& motion, int first,
+               std::vector<GltfTrack>* tracks) {
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    GltfTrack& track = tracks[joint];
-    track.node = joint;
+    GltfTrack& track = tracks->emplace_back();
+    track.node = first + joint;
     for (const Pose& pose : motion.frames) {
       track.AddTurn(QuaternionFromExp(pose.rotations.col(joint)));
       if (joint == 0) track.AddPlace(pose.root_position);
     }
   }
-  gltf->AddDance(motion.fps, motion.frames.size(), tracks);
 }
 
 Json NewDocument() {
@@ -123,11 +132,32 @@ Json NewDocument() {
 }  // namespace
 
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion) {
-  RequireWritable(skeleton, motion);
+  WriteGlb(path, skeleton, {{"", motion}});
+}
+
+void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
+              const std::vector<NamedMotion>& dancers) {
+  if (dancers.empty()) throw InvalidArgument("dancers", "are none");
+  const Motion& one = dancers.front().motion;
+  for (const auto& [name, motion] : dancers) {
+    RequireWritable(skeleton, motion);
+    if (motion.fps != one.fps || motion.frames.size() != one.frames.size())
+      throw InvalidArgument("dancers", name + " has another rate or length than the first");
+  }
   GltfBuilder gltf(NewDocument(), {});
-  AddJoints(skeleton, &gltf);
-  AddBody(skeleton, &gltf);
-  AddMotion(skeleton, motion, &gltf);
+  std::vector<GltfTrack> tracks;
+  Json scene = Json::array();
+  size_t matrices = 0;
+  for (const auto& [name, motion] : dancers) {
+    const std::string prefix = name.empty() ? "" : name + ':';
+    const size_t first = gltf.List("nodes").size();
+    AddJoints(skeleton, &gltf, prefix);
+    if (first == 0) matrices = AddBody(skeleton, &gltf);
+    for (Json& node : AddSkin(skeleton, matrices, first, prefix, &gltf)) scene.push_back(node);
+    AddTracks(skeleton, motion, static_cast<int>(first), &tracks);
+  }
+  gltf.List("scenes").push_back({{"name", "dance"}, {"nodes", scene}});
+  gltf.AddDance(one.fps, one.frames.size(), tracks);
   WriteFile(path, gltf.Join());
 }
 
@@ -151,7 +181,9 @@ void WriteVrma(const std::filesystem::path& path, const Skeleton& skeleton, cons
   GltfBuilder gltf(document, {});
   AddJoints(skeleton, &gltf);
   gltf.List("scenes").push_back({{"name", "dance"}, {"nodes", {0}}});
-  AddMotion(skeleton, motion, &gltf);
+  std::vector<GltfTrack> tracks;
+  AddTracks(skeleton, motion, 0, &tracks);
+  gltf.AddDance(motion.fps, motion.frames.size(), tracks);
   WriteFile(path, gltf.Join());
 }
 

@@ -9,16 +9,11 @@
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "model/motion/skeleton_motion.h"
 
 /// Motion of any skeleton in npz files, array by array, and what every writer asks of a motion.
 /// What has SMPL's skeleton is written as amass_npz.h says, so that SMPL's tools can read it.
 namespace choreo {
-
-/// A motion and the skeleton that it is of.
-struct SkeletonMotion {
-  Skeleton skeleton;
-  Motion motion;
-};
 
 /// Throws Error(kInvalidArgument) for no frames, a frame of another joint count than the skeleton's
 /// or with values that are not finite, and contacts of another length.

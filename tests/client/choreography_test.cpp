@@ -32,6 +32,21 @@ TEST(ChoreographyTest, PutsKeysOnBeats) {
   }
 }
 
+TEST(ChoreographyTest, KeepsToTheWayOfAnother) {
+  // The library's poses stand elsewhere about the origin; these stand on it.
+  std::vector<LibraryPose> poses(PoseLibrary().begin(), PoseLibrary().begin() + 6);
+  for (LibraryPose& pose : poses) pose.pose.root_position = {0, 0.9, 0};
+  const auto one = ComposeKeys({.seconds = 24, .seed = 5}, poses);
+  const auto other = ComposeKeys({.seconds = 24, .seed = 6, .way = 5}, poses);
+  ASSERT_EQ(one.size(), other.size());
+  bool differs = false;
+  for (size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].pose.root_position, other[i].pose.root_position);
+    differs = differs || PoseOf(one[i]) != PoseOf(other[i]);
+  }
+  EXPECT_TRUE(differs);
+}
+
 TEST(ChoreographyTest, CountsOnBeforeTheFirstBeatAndWithoutAny) {
   const auto late =
       ComposeKeys({.seconds = 12, .beats = EvenBeats(6, 0.5, 12), .seed = 5}, PoseLibrary());

@@ -52,22 +52,23 @@ TEST(ContactSheet, HasCaptionsInPlaceOfTimes) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 2);
   ContactSheetOptions options = Small();
-  DrawContactSheet(kSmpl, motion, options, folder / "times.png");
+  DrawContactSheet({{kSmpl, motion}}, options, folder / "times.png");
   options.captions = {"front", "back"};
-  DrawContactSheet(kSmpl, motion, options, folder / "captions.png");
+  DrawContactSheet({{kSmpl, motion}}, options, folder / "captions.png");
   EXPECT_NE(DecodedPng(folder / "times.png").pixels, DecodedPng(folder / "captions.png").pixels);
   options.captions = {"front"};
-  ExpectError(ErrorCode::kInvalidArgument, "options.captions: 1 captions for 2 frames",
-              [&] { DrawContactSheet(kSmpl, motion, options, folder / "x.png"); });
+  ExpectError(ErrorCode::kInvalidArgument, "options.captions: 1 captions for 2 frames", [&] {
+    DrawContactSheet({{kSmpl, motion}}, options, folder / "x.png");
+  });
 }
 
 TEST(ContactSheet, IsAPictureOfTheMotion) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 31);
-  DrawContactSheet(kSmpl, motion, Small(), folder / "a.png");
-  DrawContactSheet(kSmpl, motion, Small(), folder / "again.png");
-  DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 32, 31), Small(), folder / "other.png");
-  DrawContactSheet(kSmpl, motion, Small({12}), folder / "key.png");
+  DrawContactSheet({{kSmpl, motion}}, Small(), folder / "a.png");
+  DrawContactSheet({{kSmpl, motion}}, Small(), folder / "again.png");
+  DrawContactSheet({{kSmpl, fixtures::SmoothMotion(kSmpl, 32, 31)}}, Small(), folder / "other.png");
+  DrawContactSheet({{kSmpl, motion}}, Small({12}), folder / "key.png");
   const DecodedPng a(folder / "a.png"), again(folder / "again.png"), other(folder / "other.png"),
       key(folder / "key.png");
   EXPECT_EQ(a.width, 2 * 24 + 4 * 60 + 3 * 10);
@@ -85,7 +86,7 @@ TEST(ContactSheet, TheWordKeyStandsBelowItsTileAndHidesNobody) {
   ContactSheetOptions options = Small({0});
   options.frames = options.columns = 1;
   options.tile_width = 120;
-  DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31), options, folder / "a.png");
+  DrawContactSheet({{kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31)}}, options, folder / "a.png");
   const DecodedPng png(folder / "a.png");
   const int bottom = png.height - 24 - 24;  // the margin, and the line below the tile
   const auto count = [&](int left, int top, int right, int end) {
@@ -103,7 +104,7 @@ TEST(ContactSheet, BreaksIntoRows) {
   const TemporaryFolder folder;
   ContactSheetOptions options = Small();
   options.columns = 2;
-  DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31), options, folder / "a.png");
+  DrawContactSheet({{kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31)}}, options, folder / "a.png");
   const DecodedPng png(folder / "a.png");
   EXPECT_EQ(png.width, 2 * 24 + 2 * 60 + 10);
   EXPECT_GT(png.height, 160);
@@ -119,7 +120,7 @@ TEST(ContactSheet, ALongTitleHasALineOfItsOwnAndRowsCanBeApart) {
     options.tile_width = width;
     options.title = title;
     options.rows_apart = apart;
-    DrawContactSheet(kSmpl, motion, options, folder / "sheet.png");
+    DrawContactSheet({{kSmpl, motion}}, options, folder / "sheet.png");
     return DecodedPng(folder / "sheet.png");
   };
   const DecodedPng brief = draw("Short", 60, false);
@@ -136,7 +137,7 @@ TEST(ContactSheet, AWriteThatFailsLeavesWhatWasThere) {
   {
     const FullDisk full(1000);
     ExpectError(ErrorCode::kInternal, "cannot be written", [&] {
-      DrawContactSheet(kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31), Small(), folder / "a.png");
+      DrawContactSheet({{kSmpl, fixtures::SmoothMotion(kSmpl, 31, 31)}}, Small(), folder / "a.png");
     });
   }
   EXPECT_EQ(std::filesystem::file_size(folder / "a.png"), 4U);
@@ -146,14 +147,17 @@ TEST(ContactSheet, AWriteThatFailsLeavesWhatWasThere) {
 TEST(ContactSheet, RefusesWhatItCannotDraw) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 31, 3);
-  ExpectError(ErrorCode::kInvalidArgument, "motion.frames: 0 frames",
-              [&] { DrawContactSheet(kSmpl, {}, Small(), folder / "a.png"); });
+  ExpectError(ErrorCode::kInvalidArgument, "motion.frames: 0 frames", [&] {
+    DrawContactSheet({{kSmpl, {}}}, Small(), folder / "a.png");
+  });
   ContactSheetOptions tiny = Small();
   tiny.tile_width = 4;
-  ExpectError(ErrorCode::kInvalidArgument, "options.tile_width: 4",
-              [&] { DrawContactSheet(kSmpl, motion, tiny, folder / "a.png"); });
-  ExpectError(ErrorCode::kInternal, "cannot be written",
-              [&] { DrawContactSheet(kSmpl, motion, Small(), folder / "absent/a.png"); });
+  ExpectError(ErrorCode::kInvalidArgument, "options.tile_width: 4", [&] {
+    DrawContactSheet({{kSmpl, motion}}, tiny, folder / "a.png");
+  });
+  ExpectError(ErrorCode::kInternal, "cannot be written", [&] {
+    DrawContactSheet({{kSmpl, motion}}, Small(), folder / "absent/a.png");
+  });
 }
 
 }  // namespace choreo::contact_sheet_test

@@ -79,7 +79,7 @@ VideoOptions Small(const std::filesystem::path& song = {}) {
 TEST(VideoViews, FollowsUnhurriedlyFromOneSide) {
   Motion motion{.fps = 30, .frames = std::vector<Pose>(120, RestPose(kSmpl))};
   for (size_t frame = 60; frame < 120; ++frame) motion.frames[frame].root_position.x() += 1;
-  const std::vector<View> views = VideoViews(kSmpl, motion, 16.0 / 9);
+  const std::vector<View> views = VideoViews({{kSmpl, motion}}, 16.0 / 9);
   ASSERT_EQ(views.size(), 120u);
   EXPECT_NEAR(views.front().target.x(), 0, 0.01);
   EXPECT_NEAR(views.back().target.x(), 1, 0.01);
@@ -106,7 +106,7 @@ TEST(Video, PictureAndSongBeginTogetherAndEndTogether) {
     EXPECT_EQ(frames, kFrames);
     ++drawn;
   };
-  DrawVideo(kSmpl, Cheer(kFrames, kMove), options, mp4);
+  DrawVideo({{kSmpl, Cheer(kFrames, kMove)}}, options, mp4);
   EXPECT_EQ(drawn, kFrames);
   EXPECT_FALSE(std::filesystem::exists(mp4.string() + ".partial"));
 
@@ -144,7 +144,7 @@ TEST(Video, TheSameDanceGivesTheSameBytes) {
   const auto bytes = [&](const char* name) {
     VideoOptions options = Small();
     options.keys = {0.1};
-    DrawVideo(kSmpl, Cheer(8, 4), options, folder / name);
+    DrawVideo({{kSmpl, Cheer(8, 4)}}, options, folder / name);
     std::ifstream file(folder / name, std::ios::binary);
     return std::string{std::istreambuf_iterator<char>(file), {}};
   };
@@ -160,7 +160,7 @@ TEST(Video, AKeyShowsAtTheEdgeAlone) {
   const auto brightness = [&](const std::vector<double>& keys) {
     VideoOptions options = Small();
     options.keys = keys;
-    DrawVideo(kSmpl, Cheer(8, 8), options, folder / "a.mp4");
+    DrawVideo({{kSmpl, Cheer(8, 8)}}, options, folder / "a.mp4");
     const std::string frames = Decode(folder / "a.mp4", "-map 0:v -f rawvideo -pix_fmt gray");
     const auto mean = [&](int top, int bottom, int left, int right) {
       double sum = 0;
@@ -181,14 +181,16 @@ TEST(Video, FailsWithFfmpegsOwnWordsAndLeavesNothing) {
   const TemporaryFolder folder;
   std::ofstream(folder / "noise.wav") << "no music";
   ExpectError(ErrorCode::kInternal, "out.mp4: ffmpeg: ", [&] {
-    DrawVideo(kSmpl, Cheer(60, 4), Small(folder / "noise.wav"), folder / "out.mp4");
+    DrawVideo({{kSmpl, Cheer(60, 4)}}, Small(folder / "noise.wav"), folder / "out.mp4");
   });
-  ExpectError(ErrorCode::kInternal, "No such file or directory",
-              [&] { DrawVideo(kSmpl, Cheer(3, 1), Small(), "/absent/out.mp4"); });
+  ExpectError(ErrorCode::kInternal, "No such file or directory", [&] {
+    DrawVideo({{kSmpl, Cheer(3, 1)}}, Small(), "/absent/out.mp4");
+  });
   VideoOptions broken = Small();
   broken.on_frame = [](int64_t) { throw Error(ErrorCode::kCancelled, "", "enough"); };
-  ExpectError(ErrorCode::kCancelled, "enough",
-              [&] { DrawVideo(kSmpl, Cheer(60, 4), broken, folder / "out.mp4"); });
+  ExpectError(ErrorCode::kCancelled, "enough", [&] {
+    DrawVideo({{kSmpl, Cheer(60, 4)}}, broken, folder / "out.mp4");
+  });
   EXPECT_FALSE(std::filesystem::exists(folder / "out.mp4"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out.mp4.partial"));
 }
@@ -197,16 +199,18 @@ TEST(Video, SaysThatFfmpegIsMissing) {
   const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder / "nothing").c_str(), 1);
-  ExpectError(ErrorCode::kNotFound, "ffmpeg: is not installed",
-              [&] { DrawVideo(kSmpl, Cheer(3, 1), Small(), folder / "out.mp4"); });
+  ExpectError(ErrorCode::kNotFound, "ffmpeg: is not installed", [&] {
+    DrawVideo({{kSmpl, Cheer(3, 1)}}, Small(), folder / "out.mp4");
+  });
   setenv("PATH", path.c_str(), 1);
 }
 
 TEST(Video, RefusesWhatItCannotMake) {
   const auto refuse = [&](const std::string& part, const VideoOptions& options,
                           const Motion& motion) {
-    ExpectError(ErrorCode::kInvalidArgument, part,
-                [&] { DrawVideo(kSmpl, motion, options, "out.mp4"); });
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] {
+      DrawVideo({{kSmpl, motion}}, options, "out.mp4");
+    });
   };
   VideoOptions options = Small();
   refuse("motion.frames: 0 frames", options, Motion{});

@@ -1,0 +1,161 @@
+#include "client/cli/dance_performance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+#include <utility>
+
+#include "client/cli/choreography.h"
+#include "client/cli/dance_display.h"
+#include "client/cli/dance_keys.h"
+#include "client/cli/interruption.h"
+#include "client/cli/json_fields.h"
+#include "client/cli/key_faults.h"
+#include "client/cli/key_file.h"
+#include "client/cli/options.h"
+#include "client/cli/output_file.h"
+#include "client/cli/report.h"
+#include "model/core/rounded.h"
+
+namespace choreo::cli {
+namespace {
+
+/// Without a song: as long as the path and the keys need.
+double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& controls,
+                           const client::ModelDescription& model) {
+  if (options.seconds) return *options.seconds;
+  int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
+  for (const std::string& source : KeySources(options.keys)) {
+    for (const client::KeyPose& key : ReadKeys(source, model.skeleton))
+      last = std::max(last, FrameOf(key, model.fps));
+  }
+  return static_cast<double>(last + 1) / model.fps;
+}
+
+double ChooseSeconds(const DanceOptions& options, const Music& music) {
+  const double song = music.audio.seconds();
+  if (!options.seconds) return song;
+  if (*options.seconds > song) {
+    std::ostringstream message;
+    message << "warning: --seconds " << *options.seconds << " is beyond the song, which ends at "
+            << Rounded(song) << " s; the dance ends with it\n";
+    std::cerr << message.str();
+  }
+  return std::min(*options.seconds, song);
+}
+
+DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
+                     const DanceLength& length, const client::ModelDescription& model) {
+  if (SaysNoKeys(options.keys)) return {};
+  if (!options.keys.empty()) {
+    if (length.frames < 1) {
+      std::ostringstream message;
+      message << seconds << " s is shorter than a frame of the model, " << Rounded(1 / length.fps)
+              << " s, the least";
+      throw InvalidArgument("--seconds", message.str());
+    }
+    DanceKeys keys = ReadDanceKeys(options.keys, length, model.skeleton);
+    if (!options.allow_bends) RefuseBends(keys, model.skeleton);
+    return keys;
+  }
+  CompositionRequest request{
+      .seconds = seconds, .seed = options.seed.value_or(0), .way = options.way_seed};
+  if (!options.seconds) request.named = music ? options.song : "--path";
+  if (music) {
+    request.beats = music->track.Seconds();
+    request.passages = music->passages;
+  }
+  // Its dancers hardly dance where no key is ahead.
+  if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
+  DanceKeys keys;
+  keys.poses = ComposeKeys(request, PosesToDance(model.skeleton));
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    keys.places.push_back("keyframes[" + std::to_string(i) + "]");
+    // Where the dancer is then, the path says.
+    if (!options.controls.path.empty()) keys.poses[i].mask.root_position = false;
+  }
+  return keys;
+}
+
+client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
+                          const DanceKeys& keys, const client::Audio& audio, double model_fps,
+                          const DanceOptions& options, const std::filesystem::path& out,
+                          VmcShow* show) {
+  client::DanceResult dance;
+  DanceDisplay display(*config.frames, model_fps);
+  try {
+    client.Dance(
+        config, keys.poses, audio,
+        [&](const client::Message& message) {
+          Interruption::Check();
+          display(message);
+          if (show) show->Take(message);
+        },
+        &dance);
+  } catch (const Error& error) {
+    if (!dance.motion.frames.empty()) {
+      const std::filesystem::path partial = PartialPath(out);
+      options.bvh.Write(partial, dance.header.skeleton, dance.motion, dance.contacts);
+      std::ostringstream message;
+      message << "the dance was cut off; its first " << dance.motion.frames.size() << " frames ("
+              << Rounded(static_cast<double>(dance.motion.frames.size()) / dance.motion.fps)
+              << " s) are in " << partial.string() << '\n';
+      std::cerr << message.str();
+    }
+    if (error.field() == "config.style") throw error.Of(options.style_name);
+    throw InTermsOf(keys, options.controls.InTermsOf(error));
+  }
+  return dance;
+}
+
+}  // namespace
+
+Performance Perform(const DanceOptions& options, const std::optional<Music>& music,
+                    const Connection& connection, const std::filesystem::path& out,
+                    std::optional<VmcShow>* show) {
+  const client::ModelDescription& model = connection.model(options.model);
+  // It chooses among the library's key poses, whatever the model.
+  const bool is_seed_for_model = options.seed && !options.keys.empty();
+  NoteDeterministic(model, {{"--seed", is_seed_for_model},
+                            {"--temperature", options.temperature.value_or(0) != 0}});
+  const client::Controls controls = options.controls.Read(model, connection.server());
+  const double seconds =
+      music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
+  if (music && !model.takes_music) {
+    std::cerr << "note: the model \"" << model.name
+              << "\" takes no music; the song gives the dance its length and its beats\n";
+  }
+  CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
+  const DanceLength length{std::llround(seconds * model.fps), model.fps};
+  const DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
+  options.controls.RequireBegun(controls, length);
+  const std::vector<client::Warning> faults = KeyFaults(keys, model.fps, model.skeleton);
+  ShowWarnings(faults);
+
+  client::DanceConfig config;
+  config.model = options.model;
+  config.fps = options.fps;
+  config.seed = options.seed.value_or(0);
+  config.temperature = options.temperature;
+  config.music_dynamics = options.music_dynamics;
+  config.variation = options.variation;
+  config.style = options.style;
+  config.frames = length.frames;
+  config.controls = controls;
+  config.music_beats = options.project_beats;
+  if (music) TellMusic(*music, seconds, &config);
+  const client::Audio audio =
+      music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};
+  if (!options.vmc.empty()) show->emplace(options.vmc, model.skeleton);
+  client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps, options,
+                                    out, *show ? &**show : nullptr);
+  WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
+  for (size_t i = 0; i < written.keys.size(); ++i) written.keys[i].holds = HeldKey(keys, i);
+  written.warnings = faults;
+  written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
+  written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);
+  return {std::move(dance), std::move(written), std::move(config.music_beats)};
+}
+
+}  // namespace choreo::cli

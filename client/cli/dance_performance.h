@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/cli/bvh_options.h"
+#include "client/cli/connection.h"
+#include "client/cli/control_options.h"
+#include "client/cli/music.h"
+#include "client/cli/vmc_show.h"
+#include "client/cli/written_dance.h"
+
+namespace choreo::cli {
+
+/// What `choreo dance` was asked.
+struct DanceOptions {
+  ServerOptions server;
+  std::string song;
+  BeatOptions beats;
+  std::vector<std::string> keys;
+  std::string project;
+  std::vector<double> project_beats;  ///< of the project, seconds of the dance
+  std::optional<double> seconds;
+  double song_start_s = 0;
+  std::optional<uint64_t> seed;
+  std::optional<uint64_t> way_seed;  ///< whose way poses of the library keep to
+  std::optional<double> temperature;
+  std::optional<double> music_dynamics;
+  std::optional<double> variation;
+  std::string style;
+  std::string style_name = "--style";  ///< where it is said
+  double fps = 0;
+  ControlOptions controls;
+  std::string model;
+  std::string dancers;  ///< a file (dancers.h); empty: one dances
+  std::string out;
+  std::string report;
+  std::string vmc;
+  BvhOptions bvh;
+  bool no_clobber = false;
+  bool allow_bends = false;
+};
+
+/// A dance, and what is known of it.
+struct Performance {
+  client::DanceResult dance;
+  WrittenDance written;
+  std::vector<double> beats;  ///< of the music, seconds
+};
+
+/// Dances as the options say to this music, which is their song's. What came of a dance that was
+/// cut off, or interrupted, is written beside `out`. The show, where --vmc asks for one, begins
+/// with it. Errors name the option, or the place in a file.
+Performance Perform(const DanceOptions& options, const std::optional<Music>& music,
+                    const Connection& connection, const std::filesystem::path& out,
+                    std::optional<VmcShow>* show);
+
+}  // namespace choreo::cli

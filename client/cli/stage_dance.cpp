@@ -1,0 +1,198 @@
+#include "client/cli/stage_dance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <utility>
+
+#include "client/arrange.h"
+#include "client/cli/formation.h"
+#include "client/cli/report.h"
+#include "model/core/atomic_file.h"
+#include "model/core/rounded.h"
+#include "model/formats/gltf.h"
+#include "model/formats/motion_file.h"
+#include "model/motion/rotation.h"
+
+namespace choreo::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path PathOf(const Dancer& dancer, const fs::path& path) {
+  fs::path own = path;
+  return own.replace_filename(path.stem().string() + "." + dancer.id + path.extension().string());
+}
+
+bool HoldsAll(const fs::path& out) { return SmallExtension(out) == ".glb"; }
+
+/// How the dancer dances: what she says, and else as all.
+DanceOptions OwnOptions(const DanceOptions& options, const Dancer& dancer,
+                        const std::string& field) {
+  DanceOptions own = options;
+  own.way_seed = options.seed.value_or(0);
+  if (dancer.seed) own.seed = dancer.seed;
+  if (!dancer.keyframes.empty()) own.keys = dancer.keyframes;
+  if (!dancer.style.empty()) own.style = dancer.style, own.style_name = field + ".style";
+  return own;
+}
+
+bool SameDance(const DanceOptions& a, const DanceOptions& b) {
+  return a.seed == b.seed && a.style == b.style && a.keys == b.keys;
+}
+
+/// A dance and who dance it.
+struct Shared {
+  DanceOptions options;
+  std::string names;
+  Performance performance;
+};
+
+/// Dances what differs, once each; of each dancer the number of her dance.
+std::vector<Shared> PerformAll(const DanceOptions& options, const Dancers& stage,
+                               const std::optional<Music>& music, const Connection& connection,
+                               const fs::path& out, std::vector<size_t>* dance_of) {
+  std::vector<Shared> dances;
+  for (size_t i = 0; i < stage.dancers.size(); ++i) {
+    const Dancer& dancer = stage.dancers[i];
+    DanceOptions own =
+        OwnOptions(options, dancer, options.dancers + ":dancers[" + std::to_string(i) + "]");
+    const auto same = std::ranges::find_if(
+        dances, [&](const Shared& dance) { return SameDance(dance.options, own); });
+    dance_of->push_back(static_cast<size_t>(same - dances.begin()));
+    if (same != dances.end()) {
+      same->names += ", " + dancer.id;
+      continue;
+    }
+    std::optional<VmcShow> none;
+    Performance performance = Perform(own, music, connection, PathOf(dancer, out), &none);
+    dances.push_back({std::move(own), dancer.id, std::move(performance)});
+  }
+  return dances;
+}
+
+/// Frames of the model that a dancer comes later.
+int64_t DelayOf(const Dancer& dancer, const Performance& performance, const std::string& field) {
+  if (!dancer.after) return 0;
+  const std::vector<double>& beats = performance.beats;
+  const double from = beats.empty() ? 0 : beats.front();
+  const double seconds = dancer.after->After(from, beats, field) - from;
+  const client::Report& report = performance.written.report;
+  const int64_t frames = std::llround(seconds * performance.written.header.model_fps);
+  if (frames < report.frames) return frames;
+  throw InvalidArgument(field,
+                        InFull(seconds) + " s later she would not dance: all is over before");
+}
+
+/// The dance as the dancer has it, from her place.
+client::FinishedDance OnStage(const Dancer& dancer, const Performance& performance, int64_t delay) {
+  const client::DanceResult& danced = performance.dance;
+  client::FinishedDance dance{danced.motion, danced.contacts};
+  if (dancer.mirrored) dance = client::Mirrored(danced.header.skeleton, dance);
+  const auto frames = std::ssize(dance.motion.frames);
+  const int64_t later = std::min<int64_t>(
+      frames - 1,
+      std::llround(static_cast<double>(delay) / danced.header.model_fps * dance.motion.fps));
+  client::FinishedDance waits = client::PartOf(dance, 0, 1);
+  waits.motion.frames.resize(static_cast<size_t>(later), waits.motion.frames.front());
+  if (!waits.contacts.empty())
+    waits.contacts.resize(static_cast<size_t>(later), waits.contacts.front());
+  if (later > 0) dance = client::Join(std::move(waits), client::PartOf(dance, 0, frames - later));
+  const GroundFrame place{.origin = {dancer.place.x(), 0, dancer.place.y()},
+                          .heading = dancer.facing / kDegrees};
+  dance.motion = client::Moved(std::move(dance.motion), GroundFrame(), place);
+  return dance;
+}
+
+/// What is known of a dance that comes later: keys behind the end are danced no more.
+WrittenDance Later(WrittenDance written, int64_t delay) {
+  const auto move = [&](int64_t& frame) { frame += delay; };
+  const int64_t in_file =
+      std::llround(static_cast<double>(delay) / written.header.model_fps * written.fps);
+  for (WrittenKey& key : written.keys) move(key.reached.frame), key.frame += in_file;
+  for (client::Warning& warning : written.warnings) move(warning.frame);
+  const auto is_over = [&](int64_t frame) { return frame >= written.report.frames; };
+  std::erase_if(written.keys, [&](const WrittenKey& key) { return is_over(key.reached.frame); });
+  std::erase_if(written.warnings, [&](const client::Warning& w) { return is_over(w.frame); });
+  return written;
+}
+
+/// Moves dancers apart where they would come too near, and says how near they are.
+void KeepApart(const Dancers& stage, const Skeleton& skeleton,
+               std::vector<client::FinishedDance>* dances) {
+  std::vector<MovingBody> bodies;
+  std::vector<Eigen::Vector3d> places;
+  for (size_t i = 0; i < dances->size(); ++i) {
+    bodies.emplace_back(skeleton, (*dances)[i].motion);
+    places.emplace_back(stage.dancers[i].place.x(), 0, stage.dancers[i].place.y());
+  }
+  const double factor = WidenFormation(bodies, places, stage.apart);
+  const std::vector<Eigen::Vector3d> moved = MovesOf(places, factor);
+  for (size_t i = 0; i < dances->size(); ++i) {
+    for (Pose& pose : (*dances)[i].motion.frames) pose.root_position += moved[i];
+  }
+  if (bodies.size() < 2) return;
+  const NearestPair nearest = FindNearest(bodies, moved);
+  std::cout << "least distance between bodies: " << Rounded(nearest.distance.metres) << " m, "
+            << stage.dancers[nearest.one].id << " and " << stage.dancers[nearest.other].id << " at "
+            << Rounded(static_cast<double>(nearest.distance.frame) / dances->front().motion.fps)
+            << " s\n";
+  if (factor > 1) {
+    std::cerr << "note: places are " << Rounded(factor)
+              << " times as far from their middle as said, so that bodies stay "
+              << Rounded(stage.apart) << " m apart\n";
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> OutputsOf(const Dancers& stage, const fs::path& out) {
+  if (HoldsAll(out)) return {out};
+  std::vector<fs::path> outputs;
+  for (const Dancer& dancer : stage.dancers) outputs.push_back(PathOf(dancer, out));
+  return outputs;
+}
+
+std::vector<fs::path> ReportsOf(const Dancers& stage, const fs::path& report) {
+  std::vector<fs::path> reports;
+  for (const Dancer& dancer : stage.dancers)
+    if (!report.empty()) reports.push_back(PathOf(dancer, report));
+  return reports;
+}
+
+void DanceTogether(const DanceOptions& options, const Dancers& stage,
+                   const std::optional<Music>& music, const Connection& connection,
+                   const fs::path& out) {
+  std::vector<size_t> dance_of;
+  const std::vector<Shared> shared = PerformAll(options, stage, music, connection, out, &dance_of);
+  for (const Shared& dance : shared)
+    std::cout << dance.names << ":\n" << ReportText(dance.performance.written);
+
+  const Skeleton& skeleton = shared.front().performance.dance.header.skeleton;
+  std::vector<client::FinishedDance> dances;
+  std::vector<int64_t> delays;
+  for (size_t i = 0; i < stage.dancers.size(); ++i) {
+    const Performance& performance = shared[dance_of[i]].performance;
+    const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
+    delays.push_back(DelayOf(stage.dancers[i], performance, field));
+    dances.push_back(OnStage(stage.dancers[i], performance, delays.back()));
+  }
+  KeepApart(stage, skeleton, &dances);
+  const std::vector<fs::path> outputs = OutputsOf(stage, out);
+  if (HoldsAll(out)) {
+    std::vector<NamedMotion> motions;
+    for (size_t i = 0; i < dances.size(); ++i)
+      motions.push_back({stage.dancers[i].id, dances[i].motion});
+    WriteGlb(out, skeleton, motions);
+  } else {
+    for (size_t i = 0; i < dances.size(); ++i)
+      options.bvh.Write(outputs[i], skeleton, dances[i].motion, dances[i].contacts);
+  }
+  const std::vector<fs::path> reports = ReportsOf(stage, options.report);
+  for (size_t i = 0; i < reports.size(); ++i)
+    WriteFile(reports[i], ReportJson(Later(shared[dance_of[i]].performance.written, delays[i])));
+  for (const fs::path& output : outputs) std::cout << output.string() << std::endl;
+  for (const Shared& dance : shared) CheckKeys(dance.performance.written);
+}
+
+}  // namespace choreo::cli

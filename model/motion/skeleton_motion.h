@@ -1,0 +1,14 @@
+#pragma once
+
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+namespace choreo {
+
+/// A motion and the skeleton that it is of.
+struct SkeletonMotion {
+  Skeleton skeleton;
+  Motion motion;
+};
+
+}  // namespace choreo

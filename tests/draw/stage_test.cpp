@@ -1,0 +1,50 @@
+#include "model/draw/stage.h"
+
+#include <gtest/gtest.h>
+
+#include "model/motion/kinematics.h"
+#include "tests/support/expect_error.h"
+
+namespace choreo::stage_test {
+
+const Skeleton& kSmpl = Skeleton::Smpl24();
+
+SkeletonMotion At(double x, double z, size_t frames) {
+  SkeletonMotion dancer{kSmpl, {.fps = 30, .frames = std::vector<Pose>(frames, RestPose(kSmpl))}};
+  for (Pose& pose : dancer.motion.frames) pose.root_position += Eigen::Vector3d(x, 0, z);
+  return dancer;
+}
+
+TEST(Stage, EverybodyIsSeenFromTheFront) {
+  constexpr int kWidth = 640, kHeight = 360;
+  for (const double wide : {0.8, 2.0, 6.0}) {
+    const Stage stage = {At(-wide, 0, 2), At(0, 1, 5), At(wide, -1, 3)};
+    EXPECT_EQ(CountFrames(stage), 5);
+    const View view = ViewsOf(stage, {{4, MiddleOf(stage, 4)}}, double{kWidth} / kHeight).at(0);
+    EXPECT_EQ(view.azimuth, 0);
+    EXPECT_NEAR(view.target.x(), 0, 1e-9);
+    const Camera camera(view, kWidth, kHeight);
+    const std::vector<PlacedPart> figures = FiguresAt(stage, 4);
+    EXPECT_EQ(figures.size(), 3 * BuildFigure(kSmpl, RestPose(kSmpl)).size());
+    for (const PlacedPart& part : figures) {
+      for (const auto& [ball, radius] : {std::pair(part.shape.a, part.shape.radius_a),
+                                         std::pair(part.shape.b, part.shape.radius_b)}) {
+        const Eigen::AlignedBox2f seen = camera.Bounds(ball, radius);
+        EXPECT_GT(seen.min().x(), 0) << wide;
+        EXPECT_GT(seen.min().y(), 0) << wide;
+        EXPECT_LT(seen.max().x(), kWidth) << wide;
+        EXPECT_LT(seen.max().y(), kHeight) << wide;
+      }
+    }
+  }
+}
+
+TEST(Stage, RefusesWhatCannotBeSeenTogether) {
+  ExpectError(ErrorCode::kInvalidArgument, "nobody", [] { CheckStage({}); });
+  ExpectError(ErrorCode::kInvalidArgument, "0 frames", [] { CheckStage({At(0, 0, 0)}); });
+  Stage stage = {At(0, 0, 2), At(1, 0, 2)};
+  stage[1].motion.fps = 60;
+  ExpectError(ErrorCode::kInvalidArgument, "motion.fps", [&] { CheckStage(stage); });
+}
+
+}  // namespace choreo::stage_test
