@@ -130,8 +130,9 @@ class ClientTest(unittest.TestCase):
                 options = {"tls": True, "ca_certificate": authority.certificate, "server_name": "choreod"}
                 both = options | {"client_certificate": own, "client_key": own_key}
                 self.assertTrue(info(server.address, **both).models)
-                for wrong in (options, both | {"ca_certificate": None}, both | {"server_name": None}, {}):
-                    self.assert_refused("UNAVAILABLE", f"^{server.address}: ", info, server.address, **wrong)
+                for wrong in (options, both | {"ca_certificate": None}, both | {"server_name": None}):
+                    self.assert_refused("UNAVAILABLE", f"^{server.address}: .*(?<!which is off)$", info, server.address, **wrong)
+                self.assert_refused("UNAVAILABLE", f"^{server.address}: .*; it may want TLS, which is off$", info, server.address)
 
     def test_options_that_cannot_be_used_are_named(self):
         with tempfile.TemporaryDirectory() as folder:

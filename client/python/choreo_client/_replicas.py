@@ -17,6 +17,7 @@ class Server:
 
     def __init__(self, address, options, credentials):
         self.address = address
+        self.tls = credentials is not None
         arguments = options.channel_options()
         if credentials is None:
             self.channel = grpc.insecure_channel(address, arguments)
@@ -77,9 +78,10 @@ class Replicas:
 
 
 def _named(error, server):
-    """Whoever is away is named."""
+    """Whoever is away is named, and who may have wanted TLS: so it ends where nothing else is understood."""
     if error.code == "UNAVAILABLE":
-        error.args = (f"{server.address}: {error}",)
+        wants_tls = not server.tls and str(error).endswith(": Socket closed")
+        error.args = (f"{server.address}: {error}" + ("; it may want TLS, which is off" if wants_tls else ""),)
     return error
 
 
