@@ -22,11 +22,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     const grpc::Status status = call(server, &context);
     if (status.ok()) return;
     const auto wait = patience.Next(status, replicas->Leave(server));
-    if (!wait) {
-      const Error error = ToError(patience.Verdict());
-      if (error.code() != ErrorCode::kUnavailable) throw error;
-      throw Error(ErrorCode::kUnavailable, server.address, error.what());
-    }
+    if (!wait) throw ToError(patience.Verdict(), server.address, replicas->options().tls);
     replicas->Wait(*wait, [] { return false; });
   }
 }

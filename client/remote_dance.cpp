@@ -122,11 +122,7 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   attempt_.reset();
   if (cancelled_) throw Error(ErrorCode::kCancelled, "", "the dance was cancelled");
   const auto wait = patience_.Next(status, replicas_->Leave(failed));
-  if (!wait) {
-    const Error error = ToError(patience_.Verdict());
-    if (error.code() != ErrorCode::kUnavailable) throw error;
-    throw Error(ErrorCode::kUnavailable, failed.address, error.what());
-  }
+  if (!wait) throw ToError(patience_.Verdict(), failed.address, replicas_->options().tls);
   lock.unlock();
   replicas_->Wait(*wait, [&] {
     const std::lock_guard guard(mutex_);

@@ -75,6 +75,15 @@ Error ToError(const grpc::Status& status) {
   return {ToCode(status.error_code()), field, message};
 }
 
+Error ToError(const grpc::Status& status, const std::string& address, bool tls) {
+  const Error error = ToError(status);
+  if (error.code() != ErrorCode::kUnavailable) return error;
+  std::string message = error.what();
+  // What becomes of an attempt to connect where nothing but TLS is understood.
+  if (!tls && message.ends_with(": Socket closed")) message += "; it may want TLS, which is off";
+  return {ErrorCode::kUnavailable, address, message};
+}
+
 RetryAdvice AdviceFor(const grpc::Status& status) {
   google::rpc::RetryInfo info;
   const bool invited = FindDetail(status, &info);

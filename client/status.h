@@ -2,12 +2,18 @@
 
 #include <grpcpp/support/status.h>
 
+#include <string>
+
 #include "model/core/error.h"
 
 namespace choreo::client {
 
 /// What a failed call means here: its code, and its message, which names the field already.
 Error ToError(const grpc::Status& status);
+
+/// The same of a server that was asked at this address, with TLS or without: whoever is away is
+/// named, and who may have wanted TLS.
+Error ToError(const grpc::Status& status, const std::string& address, bool tls);
 
 /// How a call that failed may be tried again.
 struct RetryAdvice {

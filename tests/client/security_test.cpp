@@ -70,7 +70,8 @@ TEST_F(TlsTest, WhoTrustsItDancesAndNobodyElse) {
   const DanceResult danced = Client(trusting).Dance({.seed = 1, .frames = 40}, {}, {});
   EXPECT_EQ(danced.motion.frames.size(), 40U);
   EXPECT_FALSE(Serves(Trusting(*server, stranger_)));
-  EXPECT_FALSE(Serves({.addresses = {server->address()}, .retry_s = 0}));  // plaintext
+  ExpectError(ErrorCode::kUnavailable, "; it may want TLS, which is off",
+              [&] { Client({.addresses = {server->address()}, .retry_s = 0}).GetServerInfo(); });
   Options of_another_name = trusting;
   of_another_name.server_name = "example.test";
   EXPECT_FALSE(Serves(of_another_name));
