@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "model/body/cone_lanes.h"
+
 namespace choreo {
 namespace {
 
@@ -37,34 +39,42 @@ FloorLight::FloorLight(const std::vector<BoundedCone>& parts, const Vector3f& la
     }
   }
   low_ = reached.min();
-  columns_ = 2 + CellsIn(reached.sizes().x());
   rows_ = 2 + CellsIn(reached.sizes().y());
+  columns_ = kLanes * (1 + (1 + CellsIn(reached.sizes().x())) / kLanes);
   // Each part darkens the cells around it and around its shadow.
-  std::vector<float> hidden(static_cast<size_t>(columns_) * rows_, 0), open(hidden.size(), 1);
-  const auto each_cell = [&](const Vector3f& middle, float reach, const auto& darken) {
+  const size_t lanes = static_cast<size_t>(rows_) * columns_ / kLanes;
+  std::vector<Lane> hidden(lanes, AllLanes(0)), open(lanes, AllLanes(1));
+  const Lane steps = MakeLane([](int lane) { return static_cast<float>(lane) * kShadowCell; });
+  const auto each_cells = [&](const Vector3f& middle, float reach, const auto& darken) {
     const auto cell = [](float from, float to, int count) {
       return std::clamp(static_cast<int>(std::floor((to - from) / kShadowCell)), 0, count);
     };
+    const int left = cell(low_.x(), middle.x() - reach, columns_) / kLanes * kLanes;
     const int right = cell(low_.x(), middle.x() + reach + kShadowCell, columns_);
     const int bottom = cell(low_.y(), middle.z() + reach + kShadowCell, rows_);
     for (int row = cell(low_.y(), middle.z() - reach, rows_); row < bottom; ++row) {
-      for (int column = cell(low_.x(), middle.x() - reach, columns_); column < right; ++column) {
-        const Vector3f point(low_.x() + static_cast<float>(column) * kShadowCell, 0,
-                             low_.y() + static_cast<float>(row) * kShadowCell);
-        darken(point, static_cast<size_t>(row) * columns_ + column);
+      const float z = low_.y() + static_cast<float>(row) * kShadowCell;
+      for (int column = left; column < right; column += kLanes) {
+        const float x = low_.x() + static_cast<float>(column) * kShadowCell;
+        darken(Lanes{x + steps, AllLanes(0), AllLanes(z)},
+               (static_cast<size_t>(row) * columns_ + column) / kLanes);
       }
     }
   };
+  const Lanes up = Lanes::All(Vector3f::UnitY());
   for (const BoundedCone& part : parts) {
-    each_cell(shadow_of(part), 1.5f * penumbra_of(part) + 0.1f, [&](const Vector3f& at, size_t i) {
-      hidden[i] = std::max(hidden[i], ShadowOf(part.shape, at, lamp, lamp_spread));
+    const ConeLanes cone(part);
+    each_cells(shadow_of(part), 1.5f * penumbra_of(part) + 0.1f, [&](const Lanes& at, size_t i) {
+      const Lane shadow = ShadowOf(cone, at, lamp, lamp_spread);
+      hidden[i] = hidden[i] > shadow ? hidden[i] : shadow;
     });
-    each_cell(part.middle, part.SkyReach(), [&](const Vector3f& at, size_t i) {
-      if (part.HidesSky(at)) open[i] *= 1 - OcclusionBy(part.shape, at, Vector3f::UnitY());
-    });
+    each_cells(part.middle, part.SkyReach(),
+               [&](const Lanes& at, size_t i) { open[i] *= 1 - HiddenSky(cone, at, up); });
   }
-  for (size_t i = 0; i < hidden.size(); ++i)
-    light_.push_back(0.45f * (1 - hidden[i]) + 0.55f * open[i]);
+  for (size_t i = 0; i < lanes; ++i) {
+    const Lane light = 0.45f * (1 - hidden[i]) + 0.55f * open[i];
+    for (int lane = 0; lane < kLanes; ++lane) light_.push_back(light[lane]);
+  }
 }
 
 float FloorLight::At(float x, float z) const {

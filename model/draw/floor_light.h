@@ -19,7 +19,7 @@ class FloorLight {
  private:
   Eigen::Vector2f low_;
   int columns_, rows_;
-  std::vector<float> light_;
+  std::vector<float> light_;  // [rows, columns]
 };
 
 }  // namespace choreo

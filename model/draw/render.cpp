@@ -2,280 +2,190 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "model/body/cone_lanes.h"
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/draw/check_within.h"
+#include "model/draw/figure_light.h"
+#include "model/draw/floor.h"
 #include "model/draw/floor_light.h"
+#include "model/draw/tone.h"
 
 namespace choreo {
 namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kLampSpread = 0.10f;   // radians
-constexpr float kShadowBias = 0.012f;  // metres off the surface: parts overlap at the joints
-constexpr float kFloorGrid = 0.5f;  // metres between the lines on the floor, which the world fixes
-constexpr float kGridHalfWidth = 0.008f;  // metres
+constexpr float kLampSpread = 0.10f;  // radians
+constexpr int kMostSamples = 8;       // along each side of a pixel
 
-Vector3f Linear(const Colour& colour) {
-  const auto linear = [](double value) { return static_cast<float>(std::pow(value, 2.2)); };
-  return {linear(colour.r), linear(colour.g), linear(colour.b)};
+std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
+  std::vector<BoundedCone> parts;
+  for (const PlacedPart& part : figure) parts.emplace_back(part.shape);
+  return parts;
 }
 
-// Linear light, 0 to 1, as a byte of sRGB.
-uint8_t Encode(float linear) {
-  // Fine enough for the steep dark end: a step of the table is less than one of the byte.
-  constexpr int kSteps = 1 << 15;
-  static const std::vector<uint8_t> bytes = [] {
-    std::vector<uint8_t> made;
-    for (int i = 0; i <= kSteps; ++i)
-      made.push_back(std::lround(255 * std::pow(double{1} * i / kSteps, 1 / 2.2)));
-    return made;
-  }();
-  return bytes[static_cast<size_t>(std::clamp(linear, 0.0f, 1.0f) * kSteps + 0.5f)];
+// From the left above the camera.
+Vector3f LampDirection(double azimuth) {
+  const double side = azimuth - 0.75;
+  return Eigen::Vector3d(0.62 * std::sin(side), 1, 0.62 * std::cos(side))
+      .normalized()
+      .cast<float>();
 }
 
-float SmoothStep(float from, float to, float value) {
-  const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
+// What rays meet first.
+struct Seen {
+  static constexpr float kNothing = -1;
+
+  Lane distance = AllLanes(std::numeric_limits<float>::infinity());
+  Lane part = AllLanes(kNothing);  // its index
+};
+using SeenRow = std::vector<Seen>;
 
 class Renderer {
  public:
   Renderer(const std::vector<PlacedPart>& figure, const View& view, const FrameStyle& style,
-           const Picture& picture)
-      : parts_(Bound(figure)),
+           Picture& picture)
+      : picture_(picture),
+        parts_(Bound(figure)),
         camera_(view, picture.width, picture.height),
-        half_width_(0.5f * static_cast<float>(picture.width)),
         samples_(style.samples),
-        middle_(view.target.cast<float>()),
-        reach_(static_cast<float>(0.72 * view.extent *
-                                  std::max(1.0, double{1} * picture.width / picture.height))),
-        lamp_(LampDirection(view.azimuth)),
-        floor_light_(parts_, lamp_, kLampSpread),
-        background_(Linear(style.background)),
-        floor_(Linear(style.floor)) {
-    for (size_t i = 0; i < figure.size(); ++i) {
-      colours_.push_back(Linear(figure[i].colour));
-      nearby_.push_back(Nearby(parts_[i]));
-      skins_.push_back(SkinAround(figure, i));
+        floor_light_(parts_, LampDirection(view.azimuth), kLampSpread),
+        floor_(view, camera_, floor_light_, picture.width, picture.height, Linear(style.floor),
+               Linear(style.background)),
+        figure_light_(figure, parts_, LampDirection(view.azimuth)) {
+    const Eigen::Vector2i size(picture.width, picture.height);
+    box_ = {size, Eigen::Vector2i::Zero()};
+    for (const BoundedCone& part : parts_) {
+      cones_.emplace_back(part);
+      boxes_.push_back(BoxOf(part.shape));
+      box_.extend(boxes_.back());
     }
-    Enclose(picture);
+    box_.max() = box_.max().cwiseMin(size).cwiseMax(box_.min());
   }
 
-  void Render(Picture& picture) {
-    Cast();
-    picture.rgb.resize(size_t{3} * picture.width * picture.height);
-    uint8_t* rgb = picture.rgb.data();
-    for (int y = 0; y < picture.height; ++y) {
-      const FloorRow floor = RowAt(static_cast<float>(y) + 0.5f, 1);
-      for (int x = 0; x < picture.width; ++x) {
-        for (const float value : Pixel(x, y, floor)) *rgb++ = Encode(value);
+  void Render() {
+    picture_.rgb.resize(size_t{3} * picture_.width * picture_.height);
+    for (int y = 0; y < picture_.height; ++y) floor_.DrawRow(y, PixelAt(0, y));
+    const int columns = box_.sizes().x();
+    SeenRow before(1 + columns / kLanes), row = before;
+    const auto part_at = [](const SeenRow& seen, int column) {
+      return column < 0 ? Seen::kNothing : seen[column / kLanes].part[column % kLanes];
+    };
+    for (int y = box_.min().y(); y < box_.max().y(); ++y, row.swap(before)) {
+      Cast(y, &row);
+      for (int column = 0; column < columns; ++column) {
+        // All samples of a pixel lie between its last one and those of its neighbours before it.
+        const float part = part_at(row, column);
+        const bool is_one = part == part_at(row, column - 1) && part == part_at(before, column) &&
+                            part == part_at(before, column - 1);
+        if (is_one && part == Seen::kNothing) continue;
+        const int x = box_.min().x() + column;
+        const Vector3f colour =
+            is_one ? Body(row[column / kLanes], column % kLanes, Last(x, y)) : Mixed(x, y);
+        tone_.Put(colour, PixelAt(x, y));
       }
     }
   }
 
  private:
-  static std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
-    std::vector<BoundedCone> parts;
-    for (const PlacedPart& part : figure) parts.emplace_back(part.shape);
-    return parts;
+  uint8_t* PixelAt(int x, int y) const {
+    return &picture_.rgb[3 * (static_cast<size_t>(y) * picture_.width + x)];
   }
 
-  // From the left above the camera.
-  static Vector3f LampDirection(double azimuth) {
-    const double side = azimuth - 0.75;
-    return Eigen::Vector3d(0.62 * std::sin(side), 1, 0.62 * std::cos(side))
-        .normalized()
-        .cast<float>();
-  }
-
-  // The parts that may stand between a part's surface and the lamp or the sky.
-  std::vector<const BoundedCone*> Nearby(const BoundedCone& part) const {
-    const float around = part.radius + 2 * kShadowBias;
-    std::vector<const BoundedCone*> nearby;
-    for (const BoundedCone& other : parts_) {
-      const Vector3f to = other.middle - part.middle;
-      const float beside = to.cross(lamp_).norm();
-      const bool shades =
-          beside < around + other.radius && to.dot(lamp_) > -(around + other.radius);
-      if (&other != &part && (shades || to.norm() < around + other.SkyReach()))
-        nearby.push_back(&other);
-    }
-    return nearby;
-  }
-
-  // The pixels outside of which there is no body, [from, to).
+  // The pixels outside of which there is nothing of a shape, [from, to).
   Eigen::AlignedBox2i BoxOf(const RoundedCone& shape) const {
     const Eigen::AlignedBox2f box =
         camera_.Bounds(shape.a, shape.radius_a).merged(camera_.Bounds(shape.b, shape.radius_b));
     return {box.min().cast<int>(), box.max().cast<int>() + Eigen::Vector2i::Ones()};
   }
 
-  // Makes room for the samples of the body.
-  void Enclose(const Picture& picture) {
-    const Eigen::Vector2i size(picture.width, picture.height);
-    box_ = {size, Eigen::Vector2i::Zero()};
-    for (const BoundedCone& part : parts_) box_.extend(BoxOf(part.shape));
-    box_.max() = box_.max().cwiseMin(size).cwiseMax(box_.min());
-    columns_ = box_.sizes().x() * samples_;
-    rows_ = box_.sizes().y() * samples_;
-    const size_t count = static_cast<size_t>(columns_) * rows_;
-    distance_.assign(count, -1.0f);
-    part_.assign(count, -1);
-    normal_.resize(count);
+  // Where sample i of a pixel lies in the picture.
+  Eigen::Array2f SampleAt(int x, int y, int i) const {
+    const Eigen::Array2f sample = Eigen::Array2i(i % samples_, i / samples_).cast<float>() + 0.5f;
+    return Eigen::Array2i(x, y).cast<float>() + sample / static_cast<float>(samples_);
+  }
+  Eigen::Array2f Last(int x, int y) const { return SampleAt(x, y, samples_ * samples_ - 1); }
+
+  Lanes Rays(Lane x, Lane y) const {
+    const Lanes direction = corner_ + x * right_ + y * down_;
+    return 1 / Sqrt(Dot(direction, direction)) * direction;
   }
 
-  // A sample's place in the picture; columns and rows of samples count from the box's corner.
-  Eigen::Array2f PixelAt(int column, int row) const {
-    const Eigen::Array2f sample = Eigen::Array2i(column, row).cast<float>() + 0.5f;
-    return box_.min().array().cast<float>() + sample / static_cast<float>(samples_);
+  void Meet(size_t part, const Lanes& rays, Seen* seen) const {
+    const Lane distance = Enter(cones_[part], eye_, rays);
+    const auto is_nearer = distance > 0 && distance < seen->distance;
+    seen->distance = is_nearer ? distance : seen->distance;
+    seen->part = is_nearer ? AllLanes(static_cast<float>(part)) : seen->part;
   }
 
-  // Enters the parts' nearest points, row by row of samples.
-  void Cast() {
-    std::vector<Eigen::AlignedBox2i> boxes;  // of samples
-    std::vector<SeenCone> seen;
-    for (const BoundedCone& part : parts_) {
-      seen.emplace_back(part.shape, camera_.eye());
-      const Eigen::AlignedBox2i box = BoxOf(part.shape).intersection(box_);
-      boxes.emplace_back(samples_ * (box.min() - box_.min()), samples_ * (box.max() - box_.min()));
-    }
-    std::vector<Vector3f> rays(static_cast<size_t>(columns_));
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column)
-        rays[column] = camera_.Ray(PixelAt(column, row));
-      for (size_t i = 0; i < parts_.size(); ++i) {
-        const Eigen::Vector2i& from = boxes[i].min();
-        const Eigen::Vector2i& to = boxes[i].max();
-        if (row < from.y() || row >= to.y()) continue;
-        for (int column = from.x(); column < to.x(); ++column) {
-          const RayHit hit = seen[i].Enter(rays[column]);
-          const size_t at = static_cast<size_t>(row) * columns_ + column;
-          if (hit.distance < 0 || (part_[at] >= 0 && distance_[at] <= hit.distance)) continue;
-          distance_[at] = hit.distance;
-          part_[at] = static_cast<int>(i);
-          normal_[at] = hit.normal;
-        }
-      }
+  // The last sample of each pixel of a row, from the box's left on.
+  void Cast(int y, SeenRow* row) {
+    row->assign(row->size(), {});
+    row_parts_.clear();
+    const int left = box_.min().x();
+    const Lane columns = MakeLane([&](int lane) { return Last(left + lane, y).x(); });
+    const Lane middle = AllLanes(Last(left, y).y());
+    for (size_t part = 0; part < parts_.size(); ++part) {
+      const Eigen::Vector2i &from = boxes_[part].min(), &to = boxes_[part].max();
+      if (y < from.y() || y >= to.y()) continue;
+      row_parts_.push_back(part);
+      for (int i = (from.x() - left) / kLanes; i * kLanes < std::min(to.x(), box_.max().x()) - left;
+           ++i)
+        Meet(part, Rays(columns + static_cast<float>(i * kLanes), middle), &(*row)[i]);
     }
   }
 
-  static Eigen::Vector2f OnFloor(const Vector3f& point) { return {point.x(), point.z()}; }
-
-  // Where the points of a row of the picture lie on the floor, x and z: the camera does not lean to
-  // a side, so that they lie on a line, evenly spaced. `next` is the row `size` pixels below.
-  struct FloorLine {
-    Eigen::Vector2f middle, step;  // at the picture's middle, and from pixel to pixel
-    Eigen::Vector2f At(float from_middle) const { return middle + from_middle * step; }
-  };
-  struct FloorRow {
-    bool seen;  // below the horizon
-    float size;
-    FloorLine here, next;
-  };
-  FloorRow RowAt(float y, float size) const {
-    const auto line = [&](float at) -> FloorLine {
-      const Vector3f ray = camera_.Direction({half_width_, at});
-      const float along = -camera_.eye().y() / ray.y();
-      return {OnFloor(camera_.eye() + along * ray), OnFloor(along * camera_.right())};
-    };
-    return {camera_.Direction({half_width_, y}).y() < 0, size, line(y), line(y + size)};
-  }
-
-  // Floor and parts are smooth: a pixel that shows one of them alone needs no more than one sample.
-  Vector3f Pixel(int x, int y, const FloorRow& floor) const {
-    const float middle = static_cast<float>(x) + 0.5f;
-    const int left = (x - box_.min().x()) * samples_, top = (y - box_.min().y()) * samples_;
-    if (left < 0 || left >= columns_ || top < 0 || top >= rows_) return Floor(floor, middle);
-    const int first = part_[static_cast<size_t>(top) * columns_ + left];
-    bool one = true;
-    for (int row = top; row < top + samples_; ++row) {
-      const int* parts = &part_[static_cast<size_t>(row) * columns_ + left];
-      one = one && std::count(parts, parts + samples_, first) == samples_;
+  // A pixel of the row that was cast last, which may show more than one part. Floor and parts are
+  // smooth, so that one that shows a single part needs no more than one sample.
+  Vector3f Mixed(int x, int y) const {
+    const int count = samples_ * samples_;
+    std::array<Seen, kMostSamples * kMostSamples / kLanes> seen;
+    for (int i = 0; i < count; i += kLanes) {
+      const Lanes rays = Rays(MakeLane([&](int lane) { return SampleAt(x, y, i + lane).x(); }),
+                              MakeLane([&](int lane) { return SampleAt(x, y, i + lane).y(); }));
+      for (const size_t part : row_parts_)
+        if (x >= boxes_[part].min().x() && x < boxes_[part].max().x())
+          Meet(part, rays, &seen[i / kLanes]);
     }
-    if (one)
-      return first < 0 ? Floor(floor, middle) : Sample(left + samples_ / 2, top + samples_ / 2);
+    const auto part = [&](int i) -> float { return seen[i / kLanes].part[i % kLanes]; };
+    bool is_one = true;
+    for (int i = 1; i < count; ++i) is_one = is_one && part(i) == part(0);
     Vector3f sum = Vector3f::Zero();
-    for (int row = top; row < top + samples_; ++row) {
-      for (int column = left; column < left + samples_; ++column) sum += Sample(column, row);
+    for (int i = is_one ? count - 1 : 0; i < count; ++i) {
+      const Eigen::Array2f at = SampleAt(x, y, i);
+      sum += part(i) == Seen::kNothing ? floor_.At(at, 1 / static_cast<float>(samples_))
+                                       : Body(seen[i / kLanes], i % kLanes, at);
     }
-    return sum / static_cast<float>(samples_ * samples_);
+    return is_one ? sum : sum / static_cast<float>(count);
   }
 
-  Vector3f Sample(int column, int row) const {
-    const size_t at = static_cast<size_t>(row) * columns_ + column;
-    const Eigen::Array2f pixel = PixelAt(column, row);
-    if (part_[at] < 0) return Floor(RowAt(pixel.y(), 1 / static_cast<float>(samples_)), pixel.x());
+  Vector3f Body(const Seen& seen, int lane, const Eigen::Array2f& pixel) const {
+    const auto part = static_cast<size_t>(seen.part[lane]);
     const Vector3f ray = camera_.Ray(pixel);
-    const Vector3f point = camera_.eye() + distance_[at] * ray;
-    return Body(part_[at], point, SkinNormal(skins_[part_[at]], point, normal_[at]), ray);
+    const Vector3f point = camera_.eye() + seen.distance[lane] * ray;
+    return figure_light_.At(part, point, NormalAt(parts_[part].shape, point), ray);
   }
 
-  Vector3f Body(int index, const Vector3f& point, const Vector3f& normal,
-                const Vector3f& ray) const {
-    const Vector3f start = point + kShadowBias * normal;
-    float lit = 1, open = 1;
-    for (const BoundedCone* part : nearby_[index]) {
-      if (lit > 0 && part->MeetsRay(start, lamp_) &&
-          Intersect(part->shape, start, lamp_).distance > 0) {
-        lit = 0;
-      }
-      if (part->HidesSky(start)) open *= 1 - 0.7f * OcclusionBy(part->shape, start, normal);
-    }
-    const float lamp = lit * std::max(0.0f, normal.dot(lamp_));
-    const float sky = open * (0.5f + 0.5f * normal.y());
-    // What the floor gives back reaches feet better than heads.
-    const float bounce =
-        open * (0.5f - 0.5f * normal.y()) * 0.5f * (1 - SmoothStep(0, 2, point.y()));
-    const float fill = open * std::max(0.0f, -normal.dot(ray));
-    const float edge = std::pow(1 - std::max(0.0f, -normal.dot(ray)), 3.0f);
-    const float light = 0.68f * lamp + 0.34f * sky + 0.30f * bounce + 0.24f * fill;
-    const Vector3f shine = Vector3f::Constant(0.05f * edge * open);
-    return light * colours_[index] + shine;
-  }
-
-  // How much of a stretch of the floor, `width` wide around `at`, the grid's lines cover.
-  static float Lines(float at, float width) {
-    const float from_line = std::abs(at - kFloorGrid * std::round(at / kFloorGrid));
-    const float covered = (kGridHalfWidth + 0.5f * width - from_line) / width;
-    return std::clamp(covered, 0.0f, std::min(1.0f, 2 * kGridHalfWidth / width));
-  }
-
-  Vector3f Floor(const FloorRow& row, float x) const {
-    if (!row.seen) return background_;
-    const Eigen::Vector2f point = row.here.At(x - half_width_);
-    const float away2 = (point - OnFloor(middle_)).squaredNorm();
-    if (!(away2 <= reach_ * reach_)) return background_;
-    float shade = floor_light_.At(point.x(), point.y());
-    const Eigen::Vector2f size =
-        row.size * row.here.step.cwiseAbs() + (row.next.At(x - half_width_) - point).cwiseAbs();
-    const float free = (1 - Lines(point.x(), size.x())) * (1 - Lines(point.y(), size.y()));
-    shade *= 1 - 0.20f * (1 - free);
-    const float fade = SmoothStep(0.55f * reach_, reach_, std::sqrt(away2));
-    return (1 - fade) * shade * floor_ + fade * background_;
-  }
-
+  Picture& picture_;
   std::vector<BoundedCone> parts_;
-  std::vector<std::vector<const BoundedCone*>> nearby_;  // of each part
-  std::vector<std::vector<const PlacedPart*>> skins_;    // the same
-  std::vector<Vector3f> colours_;
+  std::vector<ConeLanes> cones_;  // the same
   Camera camera_;
-  float half_width_;
+  Lanes eye_ = Lanes::All(camera_.eye()), corner_ = Lanes::All(camera_.Direction({0, 0})),
+        right_ = Lanes::All(camera_.right()), down_ = Lanes::All(-camera_.up());
   int samples_;
-  Vector3f middle_;
-  float reach_;
-  Vector3f lamp_;
   FloorLight floor_light_;
-  Vector3f background_, floor_;
-  Eigen::AlignedBox2i box_;
-  int columns_ = 0, rows_ = 0;  // of samples, in the box
-  std::vector<float> distance_;
-  std::vector<int> part_;
-  std::vector<Vector3f> normal_;
+  Floor floor_;
+  FigureLight figure_light_;
+  Tone tone_;
+  std::vector<Eigen::AlignedBox2i> boxes_;  // of the parts, pixels
+  Eigen::AlignedBox2i box_;                 // of all of them
+  std::vector<size_t> row_parts_;           // in the row that was cast last
 };
 
 }  // namespace
@@ -290,8 +200,8 @@ void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
 
 void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
                Picture& picture) {
-  CheckWithin("style.samples", style.samples, 1, 8);
-  Renderer(figures, view, style, picture).Render(picture);
+  CheckWithin("style.samples", style.samples, 1, kMostSamples);
+  Renderer(figures, view, style, picture).Render();
 }
 
 }  // namespace choreo

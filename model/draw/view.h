@@ -42,6 +42,8 @@ class Camera {
   const Eigen::Vector3f& eye() const { return eye_; }
   /// What a ray's direction gains from a column to the next: a unit vector, level.
   const Eigen::Vector3f& right() const { return right_; }
+  /// From a row to the one above it.
+  const Eigen::Vector3f& up() const { return up_; }
   /// Direction through a point of the picture, pixels from the upper left corner.
   Eigen::Vector3f Direction(const Eigen::Array2f& pixel) const;
   /// The same of unit length.

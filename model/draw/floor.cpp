@@ -1,0 +1,101 @@
+#include "model/draw/floor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace choreo {
+namespace {
+
+constexpr float kFloorGrid = 0.5f;        // metres between the lines
+constexpr float kGridHalfWidth = 0.008f;  // metres
+
+Eigen::Vector2f OnFloor(const Eigen::Vector3f& point) { return {point.x(), point.z()}; }
+
+// How much of stretches of the floor, `width` wide around `at`, the grid's lines leave free.
+Lane BetweenLines(Lane at, Lane width) {
+  // Rounds to whole numbers: a float of this size has no other.
+  constexpr float kWhole = 3 << 22;
+  const Lane whole = (at / kFloorGrid + kWhole) - kWhole;
+  const Lane covered = (kGridHalfWidth + 0.5f * width - Abs(at - kFloorGrid * whole)) / width;
+  return 1 - Min(Max(covered, 0), Min(2 * kGridHalfWidth / width, AllLanes(1)));
+}
+
+}  // namespace
+
+Floor::Floor(const View& view, const Camera& camera, const FloorLight& light, int width, int height,
+             const Eigen::Vector3f& floor, const Eigen::Vector3f& background)
+    : camera_(camera),
+      light_(light),
+      width_(width),
+      half_width_(0.5f * static_cast<float>(width)),
+      middle_(OnFloor(view.target.cast<float>())),
+      reach_(static_cast<float>(0.72 * view.extent * std::max(1.0, double{1} * width / height))),
+      floor_(floor),
+      background_(background) {
+  tone_.Put(background_, background_bytes_);
+}
+
+Floor::Row Floor::RowAt(float y, float size) const {
+  const auto line = [&](float at) -> Line {
+    const Eigen::Vector3f ray = camera_.Direction({half_width_, at});
+    const float along = -camera_.eye().y() / ray.y();
+    return {OnFloor(camera_.eye() + along * ray), OnFloor(along * camera_.right())};
+  };
+  return {camera_.Direction({half_width_, y}).y() < 0, size, line(y), line(y + size)};
+}
+
+Lanes Floor::Light(const Row& row, Lane from_middle) const {
+  const auto at = [&](const Line& line, int i) -> Lane {
+    return line.middle[i] + from_middle * line.step[i];
+  };
+  const Lane x = at(row.here, 0), z = at(row.here, 1);
+  const auto free = [&](Lane here, int i) {
+    const float step = row.size * std::abs(row.here.step[i]);
+    return BetweenLines(here, step + Abs(at(row.next, i) - here));
+  };
+  Lane shade = MakeLane([&](int lane) { return light_.At(x[lane], z[lane]); });
+  shade *= 1 - 0.20f * (1 - free(x, 0) * free(z, 1));
+  const Lane right = x - middle_.x(), near = z - middle_.y();
+  const Lane away = Sqrt(right * right + near * near);
+  const Lane t = Within01((away - 0.55f * reach_) / (0.45f * reach_));
+  const Lane fade = t * t * (3 - 2 * t);
+  return ((1 - fade) * shade) * Lanes::All(floor_) + fade * Lanes::All(background_);
+}
+
+Eigen::Vector3f Floor::At(const Eigen::Array2f& pixel, float size) const {
+  const Row row = RowAt(pixel.y(), size);
+  if (!row.is_seen) return background_;
+  const Lanes light = Light(row, AllLanes(pixel.x() - half_width_));
+  return {light.x[0], light.y[0], light.z[0]};
+}
+
+void Floor::DrawRow(int y, uint8_t* rgb) const {
+  const Row row = RowAt(static_cast<float>(y) + 0.5f, 1);
+  // Columns [from, to) where the floor is within reach.
+  int from = width_, to = width_;
+  const Eigen::Vector2f beside = row.here.middle - middle_;
+  const float step2 = row.here.step.squaredNorm(), nearest = -beside.dot(row.here.step) / step2;
+  const float around2 = (reach_ * reach_ - beside.squaredNorm()) / step2 + nearest * nearest;
+  if (row.is_seen && around2 > 0) {
+    const auto column = [&](float from_middle) {
+      return static_cast<int>(std::clamp(half_width_ + from_middle, 0.0f, float(width_)));
+    };
+    from = column(nearest - std::sqrt(around2));
+    to = column(nearest + std::sqrt(around2));
+  }
+  const auto put_background = [&](int begin, int end) {
+    for (int x = begin; x < end; ++x)
+      for (int i = 0; i < 3; ++i) rgb[3 * x + i] = background_bytes_[i];
+  };
+  const Lane columns = MakeLane([](int lane) { return static_cast<float>(lane) + 0.5f; });
+  put_background(0, from);
+  for (int x = from; x < to; x += kLanes) {
+    const Lanes light = Light(row, columns + (static_cast<float>(x) - half_width_));
+    uint8_t bytes[3 * kLanes];
+    tone_.Put(light, bytes);
+    std::copy_n(bytes, 3 * std::min(kLanes, to - x), rgb + 3 * x);
+  }
+  put_background(to, width_);
+}
+
+}  // namespace choreo
