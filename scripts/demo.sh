@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Dances 24 seconds of a real song through key poses of client/poses, and shows what came of it.
+# Dances 24 seconds of a real song through the key poses of examples/demo.json, and shows what came of it.
 #   scripts/demo.sh BIN_DIRECTORY OUT_DIRECTORY
 set -euo pipefail
 choreo=$1/choreo
 out=$2
+examples=$(dirname "$0")/../examples
 song="/usr/share/games/fretsonfire/data/songs/sectoid/Escape from chaosland/song.ogg"
 mkdir -p "$out"
 
 # No server is named, so choreo starts the choreod beside it, and stops it afterwards. It fails if a key pose is missed by more than 1 mm.
-"$choreo" dance "$song" --seconds 24 --seed 1 --out "$out/dance.npz" --report "$out/report.json"
+"$choreo" dance "$song" --seconds 24 --seed 1 --keyframes "$examples/demo.json" --out "$out/dance.npz" --report "$out/report.json"
 "$choreo" convert "$out/dance.npz" "$out/dance.bvh"
 "$choreo" convert "$out/dance.npz" "$out/dance.glb"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --out "$out/sheet.png" \
@@ -16,7 +17,7 @@ mkdir -p "$out"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 640x360
 
 # The same song, led along a path, the left arm livelier than the rest.
-"$choreo" dance "$song" --seconds 10 --path "$(dirname "$0")/../examples/path.json" --velocity left_arm=1.5 \
+"$choreo" dance "$song" --seconds 10 --path "$examples/path.json" --velocity left_arm=1.5 \
   --out "$out/controlled.npz" --report "$out/controlled.json"
 "$choreo" render "$out/controlled.npz" --report "$out/controlled.json" --out "$out/controlled.png" \
   --title "10 s along a path, the left arm 1.5 times as lively"

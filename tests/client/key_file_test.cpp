@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "client/cli/key_faults.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
@@ -332,6 +333,15 @@ TEST_F(MotionKeysTest, ReadsAKeyFileByItsPath) {
   const std::string path = (folder_ / "odd@name.json").string();
   std::ofstream(path) << Key();
   EXPECT_EQ(ReadKeys(path, Body()).front().id, "a");
+}
+
+TEST(KeyFileTest, TheDemoBeginsQuicklyAndBowsLast) {
+  const auto keys = ReadKeys(SOURCE_FOLDER "/examples/demo.json", Skeleton::Smpl24());
+  EXPECT_TRUE(KeyFaults(keys, 30, Skeleton::Smpl24()).empty());
+  EXPECT_EQ(keys.front().time_s, 0);
+  EXPECT_LT(keys[1].time_s, 2);
+  EXPECT_EQ(keys.back().id, "bow");
+  EXPECT_LT(keys.back().time_s, 24);
 }
 
 }  // namespace choreo::cli::key_file_test
