@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "model/audio/suggest_keys.h"
+#include "model/core/grid.h"
 #include "model/motion/canonical.h"
 
 namespace choreo::cli {
@@ -48,8 +49,9 @@ std::vector<double> KeyTimes(const CompositionRequest& request) {
   while (period * static_cast<double>(stride) < kLeastPeriod) stride *= 2;
   std::vector<double> times = {0};
   for (size_t i = 0; i < counts.size(); i += stride) {
-    // What a wavering count would bring too close is left out, as is what lies behind the end.
-    if (counts[i] - times.back() >= kShortestKeyInterval && counts[i] < seconds)
+    // What a wavering count would bring too close is left out, as is what lies behind the last
+    // frame.
+    if (counts[i] - times.back() >= kShortestKeyInterval && counts[i] <= seconds - 1 / kModelFps)
       times.push_back(counts[i]);
   }
   if (end && *end - times.back() >= kShortestKeyInterval) times.push_back(*end);

@@ -55,6 +55,13 @@ TEST(ChoreographyTest, CountsOnBeforeTheFirstBeatAndWithoutAny) {
   EXPECT_EQ(silent.size(), 6U);
 }
 
+TEST(ChoreographyTest, PutsNoKeyBehindTheLastFrame) {
+  // The beat of 8.8889 s and the end of 8.889 s are the same frame.
+  const auto beats = EvenBeats(0, 1.0 / 2.25, 40);
+  const auto keys = ComposeKeys({.seconds = 8.889, .beats = beats, .seed = 5}, PoseLibrary());
+  EXPECT_LE(std::lround(keys.back().time_s * 30), std::lround(8.889 * 30) - 1);
+}
+
 TEST(ChoreographyTest, EndsInAPoseWhereItIsTold) {
   for (const double end_s : {1.97, 9.97, 10.0, 11.0, 11.3, 12.5, 13.97}) {
     for (const bool beats : {false, true}) {
