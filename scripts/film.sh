@@ -2,7 +2,7 @@
 # Makes docs/films/choreo.webm, a film with sound of what choreo can do, and docs/images/choreo.jpg, its still:
 # pictures by choreo, captions and cuts by ffmpeg.
 #   scripts/film.sh BIN_DIRECTORY OUT.webm
-# The song is Carlos Viola Iborra's (docs/images/NOTICE): its notice goes where the film goes.
+# The song is Carlos Viola Iborra's (docs/films/NOTICE): its notice goes where the film goes.
 set -euo pipefail
 (($# == 2)) || { echo "film.sh: BIN_DIRECTORY and OUT.webm are wanted" >&2; exit 2; }
 choreo=$1/choreo

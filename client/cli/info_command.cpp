@@ -8,6 +8,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/pose_library.h"
+#include "client/style_figures.h"
 
 namespace choreo::cli {
 namespace {
@@ -42,6 +43,9 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   out["deterministic"] = model.deterministic;
   out["likelihood"] = model.likelihood;
   out["styles"] = model.styles;
+  if (const auto figures = client::FindStyleFigures(model.fingerprint))
+    out["styles_recognised"] = {{"percent", figures->recognised},
+                                {"chance_percent", figures->chance}};
   out["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
     out["velocity_references"].push_back(ToJson(reference));
@@ -126,6 +130,13 @@ void PrintStyles(const client::ModelDescription& model) {
   for (size_t i = 0; i < model.styles.size(); ++i)
     std::printf("%s %s", i == 0 ? "" : ",", model.styles[i].c_str());
   std::printf("\n");
+  if (const auto figures = client::FindStyleFigures(model.fingerprint)) {
+    std::printf("    in %.0f %% of seconds an asked style is recognised, by chance in %.0f %%%s\n",
+                figures->recognised, figures->chance,
+                figures->shows() ? "" : ": they cannot be told apart");
+  } else {
+    std::printf("    whether they can be recognised was not measured\n");
+  }
 }
 
 void PrintServer(const client::ServerDescription& server, const InfoOptions& options) {
