@@ -146,7 +146,9 @@ class TorchFlowNetwork : public FlowNetwork {
 };
 
 constexpr const char* kFormat = "choreo-continuous-flow-8";
-constexpr const char* kTurns = "turn_prior";
+constexpr const char *kTurns = "turn_prior", *kCurve = "energy_curve", *kPowers = "variance_powers",
+                     *kResponse = "energy_response";
+constexpr int kPowerNumbers = 7;
 
 }  // namespace
 
@@ -156,7 +158,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   const Tensor walk = torch::zeros({dimensions, MotionPrior::kLags});
   walk.select(1, 0).fill_(1e-4);
   covariance_ = register_buffer("velocity_covariance", walk);
-  powers_ = register_buffer("variance_powers", torch::zeros({6}));
+  powers_ = register_buffer(kPowers, torch::zeros({kPowerNumbers}));
   SetPowers({});
   usual_ = register_buffer("usual_pose", torch::zeros({dimensions}));
   usual_variance_ = register_buffer("usual_variance", torch::zeros({dimensions}));
@@ -166,6 +168,8 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   energy_ = register_buffer(
       "energy_prior", torch::zeros({std::ssize(EnergyPrior(config.styles.size()).ToNumbers())}));
   turns_ = register_buffer(kTurns, torch::zeros({TurnPrior::kInputs}));
+  curve_ = register_buffer(kCurve, torch::zeros({EnergyCurve::kNumbers}));
+  response_ = register_buffer(kResponse, torch::zeros({2, kBodyParts}));
   const int64_t features =
       kFramesAToken * TokenFrameWidth(static_cast<int>(dimensions), FrameFeatures());
   embed_ = register_module("embed", torch::nn::Linear(features, width));
@@ -242,7 +246,7 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
 void ContinuousFlowImpl::SetPowers(const VariancePowers& powers) {
   torch::NoGradGuard no_grad;
   powers_.copy_(torch::tensor({powers.surprise, powers.least, powers.most, powers.offset,
-                               powers.known_surprise, powers.level}));
+                               powers.known_surprise, powers.level, powers.least_scale}));
 }
 
 void ContinuousFlowImpl::SetEnergy(const EnergyPrior& energy) {
@@ -255,6 +259,19 @@ void ContinuousFlowImpl::SetTurns(const TurnPrior& turns) {
   turns_.copy_(torch::tensor(std::vector<double>(turns.weights.begin(), turns.weights.end())));
 }
 
+void ContinuousFlowImpl::SetCurve(const EnergyCurve& curve) {
+  torch::NoGradGuard no_grad;
+  curve_.copy_(torch::tensor(curve.ToNumbers()));
+}
+
+void ContinuousFlowImpl::SetResponse(const EnergyResponse& response) {
+  torch::NoGradGuard no_grad;
+  for (int part = 0; part < kBodyParts; ++part) {
+    response_[0][part] = response.offset[part];
+    response_[1][part] = response.slope[part];
+  }
+}
+
 FlowModelParts ContinuousFlowImpl::Parts() const {
   const Eigen::MatrixXd numbers = ToEigen(powers_);
   VariancePowers powers{.surprise = numbers(0),
@@ -263,6 +280,7 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
                         .offset = numbers(3),
                         .known_surprise = numbers(4),
                         .level = numbers(5),
+                        .least_scale = numbers(6),
                         .parts = std::vector<int>(3, static_cast<int>(BodyPart::kTrunk)),
                         .medians = config_.median_factors};
   const BodyPartWeights weights = WeighBodyParts(skeleton_);
@@ -276,14 +294,17 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
       .pose = {pose.head<3>(), pose.tail(pose.size() - 3).reshaped(3, pose.size() / 3 - 1)},
       .variance = ToEigen(usual_variance_)};
   EnergyPrior energy(config_.styles.size());
-  const Eigen::MatrixXd measured = ToEigen(energy_);
+  const Eigen::MatrixXd measured = ToEigen(energy_), curve = ToEigen(curve_),
+                        response = ToEigen(response_);
   energy.SetNumbers({measured.data(), static_cast<size_t>(measured.size())});
   return {skeleton_,
           config_,
           MotionPrior(ToEigen(covariance_), std::move(powers), std::move(usual)),
           ToEigen(mixing_),
           energy,
-          TurnPrior{ToEigen(turns_)}};
+          TurnPrior{ToEigen(turns_)},
+          EnergyCurve::FromNumbers({curve.data(), static_cast<size_t>(curve.size())}),
+          EnergyResponse{response.row(0), response.row(1)}};
 }
 
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model, torch::Device device) {
@@ -296,10 +317,19 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 }
 
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
-  // One of before does not know how dancers turn.
+  // One of before does not know how dancers turn, nor how they linger.
   Safetensors whole = content;
   whole.tensors.try_emplace(
       kTurns, NamedTensor{{TurnPrior::kInputs}, std::vector<float>(TurnPrior::kInputs)});
+  whole.tensors.try_emplace(
+      kCurve, NamedTensor{{EnergyCurve::kNumbers}, std::vector<float>(EnergyCurve::kNumbers)});
+  whole.tensors.try_emplace(kResponse,
+                            NamedTensor{{2, kBodyParts}, std::vector<float>(2 * kBodyParts)});
+  if (const auto powers = whole.tensors.find(kPowers);
+      powers != whole.tensors.end() && powers->second.data.size() == kPowerNumbers - 1) {
+    powers->second.data.push_back(VariancePowers::kUsualLeastScale);
+    powers->second.shape = {kPowerNumbers};
+  }
   auto checkpoint =
       TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), whole);
   checkpoint.model->config().Validate(name + ": config");

@@ -38,8 +38,14 @@ EnergyPrior::Levels EnergyPrior::Sample(const Known& known, const Levels& normal
   const Inputs inputs = Describe(known).cwiseMax(least).cwiseMin(most);
   Levels levels = (known.key ? keyed : free) * inputs + spread * normal;
   if (known.style >= 0) levels += styles.col(known.style);
-  return levels.cwiseMax(least.segment<kBodyParts>(kHistoryInput))
-      .cwiseMin(most.segment<kBodyParts>(kHistoryInput));
+  return Bound(levels);
+}
+
+Eigen::MatrixXd EnergyPrior::Bound(const Eigen::MatrixXd& levels) const {
+  const Levels floor = least.segment<kBodyParts>(kHistoryInput),
+               ceiling = most.segment<kBodyParts>(kHistoryInput);
+  return levels.cwiseMax(floor.replicate(1, levels.cols()))
+      .cwiseMin(ceiling.replicate(1, levels.cols()));
 }
 
 std::vector<double> EnergyPrior::ToNumbers() const {

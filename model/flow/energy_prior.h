@@ -58,6 +58,11 @@ class EnergyPrior {
   /// `normal`: standard normal numbers; zero for the mean.
   Levels Sample(const Known& known, const Levels& normal) const;
 
+  /// Levels, a column each, within what training saw.
+  Eigen::MatrixXd Bound(const Eigen::MatrixXd& levels) const;
+  /// What is left where there is a key, by part.
+  Levels Variance() const { return spread.rowwise().squaredNorm(); }
+
   /// All numbers in a row, as checkpoints hold them.
   std::vector<double> ToNumbers() const;
   /// Of a prior that has as many styles.

@@ -26,29 +26,65 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
   return model.mixing.triangularView<Eigen::Lower>() * z;
 }
 
-// Says how lively the parts are that nobody asks for: as dancers may be there, all along.
+// Says how lively the parts are that nobody asks for: as dancers may be there.
 void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
                   WindowRequest* request) {
   if (request->energy.cols() == 0) {
     request->energy = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
     request->asked.fill(false);
   }
-  // Behind the numbers that the window's first frame is made of.
-  std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts));
-  noise.Fill(0, normal);
+  // Behind the numbers that each frame is made of: of the first the window's level, of all the
+  // curve's.
+  const double temperature = std::min(noise.temperature, 1.0);
+  const auto first = static_cast<size_t>(model.prior.dimensions());
+  std::vector<float> normal(first + 2 * kBodyParts);
   EnergyPrior::Levels levels;
-  std::copy(normal.end() - kBodyParts, normal.end(), levels.begin());
+  Eigen::MatrixXd ways(kBodyParts, request->frames);
+  for (int i = request->frames - 1; i >= 0; --i) {
+    noise.Fill(i, normal);
+    const Eigen::Map<const Eigen::VectorXf> own(normal.data() + first, 2 * kBodyParts);
+    levels = temperature * own.head<kBodyParts>().cast<double>();
+    ways.col(i) = temperature * own.tail<kBodyParts>().cast<double>();
+  }
   // What is added now was added before, so that it is not added again and again.
   EnergyPrior::Known known = KnownOfEnergy(model, *request, window);
   known.history.array() -= request->energy_shift.before;
-  levels = model.energy.Sample(known, std::min(noise.temperature, 1.0) * levels);
+  levels = model.energy.Sample(known, levels);
+  const bool lingers = model.curve.known();
+  ways = lingers ? model.curve.Sample(temperature * (known.history - levels), ways)
+                 : Eigen::MatrixXd::Zero(kBodyParts, request->frames);
+  ways.colwise() += levels;
+  if (lingers) ways = model.energy.Bound(ways);
   levels.array() += request->energy_shift.now;
+  ways.array() += request->energy_shift.now;
   for (size_t part = 0; part < request->asked.size(); ++part) {
     if (request->asked[part]) continue;
     const auto row = static_cast<Eigen::Index>(part);
-    request->energy.row(row).setConstant(
-        EnergyFactor(levels[row], model.config.median_factors[part]));
+    const double median = model.config.median_factors[part];
+    auto energy = request->energy.row(row);
+    for (int i = 0; i < request->frames; ++i)
+      energy[i] = EnergyFactor(ways(row, i), median);
+    // The window's level is that of its mean.
+    if (const double mean = energy.mean(); lingers && mean > 0)
+      energy *= EnergyFactor(levels[row], median) / mean;
     request->asked[part] = true;
+  }
+}
+
+// What is wanted becomes what the network has to be told for it; the mean way is not lively, so it
+// needs no such thing.
+void Tell(const FlowModelParts& model, double temperature, WindowRequest* request) {
+  if (!model.response.known()) return;
+  for (int part = 0; part < kBodyParts; ++part) {
+    const double median = model.config.median_factors[static_cast<size_t>(part)];
+    const double wanted = request->energy.row(part).mean();
+    if (wanted <= 0) continue;
+    const double level = EnergyLevel(wanted, median);
+    const double told = level + temperature * (model.response.Told(part, level) - level);
+    // Not beyond what training saw, where that is not asked for.
+    const double most = EnergyFactor(model.energy.most[EnergyPrior::kHistoryInput + part], median);
+    for (double& energy : request->energy.row(part))
+      energy = std::min(energy * (EnergyFactor(told, median) / wanted), std::max(energy, most));
   }
 }
 
@@ -200,6 +236,7 @@ class WindowSampler::Way {
       : window_(model.prior, request),
         temperature_(std::min(noise.temperature, kMaxFlowTemperature)) {
     FillInEnergy(model, noise, window_, &request);
+    Tell(model, std::min(noise.temperature, 1.0), &request);
     window_.SetEnergy(model.prior, request);
     known_.emplace(request, window_);
     const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window_.frames());

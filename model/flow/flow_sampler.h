@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "model/flow/energy_curve.h"
 #include "model/flow/energy_prior.h"
+#include "model/flow/energy_response.h"
 #include "model/flow/flow_window.h"
 #include "model/flow/turn_prior.h"
 #include "model/flow/window_features.h"
@@ -41,6 +43,8 @@ struct FlowModelParts {
                            ///< correlation over dimensions
   EnergyPrior energy = EnergyPrior();
   TurnPrior turns = {};
+  EnergyCurve curve = {};
+  EnergyResponse response = {};
 };
 
 /// Farther beyond the sampled way nobody dances.
@@ -72,7 +76,8 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
 /// angle tan = t/(1 - t) that is dw = F, solved by Adams and Bashforth's steps of second order:
 /// what is as lively as the prior expects stays so, however few steps are taken. The poses [w]
 /// stand in the request's frame. A path that is asked for is met exactly. Of body parts whose
-/// energy is not asked for the energy prior says it: its mean at temperature 0, else a sample.
+/// energy is not asked for the energy prior and curve say it: their mean at temperature 0, else a
+/// sample.
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                WindowRequest request, const FlowNoise& noise);
 

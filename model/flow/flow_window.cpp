@@ -74,6 +74,18 @@ WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request
   return mirrored;
 }
 
+Eigen::MatrixXd LevelCurves(const WindowRequest& request,
+                            const std::array<double, kBodyParts>& medians) {
+  Eigen::MatrixXd levels = Eigen::MatrixXd::Constant(kBodyParts, request.frames, NAN);
+  for (size_t part = 0; part < medians.size() && request.energy.cols() > 0; ++part) {
+    if (!request.asked[part]) continue;
+    const auto row = static_cast<Eigen::Index>(part);
+    for (int i = 0; i < request.frames; ++i)
+      levels(row, i) = EnergyLevel(request.energy(row, i), medians[part]);
+  }
+  return levels;
+}
+
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians) {
   std::array<std::optional<double>, kBodyParts> levels;
@@ -174,7 +186,7 @@ Eigen::Quaterniond FlowWindow::Turn(const Eigen::MatrixXd& x, int frame, int joi
 }
 
 void FlowWindow::SetEnergy(const MotionPrior& prior, const WindowRequest& request) {
-  scales_ = prior.Scales(surprise_, LevelsOf(request, prior.powers().medians));
+  scales_ = prior.Scales(surprise_, LevelCurves(request, prior.powers().medians));
 }
 
 std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) const {
@@ -220,7 +232,7 @@ Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::M
 }
 
 Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
-  const Eigen::MatrixXf by_time = z.cast<float>().transpose();
+  const Eigen::MatrixXf by_time = scales_.cwiseProduct(z).cast<float>().transpose();
   Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
   for (int d = 0; d < z.rows(); ++d) {
     // By columns this takes half as long as Eigen's product with a triangle.
@@ -228,12 +240,13 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
     for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
       x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);
   }
-  return scales_.asDiagonal() * x.transpose().cast<double>();
+  return x.transpose().cast<double>();
 }
 
 Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {
   const Eigen::MatrixXd spread = At(dimension).spread.cast<double>();
-  return spread.triangularView<Eigen::Lower>().solve(x) / scales_[dimension];
+  const Eigen::VectorXd white = spread.triangularView<Eigen::Lower>().solve(x);
+  return white.cwiseQuotient(scales_.row(dimension).transpose());
 }
 
 }  // namespace choreo

@@ -51,6 +51,9 @@ struct WindowRequest {
 /// The same of a dancer whose left is its right, who stands in the mirrored canonical frame.
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
 
+/// EnergyLevel of each body part in each frame, [kBodyParts, w], NaN where it is not asked for.
+Eigen::MatrixXd LevelCurves(const WindowRequest& request,
+                            const std::array<double, kBodyParts>& medians);
 /// EnergyLevel of the mean factor of each body part that is asked for.
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians);
@@ -79,9 +82,9 @@ class FlowWindow {
   /// How far the key is or, without one, how fast the history was, of what the prior expects: mean
   /// square.
   double surprise() const { return surprise_; }
-  /// MotionPrior::Scales of that and of the energy asked for, [dimensions]: white coordinates are
-  /// in their units.
-  const Eigen::VectorXd& scales() const { return scales_; }
+  /// MotionPrior::Scales of that and of the energy asked for, [dimensions, w]: white coordinates
+  /// are in their units.
+  const Eigen::MatrixXd& scales() const { return scales_; }
   /// Another energy is asked for than the request that it was made of asks for; all else is alike.
   void SetEnergy(const MotionPrior& prior, const WindowRequest& request);
 
@@ -108,7 +111,7 @@ class FlowWindow {
   Eigen::MatrixXd mean_, history_;
   Eigen::VectorXd displacement_;
   double surprise_ = 1;
-  Eigen::VectorXd scales_;
+  Eigen::MatrixXd scales_;
   std::vector<Pose> base_;                      // the mean, as poses
   std::vector<Eigen::Quaterniond> base_turns_;  // their local rotations, frame by frame
 };

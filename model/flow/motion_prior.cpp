@@ -14,7 +14,7 @@ namespace {
 // what keeps covariances invertible.
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
 constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
-constexpr double kLeastScale = 0.5, kLeastAsked = 0.25;
+constexpr double kLeastScale = 0.5, kMostAsked = 4;
 constexpr double kLeastEnergy = 1e-3;  // metres a frame
 constexpr int kStaged = -1;            // in place of a key's frames, among what is kept
 constexpr size_t kKept = 96;           // bridges; one of 96 frames takes 3 MB
@@ -69,20 +69,23 @@ bool MotionPrior::Moves(int dimension) const {
   return covariance_(dimension, 0) > kStillness * kStillness;
 }
 
-Eigen::VectorXd MotionPrior::Scales(
-    double surprise, const std::array<std::optional<double>, kBodyParts>& levels) const {
+Eigen::MatrixXd MotionPrior::Scales(double surprise, const Eigen::MatrixXd& levels) const {
   const VariancePowers& by = powers_;
   const double log_surprise = std::log(std::clamp(surprise, by.least, by.most));
-  const auto scale = [](double log_variance, double least) {
-    return std::clamp(std::exp(0.5 * log_variance), least, 1 / least);
+  const auto scale = [](double log_variance, double least, double most) {
+    return std::clamp(std::exp(0.5 * log_variance), least, most);
   };
-  Eigen::VectorXd scales =
-      Eigen::VectorXd::Constant(dimensions(), scale(by.surprise * log_surprise, kLeastScale));
+  Eigen::MatrixXd scales =
+      Eigen::MatrixXd::Constant(dimensions(), levels.cols(),
+                                scale(by.surprise * log_surprise, kLeastScale, 1 / kLeastScale));
   for (size_t d = 0; d < by.parts.size(); ++d) {
-    if (by.parts[d] < 0) continue;
-    if (const auto& level = levels[static_cast<size_t>(by.parts[d])])
-      scales[static_cast<Eigen::Index>(d)] =
-          scale(by.offset + by.known_surprise * log_surprise + by.level * *level, kLeastAsked);
+    for (Eigen::Index i = 0; by.parts[d] >= 0 && i < levels.cols(); ++i) {
+      const double level = levels(by.parts[d], i);
+      if (std::isnan(level)) continue;
+      scales(static_cast<Eigen::Index>(d), i) =
+          scale(by.offset + by.known_surprise * log_surprise + by.level * level, by.least_scale,
+                kMostAsked);
+    }
   }
   return scales;
 }

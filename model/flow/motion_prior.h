@@ -19,12 +19,15 @@ namespace choreo {
 /// How far dancers stray from the prior's mean, by what is known of them: powers that training
 /// measured of the variance.
 struct VariancePowers {
+  static constexpr double kUsualLeastScale = 0.25;
+
   double surprise = 0;  ///< of FlowWindow::surprise
   /// What of that training saw: who moves less or more counts as so much.
   double least = 1e-3, most = 1e3;
   /// Of a body part whose energy is known: times e to `offset`, the surprise to a power, and e to
   /// `level` times its EnergyLevel.
   double offset = 0, known_surprise = 0, level = 0;
+  double least_scale = kUsualLeastScale;  ///< the least that its spread is so
   std::vector<int> parts = {};  ///< by dimension: the body part that it belongs to, or -1
   std::array<double, kBodyParts> medians = {};  ///< of their velocity factors, metres a frame
 };
@@ -80,11 +83,10 @@ class MotionPrior {
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const VariancePowers& powers() const { return powers_; }
-  /// Who is known to be lively goes on so: by dimension, the factor of all spreads. What is known
-  /// of the window has `surprise` times the squares that the covariance expects (1 on average);
-  /// `levels`: EnergyLevel of each body part whose energy is known.
-  Eigen::VectorXd Scales(double surprise,
-                         const std::array<std::optional<double>, kBodyParts>& levels) const;
+  /// Who is known to be lively goes on so: the factor of each frame's noise, [dimensions, frames].
+  /// What is known of the window has `surprise` times the squares that the covariance expects (1 on
+  /// average); `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN where it is unknown.
+  Eigen::MatrixXd Scales(double surprise, const Eigen::MatrixXd& levels) const;
   /// The unit that networks have velocities in, [dimensions]: their standard deviation.
   Eigen::VectorXd VelocitySpread() const;
 

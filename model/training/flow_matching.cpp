@@ -83,8 +83,8 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor a = t.square() + (1 - t).square();
   const Tensor z = (1 - t) * noise + t * batch.z;
   const Tensor wanted = ((1 - t) * batch.z - t * noise) / a.sqrt();
-  const Tensor scales = batch.scales.unsqueeze(1);
-  const Tensor x = scales * colour(z);
+  const auto motion = [&](const Tensor& white) { return colour(batch.scales * white); };
+  const Tensor x = motion(z);
   const Tensor poses =
       torch::cat({batch.mean.narrow(1, 0, tau), batch.mean.narrow(1, tau, window) + x}, 1);
   const Tensor joints = torch::cat({batch.history_joints, body_.Place(batch, x)}, 1);
@@ -97,18 +97,18 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
   // Metres that a coordinate of the window is expected to move joints by: half of a coordinate's
   // weight, so that the body's turn counts more than a wrist's.
-  const Tensor importance = (variance * batch.scales.square() * reach_).sqrt();
+  const Tensor importance = (variance * batch.scales.square().mean(1) * reach_).sqrt();
   const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
   const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
   // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
   // say.
   const Tensor moved =
-      ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, scales * colour(miss));
+      ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, motion(miss));
   const auto squares = [&](const Tensor& metres) { return metres.square().sum(-1) / strays; };
   const auto feet_steps = [&](const Tensor& places) {
     return places.index_select(2, body_.feet()).diff(1, 1);
   };
-  const Tensor real = body_.Place(batch, scales * colour(batch.z)).reshape(moved.sizes());
+  const Tensor real = body_.Place(batch, motion(batch.z)).reshape(moved.sizes());
   const Tensor stands = feet_steps(real).norm(2, -1) < kStandingStep;
   return {{"white_mse", 1.0, (weights.unsqueeze(1) * miss.square()).mean()},
           {"places_mse", kPlaces, squares(moved).mean()},

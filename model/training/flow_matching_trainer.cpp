@@ -20,7 +20,7 @@
 namespace choreo {
 namespace {
 
-constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120;
+constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120, kResponseBatches = 4;
 constexpr int kMatchingValidationWindows = 24;
 constexpr double kAverage = 0.999;                                  // of the weights, a step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
@@ -110,11 +110,12 @@ class FlowMatchingRun : public TrainingRun {
  protected:
   // What a run that is resumed has in its state.
   void Prepare() override {
-    if (!options().keep_statistics) {
-      Measure();
-    } else if (!model_->Parts().turns.known()) {
+    if (!options().keep_statistics) Measure();
+    const FlowModelParts parts = model_->Parts();
+    if (!parts.turns.known())
       model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
-    }
+    if (!parts.curve.known())
+      model_->SetCurve(MeasureCurve(train_.tracks(), model_->config().median_factors));
     matching_ = std::make_unique<FlowMatching>(model_);
     Copy(1);
   }
@@ -218,6 +219,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
   std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) override {
+    average_->SetResponse(Response());
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
@@ -266,7 +268,26 @@ class FlowMatchingRun : public TrainingRun {
         std::ranges::move(batch.requests, std::back_inserter(of_all_lengths));
     }
     model_->SetEnergy(MeasureEnergy(model_->Parts(), of_all_lengths));
-    model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
+    model_->SetTurns({});
+    model_->SetCurve({});
+  }
+
+  EnergyResponse Response() const {
+    FlowModelParts parts = average_->Parts();
+    parts.response = {};
+    std::vector<WindowRequest> requests;
+    for (uint32_t i = 0; i < kResponseBatches; ++i) {
+      Random random(kValidationSeed, i + 1);
+      const int frames = std::min(60, validation_.Longest(parts.config.history_frames));
+      WindowBatch batch = validation_.Draw(parts, kStatisticsWindows, frames, frames,
+                                           {.no_key = i % 2 == 0 ? 0.0 : 1.0, .energy = 1}, &random);
+      for (WindowRequest& request : batch.requests) {
+        request.asked.fill(true);
+        requests.push_back(std::move(request));
+      }
+    }
+    const torch::NoGradGuard no_grad;
+    return MeasureResponse(parts, *MakeTorchFlowNetwork(average_, device_), requests);
   }
 
   // How dancers turn is told by many, as few turn far.

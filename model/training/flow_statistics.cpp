@@ -56,31 +56,58 @@ void MeasureRange(const std::vector<LivelyWindow>& windows, EnergyPrior* measure
   }
 }
 
+// A frame of a body part whose energy is told: 1, log surprise, level; and its mean square.
+struct LivelyFrame {
+  Eigen::Vector3d inputs;
+  double square;
+};
+
+// What the logarithm of the variance is of its inputs: the likeliest of Gaussians, by Newton.
+Eigen::Vector3d FitLogVariance(const std::vector<LivelyFrame>& frames) {
+  double mean = 0;
+  for (const LivelyFrame& frame : frames) mean += frame.square / static_cast<double>(frames.size());
+  Eigen::Vector3d powers(std::log(mean), 0, 1);
+  for (int round = 0; round < kNewtonRounds; ++round) {
+    Eigen::Matrix3d curvature = 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+    for (const auto& [inputs, square] : frames) {
+      const double share = square * std::exp(-powers.dot(inputs));
+      slope += (share - 1) * inputs;
+      curvature += share * inputs * inputs.transpose();
+    }
+    powers += curvature.ldlt().solve(slope);
+  }
+  return powers;
+}
+
 }  // namespace
 
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches) {
   VariancePowers measured = prior.powers();
   std::vector<Eigen::Vector2d> whole;  // logarithms of surprise and of the mean square
-  std::vector<Eigen::Vector4d> parts;  // 1, log surprise, level; log mean square
+  std::vector<LivelyFrame> frames;
   for (const WindowBatch& batch : batches) {
-    const Tensor squares = batch.z.square().mean(1).to(torch::kFloat64).contiguous();
+    const Tensor squares = batch.z.square().to(torch::kFloat64).contiguous();
+    const int64_t dimensions = squares.size(2);
     for (size_t i = 0; i < batch.surprise.size(); ++i) {
-      const Eigen::Map<const Eigen::VectorXd> square(
-          squares.data_ptr<double>() + i * squares.size(1), squares.size(1));
+      const Eigen::Map<const Eigen::MatrixXd> square(
+          squares.data_ptr<double>() + i * batch.frames * dimensions, dimensions, batch.frames);
       const double surprise = std::log(batch.surprise[i]);
       whole.push_back({surprise, std::log(square.mean())});
-      const auto levels = LevelsOf(batch.requests[i], measured.medians);
+      const Eigen::MatrixXd levels = LevelCurves(batch.requests[i], measured.medians);
       for (int part = 0; part < kBodyParts; ++part) {
-        double sum = 0;
+        Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(batch.frames);
         int moving = 0;
-        for (int d = 0; d < square.size(); ++d) {
+        for (int d = 0; d < dimensions; ++d) {
           if (measured.parts[d] != part || !prior.Moves(d)) continue;
-          sum += square[d];
+          sum += square.row(d);
           ++moving;
         }
-        if (const auto& level = levels[part]; level && moving > 0)
-          parts.push_back({1, surprise, *level, std::log(sum / moving)});
+        for (int t = 0; t < batch.frames && moving > 0; ++t) {
+          if (!std::isnan(levels(part, t)))
+            frames.push_back({{1, surprise, levels(part, t)}, sum[t] / moving});
+        }
       }
     }
   }
@@ -96,21 +123,64 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   const auto rank = static_cast<size_t>(kRare * whole.size());
   measured.least = std::exp(whole[rank][0]);
   measured.most = std::exp(whole[whole.size() - 1 - rank][0]);
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const auto& one : parts) {
-    normal += one.head<3>() * one.head<3>().transpose();
-    right += one[3] * one.head<3>();
-  }
-  if (parts.size() < kLeastWindows) return measured;
-  const Eigen::Vector3d powers = normal.ldlt().solve(right);
+  if (frames.size() < kLeastWindows) return measured;
+  const Eigen::Vector3d powers = FitLogVariance(frames);
+  measured.offset = powers[0];
   measured.known_surprise = powers[1];
   measured.level = powers[2];
-  // So that squares, not their logarithms, are 1 on average.
-  double ratio = 0;
-  for (const auto& one : parts) ratio += std::exp(one[3] - powers[1] * one[1] - powers[2] * one[2]);
-  measured.offset = std::log(ratio / parts.size());
+  std::vector<double> logs;
+  for (const LivelyFrame& frame : frames) logs.push_back(powers.dot(frame.inputs));
+  const auto calm = logs.begin() + static_cast<int64_t>(kRare * static_cast<double>(logs.size()));
+  std::ranges::nth_element(logs, calm);
+  measured.least_scale = std::exp(0.5 * *calm);
   return measured;
+}
+
+EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
+                         const std::array<double, kBodyParts>& medians) {
+  using Square = Eigen::Matrix<double, kBodyParts, kBodyParts>;
+  std::vector<Eigen::MatrixXd> levels;
+  for (const ClipTrack& track : tracks) {
+    Eigen::MatrixXd& of_clip = levels.emplace_back(track.energy);
+    for (int part = 0; part < kBodyParts; ++part) {
+      for (double& energy : of_clip.row(part))
+        energy = EnergyLevel(energy, medians[static_cast<size_t>(part)]);
+    }
+  }
+  // Of each clip about its own mean: dancers differ. Logarithms of stillness have no bound, so how
+  // far levels go is that of the livelier frames.
+  Square all = Square::Zero();
+  EnergyPrior::Levels above = EnergyPrior::Levels::Zero(), lively = above;
+  Eigen::Index frames = 0;
+  for (const Eigen::MatrixXd& clip : levels) {
+    const Eigen::MatrixXd off = clip.colwise() - clip.rowwise().mean();
+    all += off * off.transpose();
+    above += off.cwiseMax(0).rowwise().squaredNorm();
+    lively += (off.array() > 0).cast<double>().rowwise().sum().matrix();
+    frames += clip.cols();
+  }
+  all /= static_cast<double>(std::max<Eigen::Index>(1, frames));
+  EnergyCurve curve;
+  for (int lag = 0; lag < EnergyCurve::kLags; ++lag) {
+    double squares = 0;  // of differences over so many frames, half of whose mean is what is lost
+    Eigen::Index count = 0;
+    for (const Eigen::MatrixXd& clip : levels) {
+      const Eigen::Index pairs = std::max<Eigen::Index>(0, clip.cols() - lag);
+      squares += (clip.rightCols(pairs) - clip.leftCols(pairs)).squaredNorm();
+      count += pairs;
+    }
+    if (count == 0) return {};
+    curve.correlation[lag] = 1 - 0.5 * squares / static_cast<double>(count) / all.trace();
+  }
+  // Both sides alike.
+  const Eigen::PermutationMatrix<kBodyParts> mirror(Eigen::Vector<int, kBodyParts>(0, 2, 1, 4, 3));
+  const EnergyPrior::Levels scale =
+      (above.array() / lively.array().max(1) / all.diagonal().array().max(1e-9)).sqrt();
+  const Square upper = scale.asDiagonal() * all * scale.asDiagonal();
+  Square covariance = 0.5 * (upper + mirror * upper * mirror.transpose());
+  covariance.diagonal().array() += 1e-6;
+  curve.spread = covariance.llt().matrixL();
+  return curve;
 }
 
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests) {
@@ -147,7 +217,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
     if (keyed) measured.spread = left.llt().matrixL();
     // So that factors, not their logarithms, are right on average: who stands still for a while has
     // a logarithm without bound.
-    const EnergyPrior::Levels spread = measured.spread.rowwise().squaredNorm();
+    const EnergyPrior::Levels spread = measured.Variance();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
     for (const LivelyWindow& window : windows) {
       real.array() += window.levels.array().exp();
@@ -158,6 +228,35 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
   }
   for (size_t i = 0; i < of_style.size(); ++i) measured.styles.col(i) /= of_style[i];
   return measured;
+}
+
+EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
+                               const std::vector<WindowRequest>& requests) {
+  EnergyResponse response;
+  if (requests.size() < kLeastEnergies) return response;
+  using Row = Eigen::Array<double, kBodyParts, 1>;
+  Row told = Row::Zero(), danced = told, squares = told, products = told;
+  const auto count = static_cast<double>(requests.size());
+  for (size_t i = 0; i < requests.size(); ++i) {
+    WindowRequest request = requests[i];
+    std::vector<Pose> poses = SampleWindow(model, network, request, {.seed = i, .temperature = 1});
+    poses.insert(poses.begin(), request.history.back());
+    const auto factors = MeanVelocityFactors(model.skeleton, poses);
+    Row wanted, came;
+    for (int part = 0; part < kBodyParts; ++part) {
+      const auto at = static_cast<size_t>(part);
+      const double median = model.config.median_factors[at];
+      wanted[part] = EnergyLevel(request.energy.row(part).mean(), median);
+      came[part] = EnergyLevel(factors[at], median);
+    }
+    told += wanted / count;
+    danced += came / count;
+    squares += wanted.square() / count;
+    products += wanted * came / count;
+  }
+  response.slope = (products - told * danced) / (squares - told.square());
+  response.offset = danced - response.slope.array() * told;
+  return response;
 }
 
 TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests) {

@@ -90,7 +90,7 @@ std::optional<WindowBatch> MakeWindow(const FlowModelParts& model, WindowRequest
   WindowBatch batch{.frames = frames,
                     .to_key = request.to_key,
                     .z = Columns(white),
-                    .scales = Columns(window.scales()).squeeze(0),
+                    .scales = Columns(window.scales()),
                     .surprise = {window.surprise()},
                     .keyed = Columns(fixed).squeeze(0),
                     .staged = torch::tensor(window.staged() ? 1.0F : 0.0F),

@@ -15,7 +15,7 @@ namespace choreo {
 struct WindowBatch {
   int frames = 0, to_key = 0;
   torch::Tensor z = {};                     ///< [batch, w, dimensions] real motion, white
-  torch::Tensor scales = {};                ///< [batch, dimensions] as FlowWindow has them
+  torch::Tensor scales = {};                ///< [batch, w, dimensions] as FlowWindow has them
   std::vector<double> surprise = {};        ///< [batch], the same
   torch::Tensor keyed = {};                 ///< [batch, dimensions] in {0, 1}
   torch::Tensor staged = {};                ///< [batch] in {0, 1}: FlowWindow::staged

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kTempi[] = {1.0, 0.8, 0.9, 1.12, 1.25};
 constexpr double kDrawnSigma = 6;  // frames: what a path drawn by hand leaves out
+constexpr double kConstant = 0.3;  // share of the energies that are told as their mean
 constexpr double kFarAstray = 3;   // times a velocity's spread
 
 // Moves the first `tau` poses to where no dancer stands, all alike, and leads the others back to
@@ -76,7 +77,7 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
     request.beats = BeatsFor(track, first, first + frames, random);
   if (random->Uniform() < variation.energy) {
     request.energy = track.energy.middleCols(first, frames);
-    if (random->Uniform() < 0.7) {  // as constants
+    if (random->Uniform() < kConstant) {
       const Eigen::VectorXd constant = request.energy.rowwise().mean();
       request.energy = constant.replicate(1, frames);
     }

@@ -99,9 +99,11 @@ class Listening : public Silent {
                            const Eigen::MatrixXf& frames,
                            const Eigen::VectorXf& condition) const override {
     told = frames.rightCols(1);
+    all = frames.rightCols(z.cols());
     return Silent::Evaluate(z, poses, joints, mean, frames, condition);
   }
   mutable Eigen::VectorXf told;
+  mutable Eigen::MatrixXf all;
 };
 
 TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
@@ -123,6 +125,58 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
   const Eigen::VectorXf of_others = told(arm, 1) - told(arm, 2);
   EXPECT_EQ((of_others.array() != 0).count(), kBodyParts - 1);
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
+}
+
+// Frames' own levels, of which the energy's mean is that of the window.
+TEST(FlowSampler, EnergyGoesUpAndDownAboutTheWindowsWhereTheModelKnowsHow) {
+  const Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.config.median_factors.fill(0.01);
+  const Listening network;
+  const auto levels = [&](uint64_t seed, double temperature) {
+    SampleWindow(parts, network, scene.request, {.seed = seed, .temperature = temperature});
+    const Eigen::VectorXf last = network.told;
+    return std::pair(last, network.all);
+  };
+  const auto [constant, of_all] = levels(1, 1);
+  for (parts.curve.correlation.setZero(); const int lag : {0, 1, 2})
+    parts.curve.correlation[lag] = 1 - lag / 3.0;
+  parts.curve.spread = 0.5 * Eigen::MatrixXd::Identity(kBodyParts, kBodyParts);
+  const auto [one, all] = levels(1, 1);
+  const auto [other, others] = levels(2, 1);
+  EXPECT_NE(one, other);
+  EXPECT_EQ(levels(1, 0).second, levels(2, 0).second) << "the mean way is nobody's luck";
+  int moving = 0;
+  for (Eigen::Index row = 0; row < all.rows(); ++row) {
+    if (all.row(row) == of_all.row(row)) continue;
+    ++moving;
+    // Levels are logarithms of what a millimetre a frame is added to.
+    const Eigen::ArrayXd energy = 0.011 * all.row(row).transpose().array().cast<double>().exp();
+    EXPECT_NEAR(energy.mean(), 0.011, 1e-6);
+    EXPECT_GT((energy - energy.mean()).abs().maxCoeff(), 2e-3);
+  }
+  EXPECT_EQ(moving, kBodyParts);
+}
+
+TEST(FlowSampler, ANetworkIsToldWhatMakesItDanceAsIsAsked) {
+  Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.config.median_factors.fill(0.01);
+  scene.request.energy = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
+  const Listening network;
+  const auto told = [&] {
+    SampleWindow(parts, network, scene.request, {.temperature = 1});
+    return network.told;
+  };
+  const Eigen::VectorXf plain = told();
+  parts.response.offset.setConstant(0.1);
+  parts.response.slope.setConstant(0.5);
+  const Eigen::VectorXf more = told() - plain;
+  const double wanted = std::log(0.031 / 0.011);
+  EXPECT_EQ((more.array() != 0).count(), kBodyParts);
+  EXPECT_NEAR(more.maxCoeff(), (wanted - 0.1) / 0.5 - wanted, 1e-5);
+  parts.energy.most.setConstant(wanted + 0.1);
+  EXPECT_NEAR((told() - plain).maxCoeff(), 0.1, 1e-5) << "as lively as training saw";
 }
 
 TEST(FlowSampler, TheMusicsEnergyIsAddedOnceToWhatNobodyAsksFor) {

@@ -140,10 +140,72 @@ TEST_F(WindowClipsTest, EnergyTellsHowFarDancersStray) {
   VariancePowers powers = Parts().prior.powers();
   powers.level = 1;
   const MotionPrior prior(Parts().prior.covariance(), powers);
-  const Eigen::VectorXd calm = prior.Scales(1, {-1.0}), lively = prior.Scales(1, {1.0}),
-                        unknown = prior.Scales(1, {});
-  EXPECT_LT(calm[3], lively[3]);
-  EXPECT_EQ(unknown, Eigen::VectorXd::Ones(unknown.size()));
+  Eigen::MatrixXd levels = Eigen::MatrixXd::Constant(kBodyParts, 3, NAN);
+  EXPECT_TRUE(prior.Scales(1, levels).isOnes(0)) << "nothing is known";
+  levels.leftCols<2>() << Eigen::MatrixXd::Constant(kBodyParts, 1, -1),
+      Eigen::MatrixXd::Constant(kBodyParts, 1, 1);
+  const Eigen::MatrixXd scales = prior.Scales(1, levels);
+  EXPECT_LT(scales(3, 0), 1);
+  EXPECT_GT(scales(3, 1), 1);
+  EXPECT_EQ(scales(3, 2), 1);
+}
+
+TEST_F(WindowClipsTest, EnergyGoesUpAndDownAsInTheClips) {
+  // A dancer whose arms and trunk are lively and calm by turns, a second each.
+  ClipTrack track;
+  track.energy = Eigen::MatrixXd::Constant(kBodyParts, 600, 0.01);
+  for (Eigen::Index i = 0; i < track.energy.cols(); ++i)
+    track.energy.col(i).head<3>() *= i / 30 % 2 == 0 ? 0.5 : 2;
+  std::array<double, kBodyParts> medians;
+  medians.fill(0.01);
+  const EnergyCurve curve = MeasureCurve(std::array{track}, medians);
+  ASSERT_TRUE(curve.known());
+  EXPECT_EQ(curve.correlation[0], 1);
+  EXPECT_GT(curve.correlation[5], 0.5);
+  EXPECT_LT(curve.correlation[30], -0.5);
+  const Eigen::MatrixXd covariance = curve.spread * curve.spread.transpose();
+  EXPECT_GT(covariance(0, 1), 0.9 * covariance(0, 0)) << "both go up at once";
+  EXPECT_LT(covariance(3, 3), 1e-5) << "the legs go on alike";
+  track.energy = track.energy.leftCols(50).eval();
+  EXPECT_FALSE(MeasureCurve(std::array{track}, medians).known()) << "too short a clip";
+}
+
+// It has learnt nothing: dances are the prior's.
+class Silent : public FlowNetwork {
+ public:
+  Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
+                            std::span<const float> times) const override {
+    return whole.replicate(1, std::ssize(times));
+  }
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::VectorXf&) const override {
+    return Eigen::MatrixXf::Zero(z.rows(), z.cols());
+  }
+};
+
+TEST_F(WindowClipsTest, WhatIsToldIsMeasuredByWhatIsDanced) {
+  const WindowClips clips({SyntheticClip("calm", 400, 0, false), FastClip()});
+  FlowModelParts parts = Parts();
+  parts.config.median_factors = MedianFactors(clips.tracks());
+  const auto measure = [&](double level) {
+    VariancePowers powers = parts.prior.powers();
+    powers.level = level;
+    powers.medians = parts.config.median_factors;
+    FlowModelParts lively = parts;
+    lively.prior = MotionPrior(parts.prior.covariance(), powers);
+    std::vector<WindowRequest> requests;
+    for (uint32_t i = 0; i < 2; ++i) {
+      Random random(4, i);
+      const WindowBatch batch =
+          clips.Draw(lively, 64, kFrames, kFrames, {.no_key = 1, .energy = 1}, &random);
+      requests.insert(requests.end(), batch.requests.begin(), batch.requests.end());
+    }
+    for (WindowRequest& request : requests) request.asked.fill(true);
+    return MeasureResponse(lively, Silent(), requests);
+  };
+  EXPECT_GT(measure(2).slope[0], 1.5 * measure(1).slope[0]);
+  EXPECT_FALSE(MeasureResponse(parts, Silent(), {}).known()) << "of nothing";
 }
 
 TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
