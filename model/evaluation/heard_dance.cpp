@@ -12,6 +12,7 @@
 
 #include "model/audio/music_id.h"
 #include "model/dance/dance_stream.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
@@ -66,11 +67,16 @@ std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, Dance
 
 std::vector<Key> KeysOf(std::span<const Pose> dance) {
   std::vector<Key> keys;
-  for (size_t frame = kUsualFrames; frame < dance.size(); frame += kUsualFrames)
+  for (size_t frame = kUsualFrames; frame < dance.size(); frame += kUsualFrames) {
+    Pose pose = dance[frame];
+    // A dance's rotations are continuous, a key's at most half a turn.
+    for (auto rotation : pose.rotations.colwise())
+      rotation = NearestBranch(rotation, Eigen::Vector3d::Zero());
     keys.push_back({std::to_string(frame),
                     static_cast<int64_t>(frame),
-                    dance[frame],
+                    std::move(pose),
                     {.root_position = false, .joints = {}}});
+  }
   return keys;
 }
 

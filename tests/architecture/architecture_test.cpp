@@ -67,7 +67,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {metrics, {core, audio, motion}},
         {evaluation, {core, audio, motion, draw, engine, samplers, dance, training, metrics}},
         {tables, {core, motion, metrics, evaluation}},
-        {"model/lab", {core, engine, samplers, training, paper_training, evaluation, tables}},
+        {"model/lab", {core, audio, engine, samplers, training, paper_training, evaluation, tables}},
         {"tls", {core}},
         {"server", {core, audio, motion, engine, samplers, dance, "tls", "choreo", "google"}},
         {"client",
