@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/error.h"
 #include "model/flow/flow_tokens.h"
 #include "model/flow/time_attention.h"
 
@@ -333,6 +334,8 @@ ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const s
   auto checkpoint =
       TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), whole);
   checkpoint.model->config().Validate(name + ": config");
+  if (!checkpoint.model->Parts().curve.IsValid())
+    throw InvalidArgument(name + ": " + kCurve, "is no correlation: it leaves [-1, 1]");
   return checkpoint;
 }
 

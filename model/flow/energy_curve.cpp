@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "model/core/error.h"
 #include "model/core/grid.h"
 
 namespace choreo {
@@ -27,14 +26,15 @@ Eigen::MatrixXd EnergyCurve::Sample(const EnergyPrior::Levels& history,
   for (Eigen::Index i = 0; i < frames; ++i) {
     for (Eigen::Index j = 0; j < frames; ++j) covariance(i, j) += at(std::abs(i - j));
   }
-  for (double jitter = kDoubt; jitter < 1; jitter *= 10) {
-    covariance.diagonal().array() += jitter;
+  // What few clips were measured by may be no process's correlation: the more doubt. A hundred is
+  // enough for all that are at most 1.
+  for (double doubt = kDoubt;; doubt *= 10) {
+    covariance.diagonal().array() += doubt;
     const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
     if (cholesky.info() != Eigen::Success) continue;
     const Eigen::MatrixXd own = normal * Eigen::MatrixXd(cholesky.matrixL()).transpose();
     return spread * own + history * past.transpose();
   }
-  throw InvalidArgument("energy_curve", "is no correlation");
 }
 
 std::vector<double> EnergyCurve::ToNumbers() const {

@@ -170,7 +170,8 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
       count += pairs;
     }
     if (count == 0) return {};
-    curve.correlation[lag] = 1 - 0.5 * squares / static_cast<double>(count) / all.trace();
+    const double kept = 1 - 0.5 * squares / static_cast<double>(count) / all.trace();
+    curve.correlation[lag] = std::clamp(kept, -1.0, 1.0);
   }
   // Both sides alike.
   const Eigen::PermutationMatrix<kBodyParts> mirror(Eigen::Vector<int, kBodyParts>(0, 2, 1, 4, 3));

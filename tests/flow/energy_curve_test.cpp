@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "model/core/error.h"
 #include "model/core/random.h"
 
 namespace choreo::energy_curve_test {
@@ -67,10 +66,16 @@ TEST(EnergyCurve, AFramesNumbersChangeNoneBeforeIt) {
   EXPECT_NE(before(0, 30), after(0, 30));
 }
 
-TEST(EnergyCurve, RefusesWhatIsNoCorrelation) {
+TEST(EnergyCurve, SamplesWhatFewClipsMeasured) {
   EnergyCurve curve = Curve();
-  curve.correlation[1] = -30;
-  EXPECT_THROW(curve.Sample(Levels::Zero(), Normal(1)), Error);
+  curve.correlation.setConstant(-1);  // of no process
+  curve.correlation[0] = 1;
+  EXPECT_TRUE(curve.IsValid());
+  EXPECT_TRUE(curve.Sample(Levels::Ones(), Normal(1)).allFinite());
+  for (const double wrong : {-1.5, 1.5, double{NAN}, double{INFINITY}}) {
+    curve.correlation[1] = wrong;
+    EXPECT_FALSE(curve.IsValid()) << wrong;
+  }
 }
 
 }  // namespace choreo::energy_curve_test
