@@ -179,7 +179,8 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
   const auto draw = [&](uint64_t seed) {
     return DrawSteps(seed, times, request.passages, poses.size());
   };
-  const std::vector<Step> steps = draw(request.seed), way = request.way ? draw(*request.way) : steps;
+  const std::vector<Step> steps = draw(request.seed),
+                          way = request.way ? draw(*request.way) : steps;
   std::vector<client::KeyPose> keys;
   for (size_t i = 0; i < times.size(); ++i) {
     const LibraryPose& pose = poses[steps[i].pose];

@@ -15,8 +15,8 @@ struct EnergyCurve {
   static constexpr int kLags = 97;
   static constexpr int kNumbers = kLags + kBodyParts * kBodyParts;
 
-  /// Of a level with itself so many frames later, [kLags], 1 first, in [-1, 1]. All zero: levels are
-  /// constant.
+  /// Of a level with itself so many frames later, [kLags], 1 first, in [-1, 1]. All zero: levels
+  /// are constant.
   Eigen::VectorXd correlation = Eigen::VectorXd::Zero(kLags);
   /// The lower Cholesky factor of the covariance of the parts in one frame.
   Eigen::Matrix<double, kBodyParts, kBodyParts> spread = decltype(spread)::Zero();

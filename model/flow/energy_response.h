@@ -4,8 +4,9 @@
 
 namespace choreo {
 
-/// How lively windows come out by what the network is told: it makes calm ones too lively and lively
-/// ones too calm. What is wanted is told by the inverse. Training measures it, on validation clips.
+/// How lively windows come out by what the network is told: it makes calm ones too lively and
+/// lively ones too calm. What is wanted is told by the inverse. Training measures it, on validation
+/// clips.
 struct EnergyResponse {
   using Levels = EnergyPrior::Levels;
 

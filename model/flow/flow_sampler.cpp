@@ -62,8 +62,7 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
     const auto row = static_cast<Eigen::Index>(part);
     const double median = model.config.median_factors[part];
     auto energy = request->energy.row(row);
-    for (int i = 0; i < request->frames; ++i)
-      energy[i] = EnergyFactor(ways(row, i), median);
+    for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(ways(row, i), median);
     // The window's level is that of its mean.
     if (const double mean = energy.mean(); lingers && mean > 0)
       energy *= EnergyFactor(levels[row], median) / mean;

@@ -75,9 +75,8 @@ Eigen::MatrixXd MotionPrior::Scales(double surprise, const Eigen::MatrixXd& leve
   const auto scale = [](double log_variance, double least, double most) {
     return std::clamp(std::exp(0.5 * log_variance), least, most);
   };
-  Eigen::MatrixXd scales =
-      Eigen::MatrixXd::Constant(dimensions(), levels.cols(),
-                                scale(by.surprise * log_surprise, kLeastScale, 1 / kLeastScale));
+  Eigen::MatrixXd scales = Eigen::MatrixXd::Constant(
+      dimensions(), levels.cols(), scale(by.surprise * log_surprise, kLeastScale, 1 / kLeastScale));
   for (size_t d = 0; d < by.parts.size(); ++d) {
     for (Eigen::Index i = 0; by.parts[d] >= 0 && i < levels.cols(); ++i) {
       const double level = levels(by.parts[d], i);

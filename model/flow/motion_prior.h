@@ -28,7 +28,7 @@ struct VariancePowers {
   /// `level` times its EnergyLevel.
   double offset = 0, known_surprise = 0, level = 0;
   double least_scale = kUsualLeastScale;  ///< the least that its spread is so
-  std::vector<int> parts = {};  ///< by dimension: the body part that it belongs to, or -1
+  std::vector<int> parts = {};            ///< by dimension: the body part that it belongs to, or -1
   std::array<double, kBodyParts> medians = {};  ///< of their velocity factors, metres a frame
 };
 
@@ -85,7 +85,8 @@ class MotionPrior {
   const VariancePowers& powers() const { return powers_; }
   /// Who is known to be lively goes on so: the factor of each frame's noise, [dimensions, frames].
   /// What is known of the window has `surprise` times the squares that the covariance expects (1 on
-  /// average); `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN where it is unknown.
+  /// average); `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN where it is
+  /// unknown.
   Eigen::MatrixXd Scales(double surprise, const Eigen::MatrixXd& levels) const;
   /// The unit that networks have velocities in, [dimensions]: their standard deviation.
   Eigen::VectorXd VelocitySpread() const;

@@ -102,8 +102,7 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
   // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
   // say.
-  const Tensor moved =
-      ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, motion(miss));
+  const Tensor moved = ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, motion(miss));
   const auto squares = [&](const Tensor& metres) { return metres.square().sum(-1) / strays; };
   const auto feet_steps = [&](const Tensor& places) {
     return places.index_select(2, body_.feet()).diff(1, 1);

@@ -20,7 +20,8 @@
 namespace choreo {
 namespace {
 
-constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120, kResponseBatches = 4;
+constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120,
+              kResponseBatches = 4;
 constexpr int kMatchingValidationWindows = 24;
 constexpr double kAverage = 0.999;                                  // of the weights, a step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
@@ -112,8 +113,7 @@ class FlowMatchingRun : public TrainingRun {
   void Prepare() override {
     if (!options().keep_statistics) Measure();
     const FlowModelParts parts = model_->Parts();
-    if (!parts.turns.known())
-      model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
+    if (!parts.turns.known()) model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
     if (!parts.curve.known())
       model_->SetCurve(MeasureCurve(train_.tracks(), model_->config().median_factors));
     matching_ = std::make_unique<FlowMatching>(model_);
@@ -279,8 +279,9 @@ class FlowMatchingRun : public TrainingRun {
     for (uint32_t i = 0; i < kResponseBatches; ++i) {
       Random random(kValidationSeed, i + 1);
       const int frames = std::min(60, validation_.Longest(parts.config.history_frames));
-      WindowBatch batch = validation_.Draw(parts, kStatisticsWindows, frames, frames,
-                                           {.no_key = i % 2 == 0 ? 0.0 : 1.0, .energy = 1}, &random);
+      WindowBatch batch =
+          validation_.Draw(parts, kStatisticsWindows, frames, frames,
+                           {.no_key = i % 2 == 0 ? 0.0 : 1.0, .energy = 1}, &random);
       for (WindowRequest& request : batch.requests) {
         request.asked.fill(true);
         requests.push_back(std::move(request));

@@ -25,8 +25,8 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
 EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
                          const std::array<double, kBodyParts>& medians);
 
-/// How lively windows come out that are told how lively real ones were: of `requests`, which tell the
-/// energy of all body parts. `model` knows no response. Unknown where they are few.
+/// How lively windows come out that are told how lively real ones were: of `requests`, which tell
+/// the energy of all body parts. `model` knows no response. Unknown where they are few.
 EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
                                const std::vector<WindowRequest>& requests);
 
