@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Trains the papers' own networks, their ablations and their baseline, and measures them.
-#   scripts/train_papers.sh BIN_DIRECTORY RECORDINGS RUN [prepare | train [NAME...] | eval]
-# RECORDINGS holds dancedb/, tang61/ and splits.json (docs/training.md). RUN gets data/ and a folder for each network. All three things are
-# done where none is named. `train` alone makes paper-f and paper-c; NAME is any of
+#   scripts/train_papers.sh BIN_DIRECTORY RECORDINGS RUN [prepare | train [NAME...] | eval | study]
+# RECORDINGS holds dancedb/, tang61/ and splits.json (docs/training.md). RUN gets data/ and a folder for each network. Where none is named,
+# all but `study` are done, which films paper-f, paper-c, default, interpolation and real dancers to songs and writes RUN/study/index.html, where
+# people rank them (the networks that ship, where RUN has trained none). `train` alone makes paper-f and paper-c; NAME is any of
 #   paper-f f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
 #   paper-c c-full c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
 #   harvey, and c-harvey, which knows paper C's data alone
@@ -124,6 +125,20 @@ evaluate() {
   measure c-full c_ablations "${c[@]}" --split test_random "${others[@]}"
 }
 
+study() {
+  prepare
+  local name networks=()
+  for name in paper-f paper-c; do
+    if [[ -f $run/$name/finished ]]; then
+      networks+=(--other "$name=$run/$name/checkpoint.safetensors")
+    else
+      networks+=(--other "$name=$root/model/checkpoints/$name.safetensors")
+    fi
+  done
+  "$lab" study dance "$run/study" --model "$root/model/checkpoints/default.safetensors" --name default "${networks[@]}" \
+    --data "$run/data/tang61" --splits "$recordings/splits.json" --songs "$recordings/tang61"
+}
+
 all=(paper-f paper-c harvey c-harvey f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys c-full c-residual c-absolute c-relative
   c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss)
 names=("$@")
@@ -136,10 +151,11 @@ case $task in
     for name in "${names[@]}"; do one "$name"; done
     ;;
   eval) evaluate ;;
+  study) study ;;
   everything)
     prepare
     for name in "${names[@]}"; do one "$name"; done
     evaluate
     ;;
-  *) echo "train_papers.sh: '$task' is none of prepare, train, eval" >&2; exit 2 ;;
+  *) echo "train_papers.sh: '$task' is none of prepare, train, eval, study" >&2; exit 2 ;;
 esac

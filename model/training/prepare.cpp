@@ -174,6 +174,7 @@ std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
     warnings.push_back("no music");
   }
   report["music"] = !recording.music.empty();
+  report["music_start_s"] = recording.music_start_s + skipped_s;
   clip.motion = std::move(motion);
   clip.notes = {{"terms", options.terms}, {"preparation", report.dump()}};
   if (!recording.genre.empty()) clip.notes["genre"] = recording.genre;

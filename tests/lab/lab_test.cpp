@@ -65,6 +65,18 @@ TEST(LabTest, MisuseIsCodeTwo) {
   }
 }
 
+TEST(LabTest, AStudyOfDancesIsRefusedBeforeTheLongWork) {
+  const TemporaryFolder empty;
+  const std::string dance = "study dance there --model /absent --data /absent --splits /absent ";
+  EXPECT_EQ(Lab("study dance there", empty.path()).code, 2);
+  EXPECT_EQ(Lab(dance + "--baseline mean", empty.path()).code, 2);
+  EXPECT_THAT(Lab(dance, empty.path()).said, HasSubstr("/absent"));
+  std::filesystem::create_directory(empty.path() / "there");
+  const Outcome outcome = Lab(dance, empty.path());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("there: is there already"));
+}
+
 TEST(LabTest, KnowsTheCommandsOfThePapersPages) {
   const TemporaryFolder empty;
   std::vector<std::string> commands = CommandsOf("reproduce.md");

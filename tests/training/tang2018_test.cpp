@@ -91,6 +91,7 @@ TEST_F(Tang2018Test, BothLayoutsGiveTheSameDanceEachWithItsMusic) {
   }
   ExpectMusicFrom(0, one, music);
   ExpectMusicFrom(60, two, music);  // 50 frames of 25 a second
+  EXPECT_EQ(Report("DANCE_C_2").at("music_start_s"), 2);
   EXPECT_LT(Report("DANCE_C_1").at("fit_error_m").get<double>(), 0.03);
   EXPECT_TRUE(Report("DANCE_C_1").at("warnings").empty());
 }

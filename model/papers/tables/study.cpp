@@ -77,6 +77,16 @@ struct Sums {
 
 }  // namespace
 
+std::filesystem::path BesideStudy(std::filesystem::path folder, const char* end) {
+  if (!folder.has_filename()) folder = folder.parent_path();
+  return folder += end;
+}
+
+void CheckStudyFolder(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder))
+    throw Error(ErrorCode::kFailedPrecondition, folder.string(), "is there already");
+}
+
 void WriteStudy(std::span<const StudyMethod> methods, const std::string& question, uint64_t seed,
                 const std::filesystem::path& folder) {
   if (methods.size() < 2 || methods.size() > kMostMethods)
@@ -90,8 +100,7 @@ void WriteStudy(std::span<const StudyMethod> methods, const std::string& questio
     films.push_back(FilmsOf(method));
   }
   std::vector<std::string> clips = CommonClips(films);
-  if (std::filesystem::exists(folder))
-    throw Error(ErrorCode::kFailedPrecondition, folder.string(), "is there already");
+  CheckStudyFolder(folder);
   std::filesystem::create_directories(folder);
 
   Random random(seed);
@@ -117,10 +126,8 @@ void WriteStudy(std::span<const StudyMethod> methods, const std::string& questio
   }
   const std::string study = ContentHash(copied);
   WriteFile(folder / "index.html", StudyPage(question, {{"study", study}, {"clips", shown}}));
-  std::filesystem::path beside = folder;
-  if (!beside.has_filename()) beside = beside.parent_path();
   const Json key = {{"study", study}, {"clips", whose_films}};
-  WriteFile(beside += ".key.json", key.dump(2) + '\n');
+  WriteFile(BesideStudy(folder, ".key.json"), key.dump(2) + '\n');
 }
 
 Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesystem::path> answers) {

@@ -16,6 +16,11 @@ struct StudyMethod {
   std::filesystem::path folder;
 };
 
+/// FOLDER + `end`, what stands beside a study's folder.
+std::filesystem::path BesideStudy(std::filesystem::path folder, const char* end);
+/// Throws Error(kFailedPrecondition) for a study's folder that exists.
+void CheckStudyFolder(const std::filesystem::path& folder);
+
 /// A user study as in paper F's Table 3: people see the dances of several methods to one song side
 /// by side, not knowing whose they are, and rank them. Writes `folder`/index.html, a page that asks
 /// and saves answers, with the films of all clips that every method has under blind names, in an

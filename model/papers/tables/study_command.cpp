@@ -5,8 +5,11 @@
 #include <memory>
 
 #include "model/core/error.h"
+#include "model/core/limits.h"
+#include "model/evaluation/contest.h"
 #include "model/evaluation/eval_report.h"
 #include "model/papers/tables/study.h"
+#include "model/papers/tables/study_dances.h"
 
 namespace choreo {
 namespace {
@@ -17,6 +20,10 @@ struct StudyArguments {
   uint64_t seed = 0;
   std::filesystem::path folder, key, json;
   std::vector<std::filesystem::path> answers;
+  ContestOptions contest;
+  std::filesystem::path data, splits, songs;
+  std::string split = "test";
+  int frames = 300;
 };
 
 void Make(const StudyArguments& arguments) {
@@ -28,6 +35,16 @@ void Make(const StudyArguments& arguments) {
     methods.push_back({text.substr(0, mark), text.substr(mark + 1)});
   }
   WriteStudy(methods, arguments.question, arguments.seed, arguments.folder);
+}
+
+void Dance(const StudyArguments& arguments) {
+  CheckStudyFolder(arguments.folder);
+  const Contest contest = MakeContest(arguments.contest);
+  const std::vector<ClipSet> sets = LoadSets({arguments.data}, arguments.splits, arguments.split,
+                                             contest.judged().model().skeleton);
+  WriteStudy(FilmDances(sets.front(), contest.methods, arguments.frames, arguments.songs,
+                        BesideStudy(arguments.folder, ".films")),
+             arguments.question, arguments.seed, arguments.folder);
 }
 
 void Score(const StudyArguments& arguments) {
@@ -44,19 +61,51 @@ void AddStudyCommand(CLI::App& app) {
   CLI::App* study =
       app.add_subcommand("study", "Let people rank dances whose makers they don't know");
   study->require_subcommand(1);
-  CLI::App* make = study->add_subcommand(
-      "make", "Write a page that shows the dances of several methods side by side, blinded");
-  make->add_option("folder", arguments->folder,
-                   "Where to write; FOLDER.key.json beside it says whose the films are")
+  const auto writes = [&](const char* name, const char* what, auto run) {
+    CLI::App* command = study->add_subcommand(name, what);
+    command
+        ->add_option("folder", arguments->folder,
+                     "Where to write; FOLDER.key.json beside it says whose the films are")
+        ->required();
+    command->add_option("--question", arguments->question, "What the page asks")
+        ->capture_default_str();
+    command->add_option("--seed", arguments->seed, "Of the order that films are shown in")
+        ->capture_default_str();
+    command->callback([arguments, run] { run(*arguments); });
+    return command;
+  };
+  CLI::App* dance = writes(
+      "dance", "Let models dance beside clips, film all of them, and write the page of `make`",
+      Dance);
+  ContestOptions& contest = arguments->contest;
+  contest.baselines = {"real", "interpolation"};
+  dance->add_option("--model", contest.model, "Checkpoint")->required();
+  dance->add_option("--name", contest.name, "What it is called")->capture_default_str();
+  dance->add_option("--other", contest.others, "NAME=CHECKPOINT: another model");
+  dance
+      ->add_option("--baseline", contest.baselines,
+                   "Also filmed: what was really danced, interpolation put on its feet")
+      ->check(CLI::IsMember({"real", "interpolation"}))
+      ->capture_default_str();
+  dance->add_option("--data", arguments->data, "Folder written by `choreo-lab prepare`")
       ->required();
+  dance->add_option("--splits", arguments->splits, "Which clip trains, validates, tests (JSON)")
+      ->required();
+  dance->add_option("--split", arguments->split, "Which of them are danced beside")
+      ->capture_default_str();
+  dance
+      ->add_option("--songs", arguments->songs,
+                   "Folder of the clips' songs, CLIP.ogg (.wav, .mp3); without, films are silent")
+      ->check(CLI::ExistingDirectory);
+  dance->add_option("--frames", arguments->frames, "Of a film")
+      ->check(CLI::Range(30, kMaxTransitionFrames))
+      ->capture_default_str();
+  CLI::App* make = writes(
+      "make", "Write a page that shows the dances of several methods side by side, blinded", Make);
   make->add_option("--method", arguments->methods,
                    "NAME=FOLDER of its films or pictures (.webm, .mp4, .png, .jpg), a file a clip; "
                    "once for each method. Clips that all have are shown.")
       ->required();
-  make->add_option("--question", arguments->question, "What the page asks")->capture_default_str();
-  make->add_option("--seed", arguments->seed, "Of the order that films are shown in")
-      ->capture_default_str();
-  make->callback([arguments] { Make(*arguments); });
   CLI::App* score = study->add_subcommand("score", "Print mean ranks of what people answered");
   score->add_option("key", arguments->key, "FOLDER.key.json of `make`")->required();
   score->add_option("answers", arguments->answers, "Files that the page saved, one a person")
