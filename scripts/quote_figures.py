@@ -4,6 +4,7 @@ printed.json has the papers' own.
 
     scripts/quote_figures.py            writes
     scripts/quote_figures.py --check    changes nothing; fails where a page says something else
+    scripts/quote_figures.py --print docs/papers.md     prints the tables of one page instead
 
 Two kinds of quotation, each up to <!-- end -->:
     <!-- table: FILE TABLE | COLUMN | COLUMN ... -->    all rows of a table, and what is wanted of them (wanted.json); COLUMN=VALUE
@@ -84,6 +85,12 @@ def quoted(page):
     return re.sub(r"<!-- (table|figure): (.*?) -->.*?<!-- end -->", write, page, flags=re.S)
 
 
+if "--print" in sys.argv:
+    for page in sys.argv[sys.argv.index("--print") + 1 :]:
+        for quotation in re.findall(r"<!-- table: (.*?) -->", (ROOT / page).read_text()):
+            place, *columns = [part.strip() for part in quotation.split("|")]
+            print(place + table(place, *columns))
+    sys.exit()
 wrong = []
 for name in PAGES:
     before = (ROOT / name).read_text()
