@@ -167,6 +167,7 @@ function useKeyboard() {
         studio.drawing.value = false;
       }
       else if (event.key === 'Delete' && studio.selectedKey.value) studio.removeKey(studio.selectedKey.value);
+      else if (event.key === 'Delete' && studio.chosen.value) studio.removePhrase();
       else return;
       event.preventDefault();
     };

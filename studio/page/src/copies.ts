@@ -1,4 +1,5 @@
-// Keys that are set again: one of them, or those of an interval.
+// Keys that are set again: one of them, or those of a phrase.
+import { computed, signal } from '@preact/signals';
 import { beats } from './beats';
 import { heading, turned } from './body';
 import type { Triple } from './body';
@@ -11,13 +12,23 @@ import type { Key } from './project';
 import { audio } from './songs';
 import { chosen, complain, live, motion, project, selectedKey, tell } from './state';
 
-let copied: Key[] = [];
+const copied = signal<Key[]>([]);
+export const canPaste = computed(() => copied.value.length > 0);
 
-/// Those of the chosen interval, or the chosen key where it is none of them.
+/// Those of a phrase, from its beginning on and before its end, as an eight goes from one 1 to the next; of the interval between two keys,
+/// both.
+export function chosenKeys(): Key[] {
+  if (live.value || !chosen.value) return [];
+  const [from, to] = chosen.value;
+  const keys = project.value?.keys.filter(({ frame }) => frame >= from && frame <= to) ?? [];
+  const isInterval = keys.length === 2 && keys[0].frame === from && keys[1].frame === to;
+  return isInterval ? keys : keys.filter(({ frame }) => frame < to);
+}
+
+/// Those of what is chosen, or the chosen key where it is none of them.
 function taken(): Key[] {
   const key = keyOf(selectedKey.value);
-  const [from, to] = chosen.value ?? [0, -1];
-  const inside = project.value?.keys.filter(({ frame }) => frame >= from && frame <= to) ?? [];
+  const inside = chosenKeys();
   return inside.length && (!key || inside.includes(key)) ? inside : key ? [key] : [];
 }
 
@@ -25,13 +36,13 @@ function taken(): Key[] {
 export function copyKeys(): boolean {
   const keys = live.value ? [] : taken();
   if (keys.length === 0) return false;
-  copied = keys;
+  copied.value = keys;
   tell(keys.length === 1 ? 'The key is copied.' : `${keys.length} keys are copied.`);
   return true;
 }
 
 /// The copied keys again, from the playhead on: as if the dancer began with them where she is by then.
-export const pasteKeys = () => void (copied.length && set(copied, Math.round(audio.currentTime * dancer.fps)));
+export const pasteKeys = () => void (canPaste.value && set(copied.value, Math.round(audio.currentTime * dancer.fps)));
 
 /// The chosen key again, at the playhead; on the next free beat where that rests on a key.
 export function duplicateKey() {
@@ -63,7 +74,7 @@ function set(keys: Key[], at: number) {
 }
 
 /// Turned and moved as takes the first key to where the dancer is at that frame.
-function moved(key: Key, first: Key, at: number): Key {
+export function moved(key: Key, first: Key, at: number): Key {
   if (!key.hasPlace || !first.hasPlace || motion.value.count <= at) return key;
   const here = motion.value.pose(at);
   const angle = heading(here) - heading(first.pose);

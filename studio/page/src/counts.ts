@@ -51,6 +51,21 @@ const firstOne = ({ list }: Beats) => Math.max(0, list.findIndex(({ count }) => 
 /// The beat nearest to a second is a 1.
 export const withOne = (beats: Beats, seconds: number) => countedFrom(timesOf(beats), nearest(timesOf(beats), seconds), beats.bar);
 
+/// Between which beats a second is: 1.5 is halfway from the second to the third; before the first and behind the last they go on.
+export function placeAmong(seconds: number, times: number[]): number {
+  const at = intervalAt(times.findLastIndex((time) => time <= seconds), times);
+  return at + (seconds - times[at]) / (times[at + 1] - times[at]);
+}
+
+/// The second so many counts later, as the program has it (client/cli/counts.h). `times`: two at least.
+export function later(seconds: number, counts: number, times: number[]): number {
+  const place = placeAmong(seconds, times) + counts;
+  const at = intervalAt(Math.floor(place), times);
+  return times[at] + (place - at) * (times[at + 1] - times[at]);
+}
+
+const intervalAt = (place: number, times: number[]) => Math.min(Math.max(place, 0), times.length - 2);
+
 const eachOf = (times: number[], nth: number, first: number) => times.filter((_, i) => i % nth === first % nth);
 
 /// So many in place of each, but none in a pause.

@@ -4,7 +4,8 @@ import type { Pose } from './body';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { spoken } from './project';
 import * as studio from './studio';
-import { dropPose, frameUnder } from './timeline';
+import { frameUnder } from './scale';
+import { dropPose } from './timeline';
 
 const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
 

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { tempo } from './counts';
 import { KeepTake } from './keep_take';
 import { PathPoints } from './path_points';
+import { PhrasePanel } from './phrase_panel';
 import { PoseTools } from './pose_tools';
 import { parts, spoken } from './project';
 import type { Stage } from './stage';
@@ -36,8 +37,8 @@ function TakesPanel() {
       <h2>Takes</h2>
       <p class="small">
         {interval
-          ? `Of the interval from ${(interval[0] / fps).toFixed(1)} to ${(interval[1] / fps).toFixed(1)} s; the rest stays.`
-          : 'Of the whole dance. Choose an interval under the keys to change it alone.'}
+          ? `Of the phrase from ${(interval[0] / fps).toFixed(1)} to ${(interval[1] / fps).toFixed(1)} s; the rest stays.`
+          : 'Of the whole dance. Choose an interval under the keys, or a phrase, to change it alone.'}
       </p>
       <div class="row">
         {takes.length === 0
@@ -200,6 +201,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
   return (
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />
+      <PhrasePanel />
       <TakesPanel />
       <PathPanel />
       <BeatsPanel />

@@ -43,7 +43,7 @@ export const message = signal<{ text: string; isError: boolean } | null>(null);
 export const danced = signal(0);
 export const busy = signal(0);
 export const selectedKey = signal<string | null>(null);
-/// The interval that is chosen: the frames of the keys around it.
+/// The phrase that is chosen, from a frame until another: an interval between two keys, or any.
 export const chosen = signal<[number, number] | null>(null);
 export const takes = signal<Take[]>([]);
 /// What is seen through beside the dancer: nothing, the keys around, or the frames around.

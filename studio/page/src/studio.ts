@@ -16,6 +16,7 @@ export * from './keys';
 export { addCorner, areCornersShown, askedCorners, corners, heldCorner, setCorners } from './path_corners';
 export { addPose, forgetPose, ownPoses } from './own_poses';
 export { dropSketch } from './photos';
+export * from './phrases';
 export { inWords, movable, partsOf, worked } from './masks';
 export { dancer, skeleton } from './link';
 export { level, liveBeats, now, startLive, stopLive } from './live';

@@ -31,7 +31,12 @@ export const tryTakes = (count = 3) => work(async () => {
   if (moment.value !== before) return;
   if (!chosen.value) return tryWholes(before, seed, count);
   const [from, to] = chosen.value;
-  const motions = await dancer.between(before.project, whole, from, Math.min(to, whole.count), seed, count, silent);
+  const end = Math.min(to, whole.count);
+  // Several candidates are of one transition; through the keys of a phrase, there are several.
+  const isOne = !before.project.keys.some(({ frame }) => frame > from && frame < end);
+  const motions = isOne ? await dancer.between(before.project, whole, from, end, seed, count, silent) : [];
+  while (motions.length < count && moment.value === before)
+    motions.push((await dancer.between(before.project, whole, from, end, seed + motions.length, 1, silent))[0]);
   if (moment.value !== before) return;
   takes.value = motions.map((other) => ({ seed: before.project.seed, motion: other }));
   goWhereTheyDiffer(from, to);

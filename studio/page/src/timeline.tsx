@@ -7,49 +7,19 @@ import type { Pose } from './body';
 import { colour } from './palette';
 import { spoken } from './project';
 import type { Key } from './project';
+import { PhraseBand } from './phrase_band';
+import { clock, content, edge, seconds, snapped, stepped, timeUnder, x, zoom } from './scale';
 import * as studio from './studio';
 
-const zoom = signal(48); // pixels a second
 const loops = signal(false);
 const isPlaying = signal(false);
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const isDark = signal(dark.matches);
 dark.addEventListener('change', () => (isDark.value = dark.matches));
-const edge = 40; // pixels beside the song
-const snap = 10; // pixels to a beat
 const digit = 15; // pixels that a count takes
 const hues = 5; // of sections (style.css)
-let content: HTMLElement | null = null;
-
 /// The frame over which a pose is carried.
 export const dropPose = signal<number | null>(null);
-
-const x = (seconds: number) => edge + seconds * zoom.value;
-const clock = (seconds: number) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')}`;
-const seconds = () => studio.project.value?.seconds ?? 0;
-
-const beats = () => (studio.live.value ? studio.liveBeats.value : studio.beats.value.list.map(({ time }) => time));
-
-/// The nearest beat's frame, if one is near on the screen.
-function snapped(time: number): number {
-  const at = Math.min(Math.max(time, 0), seconds());
-  let best = at;
-  let away = snap / zoom.value;
-  for (const beat of [...studio.suggested.value, ...beats()]) {
-    if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
-  }
-  return Math.round(best * studio.dancer.fps);
-}
-
-const timeUnder = (clientX: number) => (clientX - content!.getBoundingClientRect().left - edge) / zoom.value;
-
-/// Of a point of the screen on the timeline; null elsewhere.
-export function frameUnder(clientX: number, clientY: number): number | null {
-  const box = content?.parentElement!.getBoundingClientRect();
-  if (!box || !studio.project.value) return null;
-  const inside = clientX >= box.left && clientX <= box.right && clientY >= box.top && clientY <= box.bottom;
-  return inside ? snapped(timeUnder(clientX)) : null;
-}
 
 const seek = (time: number) => (studio.audio.currentTime = Math.min(Math.max(time, 0), Math.max(0, seconds() - 0.01)));
 
@@ -105,10 +75,15 @@ function Sections() {
 }
 
 function Scrubber() {
+  /// Where a phrase began that is being chosen.
+  const begun = useRef<number | null>(null);
   const slide = (event: PointerEvent) => {
     const at = event.currentTarget as HTMLElement;
-    if (event.type === 'pointerdown') at.setPointerCapture(event.pointerId);
-    else if (!at.hasPointerCapture(event.pointerId)) return;
+    if (event.type === 'pointerdown') {
+      at.setPointerCapture(event.pointerId);
+      begun.current = event.shiftKey && studio.project.value ? snapped(timeUnder(event.clientX)) : null;
+    } else if (!at.hasPointerCapture(event.pointerId)) return;
+    if (begun.current !== null) return studio.choosePhrase(begun.current, snapped(timeUnder(event.clientX)));
     seek(timeUnder(event.clientX));
   };
   const press = (event: KeyboardEvent) => {
@@ -187,13 +162,10 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     (chips[at + 1] ?? chips[at - 1])?.focus();
   };
   const press = (event: KeyboardEvent) => {
-    const frames = beats().map((beat) => Math.round(beat * fps));
     if (event.key === 'Enter') choose();
     else if (event.key === 'Delete' || event.key === 'Backspace') remove(event.currentTarget);
-    else if (event.key === 'ArrowRight')
-      studio.moveKey(item.id, event.shiftKey ? item.frame + 1 : frames.find((beat) => beat > item.frame) ?? item.frame + 15);
-    else if (event.key === 'ArrowLeft')
-      studio.moveKey(item.id, event.shiftKey ? item.frame - 1 : frames.findLast((beat) => beat < item.frame) ?? item.frame - 15);
+    else if (event.key === 'ArrowRight') studio.moveKey(item.id, stepped(item.frame, 1, event.shiftKey));
+    else if (event.key === 'ArrowLeft') studio.moveKey(item.id, stepped(item.frame, -1, event.shiftKey));
     else return;
     event.preventDefault();
   };
@@ -216,10 +188,12 @@ function Intervals() {
     const isChosen = studio.chosen.value?.[0] === from && studio.chosen.value[1] === key.frame;
     return (
       <button key={`${from}-${key.frame}`} class={isChosen ? 'interval selected' : 'interval'} aria-pressed={isChosen}
-        aria-label={`Interval from ${(from / fps).toFixed(1)} to ${(key.frame / fps).toFixed(1)} s`} title="Choose this interval: loop it, or try other ways to dance it"
+        aria-label={`Interval from ${(from / fps).toFixed(1)} to ${(key.frame / fps).toFixed(1)} s`} title="Choose this interval: loop it, or try other ways to dance it. With Shift, all up to it"
         style={{ left: `${x(from / fps)}px`, width: `${((key.frame - from) / fps) * zoom.value}px` }}
-        onClick={() => {
+        onClick={({ shiftKey }) => {
           studio.takes.value = [];
+          const { value } = studio.chosen;
+          if (shiftKey && value) return studio.choosePhrase(Math.min(value[0], from), Math.max(value[1], key.frame));
           studio.chosen.value = isChosen ? null : [from, key.frame];
           if (!isChosen) seek(from / fps);
         }} />
@@ -265,9 +239,9 @@ function usePlayhead(line: preact.RefObject<HTMLElement>, time: preact.RefObject
       const at = x(now);
       line.current!.style.transform = `translateX(${at}px)`;
       time.current!.textContent = clock(now);
-      const scrubber = content!.querySelector('.scrubber')!;
+      const scrubber = content.value!.querySelector('.scrubber')!;
       scrubber.setAttribute('aria-valuenow', now.toFixed(1));
-      const view = content!.parentElement!;
+      const view = content.value!.parentElement!;
       const isSeen = at > view.scrollLeft && at < view.scrollLeft + view.clientWidth * 0.9;
       if ((!audio.paused || studio.live.value) && !isSeen) view.scrollLeft = at - view.clientWidth * 0.1;
     };
@@ -288,7 +262,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
   const line = useRef<HTMLElement>(null);
   const time = useRef<HTMLElement>(null);
   useEffect(() => {
-    content = box.current;
+    content.value = box.current;
   }, []);
   usePlayhead(line, time);
   // A short song fills the width, a long one keeps its keys apart.
@@ -311,6 +285,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
             {shown?.keys.map((key) => <KeyChip key={key.id} item={key} pictureOf={pictureOf} />)}
             {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
           </div>
+          {shown && !studio.live.value && <PhraseBand />}
           <i class="playhead" ref={line} />
         </div>
       </div>

@@ -19,7 +19,7 @@ async function load(name) {
 const { roughly, timeLeft } = await load('time_left');
 const { closest, emptyProject, freeId, sorted, spoken } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
-const { counted, doubled, eight, halved, isDownbeat, nudged, pulseOf, tapped, tempo, withOne } = await load('counts');
+const { counted, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
 const { mostUnlike, unlikeness } = await load('unlike');
 const { only, toQuaternion, toVector, turned, heading } = await load('body');
@@ -132,6 +132,13 @@ test('beats are halved, doubled and nudged, and one of them is a 1', () => {
   const late = nudged(beats, 0.01, 4.5);
   assert.deepEqual([late.list[0], late.list.length], [{ time: 1.01, count: 8 }, 7]);
   assert.equal(counts(withOne(beats, 2.1)), '78123456');
+});
+
+test('counts later are the beats further on, and go on where there are none', () => {
+  const times = [1, 1.5, 2.1, 2.5];
+  near(placeAmong(1.8, times), 1.5);
+  near(placeAmong(0.5, times), -1);
+  [[1, 2, 2.1], [1.8, 1, 2.3], [2.1, 3, 3.3], [0.5, 1, 1], [0, 1, 0.5]].forEach(([from, counts, to]) => near(later(from, counts, times), to));
 });
 
 test('taps have a pulse, also where some are missing', () => {

@@ -1,0 +1,29 @@
+// What can be done with a phrase beside the stage.
+import * as studio from './studio';
+
+export function PhrasePanel() {
+  const { value } = studio.project;
+  const phrase = studio.chosen.value;
+  const keys = studio.chosenKeys().length;
+  const { fps } = studio.dancer ?? { fps: 30 };
+  return (
+    <section aria-label="Phrase">
+      <h2>Phrase {phrase && <small>{(phrase[0] / fps).toFixed(1)} to {(phrase[1] / fps).toFixed(1)} s, {keys === 1 ? 'one key' : `${keys} keys`}</small>}</h2>
+      {!phrase && <p class="small">Drag along the timeline with Shift, or choose the eight around the playhead; then pull its ends.</p>}
+      <div class="row">
+        {!phrase && <button disabled={!value} onClick={studio.chooseEight}>Choose an eight</button>}
+        {phrase && <>
+          <button disabled={keys === 0} title="Left becomes right" onClick={studio.mirrorPhrase}>Mirror</button>
+          <button disabled={keys === 0} title="Once more right behind it; keys that stand there make way" onClick={() => studio.repeatPhrase()}>Repeat</button>
+          <button disabled={keys < 2} title="Once more but for the last key, for which a pose is pressed" onClick={() => studio.repeatPhrase(true)}>Repeat, ending otherwise</button>
+          <button disabled={keys === 0} title="To set its keys elsewhere (Ctrl+C)" onClick={studio.copyKeys}>Copy</button>
+        </>}
+        {studio.canPaste.value && <button disabled={!value} title="The copied keys, from the playhead on (Ctrl+V)" onClick={studio.pasteKeys}>Paste at playhead</button>}
+        {phrase && <>
+          <button disabled={keys === 0} title="Take its keys out (Delete)" onClick={studio.removePhrase}>Remove keys</button>
+          <button title="Choose nothing (Escape)" onClick={() => (studio.chosen.value = null)}>Leave</button>
+        </>}
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,117 @@
+// A phrase: what is chosen on the timeline, be it an interval between two keys or any stretch of the dance. Its keys are mirrored, set
+// again, or taken out.
+import { beats } from './beats';
+import { heading, turned } from './body';
+import type { Triple } from './body';
+import { chosenKeys, moved } from './copies';
+import { later, placeAmong } from './counts';
+import { onPath } from './floor_path';
+import { edit, total } from './history';
+import { dancer, skeleton } from './link';
+import { closest, freeId, sorted } from './project';
+import type { Key } from './project';
+import { audio } from './songs';
+import { chosen, complain, live, project, selectedKey, takes, tell } from './state';
+
+const usual = 8; // counts
+const usualSeconds = 4; // where nobody counts
+const beside = 0.5; // seconds between two keys where nobody counts
+
+const timesOf = () => beats.value.list.map(({ time }) => time);
+const isCounted = () => beats.value.list.length > 1;
+const frameOf = (seconds: number) => Math.round(seconds * dancer.fps);
+
+/// Chooses the frames between two, whichever is first; less than keys stand apart is no phrase.
+export function choosePhrase(a: number, b: number) {
+  const [from, to] = [Math.max(0, Math.min(a, b)), Math.min(Math.max(a, b), total.value)];
+  if (live.value || to - from < closest) return;
+  takes.value = [];
+  chosen.value = [from, to];
+}
+
+/// Chooses the eight in which the playhead is.
+export function chooseEight() {
+  const now = audio.currentTime + 0.5 / dancer.fps;
+  const ones = beats.value.list.filter(({ count }) => count === 1).map(({ time }) => time);
+  if (ones.length === 0) return choosePhrase(frameOf(now), frameOf(now + usualSeconds));
+  const from = ones.findLast((time) => time <= now) ?? 0;
+  choosePhrase(frameOf(from), frameOf(ones.find((time) => time > now) ?? later(from, usual, timesOf())));
+}
+
+/// What is chosen stays so while its keys change.
+function change(keys: Key[], touched: number[], phrase: [number, number]) {
+  edit({ ...project.value, keys: sorted(keys) }, touched);
+  chosen.value = phrase;
+}
+
+/// Left becomes right, as seen from where the dancer is and faces at the first of its keys.
+export function mirrorPhrase() {
+  const keys = chosenKeys();
+  const [first] = keys;
+  if (!first) return;
+  const axis = heading(first.pose);
+  const [ahead, side] = [[Math.sin(axis), Math.cos(axis)], [Math.cos(axis), -Math.sin(axis)]];
+  const mirrored = keys.map((key): Key => {
+    const [x, z] = [key.pose.root[0] - first.pose.root[0], key.pose.root[2] - first.pose.root[2]];
+    const [far, wide] = [x * ahead[0] + z * ahead[1], -(x * side[0] + z * side[1])];
+    const root: Triple = [
+      first.pose.root[0] + far * ahead[0] + wide * side[0], key.pose.root[1], first.pose.root[2] + far * ahead[1] + wide * side[1],
+    ];
+    const pose = turned(skeleton.mirrored(key.pose), 2 * (axis - heading(key.pose)));
+    return onPath(project.value.path, { ...key, pose: { ...pose, root: key.hasPlace ? root : key.pose.root }, asks: key.asks && skeleton.twinsOf(key.asks) });
+  });
+  const others = project.value.keys.filter((key) => !keys.includes(key));
+  change([...others, ...mirrored], keys.map(({ frame }) => frame), chosen.value!);
+}
+
+export function removePhrase() {
+  const keys = chosenKeys();
+  if (keys.length === 0) return;
+  selectedKey.value = null;
+  change(project.value.keys.filter((key) => !keys.includes(key)), keys.map(({ frame }) => frame), chosen.value!);
+  tell(`${keys.length === 1 ? 'One key is' : `${keys.length} keys are`} taken out. Undo brings them back.`);
+}
+
+/// How a second of the phrase is one of its repetition, which begins where the phrase ends, and on the same count.
+function repeated([from, to]: [number, number], last: number): (seconds: number) => number {
+  const { fps } = dancer;
+  const times = timesOf();
+  if (!isCounted()) {
+    const by = last < to ? (to - from) / fps : (to - from) / fps + beside;
+    return (seconds) => seconds + by;
+  }
+  const [begin, end] = [placeAmong(from / fps, times), placeAmong(to / fps, times)];
+  const counts = last < to ? Math.max(1, Math.round(end - begin)) : Math.floor(end - begin + 0.5) + 1;
+  return (seconds) => later(seconds, counts, times);
+}
+
+/// The keys of the phrase once more, right behind it, moved and turned to where the dancer is then; keys that stand there make way. With
+/// another ending the last of them is left out, for a pose that is pressed next.
+export function repeatPhrase(withAnotherEnding = false) {
+  const keys = chosenKeys();
+  if (keys.length === 0 || (withAnotherEnding && keys.length < 2)) return;
+  const { fps } = dancer;
+  const phrase = chosen.value!;
+  const again = repeated(phrase, keys.at(-1)!.frame);
+  const frameOfKey = ({ frame }: Key) => frameOf(again(frame / fps));
+  const [from, to] = phrase.map((frame) => frameOf(again(frame / fps)));
+  const [begin, ending] = [frameOfKey(keys[0]), frameOfKey(keys.at(-1)!)];
+  const most = total.value;
+  const set = (withAnotherEnding ? keys.slice(0, -1) : keys).filter((key) => frameOfKey(key) < most);
+  if (set.length === 0 || (withAnotherEnding && ending >= most)) return complain(new Error('The dance ends before the phrase could come again.'));
+  const [first, last] = [Math.min(from, begin - closest + 1), Math.max(to, ending + closest)];
+  const stay = project.value.keys.filter(({ frame }) => frame < first || frame >= last);
+  const makeWay = project.value.keys.filter((key) => !stay.includes(key));
+  const all = [...stay];
+  for (const key of set) all.push(onPath(project.value.path, { ...moved(key, keys[0], begin), id: freeId(all, key.id), frame: frameOfKey(key) }));
+  const touched = [...makeWay, ...all.slice(stay.length)].map(({ frame }) => frame);
+  selectedKey.value = null;
+  change(all, touched, [from, Math.min(to, most)]);
+  if (withAnotherEnding) {
+    audio.pause();
+    audio.currentTime = ending / fps;
+    return tell('The phrase comes again but for its last key: press a pose, and it ends in that.');
+  }
+  const left = keys.length - set.length;
+  if (left > 0) tell(`${left} of ${keys.length} keys would come behind the end, and are left out.`);
+}

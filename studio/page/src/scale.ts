@@ -1,0 +1,43 @@
+// Where a second is on the timeline, and which one is at a point of it.
+import { signal } from '@preact/signals';
+import * as studio from './studio';
+
+export const zoom = signal(48); // pixels a second
+export const edge = 40; // pixels beside the song
+const snap = 10; // pixels to a beat
+/// What holds the timeline's content, once it is there.
+export const content = signal<HTMLElement | null>(null);
+
+export const x = (seconds: number) => edge + seconds * zoom.value;
+export const clock = (seconds: number) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')}`;
+export const seconds = () => studio.project.value?.seconds ?? 0;
+
+export const beatTimes = () => (studio.live.value ? studio.liveBeats.value : studio.beats.value.list.map(({ time }) => time));
+
+/// The nearest beat's frame, if one is near on the screen.
+export function snapped(time: number): number {
+  const at = Math.min(Math.max(time, 0), seconds());
+  let best = at;
+  let away = snap / zoom.value;
+  for (const beat of [...studio.suggested.value, ...beatTimes()]) {
+    if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
+  }
+  return Math.round(best * studio.dancer.fps);
+}
+
+export const timeUnder = (clientX: number) => (clientX - content.value!.getBoundingClientRect().left - edge) / zoom.value;
+
+/// The frame of the next beat on either side, or half a second away; by single frames where these are asked for.
+export function stepped(frame: number, way: 1 | -1, byFrames: boolean): number {
+  if (byFrames) return frame + way;
+  const frames = beatTimes().map((beat) => Math.round(beat * studio.dancer.fps));
+  return (way > 0 ? frames.find((beat) => beat > frame) : frames.findLast((beat) => beat < frame)) ?? frame + 15 * way;
+}
+
+/// Of a point of the screen on the timeline; null elsewhere.
+export function frameUnder(clientX: number, clientY: number): number | null {
+  const box = content.value?.parentElement!.getBoundingClientRect();
+  if (!box || !studio.project.value) return null;
+  const inside = clientX >= box.left && clientX <= box.right && clientY >= box.top && clientY <= box.bottom;
+  return inside ? snapped(timeUnder(clientX)) : null;
+}
