@@ -194,6 +194,8 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   }
   for (client::Warning& fault : cli::KeyFaults(keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));
+  if (project.has_dancers)
+    dance.warnings.push_back({.message = "dancers: this is the dance that they share"});
   if (!as_bvh) return {.body = DanceJson(dance)};
   return {.type = "text/plain", .body = BvhText(MotionToBvh(dance.header.skeleton, dance.motion))};
 }

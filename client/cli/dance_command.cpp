@@ -52,6 +52,7 @@ void TakeProject(DanceOptions* options) {
   }
   if (!options->music_dynamics) options->music_dynamics = project.music_dynamics;
   if (!options->variation) options->variation = project.variation;
+  if (options->dancers.empty() && project.has_dancers) options->dancers = options->project;
   options->controls.path_text = project.path;
   options->controls.path_text_name = options->project + ":path";
   // Of several sources the last that speaks of a part counts: those of the command line.
@@ -91,6 +92,8 @@ void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
   std::optional<Dancers> stage;
   if (!options.dancers.empty()) stage = ReadDancers(options.dancers);
+  if (stage && !options.vmc.empty())
+    throw InvalidArgument("--vmc", "shows one dancer, and " + options.dancers + " has several");
   if (stage) {
     CheckFiles(options, OutputsOf(*stage, out), ReportsOf(*stage, options.report));
   } else {
@@ -140,7 +143,7 @@ void AddDanceCommand(CLI::App& program) {
   command
       ->add_option("--project", options->project,
                    "A project that `choreo studio` saved: its keys, path, seed, style, liveliness, "
-                   "music and the song beside it, as far as nothing else is said here.")
+                   "dancers, music and the song beside it, as far as nothing else is said here.")
       ->check(CLI::ExistingFile)
       ->excludes("--keyframes");
   command

@@ -94,12 +94,15 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
 
 }  // namespace
 
-Dancers ReadDancers(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const json file = ParseJson(ReadText(path, "file of dancers"), name);
+Dancers ParseDancers(const std::string& text, const std::string& name,
+                     const std::filesystem::path& folder) {
+  const json file = ParseJson(text, name);
   const json& list = ListIn(file, name, "dancers");
-  CheckFileMembers(file, name, {"dancers", "apart", "about"},
-                   "a file of dancers has dancers, and perhaps apart and about");
+  // A project says the same beside what is danced (project_file.h).
+  if (!file.contains("studio")) {
+    CheckFileMembers(file, name, {"dancers", "apart", "about"},
+                     "a file of dancers has dancers, and perhaps apart and about");
+  }
   if (list.size() > kMostDancers) {
     throw InvalidArgument(name + ":dancers", "are " + std::to_string(list.size()) +
                                                  ", must be up to " + std::to_string(kMostDancers));
@@ -108,8 +111,7 @@ Dancers ReadDancers(const std::filesystem::path& path) {
   if (file.contains("apart")) read.apart = NumberIn(file["apart"], name + ":apart", 0, kMostApart);
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string field = name + ":dancers[" + std::to_string(i) + "]";
-    const Dancer& dancer =
-        read.dancers.emplace_back(ReadDancer(list[i], field, i + 1, path.parent_path()));
+    const Dancer& dancer = read.dancers.emplace_back(ReadDancer(list[i], field, i + 1, folder));
     for (size_t j = 0; j < i; ++j) {
       if (read.dancers[j].id == dancer.id)
         throw InvalidArgument(field + ".id",
@@ -121,6 +123,10 @@ Dancers ReadDancers(const std::filesystem::path& path) {
     }
   }
   return read;
+}
+
+Dancers ReadDancers(const std::filesystem::path& path) {
+  return ParseDancers(ReadText(path, "file of dancers"), path.string(), path.parent_path());
 }
 
 }  // namespace choreo::cli

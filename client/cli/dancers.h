@@ -31,8 +31,12 @@ struct Dancers {
   double apart = 0;  ///< metres that stay between two bodies at least
 };
 
-/// Throws Error(kNotFound) for a file that is not there, and Error(kInvalidArgument) whose field is
+/// Reads them of a file of their own, or of a project (project_file.h); key files are named as seen
+/// from `folder`. Throws Error(kInvalidArgument) whose field is
 /// NAME:dancers[i].MEMBER, naming value and limit.
+Dancers ParseDancers(const std::string& text, const std::string& name,
+                     const std::filesystem::path& folder);
+/// The same of a file. Throws Error(kNotFound) where it is not there, too.
 Dancers ReadDancers(const std::filesystem::path& path);
 
 }  // namespace choreo::cli

@@ -2,8 +2,14 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "client/cli/dancers.h"
+#include "client/edit.h"
 #include "model/body/body_distance.h"
 
 namespace choreo::cli {
@@ -25,5 +31,26 @@ double WidenFormation(const std::vector<MovingBody>& bodies,
 
 /// What each body is moved by where places are `factor` times as far from their middle.
 std::vector<Eigen::Vector3d> MovesOf(const std::vector<Eigen::Vector3d>& places, double factor);
+
+/// Frames by which a dancer of a dance of so many comes later; counts are those of the beats,
+/// seconds, at the music's beginning. Throws Error(kInvalidArgument, field) for counts without
+/// beats, and where all is over before.
+int64_t FramesLater(const Dancer& dancer, std::span<const double> beats, double fps, int64_t frames,
+                    const std::string& field);
+
+/// A dance as one of its dancers has it, from her place: mirrored, so many of its frames later,
+/// turned and moved.
+client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
+                              client::FinishedDance dance, int64_t later);
+
+/// How a formation became.
+struct Formed {
+  double factor = 1;                        ///< how many times as far from their middle they are
+  std::optional<NearestPair> nearest = {};  ///< of two dancers or more
+};
+
+/// Moves dancers, who are on stage, apart where they would come nearer than `apart`, metres.
+Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleton& skeleton,
+                 std::vector<client::FinishedDance>* dances);
 
 }  // namespace choreo::cli

@@ -86,11 +86,12 @@ Project ParseProject(const json& file, const std::string& name) {
                                                 std::to_string(kFormat));
   }
   // song_data: of the studio's messages, whose song comes along (studio/project_calls).
-  CheckFileMembers(file, name,
-                   {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics",
-                    "variation", "beats", "bar", "lively", "path", "keyframes", "about"},
-                   "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
-                   "beats, bar, lively, path, keyframes and perhaps about");
+  CheckFileMembers(
+      file, name,
+      {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics", "variation",
+       "beats", "bar", "lively", "path", "dancers", "apart", "keyframes", "about"},
+      "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
+      "beats, bar, lively, path, dancers, apart, keyframes and perhaps about");
   Project project;
   project.song = Text(file, name, "song");
   project.style = Text(file, name, "style");
@@ -120,6 +121,7 @@ Project ParseProject(const json& file, const std::string& name) {
       throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");
     project.path = file["path"].dump();
   }
+  project.has_dancers = file.contains("dancers");
   return project;
 }
 

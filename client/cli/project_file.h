@@ -19,12 +19,14 @@ struct Project {
   std::vector<double> beats = {};            ///< of the song, seconds; none: as they are found
   std::vector<std::string> velocities = {};  ///< as --velocity takes them; none where all are 1
   std::string path = {};                     ///< the text of a path file (control_options.h)
+  bool has_dancers = false;                  ///< several, whom ReadDancers reads (dancers.h)
 };
 
 /// Reads a project, JSON with `studio`, which is 1, `song`, `seconds`, `seed`, `style`,
 /// `music_dynamics`, `variation`, `beats` (of each its second and its count), `bar` (beats in one),
-/// `lively` (a factor for each part of the body), `path` and `keyframes`. `name` is the file's.
-/// Throws Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
+/// `lively` (a factor for each part of the body), `path`, `dancers` and `apart` (which are not
+/// looked at), and `keyframes`. `name` is the file's. Throws Error(kInvalidArgument) whose field is
+/// NAME:MEMBER, naming value and limit.
 Project ParseProject(const nlohmann::json& file, const std::string& name);
 
 /// The same of a file, whose song is the one beside it. Throws Error(kNotFound) where it cannot be

@@ -5,14 +5,12 @@
 #include <iostream>
 #include <utility>
 
-#include "client/arrange.h"
 #include "client/cli/formation.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/gltf.h"
 #include "model/formats/motion_file.h"
-#include "model/motion/rotation.h"
 
 namespace choreo::cli {
 namespace {
@@ -71,39 +69,6 @@ std::vector<Shared> PerformAll(const DanceOptions& options, const Dancers& stage
   return dances;
 }
 
-/// Frames of the model that a dancer comes later.
-int64_t DelayOf(const Dancer& dancer, const Performance& performance, const std::string& field) {
-  if (!dancer.after) return 0;
-  const std::vector<double>& beats = performance.beats;
-  const double from = beats.empty() ? 0 : beats.front();
-  const double seconds = dancer.after->After(from, beats, field) - from;
-  const client::Report& report = performance.written.report;
-  const int64_t frames = std::llround(seconds * performance.written.header.model_fps);
-  if (frames < report.frames) return frames;
-  throw InvalidArgument(field,
-                        InFull(seconds) + " s later she would not dance: all is over before");
-}
-
-/// The dance as the dancer has it, from her place.
-client::FinishedDance OnStage(const Dancer& dancer, const Performance& performance, int64_t delay) {
-  const client::DanceResult& danced = performance.dance;
-  client::FinishedDance dance{danced.motion, danced.contacts};
-  if (dancer.mirrored) dance = client::Mirrored(danced.header.skeleton, dance);
-  const auto frames = std::ssize(dance.motion.frames);
-  const int64_t later = std::min<int64_t>(
-      frames - 1,
-      std::llround(static_cast<double>(delay) / danced.header.model_fps * dance.motion.fps));
-  client::FinishedDance waits = client::PartOf(dance, 0, 1);
-  waits.motion.frames.resize(static_cast<size_t>(later), waits.motion.frames.front());
-  if (!waits.contacts.empty())
-    waits.contacts.resize(static_cast<size_t>(later), waits.contacts.front());
-  if (later > 0) dance = client::Join(std::move(waits), client::PartOf(dance, 0, frames - later));
-  const GroundFrame place{.origin = {dancer.place.x(), 0, dancer.place.y()},
-                          .heading = dancer.facing / kDegrees};
-  dance.motion = client::Moved(std::move(dance.motion), GroundFrame(), place);
-  return dance;
-}
-
 /// What is known of a dance that comes later: keys behind the end are danced no more.
 WrittenDance Later(WrittenDance written, int64_t delay) {
   const auto move = [&](int64_t& frame) { frame += delay; };
@@ -118,24 +83,14 @@ WrittenDance Later(WrittenDance written, int64_t delay) {
 }
 
 /// Moves dancers apart where they would come too near, and says how near they are.
-void KeepApart(const Dancers& stage, const Skeleton& skeleton,
+void TellApart(const Dancers& stage, const Skeleton& skeleton,
                std::vector<client::FinishedDance>* dances) {
-  std::vector<MovingBody> bodies;
-  std::vector<Eigen::Vector3d> places;
-  for (size_t i = 0; i < dances->size(); ++i) {
-    bodies.emplace_back(skeleton, (*dances)[i].motion);
-    places.emplace_back(stage.dancers[i].place.x(), 0, stage.dancers[i].place.y());
-  }
-  const double factor = WidenFormation(bodies, places, stage.apart);
-  const std::vector<Eigen::Vector3d> moved = MovesOf(places, factor);
-  for (size_t i = 0; i < dances->size(); ++i) {
-    for (Pose& pose : (*dances)[i].motion.frames) pose.root_position += moved[i];
-  }
-  if (bodies.size() < 2) return;
-  const NearestPair nearest = FindNearest(bodies, moved);
-  std::cout << "least distance between bodies: " << Rounded(nearest.distance.metres) << " m, "
-            << stage.dancers[nearest.one].id << " and " << stage.dancers[nearest.other].id << " at "
-            << Rounded(static_cast<double>(nearest.distance.frame) / dances->front().motion.fps)
+  const auto [factor, nearest] = KeepApart(stage.dancers, stage.apart, skeleton, dances);
+  if (!nearest) return;
+  std::cout << "least distance between bodies: " << Rounded(nearest->distance.metres) << " m, "
+            << stage.dancers[nearest->one].id << " and " << stage.dancers[nearest->other].id
+            << " at "
+            << Rounded(static_cast<double>(nearest->distance.frame) / dances->front().motion.fps)
             << " s\n";
   if (factor > 1) {
     std::cerr << "note: places are " << Rounded(factor)
@@ -174,10 +129,15 @@ void DanceTogether(const DanceOptions& options, const Dancers& stage,
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
     const Performance& performance = shared[dance_of[i]].performance;
     const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
-    delays.push_back(DelayOf(stage.dancers[i], performance, field));
-    dances.push_back(OnStage(stage.dancers[i], performance, delays.back()));
+    delays.push_back(FramesLater(stage.dancers[i], performance.beats,
+                                 performance.written.header.model_fps,
+                                 performance.written.report.frames, field));
+    const client::DanceResult& danced = performance.dance;
+    const double seconds = static_cast<double>(delays.back()) / danced.header.model_fps;
+    dances.push_back(OnStage(skeleton, stage.dancers[i], {danced.motion, danced.contacts},
+                             std::llround(seconds * danced.motion.fps)));
   }
-  KeepApart(stage, skeleton, &dances);
+  TellApart(stage, skeleton, &dances);
   const std::vector<fs::path> outputs = OutputsOf(stage, out);
   if (HoldsAll(out)) {
     std::vector<NamedMotion> motions;

@@ -134,6 +134,34 @@ TEST_F(DancersTest, AreInOneFileAndOnOnePicture) {
   EXPECT_NE(outcome.code, 0);
 }
 
+// One format: what a project says is what --dancers says.
+TEST_F(DancersTest, AreOfAProject) {
+  const std::string all = R"("apart": 0.3, "dancers": [{"id": "ada", "place": [-1, 0]},
+      {"id": "ben", "place": [1, 0], "mirrored": true, "after": "2 counts"}])";
+  std::ofstream(folder_ / "p.json")
+      << R"({"studio": 1, "song": "song.wav", "seed": 3, )" << all
+      << R"(, "keyframes": [{"id": "k", "time": 2, "pose": "kick"}]})";
+  std::ofstream(folder_ / "dancers.json") << "{" << all << "}";
+  const auto dance = [&](const std::string& more, const std::string& out) {
+    const Outcome outcome =
+        Choreo("dance" + Server() + "--project " + At("p.json") + more + " -o " + At(out));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+  };
+  dance("", "own.npz");
+  dance(" --dancers " + At("p.json"), "named.npz");
+  dance(" --dancers " + At("dancers.json"), "apart.npz");
+  for (const char* id : {"ada", "ben"}) {
+    const auto bytes = [&](const std::string& name) {
+      return ReadFile(folder_ / (name + "." + id + ".npz"));
+    };
+    EXPECT_EQ(bytes("own"), bytes("apart")) << id;
+    EXPECT_EQ(bytes("named"), bytes("apart")) << id;
+  }
+  const Outcome shown = Choreo("dance" + Server() + "--project " + At("p.json") +
+                               " --vmc 127.0.0.1:39539 -o " + At("x.npz"));
+  EXPECT_THAT(shown.said, HasSubstr("--vmc: shows one dancer"));
+}
+
 TEST_F(DancersTest, SaysWhatCannotBe) {
   const auto expect_failure = [this](const std::string& dancers, const std::string& part,
                                      const std::string& more = "") {

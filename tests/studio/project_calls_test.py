@@ -57,6 +57,12 @@ class ProjectCalls(unittest.TestCase):
         self.assertEqual(model["most_seconds"], 600)
         self.assertAlmostEqual(model["pelvis_height"], 0.94, delta=0.05)
 
+    def test_of_several_dancers_it_is_the_dance_that_they_share(self):
+        status, text = dance(dancers=[{"place": [0, 0]}, {"place": [2, 0], "mirrored": True}])
+        self.assertEqual(status, 200, text)
+        self.assertEqual(json.loads(text)["warnings"][-1]["message"], "dancers: this is the dance that they share")
+        self.assertEqual(json.loads(text)["rotations"], json.loads(dance()[1])["rotations"])
+
     def test_a_project_is_danced_through_its_key(self):
         status, text = dance()
         self.assertEqual(status, 200, text)
