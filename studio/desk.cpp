@@ -6,6 +6,7 @@
 #include "client/cli/key_faults.h"
 #include "client/convert.h"
 #include "studio/answers.h"
+#include "studio/company.h"
 #include "studio/from_page.h"
 #include "studio/to_page.h"
 
@@ -196,6 +197,8 @@ void Desk::Do(const Request& request) {
       return Answer(call, MakePhotoPose(house_, request.landmarks()));
     case Request::kKeys:
       return Answer(call, ReadKeys(house_, request.keys()));
+    case Request::kCompany:
+      return Answer(call, FormCompany(house_, request.company()));
     default:
       throw InvalidArgument("request", "is none that this studio knows");
   }

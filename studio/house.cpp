@@ -2,6 +2,7 @@
 
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
+#include "client/style_figures.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/joint_angles.h"
@@ -53,6 +54,12 @@ House::House(const client::Options& server, const std::filesystem::path& song,
   }
   for (int joint = 0; joint < model_.skeleton.joints(); ++joint)
     *welcome_.add_turns() = TurnOf(model_.skeleton, joint);
+  if (const auto figures = client::FindStyleFigures(model_.fingerprint)) {
+    StylesShown* shown = welcome_.mutable_styles_shown();
+    shown->set_percent(figures->recognised);
+    shown->set_percent_by_chance(figures->chance);
+    shown->set_shows(figures->shows());
+  }
   welcome_.set_body(BodyAtRest(model_.skeleton));
   welcome_.set_reads_photos(photo_model_.is_there());
   if (song.empty()) return;

@@ -40,6 +40,55 @@ TEST_F(StudioTest, HearsASongAndComposesOnItsBeats) {
     EXPECT_NEAR(std::fmod(few.keyframes().keyframes(i).time(), 4), 1.1, 0.02);
 }
 
+// As `choreo dance --dancers` places them.
+TEST_F(StudioTest, FormsACompany) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request request;
+  Company* company = request.mutable_company();
+  company->mutable_dancers()->set_name("p.json");
+  company->mutable_dancers()->set_data(
+      R"({"apart": 0.5, "dancers": [{"id": "ada", "place": [0, 0], "seed": 7},
+          {"place": [0.1, 0], "mirrored": true, "facing": 90, "after": "2 counts"}]})");
+  // Without dances they are read.
+  Response answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_formation()) << answer.failure().message();
+  ASSERT_EQ(answer.formation().dancers_size(), 2);
+  EXPECT_EQ(answer.formation().dancers(0).seed(), 7U);
+  const StageDancer& second = answer.formation().dancers(1);
+  EXPECT_EQ(second.id(), "dancer2");
+  EXPECT_EQ(std::tuple(second.x(), second.facing(), second.mirrored(), second.after()),
+            std::tuple(0.1, 90.0, true, 2.0));
+  EXPECT_TRUE(second.in_counts() && !second.has_seed() && !second.has_keys());
+
+  page.Say(2, DanceRequest(90, 1));
+  page.Say(2, Complete());
+  *company->add_dances()->mutable_frames() = ReadDance(page);
+  company->mutable_dances(0)->set_frame_rate(30);
+  company->mutable_dance_of()->Resize(2, 0);
+  for (const double beat : {0.5, 1.0, 1.5, 2.0}) company->add_beats(beat);
+  company->set_name("all.npz");
+  answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_formation()) << answer.failure().message();
+  EXPECT_GT(answer.formation().widened(), 1);
+  EXPECT_NEAR(answer.formation().least(), 0.5, 0.002);
+  ASSERT_EQ(answer.formation().files_size(), 2);
+  EXPECT_EQ(answer.formation().files(0).name(), "all.ada.npz");
+  EXPECT_EQ(answer.formation().files(1).name(), "all.dancer2.npz");
+  company->set_name("all.glb");
+  answer = page.Ask(request);
+  ASSERT_EQ(answer.formation().files_size(), 1) << answer.failure().message();
+  EXPECT_EQ(answer.formation().files(0).data().substr(0, 4), "glTF");
+
+  company->clear_beats();
+  EXPECT_THAT(page.Ask(request).failure().message(),
+              HasSubstr("p.json:dancers[1].after: counts need music"));
+  company->mutable_dance_of()->Set(1, 3);
+  EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("3 is none of the dances"));
+  company->mutable_dancers()->set_data(R"({"dancers": [{"place": [0, 0], "turn": 1}]})");
+  EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("p.json:dancers[0].turn"));
+}
+
 // A song whose first part follows its second.
 TEST_F(StudioTest, HearsWhatComesBack) {
   std::vector<float> samples;

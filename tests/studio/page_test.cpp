@@ -51,6 +51,7 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
   EXPECT_EQ(page.welcome().body().substr(0, 4), "glTF");
   EXPECT_EQ(page.welcome().song().name(), "clicks.wav");
   EXPECT_NEAR(page.welcome().heard().seconds(), 4, 1e-3);
+  EXPECT_FALSE(page.welcome().has_styles_shown());  // nobody measured the fake model's
 }
 
 // What it asked for last is still being made, and can't be stopped.

@@ -28,7 +28,8 @@ export class Skeleton {
   readonly offsets: Vector3[];
   readonly height: number;
   readonly feet: number[];
-  private readonly twins: number[];
+  /// Of each joint the same one of the other side.
+  readonly twins: number[];
   private readonly rest: Figure;
 
   constructor(message: SkeletonMessage) {

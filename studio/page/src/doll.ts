@@ -63,11 +63,16 @@ export class Doll {
     this.bones.forEach((bone, joint) => toQuaternion(pose.rotations, 3 * joint, bone.quaternion));
   }
 
-  /// The moment of a motion; nothing where it has none.
-  follow(motion: Motion, time: number) {
+  /// The moment of a motion, or of its mirror image in the plane x = 0; nothing where it has none.
+  follow(motion: Motion, time: number, mirrored = false) {
     if (!motion.sample(time, this.root, this.turns)) return;
-    this.bones[0].position.set(...this.root);
-    this.bones.forEach((bone, joint) => bone.quaternion.copy(this.turns[joint]));
+    const [x, y, z] = this.root;
+    this.bones[0].position.set(mirrored ? -x : x, y, z);
+    this.bones.forEach((bone, joint) => {
+      if (!mirrored) return bone.quaternion.copy(this.turns[joint]);
+      const turn = this.turns[this.skeleton.twins[joint]];
+      bone.quaternion.set(turn.x, -turn.y, -turn.z, turn.w);
+    });
   }
 
   place() {

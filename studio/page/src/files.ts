@@ -1,6 +1,7 @@
 // What is dropped or chosen, and what is saved.
 import { film, fps, height, width } from './film';
 import type { Kind, Painter } from './film';
+import { readCompany, writeCompany } from './company';
 import { danceFrom, made, push } from './history';
 import { compose } from './keys';
 import { readKey } from './dancer';
@@ -57,9 +58,15 @@ async function openOther(file: File) {
 async function openProject(name: string, bytes: Uint8Array) {
   const said: string[] = [];
   const model = { fps: dancer.fps, styles: welcome.value!.model!.styles };
-  const read = fromJson(new TextDecoder().decode(bytes), name, model, (words) => said.push(words));
+  const text = new TextDecoder().decode(bytes);
+  const read = fromJson(text, name, model, (words) => said.push(words));
   const answer = await wire.ask({ case: 'keys', value: { name, data: bytes } });
   if (answer.case !== 'keyframes') return;
+  if (text.includes('"dancers"')) {
+    const { haveKeys, ...company } = await readCompany(name, bytes);
+    Object.assign(read, company);
+    if (haveKeys) said.push('Its dancers have files of keys of their own, which the studio does not open: they share the keys here.');
+  }
   read.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
   if (song.value) read.seconds = song.value.heard.seconds;
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
@@ -134,7 +141,12 @@ export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
 });
 
 export const exportAs = (extension: string) => work(async () => {
-  const clip = (await made(moment.value)).toClip();
+  const there = moment.value;
+  const clip = (await made(there)).toClip();
+  if (there.project.dancers.length) {
+    for (const file of await writeCompany(`${stem()}.${extension}`, there)) download(file.name, file.data as BlobPart);
+    return;
+  }
   const answer = await wire.ask({ case: 'export', value: { name: `${stem()}.${extension}`, clip } });
   if (answer.case === 'file') download(answer.value.name, answer.value.data as BlobPart);
 });

@@ -31,8 +31,8 @@ export async function compose() {
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
-  const { dynamics, variation, lively, style, path } = project.value ?? asked;
-  danceFrom({ ...asked, beats, dynamics, variation, lively, style, path, seed, keys: named.map((key) => onPath(path, key)) }, -1);
+  const { dynamics, variation, lively, style, path, dancers, apart } = project.value ?? asked;
+  danceFrom({ ...asked, beats, dynamics, variation, lively, style, path, dancers, apart, seed, keys: named.map((key) => onPath(path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.

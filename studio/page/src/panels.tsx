@@ -1,6 +1,7 @@
 // What is beside the stage: the chosen key, takes, beats, music, style, liveliness.
 import { signal } from '@preact/signals';
 import { tempo } from './counts';
+import { DancersPanel } from './dancers_panel';
 import { KeepTake } from './keep_take';
 import { PathPoints } from './path_points';
 import { PhrasePanel } from './phrase_panel';
@@ -56,6 +57,7 @@ function TakesPanel() {
 function StylePanel() {
   const styles = studio.welcome.value?.model?.styles ?? [];
   if (styles.length === 0) return null;
+  const shown = studio.welcome.value?.stylesShown;
   const { value } = studio.project;
   return (
     <section aria-label="Style">
@@ -65,6 +67,7 @@ function StylePanel() {
         <option value="">as it comes</option>
         {styles.map((style) => <option key={style} value={style}>{style}</option>)}
       </select>
+      {shown && <p class="small">{shown.shows ? 'R' : 'They cannot be told apart: r'}ecognised in {Math.round(shown.percent)} % of seconds, by chance in {Math.round(shown.percentByChance)} %.</p>}
     </section>
   );
 }
@@ -203,6 +206,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
       <KeyPanel stage={stage} />
       <PhrasePanel />
       <TakesPanel />
+      <DancersPanel />
       <PathPanel />
       <BeatsPanel />
       <MusicPanel />

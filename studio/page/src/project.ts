@@ -18,6 +18,21 @@ export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg']
 
 /// What the program does where nothing is said: kUsualDynamics, kUsualVariation.
 const [usualDynamics, usualVariation] = [0.5, 0.3];
+const usuallyApart = 0.2; // metres (kUsuallyApart)
+
+/// One of several dancers. She dances as all do, but for what she says.
+export type Partner = Spot & {
+  id: string;
+  /// Degrees that her dance is turned.
+  facing: number;
+  mirrored: boolean;
+  /// Counts, or seconds, that she comes later.
+  after: number;
+  inCounts: boolean;
+  seed: number | null;
+  /// Empty: the project's.
+  style: string;
+};
 
 export type Project = {
   song: string;
@@ -37,6 +52,10 @@ export type Project = {
   path: Step[];
   /// By frame.
   keys: Key[];
+  /// Two or more who dance it together; empty: one does.
+  dancers: Partner[];
+  /// Metres that stay between two of them at least.
+  apart: number;
 };
 
 export const emptyProject = (song: string, seconds: number): Project => ({
@@ -50,6 +69,8 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   lively: parts.map(() => 1),
   path: [],
   keys: [],
+  dancers: [],
+  apart: usuallyApart,
 });
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);

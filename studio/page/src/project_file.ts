@@ -17,6 +17,20 @@ export type Known = { fps: number; styles: string[] };
 
 const round = (value: number) => Math.round(value * 1e5) / 1e5;
 
+/// The dancers of a project, as a file of dancers has them.
+export const dancersJson = ({ dancers, apart }: Project) => ({
+  dancers: dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style }) => ({
+    id,
+    place: [round(x), round(z)],
+    ...(facing ? { facing } : {}),
+    ...(mirrored ? { mirrored } : {}),
+    ...(after ? { after: inCounts ? `${after} counts` : after } : {}),
+    ...(seed === null ? {} : { seed }),
+    ...(style ? { style } : {}),
+  })),
+  apart,
+});
+
 export function toJson(project: Project, fps: number, names: string[]): string {
   const keyframes = project.keys.map(({ id, frame, pose, hasPlace, asks }) => ({
     id,
@@ -31,10 +45,11 @@ export function toJson(project: Project, fps: number, names: string[]): string {
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
   const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation,
-    ...(beats ? { bar: beats.bar, beats: beats.list.map(({ time, count }) => [time, count]) } : {}), lively, ...(path.points.length ? { path } : {}), keyframes }, null, 1);
-  // A line for each vector, beat and list of joints, not for each number and name.
+    ...(beats ? { bar: beats.bar, beats: beats.list.map(({ time, count }) => [time, count]) } : {}), lively, ...(path.points.length ? { path } : {}),
+    ...(project.dancers.length ? dancersJson(project) : {}), keyframes }, null, 1);
+  // A line for each vector, beat, place and list of joints, not for each number and name.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
-    .replace(/\[\s+([\d.e-]+),\s+(\d+)\s+\]/g, '[$1, $2]')
+    .replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2]')
     .replace(/"joints": \[\s+([^\]]*?)\s+\]/g, (_, joints: string) => `"joints": [${joints.replace(/\s*\n\s*/g, ' ')}]`)
     .replace(/\{\s+"frame": (\d+),\s+"x": (-?[\d.e-]+),\s+"z": (-?[\d.e-]+)\s+\}/g, '{"frame": $1, "x": $2, "z": $3}') + '\n';
 }

@@ -2,13 +2,14 @@
 import * as THREE from 'three';
 import type { Pose } from './body';
 import { Doll } from './doll';
+import { CompanyDolls } from './company_dolls';
 import { FloorLine } from './floor_line';
 import { HandleDots, openHandles, placesOf } from './handle_dots';
 import type { Motion } from './motion';
 import { floorHandle, handles, pull } from './reach';
 import type { Handle } from './reach';
 import { Onion } from './onion';
-import { OtherTakes } from './other_takes';
+import { apart, OtherTakes } from './other_takes';
 import { colour } from './palette';
 import { floorTexture, looks, makeFloor, makeLamp, makeSky } from './scenery';
 import * as studio from './studio';
@@ -33,6 +34,7 @@ export class Stage {
   private readonly sky = makeSky(looks.light.sky);
   private readonly floor = makeFloor();
   private readonly others: OtherTakes;
+  private readonly company: CompanyDolls;
   private readonly ghost: Doll;
   private readonly onion: Onion;
   private readonly dots = new HandleDots();
@@ -57,7 +59,8 @@ export class Stage {
     this.ghost.scene.visible = false;
     this.onion = new Onion(doll);
     this.others = new OtherTakes(doll);
-    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene);
+    this.company = new CompanyDolls(doll);
+    this.scene.add(this.sky, this.lamp, this.lamp.target, this.floor, doll.scene, this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene, this.company.scene);
     this.view = new View(canvas);
     this.camera = this.view.camera;
     canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
@@ -175,24 +178,25 @@ export class Stage {
     const time = studio.now();
     const motion = studio.motionAt(time);
     const { doll } = this;
-    doll.scene.visible = !!motion?.count || !!this.posing;
+    doll.scene.visible = (!!motion?.count && (!this.company.hasNoLead || studio.takes.value.length > 0)) || !!this.posing;
     if (this.posing) doll.take(this.posing);
     else if (motion) doll.follow(motion, time);
     const centre = doll.place().clone();
     const takes = studio.takes.value;
     const marks = this.others.show(time, centre, this.camera, this.middle).map((place) => this.toScreen(place));
+    const width = this.company.show(motion, time, this.middle) || (takes.length + 1) * apart + 0.4;
     this.drawGhost(time);
     this.onion.show(time, takes.length > 0);
     this.dots.show(this.posing);
     const isSet = studio.areCornersShown.value || !!studio.askedCorners.value;
     const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps, isSet ? studio.corners.value : null, studio.heldCorner.value);
     const now = performance.now();
-    this.look(this.middle, Math.min(longest, (now - this.looked) / 1000));
+    this.look(this.middle, Math.min(longest, (now - this.looked) / 1000), width);
     this.looked = now;
     this.view.stepAside();
     this.camera.updateMatrixWorld();
     // A picture that would be the same again is not drawn.
-    const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
+    const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, studio.cast.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
       studio.selectedKey.value, this.camera.aspect, studio.live.value, studio.sketch.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
     if (seen.every((value, i) => value === this.seen[i])) return;
@@ -214,10 +218,11 @@ export class Stage {
       this.renderer.setSize(width, height, false);
       this.view.fit(width, height);
       for (const part of [this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene]) part.visible = false;
-      this.doll.scene.visible = true; // be it the first picture at all
+      this.doll.scene.visible = !this.company.hasNoLead; // be it the first picture at all
     }
     this.doll.follow(motion, time);
-    this.look(this.doll.place(), pace);
+    this.middle.copy(this.doll.place());
+    this.look(this.middle, pace, this.company.show(motion, time, this.middle));
     this.renderer.render(this.scene, this.camera);
     return this.canvas;
   }
@@ -256,9 +261,9 @@ export class Stage {
     if (this.ghost.scene.visible) this.ghost.take(key!.pose);
   }
 
-  /// Looks at somebody for so many seconds; light and floor come along.
-  private look(at: THREE.Vector3, seconds: number) {
-    this.view.look(at, seconds, this.grabbed ? 'bends' : this.line.isDrawn ? 'draws' : 'free');
+  /// Looks at somebody for so many seconds, with so many metres in the picture; light and floor come along.
+  private look(at: THREE.Vector3, seconds: number, width: number) {
+    this.view.look(at, seconds, width, this.grabbed ? 'bends' : this.line.isDrawn ? 'draws' : 'free');
     const { target } = this.view;
     this.lamp.target.position.copy(target);
     this.lamp.position.copy(target).add(new THREE.Vector3(1.6, 4.2, 2.6));

@@ -1,7 +1,6 @@
 // From where the stage is seen: the camera, the hand that turns it, and whom it follows.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { apart } from './other_takes';
 import * as studio from './studio';
 
 const middle = 0.92; // metres: what the camera looks at
@@ -34,8 +33,8 @@ export class View {
     return this.controls.target;
   }
 
-  /// Goes on looking at somebody for so many seconds, however many pictures are made of them.
-  look(at: THREE.Vector3, seconds: number, hand: Hand) {
+  /// Goes on looking at somebody, with so many metres in the picture, for so many seconds, however many pictures are made of them.
+  look(at: THREE.Vector3, seconds: number, metres: number, hand: Hand) {
     const { camera, target } = this;
     const share = (left: number) => 1 - left ** seconds;
     const takes = studio.takes.value.length;
@@ -49,7 +48,7 @@ export class View {
     this.controls.update();
     // All dancers fit into the picture.
     const width = 2 * camera.position.distanceTo(target) * Math.tan((camera.fov * Math.PI) / 360) * camera.aspect;
-    const wanted = Math.min(1, width / ((takes + 1) * apart + 0.4));
+    const wanted = metres ? Math.min(1, width / metres) : 1;
     if (Math.abs(wanted - camera.zoom) > 1e-3) {
       camera.zoom += (wanted - camera.zoom) * share(zooming);
       camera.updateProjectionMatrix();

@@ -96,6 +96,19 @@ test('a project is read as it was written', () => {
   assert.equal(JSON.parse(text).keyframes[0].time, 0.5);
 });
 
+test('dancers are saved as a file of dancers has them, a line for each place', () => {
+  const plain = { facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '' };
+  const dancers = [{ id: 'ada', x: 0, z: 0.6, ...plain }, { id: 'ben', x: -1.4, z: -0.4, ...plain, mirrored: true, facing: 90, after: 4, seed: 3 },
+    { id: 'cy', x: 1, z: 0, ...plain, after: 2.5, inCounts: false, style: 'happy' }];
+  const text = toJson({ ...emptyProject('song.mp3', 4), dancers }, 30, []);
+  const { dancers: saved, apart } = JSON.parse(text);
+  assert.equal(apart, 0.2);
+  assert.deepEqual(saved, [{ id: 'ada', place: [0, 0.6] }, { id: 'ben', place: [-1.4, -0.4], facing: 90, mirrored: true, after: '4 counts', seed: 3 },
+    { id: 'cy', place: [1, 0], after: 2.5, style: 'happy' }]);
+  assert.match(text, /"place": \[-1.4, -0.4\]/);
+  assert.equal('dancers' in JSON.parse(toJson(emptyProject('song.mp3', 4), 30, [])), false);
+});
+
 test('what an old project does not say is as usual, and what cannot be is named', () => {
   const known = { fps: 30, styles: [] };
   const read = (more) => fromJson(JSON.stringify({ studio: 1, keyframes: [], ...more }), 'p.json', known, () => {});

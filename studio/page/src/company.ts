@@ -1,0 +1,173 @@
+// Several dancers: who they are, what each of them dances, and how far from each other they have to stand.
+import { computed, effect, signal } from '@preact/signals';
+import { beats } from './beats';
+import type { Clip, Formation } from './generated/studio/studio_pb';
+import { later } from './counts';
+import { note } from './history';
+import { dancer, wire } from './link';
+import type { Motion } from './motion';
+import { dancersJson } from './project_file';
+import type { Partner, Project, Spot } from './project';
+import { busy, complain, live, moment, project } from './state';
+import type { Moment, Song } from './state';
+
+const most = 64; // of the program (kMostDancers)
+const beside = 1.4; // metres from one to the next who is added
+const behind = 0.4; // metres that she stands further back
+
+/// A dance of another seed or style than the project's; of what else it was made.
+type Other = { project: Project; song: Song | null; motion: Motion };
+let others: Other[] = [];
+let forming: AbortController | null = null;
+
+const madeOf = ({ dancers: _, apart: __, ...rest }: Project) => rest;
+const isSame = (a: Project, b: Project) => Object.entries(madeOf(a)).every(([name, value]) => value === b[name as keyof Project]);
+const ownProject = (all: Project, { seed, style }: Partner): Project => ({ ...all, seed: seed ?? all.seed, style: style || all.style });
+
+/// What the program made of the present dancers, and what they dance: of each the number of her dance.
+export const formation = signal<{ of: Moment; said: Formation; dances: Motion[]; danceOf: number[] } | null>(null);
+
+/// Dances what the dancers of a moment do not share, once each.
+async function dancesOf(now: Moment, signal: AbortSignal) {
+  // One that was left before its end goes on.
+  for (let there: Moment['ready'] | null = null; there !== now.ready; await there) there = now.ready;
+  const dances = [now.motion.value];
+  const kinds = [now.project];
+  const used: Other[] = [];
+  const danceOf: number[] = [];
+  for (const partner of now.project.dancers) {
+    const own = ownProject(now.project, partner);
+    let nth = kinds.findIndex((kind) => isSame(kind, own));
+    if (nth < 0) {
+      let known = others.find((other) => other.song === now.song && isSame(other.project, own));
+      const count = dances[0].count;
+      if (!known || known.motion.count !== count)
+        known = { project: own, song: now.song, motion: await dancer.stream(own, null, -1, { grown: () => {}, noted: () => {} }, signal) };
+      if (signal.aborted) return null;
+      used.push(known);
+      nth = kinds.push(own) - 1;
+      dances.push(known.motion.head(count));
+    }
+    danceOf.push(nth);
+  }
+  others = used;
+  return { dances, danceOf };
+}
+
+const requestOf = (all: Project, more: { dances: Clip[]; danceOf: number[]; name?: string }) => ({
+  dancers: { name: 'project', data: new TextEncoder().encode(JSON.stringify(dancersJson(all))) },
+  beats: beats.value.list.map(({ time }) => time),
+  ...more,
+});
+
+async function form(now: Moment, signal: AbortSignal) {
+  busy.value += 1;
+  try {
+    const danced = await dancesOf(now, signal);
+    if (!danced || signal.aborted || danced.dances[0].count === 0) return;
+    const clips = danced.dances.map((dance) => dance.toClip());
+    const answer = await wire.ask({ case: 'company', value: requestOf(now.project, { dances: clips, danceOf: danced.danceOf }) });
+    if (answer.case === 'formation' && !signal.aborted) formation.value = { of: now, said: answer.value, ...danced };
+  } catch (error) {
+    if (!signal.aborted) complain(error);
+  } finally {
+    busy.value -= 1;
+  }
+}
+
+effect(() => {
+  const now = moment.value;
+  forming?.abort();
+  if (!now || live.value || now.project.dancers.length === 0) return void (formation.value = null);
+  forming = new AbortController();
+  const { signal } = forming;
+  // Its own changes are nothing that this follows.
+  queueMicrotask(() => void form(now, signal));
+});
+
+/// Who dances, as the stage shows it: seen from where the project's own dance is. `isLead`: she dances just that.
+export type Cast = { motion: Motion | null; after: number; mirrored: boolean; x: number; z: number; facing: number; isLead: boolean };
+
+const radians = Math.PI / 180;
+
+export const cast = computed((): Cast[] => {
+  const partners = live.value ? [] : project.value?.dancers ?? [];
+  if (partners.length === 0) return [];
+  const formed = formation.value;
+  const isKnown = formed?.danceOf.length === partners.length;
+  const widened = isKnown ? formed.said.widened : 1;
+  const middle = (axis: 'x' | 'z') => partners.reduce((sum, partner) => sum + partner[axis] / partners.length, 0);
+  const [x, z] = [middle('x'), middle('z')];
+  const place = (partner: Partner): Spot => ({ x: x + widened * (partner.x - x), z: z + widened * (partner.z - z) });
+  const isOther = (partner: Partner) => !isSame(ownProject(project.value, partner), project.value);
+  const lead = partners.findIndex((partner) => !partner.mirrored && partner.after === 0 && !isOther(partner));
+  const from = lead < 0 ? { x: 0, z: 0, facing: 0 } : { ...place(partners[lead]), facing: partners[lead].facing };
+  const [sin, cos] = [Math.sin(from.facing * radians), Math.cos(from.facing * radians)];
+  return partners.map((partner, i) => {
+    const { x: px, z: pz } = place(partner);
+    const [dx, dz] = [px - from.x, pz - from.z];
+    const other = isOther(partner);
+    return {
+      motion: other ? (isKnown && formed.danceOf[i] > 0 ? formed.dances[formed.danceOf[i]] : null) : null,
+      after: secondsLater(partner), mirrored: partner.mirrored,
+      x: dx * cos - dz * sin, z: dx * sin + dz * cos, facing: (partner.facing - from.facing) * radians, isLead: i === lead,
+    };
+  });
+});
+
+/// Counts are those at the music's beginning.
+function secondsLater({ after, inCounts }: Partner): number {
+  const times = beats.value.list.map(({ time }) => time);
+  if (!inCounts || times.length < 2) return after;
+  return later(times[0], after, times) - times[0];
+}
+
+/// The dancers of a project file.
+export async function readCompany(name: string, data: Uint8Array): Promise<{ dancers: Partner[]; apart: number; haveKeys: boolean }> {
+  const answer = await wire.ask({ case: 'company', value: { dancers: { name, data } } });
+  if (answer.case !== 'formation') throw new Error(`${name} has no dancers.`);
+  const dancers = answer.value.dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style }): Partner =>
+    ({ id, x, z, facing, mirrored, after, inCounts: inCounts || after === 0, seed: seed === undefined ? null : Number(seed), style }));
+  return { dancers, apart: answer.value.apart, haveKeys: answer.value.dancers.some(({ hasKeys }) => hasKeys) };
+}
+
+/// All of them in files of a kind, as the command line writes them.
+export async function writeCompany(name: string, now: Moment) {
+  const danced = await dancesOf(now, new AbortController().signal);
+  const answer = await wire.ask({ case: 'company', value: requestOf(now.project, { dances: danced!.dances.map((dance) => dance.toClip()), danceOf: danced!.danceOf, name }) });
+  return answer.case === 'formation' ? answer.value.files : [];
+}
+
+const changeAll = (dancers: Partner[]) => note({ dancers });
+export const changePartner = (nth: number, what: Partial<Partner>) =>
+  changeAll(project.value.dancers.map((old, i) => (i === nth ? { ...old, ...what } : old)));
+
+/// Once one is left, she dances alone.
+export function removePartner(nth: number) {
+  const left = project.value.dancers.filter((_, i) => i !== nth);
+  changeAll(left.length > 1 ? left : []);
+}
+
+/// Beside the others, on either side in turn; the first one makes the dancer who is there one of two.
+export function addPartner() {
+  const { dancers } = project.value;
+  if (dancers.length >= most) return;
+  const named = (all: Partner[], spot: Spot): Partner => {
+    let number = all.length + 1;
+    while (all.some(({ id }) => id === `dancer${number}`)) ++number;
+    return { id: `dancer${number}`, ...spot, facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '' };
+  };
+  const all = dancers.length ? dancers : [named([], { x: 0, z: 0 })];
+  const isFree = (spot: Spot) => all.every(({ x, z }) => Math.hypot(x - spot.x, z - spot.z) > beside / 2);
+  for (let nth = 1; ; ++nth) {
+    const away = Math.ceil(nth / 2);
+    const spot = { x: beside * away * (nth % 2 ? 1 : -1), z: Math.round(-100 * behind * away) / 100 };
+    if (isFree(spot)) return changeAll([...all, named(all, spot)]);
+  }
+}
+
+/// The colour of a dancer's shirt, by number: the lead wears the body's own.
+export function shirtNumber(nth: number): number {
+  const lead = cast.value.findIndex(({ isLead }) => isLead);
+  return nth === lead ? 0 : lead < 0 || nth < lead ? nth + 1 : nth;
+}
