@@ -88,6 +88,11 @@ KeyRejection Timeline::Reject(const std::string& id, int64_t frame, KeyRejection
   return {id, frame, EarliestFrame(), why, std::move(reason)};
 }
 
+// Who edits, and did not say so, hears what would have helped.
+std::string Timeline::WhyFrozen() const {
+  return explicit_grants_ ? "" : ": without generate_until each key freezes what lies before it";
+}
+
 std::optional<KeyRejection> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
   if (frame >= options_.first_frame) return std::nullopt;
   return KeyRejection{id, frame, EarliestFrame(), KeyRejection::Why::kAlreadyDanced,
@@ -114,13 +119,14 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
   const auto known = frame_of_.find(id);
   if (known != frame_of_.end() && known->second < frontier_) {
     previous_frame_ = frame;
-    return Reject(id, frame, KeyRejection::Why::kFrozen,
-                  "key \"" + id + "\" stands in frozen frames, at " + Frames(known->second));
+    return Reject(
+        id, frame, KeyRejection::Why::kFrozen,
+        "key \"" + id + "\" stands in frozen frames, at " + Frames(known->second) + WhyFrozen());
   }
   if (frame < frontier_) {
     previous_frame_ = frame;
     return Reject(id, frame, KeyRejection::Why::kTooLate,
-                  "frames before " + Frames(frontier_) + " are frozen");
+                  "frames before " + Frames(frontier_) + " are frozen" + WhyFrozen());
   }
   if (const Key* neighbour = Neighbour(frame, id)) {
     throw InvalidArgument(PathOf(when, field), "frame " + Frames(frame) + " is closer than " +
@@ -154,7 +160,7 @@ std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::s
   }
   if (known->second < frontier_) {
     return Reject(id, known->second, KeyRejection::Why::kFrozen,
-                  "frames before " + Frames(frontier_) + " are frozen");
+                  "frames before " + Frames(frontier_) + " are frozen" + WhyFrozen());
   }
   const int64_t frame = known->second;
   keys_.erase(frame);

@@ -152,6 +152,7 @@ class Timeline {
   int64_t EarliestFrame() const;
   KeyRejection Reject(const std::string& id, int64_t frame, KeyRejection::Why why,
                       std::string reason);
+  std::string WhyFrozen() const;
   std::optional<KeyRejection> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);
   void CutIfChanged();

@@ -154,6 +154,24 @@ TEST(Timeline, LateMessagesAreRejectedWithTheEarliestFrame) {
   EXPECT_EQ(timeline.Remove("b", "remove"), std::nullopt);
 }
 
+// Keys that freeze by themselves surprise who edits: what would have helped is said.
+TEST(Timeline, RejectionsTellWhoNeverGrantedWhatFroze) {
+  for (const bool grants : {false, true}) {
+    Timeline timeline({});
+    if (grants) timeline.GenerateUntil(100);
+    Set(timeline, "a", AtFrame{grants ? 110 : 99});
+    if (grants) timeline.GenerateUntil(111);
+    for (const auto& late : {Set(timeline, "b", AtFrame{50}), Set(timeline, "a", AtFrame{200}),
+                             timeline.Remove("a", "remove")}) {
+      ASSERT_TRUE(late);
+      EXPECT_EQ(
+          late->reason.ends_with("without generate_until each key freezes what lies before it"),
+          !grants)
+          << late->reason;
+    }
+  }
+}
+
 TEST(Timeline, RefusesWhatCanNeverBe) {
   Timeline timeline({.end_frame = 300});
   timeline.GenerateUntil(0);
