@@ -72,9 +72,9 @@ class TransitionCollector {
     } else if (response.has_frames()) {
       Append(FromProto(response.frames(), result_.header.skeleton.joints()));
     } else if (response.has_event()) {
-      const std::optional<Message> event = FromProto(response.event());
-      if (!event) return;
-      if (const auto* warning = std::get_if<Warning>(&*event)) result_.warnings.push_back(*warning);
+      const std::optional<DanceEvent> event = FromProto(response.event());
+      if (const auto* warning = event ? std::get_if<Warning>(&*event) : nullptr)
+        result_.warnings.push_back(*warning);
     } else if (response.has_summary()) {
       complete_ = true;
       for (const v1::Candidate& candidate : response.summary().candidates()) {

@@ -162,10 +162,10 @@ std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& 
     journal_.ForgetMusicBefore(response.continuation().audio_from_sample());
     return FromProto(response.continuation());
   }
-  std::optional<Message> event = FromProto(response.event());
+  const std::optional<DanceEvent> event = FromProto(response.event());
   if (!event || !seen_->Admit(*event)) return std::nullopt;
   if (const auto* reached = std::get_if<KeyReached>(&*event)) keys_.push_back(*reached);
-  return event;
+  return std::visit([](const auto& said) { return Message(said); }, *event);
 }
 
 Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {

@@ -33,17 +33,17 @@ bool Seen::RejectionIsNew(const KeyPlace& place) {
   return true;
 }
 
-bool Seen::Admit(const Message& message) {
-  if (const auto* rejected = std::get_if<KeyRejected>(&message)) {
+bool Seen::Admit(const DanceEvent& event) {
+  if (const auto* rejected = std::get_if<KeyRejected>(&event)) {
     return RejectionIsNew({rejected->id, rejected->frame});
   }
-  if (const auto* reached = std::get_if<KeyReached>(&message)) {
+  if (const auto* reached = std::get_if<KeyReached>(&event)) {
     return reached_.emplace(reached->id, reached->frame).second;
   }
-  if (const auto* warning = std::get_if<Warning>(&message)) {
+  if (const auto* warning = std::get_if<Warning>(&event)) {
     return warnings_.emplace(warning->message, warning->frame).second;
   }
-  if (const auto* beat = std::get_if<Beat>(&message)) {
+  if (const auto* beat = std::get_if<Beat>(&event)) {
     if (beat->time_s <= last_beat_s_) return false;
     last_beat_s_ = beat->time_s;
   }

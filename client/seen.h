@@ -26,8 +26,8 @@ class Seen {
   /// Cuts away the frames that were delivered already; false if none is left. Throws
   /// Error(kInternal) where frames are missing.
   bool Admit(FrameBlock* block);
-  /// False for an event that was delivered already. For messages other than frames.
-  bool Admit(const Message& message);
+  /// False for an event that was delivered already.
+  bool Admit(const DanceEvent& event);
 
  private:
   bool RejectionIsNew(const KeyPlace& place);

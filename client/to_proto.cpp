@@ -7,33 +7,6 @@ namespace choreo::client {
 
 static_assert(std::endian::native == std::endian::little, "PCM is sent as it lies in memory");
 
-v1::Pose ToProto(const Pose& pose) {
-  v1::Pose out;
-  out.mutable_root_position()->set_x(pose.root_position.x());
-  out.mutable_root_position()->set_y(pose.root_position.y());
-  out.mutable_root_position()->set_z(pose.root_position.z());
-  out.mutable_rotations()->Reserve(static_cast<int>(pose.rotations.size()));
-  for (const double value : pose.rotations.reshaped()) {
-    out.add_rotations(static_cast<float>(value));
-  }
-  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
-  return out;
-}
-
-v1::Pose ToProto(const Pose& pose, const PoseMask& mask) {
-  v1::Pose out = ToProto(pose);
-  if (!mask.root_position) out.clear_root_position();
-  return out;
-}
-
-v1::JointMask ToProto(const PoseMask& mask) {
-  v1::JointMask out;
-  for (size_t joint = 0; joint < mask.joints.size(); ++joint) {
-    if (mask.joints[joint]) out.add_joints(static_cast<int>(joint));
-  }
-  return out;
-}
-
 v1::Keyframe ToProto(const KeyPose& key) {
   v1::Keyframe out;
   out.set_id(key.id);
@@ -84,14 +57,6 @@ v1::Controls ToProto(const Controls& controls) {
   if (controls.velocity_factors) {
     *out.mutable_velocity_factors() = ToProto(*controls.velocity_factors);
   }
-  return out;
-}
-
-v1::MusicPassage ToProto(const Passage& passage) {
-  v1::MusicPassage out;
-  out.set_from(passage.from);
-  out.set_to(passage.to);
-  out.set_like(passage.like);
   return out;
 }
 

@@ -14,6 +14,7 @@
 
 #include "choreo/v1/choreography.pb.h"
 #include "model/dance/dance_stream.h"
+#include "proto/wire/convert.h"
 #include "server/caller.h"
 #include "server/outbox.h"
 #include "server/refusal.h"
@@ -144,7 +145,7 @@ class CallSession : public Call {
     v1::Header* header = response.mutable_header();
     header->set_model(model.name);
     header->set_fingerprint(model.fingerprint);
-    FromSkeleton(model.skeleton, header->mutable_skeleton());
+    *header->mutable_skeleton() = wire::ToProto(model.skeleton);
     header->set_seed(config.seed);
     header->set_temperature(config.temperature ? static_cast<double>(*config.temperature)
                                                : model.default_temperature);

@@ -12,6 +12,7 @@
 #include "model/audio/music_id.h"
 #include "model/audio/passages.h"
 #include "model/dance/dance_stream.h"
+#include "proto/wire/convert.h"
 #include "server/call_session.h"
 #include "server/music_file.h"
 #include "server/read_controls.h"
@@ -75,16 +76,16 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
                 std::span<const Contacts> contacts) override {
     CountFrames(poses.size());
     DanceResponse response;
-    FromFrames(first_frame, poses, contacts, encoding_, response.mutable_frames());
+    *response.mutable_frames() = wire::ToProto(first_frame, poses, contacts, encoding_);
     outbox().Send(std::move(response));
   }
 
   void OnEvent(const DanceEvent& event) override {
     if (const auto* key = std::get_if<KeyReached>(&event)) {
-      serving_.tally.key_error_m.Add(key->arrival.raw_error_m);
+      serving_.tally.key_error_m.Add(key->raw_error_m);
     }
     DanceResponse response;
-    FromEvent(event, queue_->model().fps, response.mutable_event());
+    *response.mutable_event() = wire::ToProto(event, queue_->model().fps);
     outbox().Send(std::move(response));
   }
 
@@ -100,7 +101,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     if (report.support) serving_.tally.support.Add(*report.support);
     DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
-    FromReport(report, summary->mutable_report());
+    *summary->mutable_report() = wire::ToProto(report);
     FillTiming(static_cast<double>(report.frames) / queue_->model().fps, summary->mutable_timing());
     outbox().Send(std::move(response));
     End(grpc::Status::OK);

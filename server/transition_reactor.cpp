@@ -12,6 +12,7 @@
 #include "model/audio/passages.h"
 #include "model/dance/transition_group.h"
 #include "model/dance/validation.h"
+#include "proto/wire/convert.h"
 #include "server/call_session.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
@@ -65,14 +66,14 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     CountFrames(poses.size());
     v1::GenerateTransitionResponse response;
     v1::Frames* frames = response.mutable_frames();
-    FromFrames(first_frame, poses, contacts, encoding_, frames);
+    *frames = wire::ToProto(first_frame, poses, contacts, encoding_);
     frames->set_candidate(static_cast<uint32_t>(candidate));
     outbox().Send(std::move(response));
   }
 
-  void OnWarning(const DanceWarning& warning) override {
+  void OnWarning(const Warning& warning) override {
     v1::GenerateTransitionResponse response;
-    FromEvent(warning, queue_->model().fps, response.mutable_event());
+    *response.mutable_event() = wire::ToProto(warning, queue_->model().fps);
     outbox().Send(std::move(response));
   }
 
@@ -83,13 +84,13 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     for (const CandidateReport& report : ranked) {
       v1::Candidate* candidate = summary->add_candidates();
       candidate->set_candidate(static_cast<uint32_t>(report.candidate));
-      FromReport(report.quality, candidate->mutable_report());
+      *candidate->mutable_report() = wire::ToProto(report.quality);
       FromContinuation(report.continuation, queue_->model(), seed_, audio_ ? &*audio_ : nullptr,
                        candidate->mutable_continuation());
       frames += report.quality.frames;
       if (report.quality.support) serving_.tally.support.Add(*report.quality.support);
-      for (const KeyReport& key : report.quality.keys) {
-        serving_.tally.key_error_m.Add(key.arrival.raw_error_m);
+      for (const KeyReached& key : report.quality.keys) {
+        serving_.tally.key_error_m.Add(key.raw_error_m);
       }
     }
     FillTiming(static_cast<double>(frames) / queue_->model().fps, summary->mutable_timing());

@@ -91,7 +91,7 @@ void Desk::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
   for (const client::Warning& fault :
        cli::KeyFaults(keys, house_.model().fps, house_.model().skeleton)) {
     Response response;
-    *response.mutable_dance() = ToProto(fault);
+    *response.mutable_dance() = ToProto(fault, house_.model().fps);
     Answer(call, std::move(response));
   }
 }
@@ -128,6 +128,8 @@ void Desk::ReadDance(uint32_t call, Dancing* dancing) {
             if constexpr (std::is_same_v<std::decay_t<decltype(said)>, client::Resumed>) {
               response.mutable_resumed()->set_reason(said.reason);
               response.mutable_resumed()->set_exact(said.exact);
+            } else if constexpr (requires { DanceEvent(said); }) {
+              *response.mutable_dance() = ToProto(said, house_.model().fps);
             } else {
               *response.mutable_dance() = ToProto(said);
             }

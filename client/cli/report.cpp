@@ -98,6 +98,7 @@ std::string ReportJson(const WrittenDance& dance) {
   json["measured_from"] = report.measured_from;
   json["log_likelihood"] = or_null(report.log_likelihood);
   json["beat_hit_rate"] = or_null(report.beat_hit_rate);
+  json["beat_coverage"] = or_null(report.beat_coverage);
   json["beat_hit_chance"] = or_null(dance.beat_hit_chance);
   json["skate_ratio"] = report.skate_ratio;
   json["support"] = or_null(report.support);
@@ -121,7 +122,8 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key) {
           {"raw_error_m", key.raw_error_m},
           {"correction_m", key.correction_m},
           {"final_error_m", key.final_error_m},
-          {"final_error_deg", key.final_error_deg}};
+          {"final_error_deg", key.final_error_deg},
+          {"max_acceleration", key.max_acceleration}};
 }
 
 nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings) {

@@ -23,8 +23,8 @@ inline constexpr int kFramesASlice = 16;
 
 struct AskedTransition {
   TransitionRequest request;
-  std::string key_id;                  ///< what warnings call its target
-  std::vector<DanceWarning> warnings;  ///< of its controls
+  std::string key_id;             ///< what warnings call its target
+  std::vector<Warning> warnings;  ///< of its controls
 };
 
 /// What a dance that starts so asks of one of its transitions, but for its stage and its beats.

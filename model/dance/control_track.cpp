@@ -82,7 +82,7 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_
 }
 
 void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request,
-                           std::vector<DanceWarning>* warnings) const {
+                           std::vector<Warning>* warnings) const {
   const int frames = request->frames;
   const int64_t first_frame = request->first_frame;
   const std::vector<Pose>& history = request->history;
@@ -130,7 +130,7 @@ void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request
 }
 
 void ControlTrack::WarnOfDistance(const LeadRequest& request,
-                                  std::vector<DanceWarning>* warnings) const {
+                                  std::vector<Warning>* warnings) const {
   const PathCurve* before = CurveAt(request.first_frame - 1, request.first_frame);
   for (size_t i = 0; i < request.curves.size(); before = request.curves[i++]) {
     const PathCurve* curve = request.curves[i];
@@ -163,19 +163,19 @@ void ControlTrack::AskVelocities(TransitionRequest* request) const {
   }
 }
 
-std::optional<DanceWarning> ControlTrack::BehindEnd(int64_t end) const {
+std::optional<Warning> ControlTrack::BehindEnd(int64_t end) const {
   if (paths_.empty() || paths_.back().control.first() < end) return std::nullopt;
   return PathBehindEnd(paths_.back().control.first(), end);
 }
 
-std::optional<DanceWarning> ControlTrack::SpeedsMissed(const QualityReport& report) const {
-  if (!report.part_speeds) return std::nullopt;
+std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) const {
+  if (report.part_speeds.empty()) return std::nullopt;
   std::string misses;
   for (size_t i = 0; i < kBodyParts; ++i) {
     const auto named = [part = static_cast<BodyPart>(i)](const auto& one) {
       return one.control.Names(part);
     };
-    const auto [asked, danced] = (*report.part_speeds)[i];
+    const auto [asked, danced] = report.part_speeds[i];
     const double miss = std::abs(danced - asked);
     if (std::ranges::none_of(velocities_, named) || miss <= kLeastMiss ||
         miss <= kSpeedTolerance * asked)
@@ -184,11 +184,11 @@ std::optional<DanceWarning> ControlTrack::SpeedsMissed(const QualityReport& repo
               Rounded(100 * danced) + " instead of " + Rounded(100 * asked);
   }
   if (misses.empty()) return std::nullopt;
-  return VelocityNotMet(report.first_frame + report.frames - 1, misses);
+  return VelocityNotMet(report.measured_from + report.frames - 1, misses);
 }
 
 void ControlTrack::Ask(const std::string& key_id, TransitionRequest* request,
-                       std::vector<DanceWarning>* warnings) const {
+                       std::vector<Warning>* warnings) const {
   AskPath(key_id, request, warnings);
   AskVelocities(request);
 }

@@ -54,13 +54,13 @@ class ControlTrack {
   /// Fills in the request's controls by its first frame, length, history (at least one pose) and
   /// target, which warnings call `key_id`; `warnings` tell where what is asked contradicts itself.
   void Ask(const std::string& key_id, TransitionRequest* request,
-           std::vector<DanceWarning>* warnings) const;
+           std::vector<Warning>* warnings) const;
 
   /// The path that was set last, if frames before `end` are none of its.
-  std::optional<DanceWarning> BehindEnd(int64_t end) const;
+  std::optional<Warning> BehindEnd(int64_t end) const;
   /// Which of the parts that velocity factors named were 15 % and 1 mm a frame slower or faster
   /// than they asked, over the dance of this report.
-  std::optional<DanceWarning> SpeedsMissed(const QualityReport& report) const;
+  std::optional<Warning> SpeedsMissed(const QualityReport& report) const;
 
  private:
   template <typename Control>
@@ -70,9 +70,9 @@ class ControlTrack {
   };
 
   const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
-  void WarnOfDistance(const LeadRequest& request, std::vector<DanceWarning>* warnings) const;
+  void WarnOfDistance(const LeadRequest& request, std::vector<Warning>* warnings) const;
   void AskPath(const std::string& key_id, TransitionRequest* request,
-               std::vector<DanceWarning>* warnings) const;
+               std::vector<Warning>* warnings) const;
   void AskVelocities(TransitionRequest* request) const;
 
   const ModelInfo* model_;

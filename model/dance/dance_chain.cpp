@@ -20,7 +20,7 @@ constexpr size_t kMostAhead = 1;  // transitions sampled ahead of the one that i
 class DanceChain::Job : public SampleJob {
  public:
   Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked,
-      std::vector<MusicBeat> beats)
+      std::vector<Beat> beats)
       : chain_(std::move(chain)),
         segment_(segment),
         deadline_(chain_->start_time_ + chain_->Seconds(segment.from - chain_->first_frame_)),
@@ -59,8 +59,8 @@ class DanceChain::Job : public SampleJob {
   bool sampled() const { return sampled_; }
   const std::optional<Error>& failure() const { return failure_; }
   const Segment& segment() const { return segment_; }
-  const std::vector<DanceWarning>& warnings() const { return warnings_; }
-  const std::vector<MusicBeat>& beats() const { return beats_; }
+  const std::vector<Warning>& warnings() const { return warnings_; }
+  const std::vector<Beat>& beats() const { return beats_; }
   /// The last tau poses before its first frame.
   const std::vector<Pose>& before() const { return before_; }
   /// Once it is sampled.
@@ -84,8 +84,8 @@ class DanceChain::Job : public SampleJob {
   const double deadline_;
   TransitionRun run_;
   const std::vector<Pose> before_;
-  const std::vector<MusicBeat> beats_;
-  std::vector<DanceWarning> warnings_;
+  const std::vector<Beat> beats_;
+  std::vector<Warning> warnings_;
   bool is_sampled_ = false;  // of the worker's thread
   bool sampled_ = false;
   std::optional<Error> failure_;
@@ -122,7 +122,7 @@ DanceChain::DanceChain(SampleQueue& queue, const DanceConfig& config,
 }
 
 void DanceChain::Begin() {
-  for (const DanceWarning& warning : config_.Warnings(model_, first_frame_)) Post(warning);
+  for (const Warning& warning : config_.Warnings(model_, first_frame_)) Post(warning);
   Change([](Timeline&) {});  // the config may have granted frames
 }
 
@@ -301,7 +301,7 @@ void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
         AskTransition(config_, model_, controls_, recurrence_, audio(), segment, rows_end,
                       before == nullptr ? history_ : before->HistoryBefore(segment.from));
     asked.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
-    std::vector<MusicBeat> beats = beats_.For(segment.from, segment.to);
+    std::vector<Beat> beats = beats_.For(segment.from, segment.to);
     asked.request.beats = beats_.Around(beats, segment.from, segment.to);
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(asked), std::move(beats));
@@ -316,7 +316,7 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
   const TransitionRun& run = job.run();
   const Segment& segment = job.segment();
   if (next_frame_ == segment.from) {
-    for (const DanceWarning& warning : job.warnings()) Post(warning);
+    for (const Warning& warning : job.warnings()) Post(warning);
     history_ = job.before();
     beats_.Begin(job.beats(), segment.from);
     // Who goes on from here may begin a frame later.
@@ -332,11 +332,12 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
       sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
     });
   }
-  for (const MusicBeat& beat : beats_.Of(emitted)) Post(beat);
+  for (const Beat& beat : beats_.Of(emitted)) Post(beat);
   if (next_frame_ == segment.to && run.arrival()) {
-    const Key& key = *segment.key;
-    meter_.AddKey(key.id, *run.arrival());
-    Post(KeyReached{key.id, key.frame, Seconds(key.frame), *run.arrival()});
+    KeyReached reached = *run.arrival();
+    reached.id = segment.key->id;
+    meter_.AddKey(reached);
+    Post(reached);
   }
 }
 

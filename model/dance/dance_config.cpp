@@ -57,8 +57,8 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
 }
 
-std::vector<DanceWarning> DanceStart::Warnings(const ModelInfo& model, int64_t first_frame) const {
-  std::vector<DanceWarning> warnings;
+std::vector<Warning> DanceStart::Warnings(const ModelInfo& model, int64_t first_frame) const {
+  std::vector<Warning> warnings;
   if (ResumesInexactly(model)) warnings.push_back(InexactResume(*continuation, model));
   if (temperature && *temperature > model.max_temperature)
     warnings.push_back(TemperatureTooHigh(first_frame, *temperature, model.max_temperature));

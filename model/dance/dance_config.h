@@ -56,7 +56,7 @@ struct DanceStart {
     return continuation && continuation->fingerprint != model.fingerprint;
   }
   /// What to tell before the first frame, `first_frame`.
-  std::vector<DanceWarning> Warnings(const ModelInfo& model, int64_t first_frame) const;
+  std::vector<Warning> Warnings(const ModelInfo& model, int64_t first_frame) const;
 
   /// Throws Error(kInvalidArgument), and Error(kFailedPrecondition) for a continuation of another
   /// fingerprint. Fields are named as the API names them: "config.history[0]".

@@ -2,28 +2,13 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <variant>
 
 #include "model/core/error.h"
-#include "model/dance/music_beats.h"
-#include "model/dance/quality_report.h"
-#include "model/dance/timeline.h"
 #include "model/dance/transition.h"
-#include "model/dance/warning.h"
+#include "model/messages/dance_event.h"
+#include "model/messages/quality_report.h"
 
 namespace choreo {
-
-/// A key was reached, in the frames delivered just before.
-struct KeyReached {
-  std::string id;
-  int64_t frame = 0;  ///< model rate
-  double time = 0;    ///< seconds, of that frame
-  ArrivalResult arrival;
-};
-
-/// A MusicBeat is told of with the frame that it is in.
-using DanceEvent = std::variant<KeyReached, KeyRejection, DanceWarning, MusicBeat>;
 
 /// Listens to a dance. Calls come one at a time, in order, from a worker thread or from the thread
 /// that sent a message, with no lock of the stream held: they may call the stream (SetPaused,
@@ -34,6 +19,7 @@ class DanceSink {
   /// Output rate; `first_frame` counts output frames from time 0. The spans live for the call.
   virtual void OnFrames(int64_t first_frame, std::span<const Pose> poses,
                         std::span<const Contacts> contacts) = 0;
+  /// A key is reached in the frames delivered just before.
   virtual void OnEvent(const DanceEvent& event) = 0;
   /// At each transition's end, after its frames and events.
   virtual void OnContinuation(const Continuation& continuation) = 0;

@@ -54,7 +54,7 @@ class DanceStream {
   std::string NextMusicBeats() const;
   std::string NextMusicPassages() const;
 
-  /// See Timeline. A key too late is answered by a KeyRejection event. Errors name NextKeyframe().
+  /// See Timeline. A key too late is answered by a KeyRejected event. Errors name NextKeyframe().
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {});
   void RemoveKey(const std::string& id);
@@ -62,7 +62,7 @@ class DanceStream {
   /// none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
   /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
-  /// and told of by a DanceWarning. Errors name the times of NextMusicBeats(); none may come after
+  /// and told of by a Warning. Errors name the times of NextMusicBeats(); none may come after
   /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
   /// As CheckPassages wants them, at least one: from the first of them on they hold in place of

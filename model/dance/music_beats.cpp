@@ -38,9 +38,9 @@ double StepAt(std::span<const double> seconds, size_t i) {
   return step > kPauseSeconds ? 0 : step;
 }
 
-std::vector<double> SecondsOf(std::span<const MusicBeat> beats) {
+std::vector<double> SecondsOf(std::span<const Beat> beats) {
   std::vector<double> seconds;
-  for (const MusicBeat& beat : beats) seconds.push_back(beat.seconds);
+  for (const Beat& beat : beats) seconds.push_back(beat.time_s);
   return seconds;
 }
 
@@ -53,24 +53,24 @@ MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::option
       hears_(audio != nullptr && given.empty()),
       count_(given.size()),
       last_(last) {
-  if (!given.empty()) Replace(given.front(), given, downbeats, MusicBeat::Source::kGiven);
+  if (!given.empty()) Replace(given.front(), given, downbeats, Beat::Source::kGiven);
 }
 
 void MusicBeats::Replace(double begin, std::span<const double> seconds,
-                         std::span<const double> downbeats, MusicBeat::Source source) {
+                         std::span<const double> downbeats, Beat::Source source) {
   const auto at = [&](double time) {
-    return std::ranges::lower_bound(known_, time, {}, &MusicBeat::seconds);
+    return std::ranges::lower_bound(known_, time, {}, &Beat::time_s);
   };
   // A beat that was given a little earlier is the first of these.
   double step = StepAt(seconds, 0);
   if (const auto before = at(begin); step == 0 && before - known_.begin() > 1)
-    step = (before - 1)->seconds - (before - 2)->seconds;
+    step = (before - 1)->time_s - (before - 2)->time_s;
   known_.erase(at(begin - 0.5 * step), known_.end());
   const double first = seconds.front();
   while (!spans_.empty() && spans_.back().begin >= first) spans_.pop_back();
   if (!spans_.empty()) spans_.back().end = std::min(spans_.back().end, first);
   for (const double second : seconds) {
-    MusicBeat& beat = known_.emplace_back(MusicBeat{second, source});
+    Beat& beat = known_.emplace_back(Beat{.time_s = second, .source = source});
     beat.downbeat = std::ranges::binary_search(downbeats, second);
   }
   spans_.push_back({first, seconds.back()});
@@ -79,7 +79,7 @@ void MusicBeats::Replace(double begin, std::span<const double> seconds,
 void MusicBeats::Find(const std::vector<double>& seconds, std::span<const double> downbeats) {
   hears_ = false;
   known_.clear();
-  if (!seconds.empty()) Replace(seconds.front(), seconds, downbeats, MusicBeat::Source::kFound);
+  if (!seconds.empty()) Replace(seconds.front(), seconds, downbeats, Beat::Source::kFound);
 }
 
 int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field,
@@ -98,22 +98,22 @@ int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const st
   return ahead - seconds.begin();
 }
 
-std::vector<MusicBeat> MusicBeats::For(int64_t from, int64_t to) {
+std::vector<Beat> MusicBeats::For(int64_t from, int64_t to) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front()) {
     const Given& given = given_.front();
-    Replace(given.begin, given.seconds, given.downbeats, MusicBeat::Source::kGiven);
+    Replace(given.begin, given.seconds, given.downbeats, Beat::Source::kGiven);
   }
-  std::vector<MusicBeat> beats = known_;
+  std::vector<Beat> beats = known_;
   if (hears_) Predict(from, to, &beats);
   return beats;
 }
 
-std::vector<double> MusicBeats::Around(std::span<const MusicBeat> beats, int64_t from,
+std::vector<double> MusicBeats::Around(std::span<const Beat> beats, int64_t from,
                                        int64_t to) const {
   return BeatsAround(SecondsOf(beats), fps_, from, static_cast<int>(to - from));
 }
 
-void MusicBeats::Begin(std::span<const MusicBeat> beats, int64_t from) {
+void MusicBeats::Begin(std::span<const Beat> beats, int64_t from) {
   const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;
@@ -127,7 +127,7 @@ void MusicBeats::Begin(std::span<const MusicBeat> beats, int64_t from) {
   }
 }
 
-void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const {
+void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) const {
   const Pulse pulse = HearPulse(Onsets(*audio_, from));
   if (!pulse.Certain()) return;
   const auto frames = static_cast<double>(to - from);
@@ -142,20 +142,22 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats
     const bool is_given = std::ranges::any_of(spans_, [=](const Span& span) {
       return second > span.begin - slack && second < span.end + slack;
     });
-    if (!is_given) beats->push_back({second, MusicBeat::Source::kPredicted, pulse.confidence});
+    if (!is_given)
+      beats->push_back(
+          {.time_s = second, .source = Beat::Source::kPredicted, .confidence = pulse.confidence});
   }
-  std::ranges::stable_sort(*beats, {}, &MusicBeat::seconds);
+  std::ranges::stable_sort(*beats, {}, &Beat::time_s);
 }
 
-std::vector<MusicBeat> MusicBeats::Of(int64_t frame) {
-  std::vector<MusicBeat> beats;
-  for (; !ahead_.empty() && ahead_.front().seconds < Seconds(frame + 1); ahead_.pop_front()) {
-    MusicBeat& beat = beats.emplace_back(ahead_.front());
-    if (beat.source == MusicBeat::Source::kPredicted && HasOnset(*audio_, frame))
-      beat.source = MusicBeat::Source::kHeard;
-    beat.frame = std::min<int64_t>(frame, std::llround(beat.seconds * fps_));
-    told_.push_back(beat.seconds);
-    last_ = beat.seconds;
+std::vector<Beat> MusicBeats::Of(int64_t frame) {
+  std::vector<Beat> beats;
+  for (; !ahead_.empty() && ahead_.front().time_s < Seconds(frame + 1); ahead_.pop_front()) {
+    Beat& beat = beats.emplace_back(ahead_.front());
+    if (beat.source == Beat::Source::kPredicted && HasOnset(*audio_, frame))
+      beat.source = Beat::Source::kHeard;
+    beat.frame = std::min<int64_t>(frame, std::llround(beat.time_s * fps_));
+    told_.push_back(beat.time_s);
+    last_ = beat.time_s;
   }
   return beats;
 }

@@ -10,23 +10,9 @@
 
 #include "model/audio/format.h"
 #include "model/dance/audio_feed.h"
+#include "model/messages/dance_event.h"
 
 namespace choreo {
-
-/// A beat of the music that a dance is timed to.
-struct MusicBeat {
-  enum class Source {
-    kGiven,      ///< the client told
-    kFound,      ///< in the whole music
-    kPredicted,  ///< from the music before the transition's first frame
-    kHeard,      ///< predicted, and an onset was there when its frame was danced
-  };
-  double seconds = 0;
-  Source source = Source::kGiven;
-  double confidence = 1;  ///< of the pulse that it was predicted by, 0 to 1; 1 otherwise
-  int64_t frame = 0;      ///< once told: the nearest that had been danced
-  bool downbeat = false;  ///< a bar begins; nobody knows that of predicted ones
-};
 
 /// Where the music of a dance beats. Beats are given or found; where none are, a dance that is
 /// given none beforehand asks the music for its pulse (HearPulse) at the begin of each transition:
@@ -54,17 +40,17 @@ class MusicBeats {
 
   /// All that is known for a transition of the frames [from, to), ascending; transitions are asked
   /// for in order of time, each once. Rows before `from` must be ready.
-  std::vector<MusicBeat> For(int64_t from, int64_t to);
+  std::vector<Beat> For(int64_t from, int64_t to);
   /// Of those the ones that the transition is timed to, as TransitionRequest::beats.
-  std::vector<double> Around(std::span<const MusicBeat> beats, int64_t from, int64_t to) const;
+  std::vector<double> Around(std::span<const Beat> beats, int64_t from, int64_t to) const;
 
   /// The frames of the transition that has these beats come next, from `from` on.
-  void Begin(std::span<const MusicBeat> beats, int64_t from);
+  void Begin(std::span<const Beat> beats, int64_t from);
 
   /// What is told with a frame of that transition whose row is ready; each frame is asked for once,
   /// in order. Every beat is told once, also where two transitions put it on either side of their
   /// boundary; one that each leaves to the other comes with the first frame behind it.
-  std::vector<MusicBeat> Of(int64_t frame);
+  std::vector<Beat> Of(int64_t frame);
 
   /// The last one told, in seconds: all that a dance which is to go on from here has to know.
   const std::optional<double>& last() const { return last_; }
@@ -87,17 +73,17 @@ class MusicBeats {
 
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
   void Replace(double begin, std::span<const double> seconds, std::span<const double> downbeats,
-               MusicBeat::Source source);
-  void Predict(int64_t from, int64_t to, std::vector<MusicBeat>* beats) const;
+               Beat::Source source);
+  void Predict(int64_t from, int64_t to, std::vector<Beat>* beats) const;
 
   double fps_;
   const AudioFeed* audio_;
   bool hears_;
-  std::vector<MusicBeat> known_;  // given or found, for the transition and those behind it
+  std::vector<Beat> known_;  // given or found, for the transition and those behind it
   std::vector<Span> spans_;
-  std::deque<Given> given_;      // not yet in known_
-  size_t count_ = 0;             // of all that was given
-  std::deque<MusicBeat> ahead_;  // of the transition, still to be told
+  std::deque<Given> given_;  // not yet in known_
+  size_t count_ = 0;         // of all that was given
+  std::deque<Beat> ahead_;   // of the transition, still to be told
   std::optional<double> last_;
   std::vector<double> told_;
 };

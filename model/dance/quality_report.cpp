@@ -68,22 +68,23 @@ void QualityMeter::AddSpeeds(const std::array<float, kBodyParts>& asked,
   ++speed_frames_;
 }
 
-void QualityMeter::AddKey(std::string id, const ArrivalResult& arrival) {
-  keys_.push_back({std::move(id), first_frame_ + frames_ - 1, arrival, 0});
+void QualityMeter::AddKey(KeyReached key) {
+  key.frame = first_frame_ + frames_ - 1;
+  keys_.push_back(std::move(key));
 }
 
 QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
   QualityReport report;
-  report.first_frame = first_frame_;
+  report.measured_from = first_frame_;
   report.frames = frames_;
   report.keys = keys_;
   if (frames_ > 0 && log_likelihood_sum_)
-    report.mean_log_likelihood = *log_likelihood_sum_ / static_cast<double>(frames_);
+    report.log_likelihood = *log_likelihood_sum_ / static_cast<double>(frames_);
   if (!speed_.empty()) {
     report.skate_ratio = static_cast<double>(skating_steps_) / static_cast<double>(speed_.size());
   }
   if (support_) report.support = support_->Share();
-  for (KeyReport& key : report.keys) {
+  for (KeyReached& key : report.keys) {
     // acceleration_[i] is that of frame i + 1.
     const int64_t middle = key.frame - first_frame_ - 1;
     const int64_t last = static_cast<int64_t>(acceleration_.size()) - 1;
@@ -101,8 +102,8 @@ QualityReport QualityMeter::Report(std::span<const double> music_beats) const {
 
   if (speed_frames_ > 0) {
     const auto frames = static_cast<double>(speed_frames_);
-    report.part_speeds = speed_sums_;
-    for (PartSpeed& part : *report.part_speeds) part.asked /= frames, part.danced /= frames;
+    report.part_speeds = {speed_sums_.begin(), speed_sums_.end()};
+    for (PartSpeed& part : report.part_speeds) part.asked /= frames, part.danced /= frames;
   }
 
   std::vector<double> beats;

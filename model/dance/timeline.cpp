@@ -82,10 +82,10 @@ int64_t Timeline::EarliestFrame() const {
   return frame;
 }
 
-KeyRejection Timeline::Reject(const std::string& id, int64_t frame, KeyRejection::Why why,
-                              std::string reason) {
+KeyRejected Timeline::Reject(const std::string& id, int64_t frame, KeyRejected::Code code,
+                             std::string reason) {
   if (!frame_of_.contains(id) && rejected_.size() < kMaxKeys) rejected_[id] = frame;
-  return {id, frame, EarliestFrame(), why, std::move(reason)};
+  return {id, frame, EarliestFrame(), std::move(reason), code};
 }
 
 // Who edits, and did not say so, hears what would have helped.
@@ -93,15 +93,16 @@ std::string Timeline::WhyFrozen() const {
   return explicit_grants_ ? "" : ": without generate_until each key freezes what lies before it";
 }
 
-std::optional<KeyRejection> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
+std::optional<KeyRejected> Timeline::BeforeTheDance(const std::string& id, int64_t frame) const {
   if (frame >= options_.first_frame) return std::nullopt;
-  return KeyRejection{id, frame, EarliestFrame(), KeyRejection::Why::kAlreadyDanced,
-                      "the dance goes on from frame " + Frames(options_.first_frame)};
+  return KeyRejected{id, frame, EarliestFrame(),
+                     "the dance goes on from frame " + Frames(options_.first_frame),
+                     KeyRejected::Code::kAlreadyDanced};
 }
 
-std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment& when,
-                                          const Pose& pose, const PoseMask& mask,
-                                          const std::string& field) {
+std::optional<KeyRejected> Timeline::Set(const std::string& id, const KeyMoment& when,
+                                         const Pose& pose, const PoseMask& mask,
+                                         const std::string& field) {
   CheckOpen(field);
   ValidateKeyId(id, field + ".id");
   const int64_t frame = Resolve(when, field);
@@ -120,12 +121,12 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
   if (known != frame_of_.end() && known->second < frontier_) {
     previous_frame_ = frame;
     return Reject(
-        id, frame, KeyRejection::Why::kFrozen,
+        id, frame, KeyRejected::Code::kFrozen,
         "key \"" + id + "\" stands in frozen frames, at " + Frames(known->second) + WhyFrozen());
   }
   if (frame < frontier_) {
     previous_frame_ = frame;
-    return Reject(id, frame, KeyRejection::Why::kTooLate,
+    return Reject(id, frame, KeyRejected::Code::kTooLate,
                   "frames before " + Frames(frontier_) + " are frozen" + WhyFrozen());
   }
   if (const Key* neighbour = Neighbour(frame, id)) {
@@ -147,7 +148,7 @@ std::optional<KeyRejection> Timeline::Set(const std::string& id, const KeyMoment
   return BeforeTheDance(id, frame);
 }
 
-std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::string& field) {
+std::optional<KeyRejected> Timeline::Remove(const std::string& id, const std::string& field) {
   CheckOpen(field);
   const auto known = frame_of_.find(id);
   if (known == frame_of_.end()) {
@@ -155,11 +156,11 @@ std::optional<KeyRejection> Timeline::Remove(const std::string& id, const std::s
     if (rejected == rejected_.end()) {
       throw Error(ErrorCode::kNotFound, field + ".id", "there is no key \"" + id + '"');
     }
-    return Reject(id, rejected->second, KeyRejection::Why::kRejectedBefore,
+    return Reject(id, rejected->second, KeyRejected::Code::kRejectedBefore,
                   "key \"" + id + "\" was rejected before");
   }
   if (known->second < frontier_) {
-    return Reject(id, known->second, KeyRejection::Why::kFrozen,
+    return Reject(id, known->second, KeyRejected::Code::kFrozen,
                   "frames before " + Frames(frontier_) + " are frozen" + WhyFrozen());
   }
   const int64_t frame = known->second;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/core/limits.h"
+#include "model/messages/dance_event.h"
 #include "model/motion/motion.h"
 
 /// Keys on the grid of the model's frames, and how they cut a dance into transitions.
@@ -38,22 +39,6 @@ struct Key {
   Pose pose;
   PoseMask mask;
   bool operator==(const Key& other) const;
-};
-
-/// A message about a key came too late: the frames that it would change are frozen. Nothing
-/// changed.
-struct KeyRejection {
-  enum class Why {
-    kTooLate,         ///< the frame asked for is frozen
-    kFrozen,          ///< the key of this id stands in frozen frames
-    kRejectedBefore,  ///< of a removal: the key was rejected when it came
-    kAlreadyDanced,   ///< the dance goes on from a continuation behind the frame
-  };
-  std::string id;
-  int64_t frame = 0;           ///< asked for; of a removal, where the key stands
-  int64_t earliest_frame = 0;  ///< first frame that a new key could have now
-  Why why = Why::kTooLate;
-  std::string reason;
 };
 
 /// One transition to dance: frames [from, to). With a key, its frame is to - 1. Of these, the
@@ -97,12 +82,12 @@ class Timeline {
   /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame that
   /// another id has, one closer than kMinKeyDistance to another key, for more than kMaxKeys, and
   /// after Complete. The pose is taken as it is: see validation.h.
-  std::optional<KeyRejection> Set(const std::string& id, const KeyMoment& when, const Pose& pose,
-                                  const PoseMask& mask, const std::string& field);
+  std::optional<KeyRejected> Set(const std::string& id, const KeyMoment& when, const Pose& pose,
+                                 const PoseMask& mask, const std::string& field);
 
   /// Throws Error(kNotFound) for an id that is not on the timeline, Error(kInvalidArgument) after
   /// Complete.
-  std::optional<KeyRejection> Remove(const std::string& id, const std::string& field);
+  std::optional<KeyRejected> Remove(const std::string& id, const std::string& field);
 
   /// Where what is said now holds from: the frontier. Throws Error(kInvalidArgument) after
   /// Complete, when all is frozen.
@@ -150,10 +135,10 @@ class Timeline {
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
   // First frame that a new key could have now.
   int64_t EarliestFrame() const;
-  KeyRejection Reject(const std::string& id, int64_t frame, KeyRejection::Why why,
+  KeyRejected Reject(const std::string& id, int64_t frame, KeyRejected::Code why,
                       std::string reason);
   std::string WhyFrozen() const;
-  std::optional<KeyRejection> BeforeTheDance(const std::string& id, int64_t frame) const;
+  std::optional<KeyRejected> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);
   void CutIfChanged();
   Segment From(int64_t frame) const;

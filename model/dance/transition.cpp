@@ -211,7 +211,11 @@ void TransitionRun::TellArrival() {
   const PoseError raw =
       ComparePoses(model_->skeleton, drawn_.poses.back(), spec_.target->pose, mask);
   const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
-  arrival_result_ = ArrivalResult{raw.position_m, final.position_m, final.angle_deg, correction_m_};
+  arrival_result_ = KeyReached{.frame = spec_.first_frame + spec_.frames - 1,
+                               .raw_error_m = raw.position_m,
+                               .final_error_m = final.position_m,
+                               .final_error_deg = final.angle_deg,
+                               .correction_m = correction_m_};
 }
 
 Eigen::Vector3d TransitionRun::StageAfter(size_t frames) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/engine/sampler.h"
+#include "model/messages/dance_event.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
@@ -35,18 +36,6 @@ struct DanceFrame {
   std::optional<float> log_likelihood = {};  ///< nats; none where the model has no exact one
   /// What velocity factors ask of this frame, by BodyPart, metres a frame; none: nothing.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
-};
-
-/// How a transition met its key. Distances over all joints (see ComparePoses), outside the mask
-/// nothing counts.
-struct ArrivalResult {
-  /// Of the model's own frame at the key. It was made after frames that arrival had already steered
-  /// towards the key, so an unsteered dance would miss the key by more.
-  double raw_error_m = 0;
-  double final_error_m = 0;  ///< of the emitted frame at the key
-  double final_error_deg = 0;
-  /// Furthest that arrival moved a joint away from the model's frame, over its whole window.
-  double correction_m = 0;
 };
 
 /// The end of a transition: all that a server elsewhere needs to go on with the dance.
@@ -90,8 +79,8 @@ class TransitionRun {
 
   /// All of them, once Continue has returned false.
   const std::vector<DanceFrame>& frames() const { return frames_; }
-  /// After the last frame of a transition with a target.
-  const std::optional<ArrivalResult>& arrival() const { return arrival_result_; }
+  /// After the last frame of a transition with a target; its id is for the caller to say.
+  const std::optional<KeyReached>& arrival() const { return arrival_result_; }
   /// TransitionRequest::stage of who goes on behind so many of the frames: a path, and a key that
   /// says where the root is, move it there.
   Eigen::Vector3d StageAfter(size_t frames) const;
@@ -120,7 +109,7 @@ class TransitionRun {
   std::vector<Pose> plan_;  // canonical, steered; those of frames_ stand on their feet
   Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset
   std::vector<DanceFrame> frames_;
-  std::optional<ArrivalResult> arrival_result_;
+  std::optional<KeyReached> arrival_result_;
   double correction_m_ = 0;
 };
 

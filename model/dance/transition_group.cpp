@@ -20,9 +20,9 @@ void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by) {
   constexpr double kSupportStep = 0.05;  // three frames of two seconds
   std::ranges::sort(candidates, {}, [by](const CandidateReport& report) {
     const QualityReport& quality = report.quality;
-    const double unlikely = -quality.mean_log_likelihood.value_or(0);
+    const double unlikely = -quality.log_likelihood.value_or(0);
     if (by == RankBy::kLikelihood) return std::tuple(0.0, 0.0, 0.0, unlikely, report.candidate);
-    const double steered = quality.keys.empty() ? 0 : quality.keys.front().arrival.correction_m;
+    const double steered = quality.keys.empty() ? 0 : quality.keys.front().correction_m;
     const double unsupported = 1 - quality.support.value_or(1);
     return std::tuple(std::floor(steered / kSteeredStep), std::floor(unsupported / kSupportStep),
                       std::floor(quality.skate_ratio / kSkateStep), unlikely, report.candidate);
@@ -40,7 +40,7 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
  private:
   class Job;
 
-  void Warn(const DanceWarning& warning) {
+  void Warn(const Warning& warning) {
     mailbox_.Post([warning](GroupSink& sink) { sink.OnWarning(warning); });
   }
 
@@ -121,7 +121,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
     meter_.Add(frame);
     MoveOn(frame.pose, &history_);
     const bool is_last = handed_out_ == frames();
-    if (is_last && run_->arrival()) meter_.AddKey(group_->request_.target_id, *run_->arrival());
+    if (is_last && run_->arrival()) {
+      KeyReached reached = *run_->arrival();
+      reached.id = group_->request_.target_id;
+      meter_.AddKey(std::move(reached));
+    }
     OutputFrames output = output_.Push(frame);
     if (!output.poses.empty()) {
       group_->mailbox_.Post([candidate = Number(), output = std::move(output)](GroupSink& sink) {
@@ -206,8 +210,8 @@ void TransitionGroup::Impl::Begin() {
   // All candidates ask for the same: what is wrong with it, or worth a warning, the first one says.
   std::optional<TransitionRun> run(std::in_place, model_, transition);
   WarnOfSpeed(model_, *run, &asked);
-  for (const DanceWarning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
-  for (const DanceWarning& warning : asked.warnings) Warn(warning);
+  for (const Warning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
+  for (const Warning& warning : asked.warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
     transition.candidate = static_cast<uint32_t>(candidate);

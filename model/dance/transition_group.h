@@ -26,14 +26,14 @@ class GroupSink {
   virtual ~GroupSink() = default;
   virtual void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
                         std::span<const Contacts> contacts) = 0;
-  virtual void OnWarning(const DanceWarning& warning) = 0;
+  virtual void OnWarning(const Warning& warning) = 0;
   /// Last: the candidates, best first.
   virtual void OnDone(std::span<const CandidateReport> ranked) = 0;
   /// Last, instead.
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Best first. By quality: how far arrival steered it (ArrivalResult::correction_m, which a miss of
+/// Best first. By quality: how far arrival steered it (KeyReached::correction_m, which a miss of
 /// the key is part of) in steps of 1 cm, then the share of frames without support in steps of 5 %,
 /// then skate ratio in steps of 1 %, then likelihood, of models that have one, then the candidate's
 /// number. Without a target nothing is steered. By likelihood: that alone (it favours calm motion),

@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
-                              int64_t frames, const RequiredSpeed& speed) {
+Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
+                         int64_t frames, const RequiredSpeed& speed) {
   std::string message =
       "the way to key \"" + id + "\" in " + std::to_string(frames) + " frames asks for ";
   if (speed.root_m_per_s > RequiredSpeed::kRootLimit) {
@@ -18,69 +18,78 @@ DanceWarning IntervalTooShort(const Skeleton& skeleton, const std::string& id, i
                skeleton.joint_names[static_cast<size_t>(speed.joint)] + "; people reach " +
                Rounded(RequiredSpeed::kJointLimit);
   }
-  return {DanceWarning::Kind::kIntervalTooShort, first_frame + frames - 1, std::move(message)};
+  return {first_frame + frames - 1, std::move(message), Warning::Code::kIntervalTooShort};
 }
 
-DanceWarning InexactResume(const Continuation& continuation, const ModelInfo& model) {
-  return {DanceWarning::Kind::kInexactResume, continuation.frame,
+Warning InexactResume(const Continuation& continuation, const ModelInfo& model) {
+  return {continuation.frame,
           "the continuation is of \"" + continuation.fingerprint + "\", this server is \"" +
-              model.fingerprint + "\": the dance goes on differently"};
+              model.fingerprint + "\": the dance goes on differently",
+          Warning::Code::kInexactResume};
 }
 
-DanceWarning TemperatureTooHigh(int64_t frame, double asked, double most) {
-  return {DanceWarning::Kind::kTemperatureTooHigh, frame,
+Warning TemperatureTooHigh(int64_t frame, double asked, double most) {
+  return {frame,
           "temperature " + RoundedBeyond(asked, most) + " is beyond " + Rounded(most) +
-              ", the most that the model is trained for: it dances as at " + Rounded(most)};
+              ", the most that the model is trained for: it dances as at " + Rounded(most),
+          Warning::Code::kTemperatureTooHigh};
 }
 
-DanceWarning PathTooFast(int64_t frame, double m_per_s) {
-  return {DanceWarning::Kind::kPathTooFast, frame,
+Warning PathTooFast(int64_t frame, double m_per_s) {
+  return {frame,
           "the root path asks for " + RoundedBeyond(m_per_s, RequiredSpeed::kRootLimit) +
-              " m/s; people reach " + Rounded(RequiredSpeed::kRootLimit)};
+              " m/s; people reach " + Rounded(RequiredSpeed::kRootLimit),
+          Warning::Code::kPathTooFast};
 }
 
-DanceWarning KeyOffPath(const std::string& id, int64_t frame, double metres) {
-  return {DanceWarning::Kind::kKeyOffPath, frame,
-          "key \"" + id + "\" lies " + Rounded(metres) + " m off the root path; the key wins"};
+Warning KeyOffPath(const std::string& id, int64_t frame, double metres) {
+  return {frame,
+          "key \"" + id + "\" lies " + Rounded(metres) + " m off the root path; the key wins",
+          Warning::Code::kKeyOffPath};
 }
 
-DanceWarning ControlsTooLate(int64_t last_frame, int64_t earliest) {
-  return {DanceWarning::Kind::kControlsTooLate, last_frame,
+Warning ControlsTooLate(int64_t last_frame, int64_t earliest) {
+  return {last_frame,
           "the root path ends at frame " + std::to_string(last_frame) + ", and frames before " +
-              std::to_string(earliest) + " are frozen: nothing comes of it"};
+              std::to_string(earliest) + " are frozen: nothing comes of it",
+          Warning::Code::kControlsTooLate};
 }
 
-DanceWarning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest) {
-  return {DanceWarning::Kind::kBeatsTooLate, frame,
+Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest) {
+  return {frame,
           std::to_string(count) + " beats from frame " + std::to_string(frame) +
               " on came too late, frames before " + std::to_string(earliest) +
-              " are frozen: nothing comes of them"};
+              " are frozen: nothing comes of them",
+          Warning::Code::kBeatsTooLate};
 }
 
-DanceWarning PathBehindEnd(int64_t first_frame, int64_t end) {
-  return {DanceWarning::Kind::kPathBehindEnd, first_frame,
+Warning PathBehindEnd(int64_t first_frame, int64_t end) {
+  return {first_frame,
           "the root path begins at frame " + std::to_string(first_frame) +
-              ", and the last frame is " + std::to_string(end - 1) + ": nothing comes of it"};
+              ", and the last frame is " + std::to_string(end - 1) + ": nothing comes of it",
+          Warning::Code::kPathBehindEnd};
 }
 
-DanceWarning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height) {
-  return {DanceWarning::Kind::kKeyOffHeight, frame,
+Warning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height) {
+  return {frame,
           "key \"" + id + "\" stands on the floor with its root at " + Rounded(standing) +
               " m, the root path has " + Rounded(height) + " m: it is " +
               Rounded(std::abs(height - standing)) +
-              (height > standing ? " m in the air" : " m too low for its feet") +
-              "; the path wins"};
+              (height > standing ? " m in the air" : " m too low for its feet") + "; the path wins",
+          Warning::Code::kKeyOffHeight};
 }
 
-DanceWarning PathAway(int64_t frame, double metres) {
-  return {DanceWarning::Kind::kPathAway, frame,
+Warning PathAway(int64_t frame, double metres) {
+  return {frame,
           "the root path is " + Rounded(metres) + " m from the dancer at frame " +
-              std::to_string(frame) + ": the root is led there first"};
+              std::to_string(frame) + ": the root is led there first",
+          Warning::Code::kPathAway};
 }
 
-DanceWarning VelocityNotMet(int64_t last_frame, const std::string& misses) {
-  return {DanceWarning::Kind::kVelocityNotMet, last_frame,
-          "parts are not as fast as their velocity factors ask, cm a frame on average: " + misses};
+Warning VelocityNotMet(int64_t last_frame, const std::string& misses) {
+  return {last_frame,
+          "parts are not as fast as their velocity factors ask, cm a frame on average: " + misses,
+          Warning::Code::kVelocityNotMet};
 }
 
 }  // namespace choreo

@@ -73,7 +73,7 @@ void ControlCourse::Redraw(const Draw& draw) {
     ControlTrack track(model_);
     track.Set(asked, 0, "path");
     TransitionRequest request = RequestFor(i);
-    std::vector<DanceWarning> warnings;
+    std::vector<Warning> warnings;
     track.Ask("key", &request, &warnings);
     windows_[i].path = request.controls.root_path;
     windows_[i].factors.resize(kBodyParts, 0);

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "model/audio/format.h"
 #include "model/audio/music_id.h"
 #include "model/dance/dance_stream.h"
 #include "model/motion/rotation.h"

@@ -75,7 +75,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   std::vector<double> away, heights;
   for (size_t t = 0; t < poses.size(); ++t) {
     meter.Add({.pose = poses[t]});
-    if (std::ranges::binary_search(key_frames, static_cast<int>(t))) meter.AddKey("", {});
+    if (std::ranges::binary_search(key_frames, static_cast<int>(t))) meter.AddKey({});
     const Eigen::Vector3d& root = poses[t].root_position;
     away.push_back(std::hypot(root.x() - start.x(), root.z() - start.z()));
     heights.push_back(root.y());
@@ -95,7 +95,7 @@ LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Po
   const QualityReport report = meter.Report();
   figures.skate_ratio = report.skate_ratio;
   figures.p95_acceleration = report.p95_acceleration;
-  for (const KeyReport& one : report.keys)
+  for (const KeyReached& one : report.keys)
     figures.key_accelerations.push_back(static_cast<float>(one.max_acceleration));
   const JointTrack track = TrackJoints(skeleton, poses);
   figures.snaps = CountSnaps(skeleton, fps, track);

@@ -21,15 +21,15 @@ using ::testing::IsEmpty;
 
 const Includes& House() {
   static const Includes includes(CHOREO_SOURCE_DIR,
-                                 {"model", "tls", "server", "client", "studio", "bench"});
+                                 {"model", "tls", "proto", "server", "client", "studio", "bench"});
   return includes;
 }
 
-// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; the papers' room has
-// rooms of its own.
+// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; the papers' room and
+// proto/ have rooms of their own.
 std::string RoomOf(const std::string& path) {
   size_t inner = 0;
-  for (const char* deep : {"model/papers/", "model/"}) {
+  for (const char* deep : {"model/papers/", "model/", "proto/"}) {
     if (inner == 0 && path.starts_with(deep)) inner = std::string_view(deep).size();
   }
   const size_t end = path.find('/', inner);
@@ -44,9 +44,10 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
                       draw = "model/draw", flow = "model/flow", plan = "model/plan",
                       engine = "model/engine", networks = "model/papers/networks",
                       paper_samplers = "model/papers/samplers", samplers = "model/samplers",
-                      dance = "model/dance", training = "model/training",
-                      paper_training = "model/papers/training", metrics = "model/metrics",
-                      evaluation = "model/evaluation", tables = "model/papers/tables";
+                      messages = "model/messages", dance = "model/dance", wire = "proto/wire",
+                      training = "model/training", paper_training = "model/papers/training",
+                      metrics = "model/metrics", evaluation = "model/evaluation",
+                      tables = "model/papers/tables";
     return std::vector<std::pair<std::string, std::set<std::string>>>{
         {core, {}},
         {audio, {core}},
@@ -61,7 +62,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {networks, {core, motion, flow}},
         {paper_samplers, {core, motion, fit, flow, engine, networks}},
         {samplers, {core, flow, engine, paper_samplers}},
-        {dance, {core, audio, motion, plan, engine}},
+        {messages, {core, motion}},
+        {dance, {core, audio, motion, plan, engine, messages}},
         {training, {core, audio, motion, fit, formats, draw, flow}},
         {paper_training, {core, audio, motion, flow, networks, training}},
         {metrics, {core, audio, motion}},
@@ -70,10 +72,13 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {"model/lab",
          {core, audio, engine, samplers, training, paper_training, evaluation, tables}},
         {"tls", {core}},
-        {"server", {core, audio, motion, engine, samplers, dance, "tls", "choreo", "google"}},
+        {wire, {core, motion, messages, "choreo"}},
+        {"server",
+         {core, audio, motion, engine, samplers, messages, dance, "tls", wire, "choreo", "google"}},
         {"client",
-         {core, audio, motion, fit, body, formats, draw, "tls", "choreo", "google", "grpc"}},
-        {"studio", {core, audio, motion, formats, "client", "choreo"}},
+         {core, audio, motion, fit, body, formats, draw, messages, "tls", wire, "choreo", "google",
+          "grpc"}},
+        {"studio", {core, audio, motion, formats, messages, wire, "client", "choreo"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, networks, paper_samplers, samplers, dance,
           metrics, "server", "client", "choreo"}},

@@ -29,12 +29,12 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   const nlohmann::json report = ReadJson(folder_ / "report.json");
   std::vector<std::string> members;
   for (const auto& [member, value] : report.items()) members.push_back(member);
-  EXPECT_THAT(members,
-              testing::UnorderedElementsAre(
-                  "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
-                  "keyframes", "warnings", "measured_from", "log_likelihood", "beat_hit_rate",
-                  "beat_hit_chance", "skate_ratio", "support", "max_key_acceleration",
-                  "p95_acceleration", "first_frame_latency_s", "real_time_factor"));
+  EXPECT_THAT(members, testing::UnorderedElementsAre(
+                           "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
+                           "keyframes", "warnings", "measured_from", "log_likelihood",
+                           "beat_hit_rate", "beat_hit_chance", "beat_coverage", "skate_ratio",
+                           "support", "max_key_acceleration", "p95_acceleration",
+                           "first_frame_latency_s", "real_time_factor"));
   EXPECT_EQ(report["frames"], 300);
   EXPECT_EQ(report["seed"], 3);
   EXPECT_EQ(report["fingerprint"], "fake-1");
@@ -42,12 +42,14 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   EXPECT_GT(report["max_key_acceleration"].get<double>(), 0);
   // A beat about every 15 frames, but for the song's ends; four or five frames are near each.
   EXPECT_GT(report["beat_hit_chance"].get<double>(), 0.2);
+  EXPECT_GT(report["beat_coverage"].get<double>(), 0);
   EXPECT_LE(report["beat_hit_chance"].get<double>(), 5.0 / 15);
   EXPECT_THAT(outcome.said, HasSubstr("measured in the file"));
   ASSERT_GE(report["keyframes"].size(), 4U);
   for (const auto& key : report["keyframes"]) {
     EXPECT_LE(key["final_error_m"].get<double>(), 0.001);
     EXPECT_LE(key["final_error_deg"].get<double>(), 0.1);
+    EXPECT_GT(key["max_acceleration"].get<double>(), 0);
     EXPECT_GT(key["raw_error_m"].get<double>(), 0);
     EXPECT_GT(key["correction_m"].get<double>(), 0);
     EXPECT_EQ(key["output_frame"], key["frame"]);

@@ -42,18 +42,18 @@ TEST(SeenTest, NoticesMissingFrames) {
 TEST(SeenTest, TellsKeysBeatsAndWarningsOnce) {
   Seen seen(0);
   for (const bool is_new : {true, false}) {
-    EXPECT_EQ(seen.Admit(Message(KeyReached{.id = "a", .frame = 30})), is_new);
-    EXPECT_EQ(seen.Admit(Message(Beat{.frame = 12, .time_s = 0.4})), is_new);
-    EXPECT_EQ(seen.Admit(Message(Warning{.frame = 3, .message = "short"})), is_new);
+    EXPECT_EQ(seen.Admit(DanceEvent(KeyReached{.id = "a", .frame = 30})), is_new);
+    EXPECT_EQ(seen.Admit(DanceEvent(Beat{.frame = 12, .time_s = 0.4})), is_new);
+    EXPECT_EQ(seen.Admit(DanceEvent(Warning{.frame = 3, .message = "short"})), is_new);
   }
-  EXPECT_TRUE(seen.Admit(Message(KeyReached{.id = "a", .frame = 60})));
-  EXPECT_TRUE(seen.Admit(Message(Beat{.frame = 13, .time_s = 0.43})));
-  EXPECT_TRUE(seen.Admit(Message(Beat{.frame = 13, .time_s = 0.44})));  // of who gives them so
+  EXPECT_TRUE(seen.Admit(DanceEvent(KeyReached{.id = "a", .frame = 60})));
+  EXPECT_TRUE(seen.Admit(DanceEvent(Beat{.frame = 13, .time_s = 0.43})));
+  EXPECT_TRUE(seen.Admit(DanceEvent(Beat{.frame = 13, .time_s = 0.44})));  // of who gives them so
 }
 
 TEST(SeenTest, HidesTheRejectionsThatAResumptionBringsAboutAndNoOthers) {
   const auto rejected = [](const std::string& id, int64_t frame) {
-    return Message(KeyRejected{.id = id, .frame = frame, .earliest_frame = 90, .reason = ""});
+    return DanceEvent(KeyRejected{.id = id, .frame = frame, .earliest_frame = 90, .reason = ""});
   };
   Seen seen(0);
   EXPECT_TRUE(seen.Admit(rejected("late", 80)));

@@ -29,7 +29,7 @@ class ControlTrackTest : public testing::Test {
 
   struct Asked {
     Controls controls;
-    std::vector<DanceWarning> warnings;
+    std::vector<Warning> warnings;
   };
   Asked For(int64_t first_frame, int frames) const {
     TransitionRequest request;
@@ -37,7 +37,7 @@ class ControlTrackTest : public testing::Test {
     request.frames = frames;
     request.history = {here_};
     request.target = target_;
-    std::vector<DanceWarning> warnings;
+    std::vector<Warning> warnings;
     track_.Ask("landing", &request, &warnings);
     return {request.controls, warnings};
   }
@@ -93,9 +93,9 @@ TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
   track_.Set(Way({0, 300}, {0.4, 3}), 0, "controls");
   EXPECT_TRUE(For(0, 60).warnings.empty()) << "a step aside";
   track_.Set(Way({30, 300}, {5, 7}), 0, "controls");
-  const std::vector<DanceWarning> warnings = For(0, 200).warnings;
+  const std::vector<Warning> warnings = For(0, 200).warnings;
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].kind, DanceWarning::Kind::kPathAway);
+  EXPECT_EQ(warnings[0].code, Warning::Code::kPathAway);
   EXPECT_EQ(warnings[0].frame, 30);
   EXPECT_EQ(warnings[0].message,
             "the root path is 4.34 m from the dancer at frame 30: the root is led there first");
@@ -106,10 +106,10 @@ TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
 
 TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
   QualityReport report;
-  report.first_frame = 10;
+  report.measured_from = 10;
   report.frames = 90;
   EXPECT_FALSE(track_.SpeedsMissed(report)) << "nothing was asked";
-  report.part_speeds = {{{0.02, 0.01}, {0.02, 0.0222}, {0.01, 0.0118}, {0, 0.002}, {0, 0.0009}}};
+  report.part_speeds = {{0.02, 0.01}, {0.02, 0.0222}, {0.01, 0.0118}, {0, 0.002}, {0, 0.0009}};
   VelocityRequest velocity;
   velocity.values = {1};
   velocity.parts = {BodyPart::kLeftArm};
@@ -119,7 +119,7 @@ TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
   track_.Set(Velocity(velocity), 0, "controls");
   const auto warning = track_.SpeedsMissed(report);
   ASSERT_TRUE(warning);
-  EXPECT_EQ(warning->kind, DanceWarning::Kind::kVelocityNotMet);
+  EXPECT_EQ(warning->code, Warning::Code::kVelocityNotMet);
   EXPECT_EQ(warning->frame, 99);
   EXPECT_EQ(warning->message,
             "parts are not as fast as their velocity factors ask, cm a frame on average: trunk 1 "
@@ -169,9 +169,9 @@ TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
     return For(0, 90).warnings;
   };
   EXPECT_TRUE(told(standing_ + 0.04).empty());
-  const std::vector<DanceWarning> above = told(1.3), below = told(0.7);
+  const std::vector<Warning> above = told(1.3), below = told(0.7);
   ASSERT_EQ(above.size(), 1u);
-  EXPECT_EQ(above[0].kind, DanceWarning::Kind::kKeyOffHeight);
+  EXPECT_EQ(above[0].code, Warning::Code::kKeyOffHeight);
   EXPECT_EQ(above[0].frame, 89);
   EXPECT_EQ(above[0].message,
             "key \"landing\" stands on the floor with its root at 0.98 m, the root path has 1.3 m: "
@@ -181,7 +181,7 @@ TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
   // One that states where its root is wins instead; of one whose legs are open nothing is known.
   target_->mask.root_position = true;
   ASSERT_EQ(told(1.3).size(), 1u);
-  EXPECT_EQ(told(1.3)[0].kind, DanceWarning::Kind::kKeyOffPath);
+  EXPECT_EQ(told(1.3)[0].code, Warning::Code::kKeyOffPath);
   target_->mask.root_position = false;
   target_->mask.joints.assign(24, false);
   target_->mask.joints[static_cast<size_t>(sampler_.model().skeleton.left_elbow)] = true;
@@ -210,7 +210,7 @@ TEST_F(ControlTrackTest, NamesAPathThatBeginsBehindTheEnd) {
   EXPECT_FALSE(track_.BehindEnd(101));
   const auto warning = track_.BehindEnd(100);
   ASSERT_TRUE(warning);
-  EXPECT_EQ(warning->kind, DanceWarning::Kind::kPathBehindEnd);
+  EXPECT_EQ(warning->code, Warning::Code::kPathBehindEnd);
   EXPECT_EQ(warning->message,
             "the root path begins at frame 100, and the last frame is 99: nothing comes of it");
   track_.Set(Way({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
@@ -223,7 +223,7 @@ TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   const Asked asked = For(0, 90);
   EXPECT_NEAR(asked.controls.root_path(0, 89), 1.09, 1e-9);
   ASSERT_EQ(asked.warnings.size(), 1u);
-  EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
+  EXPECT_EQ(asked.warnings[0].code, Warning::Code::kKeyOffPath);
   EXPECT_EQ(asked.warnings[0].frame, 89);
   EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.2 m off the root path"));
   AimAt(0.92);  // within 5 cm
@@ -242,7 +242,7 @@ TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
   for (const int frames : {90, 91}) {
     const Asked asked = For(0, frames);
     ASSERT_EQ(asked.warnings.size(), 1u) << "a key right behind the end";
-    EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
+    EXPECT_EQ(asked.warnings[0].code, Warning::Code::kKeyOffPath);
     EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.4"));
     const Eigen::Matrix3Xd& path = asked.controls.root_path;
     for (int frame = 1; frame < frames; ++frame)
@@ -252,7 +252,7 @@ TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
   track_.Set(Way({0, 88}, {0, 2}, {0.5, 0.5}), 0, "controls");
   target_->mask.root_position = false;
   ASSERT_EQ(For(0, 90).warnings.size(), 1u);
-  EXPECT_EQ(For(0, 90).warnings[0].kind, DanceWarning::Kind::kKeyOffHeight);
+  EXPECT_EQ(For(0, 90).warnings[0].code, Warning::Code::kKeyOffHeight);
   target_.reset();
   EXPECT_TRUE(For(0, 90).warnings.empty());
   EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), 0.5, 1e-9);
@@ -264,7 +264,7 @@ TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
   track_.Set(Way({0, 30}, {0, 6}), 0, "controls");
   const Asked asked = For(0, 31);
   ASSERT_EQ(asked.warnings.size(), 1u);
-  EXPECT_EQ(asked.warnings[0].kind, DanceWarning::Kind::kPathTooFast);
+  EXPECT_EQ(asked.warnings[0].code, Warning::Code::kPathTooFast);
   EXPECT_THAT(asked.warnings[0].message, HasSubstr("m/s; people reach 5"));
 }
 

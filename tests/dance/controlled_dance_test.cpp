@@ -81,7 +81,7 @@ TEST_F(ControlledDanceTest, APathThatBeginsBehindTheEndIsToldOf) {
   const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(120, 240, 0, 1)); }, 120);
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.warnings.size(), 1u);
-  EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kPathBehindEnd);
+  EXPECT_EQ(dance.warnings[0].code, Warning::Code::kPathBehindEnd);
 }
 
 TEST_F(ControlledDanceTest, ControlsHoldFromTheFirstFrameThatIsNotFrozen) {
@@ -119,9 +119,9 @@ TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   });
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.reached.size(), 2u);
-  for (const KeyReached& key : dance.reached) EXPECT_LT(key.arrival.final_error_m, 1e-3);
+  for (const KeyReached& key : dance.reached) EXPECT_LT(key.final_error_m, 1e-3);
   ASSERT_EQ(dance.warnings.size(), 1u);
-  EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kKeyOffPath);
+  EXPECT_EQ(dance.warnings[0].code, Warning::Code::kKeyOffPath);
   EXPECT_THAT(dance.warnings[0].message, HasSubstr("key \"beside\" lies 0.5"));
   // No jump on the way there and back.
   for (size_t i = 1; i < dance.poses.size(); ++i) {
@@ -230,8 +230,8 @@ TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
   // How fast parts were is measured from the resume on.
   const auto told = [](const Recording& dance) {
     return dance.warnings.size() -
-           static_cast<size_t>(std::ranges::count(
-               dance.warnings, DanceWarning::Kind::kVelocityNotMet, &DanceWarning::kind));
+           static_cast<size_t>(
+               std::ranges::count(dance.warnings, Warning::Code::kVelocityNotMet, &Warning::code));
   };
   ASSERT_EQ(told(whole), 2u);  // that, and the key off the path
   for (const Continuation& continuation : whole.continuations) {
@@ -251,7 +251,7 @@ TEST_F(ControlledDanceTest, APathThatIsOverBeforeItCanHoldIsToldOf) {
     s.SetControls(Way(10, 90, 0, 1));
   });
   ASSERT_EQ(dance.warnings.size(), 1u);
-  EXPECT_EQ(dance.warnings[0].kind, DanceWarning::Kind::kControlsTooLate);
+  EXPECT_EQ(dance.warnings[0].code, Warning::Code::kControlsTooLate);
   EXPECT_THAT(dance.warnings[0].message, HasSubstr("ends at frame 90, and frames before 100"));
 }
 
@@ -297,7 +297,7 @@ class GroupRecorder : public GroupSink {
     std::lock_guard lock(mutex_);
     recording_.poses.insert(recording_.poses.end(), poses.begin(), poses.end());
   }
-  void OnWarning(const DanceWarning& warning) override {
+  void OnWarning(const Warning& warning) override {
     std::lock_guard lock(mutex_);
     recording_.warnings.push_back(warning);
   }
@@ -324,8 +324,8 @@ class GroupRecorder : public GroupSink {
 };
 
 TEST_F(ControlledDanceTest, ASingleTransitionTellsOfAPathThatItHasNoFrameOf) {
-  for (const auto& [from, kind] : {std::pair{0, DanceWarning::Kind::kControlsTooLate},
-                                   std::pair{160, DanceWarning::Kind::kPathBehindEnd}}) {
+  for (const auto& [from, kind] : {std::pair{0, Warning::Code::kControlsTooLate},
+                                   std::pair{160, Warning::Code::kPathBehindEnd}}) {
     GroupRequest request;
     request.first_frame = 100;
     request.frames = 60;
@@ -334,7 +334,7 @@ TEST_F(ControlledDanceTest, ASingleTransitionTellsOfAPathThatItHasNoFrameOf) {
     const TransitionGroup group(*queue_, request, sink);
     const Recording transition = sink->Wait();
     ASSERT_EQ(transition.warnings.size(), 1u);
-    EXPECT_EQ(transition.warnings[0].kind, kind);
+    EXPECT_EQ(transition.warnings[0].code, kind);
   }
 }
 

@@ -253,8 +253,8 @@ TEST(DanceWarnings, TemperatureBeyondTheModelsIsTold) {
     Dance dance = RandomDance(3);
     dance.config.temperature = asked;
     const Recording told = Perform(*queue, dance);
-    const auto is_it = [](const DanceWarning& warning) {
-      return warning.kind == DanceWarning::Kind::kTemperatureTooHigh;
+    const auto is_it = [](const Warning& warning) {
+      return warning.code == Warning::Code::kTemperatureTooHigh;
     };
     EXPECT_EQ(std::ranges::count_if(told.warnings, is_it), asked > 1.25F ? 1 : 0);
     if (asked > 1.25F) {

@@ -13,7 +13,7 @@ namespace choreo::music_beats_test {
 
 // A transition begins.
 std::vector<double> Begin(MusicBeats* music, int64_t from, int64_t to) {
-  const std::vector<MusicBeat> beats = music->For(from, to);
+  const std::vector<Beat> beats = music->For(from, to);
   music->Begin(beats, from);
   return music->Around(beats, from, to);
 }
@@ -45,17 +45,17 @@ TEST(MusicBeats, ALiveDanceHearsThem) {
     const Recording recording = Perform(*queue, dance);
     ASSERT_TRUE(recording.summary);
     ASSERT_FALSE(recording.beats.empty());
-    EXPECT_LT(recording.beats.front().seconds, keyed ? 6 : 7);  // with a transition, at 6 s
+    EXPECT_LT(recording.beats.front().time_s, keyed ? 6 : 7);  // with a transition, at 6 s
     size_t heard = 0, late = 0;
     for (size_t i = 0; i < recording.beats.size(); ++i) {
-      const MusicBeat& beat = recording.beats[i];
-      EXPECT_LT(Off(beat.seconds), 0.07) << beat.seconds;
+      const Beat& beat = recording.beats[i];
+      EXPECT_LT(Off(beat.time_s), 0.07) << beat.time_s;
       EXPECT_GT(beat.confidence, 0);
       if (i > 0) {
-        EXPECT_NEAR(beat.seconds - recording.beats[i - 1].seconds, 0.5, 0.07);
+        EXPECT_NEAR(beat.time_s - recording.beats[i - 1].time_s, 0.5, 0.07);
       }
-      heard += beat.source == MusicBeat::Source::kHeard;
-      late += beat.seconds >= 8;
+      heard += beat.source == Beat::Source::kHeard;
+      late += beat.time_s >= 8;
     }
     EXPECT_GE(late, 23U);
     EXPECT_GT(heard, recording.beats.size() / 2);
@@ -72,7 +72,7 @@ TEST(MusicBeats, TheDanceIsTimedToThem) {
   const Recording given = Perform(*queue, dance);
   EXPECT_FALSE(SameDance(heard, given));
   ASSERT_EQ(given.beats.size(), 23U);
-  EXPECT_EQ(given.beats.front().source, MusicBeat::Source::kGiven);
+  EXPECT_EQ(given.beats.front().source, Beat::Source::kGiven);
 }
 
 TEST(MusicBeats, NoiseAndSilenceHaveNone) {
@@ -111,7 +111,7 @@ TEST(MusicBeats, ArePureInTheSamples) {
     EXPECT_TRUE(SameDance(expected, recording)) << chunk;
     ASSERT_EQ(recording.beats.size(), expected.beats.size()) << chunk;
     for (size_t i = 0; i < expected.beats.size(); ++i)
-      EXPECT_EQ(recording.beats[i].seconds, expected.beats[i].seconds);
+      EXPECT_EQ(recording.beats[i].time_s, expected.beats[i].time_s);
   }
 }
 
@@ -138,16 +138,16 @@ TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
   const Recording recording = play(dance.config, true);
   ASSERT_TRUE(recording.summary);
   ASSERT_EQ(recording.warnings.size(), 1U);
-  EXPECT_EQ(recording.warnings[0].kind, DanceWarning::Kind::kBeatsTooLate);
+  EXPECT_EQ(recording.warnings[0].code, Warning::Code::kBeatsTooLate);
   EXPECT_EQ(recording.warnings[0].frame, 219);
   std::vector<double> given, downbeats;
   double heard_behind = 0;
-  for (const MusicBeat& beat : recording.beats) {
-    if (beat.downbeat) downbeats.push_back(beat.seconds);
-    if (beat.source == MusicBeat::Source::kGiven)
-      given.push_back(beat.seconds);
+  for (const Beat& beat : recording.beats) {
+    if (beat.downbeat) downbeats.push_back(beat.time_s);
+    if (beat.source == Beat::Source::kGiven)
+      given.push_back(beat.time_s);
     else if (!given.empty())
-      heard_behind = beat.seconds;
+      heard_behind = beat.time_s;
   }
   EXPECT_EQ(given, (std::vector<double>{8.3, 8.8, 9.3, 9.8, 10.3, 10.8, 11.3}));
   EXPECT_EQ(downbeats, (std::vector<double>{9.3, 11.3}));
@@ -209,7 +209,7 @@ TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
   for (const int64_t lead : {0, 6, 20}) {
     MusicBeats beats(30, {}, {}, nullptr);
-    std::vector<MusicBeat> told;
+    std::vector<Beat> told;
     for (int64_t from = 0; from < 600; from += 9) {
       std::vector<double> grid;
       const double off = jitter(random);
@@ -219,15 +219,15 @@ TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {
       if (!grid.empty()) beats.Give(grid, from + lead, "music_beats");
       Begin(&beats, from, from + 9);
       for (int64_t frame = from; frame < from + 9; ++frame) {
-        for (const MusicBeat& beat : beats.Of(frame)) {
+        for (const Beat& beat : beats.Of(frame)) {
           told.push_back(beat);
           EXPECT_LE(beat.frame, frame) << "it has been danced";
-          EXPECT_NEAR(static_cast<double>(beat.frame), 30 * beat.seconds, 1);
+          EXPECT_NEAR(static_cast<double>(beat.frame), 30 * beat.time_s, 1);
         }
       }
     }
     for (size_t i = 1; i < told.size(); ++i)
-      EXPECT_NEAR(told[i].seconds - told[i - 1].seconds, 0.5, 0.02) << lead;
+      EXPECT_NEAR(told[i].time_s - told[i - 1].time_s, 0.5, 0.02) << lead;
     EXPECT_NEAR(static_cast<double>(told.size()), 38, 1.1) << lead;
   }
 }
@@ -239,25 +239,25 @@ TEST(MusicBeats, AreHeardBesideThoseGiven) {
   MusicBeats music(30, {}, std::nullopt, &feed);
   EXPECT_EQ(music.Give(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
   EXPECT_EQ(music.Give(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
-  std::vector<MusicBeat> beats;
+  std::vector<Beat> beats;
   for (int64_t from = 224; from < 524; from += 60) {
     Begin(&music, from, from + 60);
     for (int64_t frame = from; frame < from + 60; ++frame)
-      for (const MusicBeat& beat : music.Of(frame)) beats.push_back(beat);
+      for (const Beat& beat : music.Of(frame)) beats.push_back(beat);
   }
   std::vector<double> given;
   for (size_t i = 0; i < beats.size(); ++i) {
-    if (beats[i].source == MusicBeat::Source::kGiven) {
-      given.push_back(beats[i].seconds);
+    if (beats[i].source == Beat::Source::kGiven) {
+      given.push_back(beats[i].time_s);
     } else {
-      EXPECT_LT(Off(beats[i].seconds), 0.07) << beats[i].seconds;
+      EXPECT_LT(Off(beats[i].time_s), 0.07) << beats[i].time_s;
     }
     if (i == 0) continue;
-    EXPECT_NEAR(beats[i].seconds - beats[i - 1].seconds, 0.5, 0.3) << beats[i].seconds;
+    EXPECT_NEAR(beats[i].time_s - beats[i - 1].time_s, 0.5, 0.3) << beats[i].time_s;
   }
   EXPECT_EQ(given, (std::vector<double>{11.7, 12.4, 12.9})) << "12.2 gives way";
-  EXPECT_LT(beats.front().seconds, 8.1);
-  EXPECT_GT(beats.back().seconds, 16.5);
+  EXPECT_LT(beats.front().time_s, 8.1);
+  EXPECT_GT(beats.back().time_s, 16.5);
 }
 
 // Only what lies before a transition says where it beats.

@@ -105,7 +105,7 @@ TEST_F(PartialGrantTest, AnEditBehindTheFrontierChangesWhatFollowsAlone) {
   EXPECT_FALSE(SameBits(plain.poses[91], changed.poses[91]));
   ASSERT_EQ(changed.reached.size(), 2U);
   EXPECT_EQ(changed.reached[1].frame, 120);
-  EXPECT_LT(changed.reached[1].arrival.final_error_m, 1e-3);
+  EXPECT_LT(changed.reached[1].final_error_m, 1e-3);
   EXPECT_EQ(changed.continuations[1].frame, 90) << "there it was cut";
   EXPECT_TRUE(SameDance(changed, Play(dance, edited, false))) << "whatever has been danced by then";
   // What was moved and moved back is not changed.

@@ -86,7 +86,7 @@ void ExpectTheRestOf(const Recording& whole, size_t place, const Recording& rest
   const size_t told = whole.beats_before[place];
   ASSERT_EQ(rest.beats.size(), whole.beats.size() - told);
   for (size_t i = 0; i < rest.beats.size(); ++i) {
-    EXPECT_EQ(rest.beats[i].seconds, whole.beats[told + i].seconds);
+    EXPECT_EQ(rest.beats[i].time_s, whole.beats[told + i].time_s);
     EXPECT_EQ(rest.beats[i].source, whole.beats[told + i].source);
     EXPECT_EQ(rest.beats[i].confidence, whole.beats[told + i].confidence);
   }
@@ -112,11 +112,11 @@ void ResumeEverywhere(SampleQueue& queue, uint32_t seed, Dance dance, int64_t fr
   const std::vector<Message> messages = RandomMessages(frames, random);
   const Recording whole = Play(queue, dance, dance.config, messages);
   ASSERT_TRUE(whole.summary) << whole.error->what();
-  EXPECT_EQ(std::ranges::adjacent_find(whole.beats, std::greater_equal(), &MusicBeat::seconds),
+  EXPECT_EQ(std::ranges::adjacent_find(whole.beats, std::greater_equal(), &Beat::time_s),
             whole.beats.end())
       << "told twice, seed " << seed;
-  for (const MusicBeat& beat : whole.beats)
-    ++(beat.source == MusicBeat::Source::kGiven ? counts->given : counts->heard);
+  for (const Beat& beat : whole.beats)
+    ++(beat.source == Beat::Source::kGiven ? counts->given : counts->heard);
   for (size_t place = 0; place + 1 < whole.continuations.size(); ++place) {
     const Continuation& continuation = whole.continuations[place];
     SCOPED_TRACE("seed " + std::to_string(seed) + " from " + std::to_string(continuation.frame));

@@ -21,9 +21,9 @@ struct Recording {
   std::vector<Pose> poses;
   std::vector<Contacts> contacts;
   std::vector<KeyReached> reached;
-  std::vector<KeyRejection> rejected;
-  std::vector<DanceWarning> warnings;
-  std::vector<MusicBeat> beats;
+  std::vector<KeyRejected> rejected;
+  std::vector<Warning> warnings;
+  std::vector<Beat> beats;
   std::vector<Continuation> continuations;
   std::vector<size_t> beats_before;  ///< each continuation
   std::optional<QualityReport> summary;
@@ -55,9 +55,9 @@ class Recorder : public DanceSink {
     std::lock_guard lock(mutex_);
     Note();
     if (const auto* key = std::get_if<KeyReached>(&event)) recording_.reached.push_back(*key);
-    if (const auto* late = std::get_if<KeyRejection>(&event)) recording_.rejected.push_back(*late);
-    if (const auto* warn = std::get_if<DanceWarning>(&event)) recording_.warnings.push_back(*warn);
-    if (const auto* beat = std::get_if<MusicBeat>(&event)) recording_.beats.push_back(*beat);
+    if (const auto* late = std::get_if<KeyRejected>(&event)) recording_.rejected.push_back(*late);
+    if (const auto* warn = std::get_if<Warning>(&event)) recording_.warnings.push_back(*warn);
+    if (const auto* beat = std::get_if<Beat>(&event)) recording_.beats.push_back(*beat);
     changed_.notify_all();
   }
   void OnContinuation(const Continuation& continuation) override {

@@ -140,7 +140,7 @@ TEST(RecurringDance, HitsItsKeysAllTheSame) {
   const Recording dance = DanceTo({{8, 14, 0}}, 0, keys);
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.reached.size(), 1U);
-  EXPECT_LT(dance.reached[0].arrival.final_error_m, 1e-3);
+  EXPECT_LT(dance.reached[0].final_error_m, 1e-3);
 }
 
 }  // namespace choreo::recurrence_test

@@ -30,8 +30,8 @@ Recording Resume(SampleQueue& queue, const Dance& dance, const Continuation& con
 void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told) {
   ASSERT_EQ(rest.beats.size(), whole.beats.size() - told);
   for (size_t i = 0; i < rest.beats.size(); ++i) {
-    const MusicBeat& wanted = whole.beats[told + i];
-    EXPECT_EQ(rest.beats[i].seconds, wanted.seconds);
+    const Beat& wanted = whole.beats[told + i];
+    EXPECT_EQ(rest.beats[i].time_s, wanted.time_s);
     EXPECT_EQ(rest.beats[i].source, wanted.source);
     EXPECT_EQ(rest.beats[i].confidence, wanted.confidence);
   }
@@ -175,7 +175,7 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
   const Recording rest = Resume(*queue, allowed, foreign, keys);
   ASSERT_TRUE(rest.summary);
   ASSERT_FALSE(rest.warnings.empty());
-  EXPECT_EQ(rest.warnings[0].kind, DanceWarning::Kind::kInexactResume);
+  EXPECT_EQ(rest.warnings[0].code, Warning::Code::kInexactResume);
   // Keys that were danced before are answered, not lost.
   EXPECT_EQ(rest.rejected.size(), 2u);
 }

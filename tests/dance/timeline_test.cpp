@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 Pose Rest() { return RestPose(Skeleton::Smpl24()); }
 
-std::optional<KeyRejection> Set(Timeline& timeline, const std::string& id, const KeyMoment& when) {
+std::optional<KeyRejected> Set(Timeline& timeline, const std::string& id, const KeyMoment& when) {
   return timeline.Set(id, when, Rest(), {}, "keyframes[0]");
 }
 

@@ -21,7 +21,7 @@ class GroupRecorder : public GroupSink {
     if (list.empty()) first = first_frame;
     list.insert(list.end(), poses.begin(), poses.end());
   }
-  void OnWarning(const DanceWarning& warning) override {
+  void OnWarning(const Warning& warning) override {
     std::lock_guard lock(mutex_);
     warnings.push_back(warning);
   }
@@ -44,7 +44,7 @@ class GroupRecorder : public GroupSink {
 
   int64_t first = -1;
   std::vector<std::vector<Pose>> frames;
-  std::vector<DanceWarning> warnings;
+  std::vector<Warning> warnings;
   std::optional<std::vector<CandidateReport>> ranked;
   std::optional<Error> error;
 
@@ -105,10 +105,10 @@ TEST(TransitionGroup, RanksBySteeringThenSkateThenLikelihood) {
     CandidateReport made;
     made.candidate = candidate;
     made.quality.keys.resize(1);
-    made.quality.keys[0].arrival.raw_error_m = 0.0103;  // as every plan that reaches its key has it
-    made.quality.keys[0].arrival.correction_m = steered;
+    made.quality.keys[0].raw_error_m = 0.0103;  // as every plan that reaches its key has it
+    made.quality.keys[0].correction_m = steered;
     made.quality.skate_ratio = skate;
-    made.quality.mean_log_likelihood = likelihood;
+    made.quality.log_likelihood = likelihood;
     return made;
   };
   std::vector<CandidateReport> list = {report(0, 0.051, 0.001, 9), report(1, 0.003, 0.2, 9),
@@ -132,8 +132,8 @@ TEST(TransitionGroup, RanksByLikelihoodAloneWhereThatIsAsked) {
     CandidateReport made;
     made.candidate = candidate;
     made.quality.keys.resize(1);
-    made.quality.keys[0].arrival.correction_m = steered;
-    made.quality.mean_log_likelihood = likelihood;
+    made.quality.keys[0].correction_m = steered;
+    made.quality.log_likelihood = likelihood;
     return made;
   };
   std::vector<CandidateReport> list = {report(0, 0, 3), report(1, 0.2, 9), report(2, 0.1, 9)};
@@ -154,8 +154,8 @@ TEST(TransitionGroup, AGroupIsRankedAsItAsksAndAModelWithoutLikelihoodRefuses) {
   const auto sink = Generate(*queue, request);
   ASSERT_TRUE(sink->ranked);
   for (size_t i = 1; i < sink->ranked->size(); ++i) {
-    EXPECT_GE(*(*sink->ranked)[i - 1].quality.mean_log_likelihood,
-              *(*sink->ranked)[i].quality.mean_log_likelihood);
+    EXPECT_GE(*(*sink->ranked)[i - 1].quality.log_likelihood,
+              *(*sink->ranked)[i].quality.log_likelihood);
   }
   ModelInfo without = queue->model();
   without.likelihood = false;

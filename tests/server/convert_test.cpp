@@ -1,6 +1,5 @@
 #include "server/read_pose.h"
 #include "server/read_request.h"
-#include "server/write_response.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 
 #include "model/core/error.h"
 #include "model/motion/rotation.h"
+#include "proto/wire/convert.h"
 
 namespace choreo::convert_test {
 
@@ -27,9 +27,8 @@ class EncodingTest : public testing::TestWithParam<v1::RotationEncoding> {};
 
 TEST_P(EncodingTest, OutAndInAgain) {
   const Pose pose = SomePose();
-  v1::Frames frames;
   const Contacts contacts = {0.25F, 0.5F, 0.75F, 1.0F};
-  FromFrames(17, {&pose, 1}, {&contacts, 1}, GetParam(), &frames);
+  const v1::Frames frames = wire::ToProto(17, {&pose, 1}, {&contacts, 1}, GetParam());
   EXPECT_EQ(frames.first_frame(), 17);
   EXPECT_EQ(frames.count(), 1);
   EXPECT_EQ(frames.contacts(2), 0.75F);
@@ -62,8 +61,8 @@ TEST(ConvertTest, QuaternionsAreContinuous) {
     pose.rotations = Eigen::Matrix3Xd::Zero(3, 1);
     pose.rotations(1, 0) = 0.02 * step;
     const Contacts contacts = {};
-    v1::Frames frames;
-    FromFrames(0, {&pose, 1}, {&contacts, 1}, v1::ROTATION_ENCODING_QUATERNION, &frames);
+    const v1::Frames frames =
+        wire::ToProto(0, {&pose, 1}, {&contacts, 1}, v1::ROTATION_ENCODING_QUATERNION);
     const Eigen::Vector4d now(frames.rotations(0), frames.rotations(1), frames.rotations(2),
                               frames.rotations(3));
     if (step > 0) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "choreo/v1/choreography.pb.h"
+#include "choreo/v1/motion.pb.h"
+#include "model/core/error.h"
+#include "model/core/passage.h"
+#include "model/messages/dance_event.h"
+#include "model/messages/quality_report.h"
+#include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
+
+/// Our own types <-> messages of the API, for server, client and studio: nobody else writes or
+/// reads these messages. What comes in is a server's: one that breaks the protocol raises
+/// Error(kInternal). Pure functions, thread-safe.
+namespace choreo::wire {
+
+v1::Skeleton ToProto(const Skeleton& skeleton);
+v1::Pose ToProto(const Pose& pose);
+/// Without a root position where the mask does not ask for one.
+v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
+v1::JointMask ToProto(const PoseMask& mask);
+v1::MusicPassage ToProto(const Passage& passage);
+v1::QualityReport ToProto(const QualityReport& report);
+/// `fps`: the model's, at which frames are counted.
+v1::Event ToProto(const DanceEvent& event, double fps);
+/// All but the candidate.
+v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
+                   std::span<const Contacts> contacts,
+                   v1::RotationEncoding encoding = v1::ROTATION_ENCODING_AXIS_ANGLE);
+
+Skeleton FromProto(const v1::Skeleton& skeleton);
+QualityReport FromProto(const v1::QualityReport& report);
+/// None for a kind of event that this version does not know yet.
+std::optional<DanceEvent> FromProto(const v1::Event& event);
+
+/// What a server is told that broke the protocol.
+Error Broken(const std::string& what);
+
+}  // namespace choreo::wire

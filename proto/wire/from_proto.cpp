@@ -1,0 +1,100 @@
+#include <algorithm>
+
+#include "model/core/error.h"
+#include "model/motion/velocity_factors.h"
+#include "proto/wire/convert.h"
+
+namespace choreo::wire {
+namespace {
+
+KeyReached ToKeyReached(const std::string& id, int64_t frame, const v1::KeyframeErrors& errors) {
+  return {.id = id,
+          .frame = frame,
+          .raw_error_m = errors.raw_error_m(),
+          .final_error_m = errors.final_error_m(),
+          .final_error_deg = errors.final_error_deg(),
+          .correction_m = errors.correction_m()};
+}
+
+/// kUnknown beyond `last`, the greatest that this version knows.
+template <typename Code>
+Code ToCode(int number, Code last) {
+  return number > 0 && number <= static_cast<int>(last) ? static_cast<Code>(number)
+                                                        : Code::kUnknown;
+}
+
+}  // namespace
+
+Error Broken(const std::string& what) {
+  return {ErrorCode::kInternal, "", "the server broke the protocol: " + what};
+}
+
+Skeleton FromProto(const v1::Skeleton& skeleton) {
+  Skeleton out;
+  const int joints = skeleton.parents_size();
+  if (skeleton.joint_names_size() != joints || skeleton.offsets_size() != 3 * joints ||
+      skeleton.feet_size() != static_cast<int>(out.feet.size())) {
+    throw Broken("a skeleton whose arrays differ in length");
+  }
+  out.name = skeleton.name();
+  out.joint_names.assign(skeleton.joint_names().begin(), skeleton.joint_names().end());
+  out.parents.assign(skeleton.parents().begin(), skeleton.parents().end());
+  out.offsets =
+      Eigen::Map<const Eigen::Matrix3Xf>(skeleton.offsets().data(), 3, joints).cast<double>();
+  out.AssignRoles();
+  out.pelvis_height = skeleton.pelvis_height();
+  std::copy(skeleton.feet().begin(), skeleton.feet().end(), out.feet.begin());
+  out.Validate();
+  return out;
+}
+
+QualityReport FromProto(const v1::QualityReport& report) {
+  QualityReport out;
+  out.frames = report.frames();
+  out.measured_from = report.first_frame();
+  for (const v1::KeyframeReport& key : report.keyframes()) {
+    out.keys.push_back(ToKeyReached(key.id(), key.frame(), key.errors()));
+    out.keys.back().max_acceleration = key.max_acceleration();
+  }
+  if (report.has_log_likelihood()) out.log_likelihood = report.log_likelihood();
+  out.skate_ratio = report.skate_ratio();
+  if (report.has_support()) out.support = report.support();
+  if (report.has_beat_hit_rate()) out.beat_hit_rate = report.beat_hit_rate();
+  if (report.has_beat_coverage()) out.beat_coverage = report.beat_coverage();
+  out.max_key_acceleration = report.max_key_acceleration();
+  out.p95_acceleration = report.p95_acceleration();
+  for (const v1::PartSpeed& speed : report.part_speeds()) {
+    if (speed.part() != v1::BODY_PART_TRUNK + static_cast<int>(out.part_speeds.size()))
+      throw Broken("speeds of parts of the body in another order");
+    out.part_speeds.push_back({speed.asked(), speed.danced()});
+  }
+  if (!out.part_speeds.empty() && out.part_speeds.size() != kBodyParts)
+    throw Broken("speeds of some parts of the body");
+  return out;
+}
+
+std::optional<DanceEvent> FromProto(const v1::Event& event) {
+  const int64_t frame = event.frame();
+  switch (event.event_case()) {
+    case v1::Event::kKeyframeReached:
+      return ToKeyReached(event.keyframe_reached().id(), frame, event.keyframe_reached().errors());
+    case v1::Event::kKeyframeRejected: {
+      const v1::KeyframeRejected& key = event.keyframe_rejected();
+      return KeyRejected{key.id(), frame, key.earliest_frame(), key.reason(),
+                         ToCode(key.code(), KeyRejected::Code::kAlreadyDanced)};
+    }
+    case v1::Event::kBeat: {
+      const v1::Beat& beat = event.beat();
+      return Beat{frame, event.time(), ToCode(beat.source(), Beat::Source::kHeard),
+                  beat.confidence(), beat.downbeat()};
+    }
+    case v1::Event::kWarning:
+      return Warning{frame, event.warning().message(),
+                     ToCode(event.warning().code(), Warning::Code::kTemperatureTooHigh)};
+    case v1::Event::EVENT_NOT_SET:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace choreo::wire

@@ -1,0 +1,158 @@
+#include <Eigen/Geometry>
+
+#include "model/motion/rotation.h"
+#include "proto/wire/convert.h"
+
+namespace choreo::wire {
+namespace {
+
+static_assert(static_cast<int>(KeyRejected::Code::kAlreadyDanced) ==
+                      v1::REJECTION_CODE_ALREADY_DANCED &&
+                  static_cast<int>(Beat::Source::kHeard) == v1::BEAT_SOURCE_HEARD &&
+                  static_cast<int>(Warning::Code::kTemperatureTooHigh) ==
+                      v1::WARNING_CODE_TEMPERATURE_TOO_HIGH,
+              "codes are numbered alike");
+
+void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {
+  out->set_raw_error_m(key.raw_error_m);
+  out->set_final_error_m(key.final_error_m);
+  out->set_final_error_deg(key.final_error_deg);
+  out->set_correction_m(key.correction_m);
+}
+
+// What an event says beside its frame and time.
+void Fill(const KeyReached& key, v1::Event* out) {
+  out->mutable_keyframe_reached()->set_id(key.id);
+  FillErrors(key, out->mutable_keyframe_reached()->mutable_errors());
+}
+
+void Fill(const KeyRejected& key, v1::Event* out) {
+  v1::KeyframeRejected* rejected = out->mutable_keyframe_rejected();
+  rejected->set_id(key.id);
+  rejected->set_earliest_frame(key.earliest_frame);
+  rejected->set_reason(key.reason);
+  rejected->set_code(static_cast<v1::RejectionCode>(key.code));
+}
+
+void Fill(const Warning& warning, v1::Event* out) {
+  out->mutable_warning()->set_code(static_cast<v1::WarningCode>(warning.code));
+  out->mutable_warning()->set_message(warning.message);
+}
+
+void Fill(const Beat& beat, v1::Event* out) {
+  out->set_time(beat.time_s);
+  out->mutable_beat()->set_source(static_cast<v1::BeatSource>(beat.source));
+  out->mutable_beat()->set_confidence(beat.confidence);
+  out->mutable_beat()->set_downbeat(beat.downbeat);
+}
+
+}  // namespace
+
+v1::Skeleton ToProto(const Skeleton& skeleton) {
+  v1::Skeleton out;
+  out.set_name(skeleton.name);
+  out.mutable_joint_names()->Add(skeleton.joint_names.begin(), skeleton.joint_names.end());
+  out.mutable_parents()->Add(skeleton.parents.begin(), skeleton.parents.end());
+  for (const double value : skeleton.offsets.reshaped()) out.add_offsets(static_cast<float>(value));
+  out.set_pelvis_height(skeleton.pelvis_height);
+  out.mutable_feet()->Add(skeleton.feet.begin(), skeleton.feet.end());
+  return out;
+}
+
+v1::Pose ToProto(const Pose& pose) {
+  v1::Pose out;
+  out.mutable_root_position()->set_x(pose.root_position.x());
+  out.mutable_root_position()->set_y(pose.root_position.y());
+  out.mutable_root_position()->set_z(pose.root_position.z());
+  out.mutable_rotations()->Reserve(static_cast<int>(pose.rotations.size()));
+  for (const double value : pose.rotations.reshaped()) out.add_rotations(static_cast<float>(value));
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  return out;
+}
+
+v1::Pose ToProto(const Pose& pose, const PoseMask& mask) {
+  v1::Pose out = ToProto(pose);
+  if (!mask.root_position) out.clear_root_position();
+  return out;
+}
+
+v1::JointMask ToProto(const PoseMask& mask) {
+  v1::JointMask out;
+  for (size_t joint = 0; joint < mask.joints.size(); ++joint) {
+    if (mask.joints[joint]) out.add_joints(static_cast<int>(joint));
+  }
+  return out;
+}
+
+v1::MusicPassage ToProto(const Passage& passage) {
+  v1::MusicPassage out;
+  out.set_from(passage.from);
+  out.set_to(passage.to);
+  out.set_like(passage.like);
+  return out;
+}
+
+v1::QualityReport ToProto(const QualityReport& report) {
+  v1::QualityReport out;
+  out.set_first_frame(report.measured_from);
+  out.set_frames(report.frames);
+  for (const KeyReached& key : report.keys) {
+    v1::KeyframeReport* added = out.add_keyframes();
+    added->set_id(key.id);
+    added->set_frame(key.frame);
+    FillErrors(key, added->mutable_errors());
+    added->set_max_acceleration(key.max_acceleration);
+  }
+  if (report.log_likelihood) out.set_log_likelihood(*report.log_likelihood);
+  out.set_skate_ratio(report.skate_ratio);
+  if (report.support) out.set_support(*report.support);
+  if (report.beat_hit_rate) out.set_beat_hit_rate(*report.beat_hit_rate);
+  if (report.beat_coverage) out.set_beat_coverage(*report.beat_coverage);
+  out.set_max_key_acceleration(report.max_key_acceleration);
+  for (const PartSpeed& speed : report.part_speeds) {
+    v1::PartSpeed* added = out.add_part_speeds();
+    added->set_part(static_cast<v1::BodyPart>(out.part_speeds_size()));
+    added->set_asked(speed.asked);
+    added->set_danced(speed.danced);
+  }
+  out.set_p95_acceleration(report.p95_acceleration);
+  return out;
+}
+
+v1::Event ToProto(const DanceEvent& event, double fps) {
+  v1::Event out;
+  std::visit(
+      [&](const auto& said) {
+        out.set_frame(said.frame);
+        out.set_time(static_cast<double>(said.frame) / fps);
+        Fill(said, &out);
+      },
+      event);
+  return out;
+}
+
+v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
+                   std::span<const Contacts> contacts, v1::RotationEncoding encoding) {
+  v1::Frames out;
+  out.set_first_frame(first_frame);
+  out.set_count(static_cast<int32_t>(poses.size()));
+  const auto add = [&out](double value) { out.add_rotations(static_cast<float>(value)); };
+  for (const Pose& pose : poses) {
+    for (const double value : pose.root_position) out.add_root_positions(static_cast<float>(value));
+    for (Eigen::Index joint = 0; joint < pose.rotations.cols(); ++joint) {
+      const Eigen::Vector3d w = pose.rotations.col(joint);
+      if (encoding == v1::ROTATION_ENCODING_QUATERNION) {
+        for (const double value : QuaternionFromExp(w).coeffs()) add(value);
+      } else if (encoding == v1::ROTATION_ENCODING_MATRIX) {
+        const Eigen::Matrix3d r = ExpMap(w);
+        for (int i = 0; i < 9; ++i) add(r(i / 3, i % 3));
+      } else {
+        for (const double value : w) add(value);
+      }
+    }
+  }
+  for (const Contacts& frame : contacts) out.mutable_contacts()->Add(frame.begin(), frame.end());
+  return out;
+}
+
+}  // namespace choreo::wire
