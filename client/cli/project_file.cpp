@@ -68,9 +68,7 @@ std::vector<std::string> Velocities(const json& lively, const std::string& field
       throw InvalidArgument(field + "." + member, message.str());
     }
     as_usual = as_usual && factor == 1;
-    std::ostringstream source;
-    source << part << '=' << factor;
-    out.push_back(source.str());
+    out.push_back(part + '=' + value.dump());  // which reads back to the bit
   }
   return as_usual ? std::vector<std::string>{} : out;
 }

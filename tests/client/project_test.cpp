@@ -4,6 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "client/cli/project_file.h"
+#include "client/cli/velocity_options.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 #include "tests/support/music_files.h"
@@ -55,6 +57,14 @@ TEST_F(ProjectTest, IsDancedAsItSays) {
   ASSERT_EQ(spelt.code, 0) << spelt.said;
   EXPECT_THAT(Bytes("a.bvh"), HasSubstr("Frames: 120\n"));
   EXPECT_EQ(Bytes("a.bvh"), Bytes("b.bvh"));
+}
+
+TEST_F(ProjectTest, ItsFactorsAreReadToTheBit) {
+  project_["lively"]["left arm"] = 1.23456789;
+  const cli::Project project = cli::ParseProject(json::parse(project_.dump()), "p.json");
+  const auto asked = cli::ReadVelocities(project.velocities, "", 30);
+  EXPECT_THAT(asked.parts, testing::ElementsAre("trunk", "left_arm", "right_arm"));
+  EXPECT_THAT(asked.factors, testing::ElementsAre(1, 1.23456789, 1));
 }
 
 TEST_F(ProjectTest, TheCommandLineWins) {
