@@ -44,8 +44,7 @@ void CheckSize(int64_t size, int64_t expected, const std::string& shape, const s
       field, std::to_string(size) + " numbers, not " + std::to_string(expected) + ' ' + shape);
 }
 
-Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& model,
-                            bool allow_inexact) {
+Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& model) {
   const std::string field = "config.continuation";
   const Skeleton& skeleton = model.skeleton;
   if (message.skeleton() != skeleton.name) {
@@ -81,7 +80,6 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
     }
     continuation.poses.push_back(std::move(pose));
   }
-  ValidateContinuation(model, continuation, allow_inexact, field);
   return continuation;
 }
 
@@ -90,27 +88,15 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
                 DanceStart* out) {
   NumbersPerJoint(config.encoding(), "config.encoding");
   out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
-  ValidateOutputFps(out->output_fps, "config.frame_rate");
-  if (config.has_temperature()) {
-    out->temperature = static_cast<float>(config.temperature());
-    ValidateTemperature(*out->temperature, "config.temperature");
-  }
-  if (config.has_music_dynamics()) {
-    out->music_dynamics = config.music_dynamics();
-    ValidateShare(out->music_dynamics, "config.music_dynamics");
-  }
-  if (config.has_variation()) {
-    out->variation = config.variation();
-    ValidateShare(out->variation, "config.variation");
-  }
+  if (config.has_temperature()) out->temperature = static_cast<float>(config.temperature());
+  if (config.has_music_dynamics()) out->music_dynamics = config.music_dynamics();
+  if (config.has_variation()) out->variation = config.variation();
   out->style = config.style();
-  ValidateStyle(model, out->style, "config.style");
   out->seed = config.has_seed()           ? config.seed()
               : config.has_continuation() ? config.continuation().seed()
                                           : fresh_seed;
   out->allow_inexact_resume = config.allow_inexact_resume();
-  if (config.has_continuation())
-    out->continuation = ToContinuation(config.continuation(), model, config.allow_inexact_resume());
+  if (config.has_continuation()) out->continuation = ToContinuation(config.continuation(), model);
   out->music_beats = ToBeats(config.music_beats(), "config.music_beats");
   out->music_downbeats =
       ToDownbeats(config.music_downbeats(), out->music_beats, "config.music_downbeats");
@@ -166,8 +152,8 @@ KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
   throw InvalidArgument(field, "none of frame, time, interval_after_previous is there");
 }
 
-DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
-                          uint64_t fresh_seed) {
+ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
+                         uint64_t fresh_seed) {
   DanceConfig config;
   FillCommon(message, model, fresh_seed, &config);
   if (message.has_history()) {
@@ -180,10 +166,7 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
       config.history.clear();
     }
   }
-  if (message.has_frames()) {
-    config.end_frame = CheckedIn(message.frames(), std::max<int64_t>(config.FirstFrame(), 1),
-                                 kMaxDanceFrames, "config.frames");
-  }
+  if (message.has_frames()) config.end_frame = message.frames();
   if (message.has_generate_until()) config.generate_until = message.generate_until();
   if (message.has_audio_format()) {
     const v1::AudioFormat& format = message.audio_format();
@@ -193,8 +176,7 @@ DanceConfig ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model
                        ? DanceConfig::Audio{kModelSampleRate, 1, 0}
                        : SamplesOf(format);
   }
-  config.Validate(model);
-  return config;
+  return {std::move(config), model};
 }
 
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,

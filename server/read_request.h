@@ -18,8 +18,8 @@ namespace choreo {
 KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
 
 /// For StreamDance. `fresh_seed` is used where the message has none.
-DanceConfig ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
-                          uint64_t fresh_seed);
+ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
+                         uint64_t fresh_seed);
 
 /// For GenerateTransition, but for the samples of encoded files (see EncodedAudio).
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,

@@ -148,17 +148,15 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     if (queue_) throw InvalidArgument("config", "came before; it comes once");
     const Models::Use found = serving_.models.Find(message.model(), "config.model");
     const ModelInfo& model = found->model();
-    const DanceConfig config = ToDanceConfig(message, model, Serving::FreshSeed());
-    Name(model, config.seed);
+    const ValidDance config = ToDanceConfig(message, model, Serving::FreshSeed());
+    Name(model, config->seed);
     serving_.frames.TakeDance(this, *found, party());
     queue_ = found;
     encoding_ = message.encoding();
-    seed_ = config.seed;
-    music_beats_ = config.music_beats;
+    seed_ = config->seed;
+    music_beats_ = config->music_beats;
     if (message.has_audio_format()) audio_ = message.audio_format();
-    const bool exact =
-        !config.continuation || config.continuation->fingerprint == model.fingerprint;
-    SendHeader(model, message, config, config.FirstFrame(), exact);
+    SendHeader(model, message, *config, config->FirstFrame(), !config->ResumesInexactly(model));
     Adopt(std::make_shared<DanceStream>(*queue_, config, shared_from_this()));
   }
 

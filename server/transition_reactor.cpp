@@ -41,7 +41,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       queue_ = serving_.models.Find(message.config().model(), "config.model");
       GroupRequest request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       Name(queue_->model(), request.seed);
-      // What is out of range is named once the music is there.
+      request.ValidateStart(queue_->model());  // no music is decoded for what can never be danced
+      // What else is out of range is named once the music is there.
       const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
       serving_.frames.TakeTransition(this, *queue_, party(), request.candidates * frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
@@ -114,16 +115,16 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       request->music_passages = FindPassages(request->samples, request->music_beats);
   }
 
-  void Begin(const v1::GenerateTransitionRequest& message, GroupRequest request) {
+  void Begin(const v1::GenerateTransitionRequest& message, GroupRequest asked) {
     const ModelInfo& model = queue_->model();
     RequireOpen();  // whoever is gone by now is not begun for
-    request.Validate(model);
+    ValidTransition request(std::move(asked), model);
     encoding_ = message.config().encoding();
     if (message.config().has_audio_format()) audio_ = message.config().audio_format();
-    seed_ = request.seed;
+    seed_ = request->seed;
 
-    SendHeader(model, message.config(), request, request.FirstFrame(),
-               !request.ResumesInexactly(model));
+    SendHeader(model, message.config(), *request, request->FirstFrame(),
+               !request->ResumesInexactly(model));
     Adopt(std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this()));
   }
 

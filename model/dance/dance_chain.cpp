@@ -92,33 +92,32 @@ class DanceChain::Job : public SampleJob {
   std::atomic<bool> retired_ = false;
 };
 
-DanceChain::DanceChain(SampleQueue& queue, const DanceConfig& config,
-                       std::shared_ptr<DanceSink> sink)
+DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_ptr<DanceSink> sink)
     : queue_(queue),
       model_(queue.model()),
-      config_(config),
-      first_frame_(config.FirstFrame()),
+      config_(*asked),
+      first_frame_(asked->FirstFrame()),
       mailbox_(std::move(sink)),
-      audio_(config.audio
-                 ? std::make_unique<AudioFeed>(config.audio->sample_rate, config.audio->channels,
-                                               config.audio->first_sample)
+      audio_(asked->audio
+                 ? std::make_unique<AudioFeed>(asked->audio->sample_rate, asked->audio->channels,
+                                               asked->audio->first_sample)
                  : nullptr),
       start_time_(PlaybackClock()),
-      timeline_({model_.fps, first_frame_, config.end_frame, config.audio.has_value(),
-                 config.generate_until, model_.max_transition_frames}),
+      timeline_({model_.fps, first_frame_, asked->end_frame, asked->audio.has_value(),
+                 asked->generate_until, model_.max_transition_frames}),
       controls_(model_),
       next_frame_(first_frame_),
       meter_(model_.skeleton, model_.fps, first_frame_),
-      output_(model_.fps, config.output_fps, first_frame_,
-              config.continuation ? std::optional(RoundToFloat(config.continuation->poses.back()))
+      output_(model_.fps, asked->output_fps, first_frame_,
+              asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
                                   : std::nullopt),
-      beats_(model_.fps, config.music_beats,
-             config.continuation ? config.continuation->last_beat : std::nullopt, audio(),
-             config.music_downbeats),
-      recurrence_(model_.fps, config.variation < 1 ? config.music_passages : kNoPassages) {
-  if (!config.Before().empty()) history_ = FillHistory(model_, config.Before());
-  if (config.continuation) stage_ = config.continuation->stage;
-  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(config.music_passages, model_.fps));
+      beats_(model_.fps, asked->music_beats,
+             asked->continuation ? asked->continuation->last_beat : std::nullopt, audio(),
+             asked->music_downbeats),
+      recurrence_(model_.fps, asked->variation < 1 ? asked->music_passages : kNoPassages) {
+  if (!asked->Before().empty()) history_ = FillHistory(model_, asked->Before());
+  if (asked->continuation) stage_ = asked->continuation->stage;
+  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model_.fps));
 }
 
 void DanceChain::Begin() {

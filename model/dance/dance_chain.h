@@ -32,7 +32,7 @@ namespace choreo {
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
-  DanceChain(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
+  DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_ptr<DanceSink> sink);
 
   /// What there is to say before the first message.
   void Begin();

@@ -44,7 +44,7 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
                                                        std::to_string(kMostPassages));
   }
   ValidateStyle(model, style, "config.style");
-  ValidateOutputFps(output_fps, "config.output_fps");
+  ValidateOutputFps(output_fps, "config.frame_rate");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
     throw InvalidArgument("config.history", std::to_string(history.size()) +
                                                 " poses, the limit is " +

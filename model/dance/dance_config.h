@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/core/grid.h"
@@ -104,6 +105,23 @@ struct GroupRequest : DanceStart {
   /// "target.rotations[3]", ...
   void Validate(const ModelInfo& model) const;
 };
+
+/// What is asked, checked against the model that is to dance it: nothing behind it checks again.
+template <class Asked>
+class Valid {
+ public:
+  /// Throws as Asked::Validate.
+  Valid(Asked asked, const ModelInfo& model) : asked_(std::move(asked)) { asked_.Validate(model); }
+
+  const Asked& operator*() const& { return asked_; }
+  Asked&& operator*() && { return std::move(asked_); }
+  const Asked* operator->() const { return &asked_; }
+
+ private:
+  Asked asked_;
+};
+using ValidDance = Valid<DanceConfig>;
+using ValidTransition = Valid<GroupRequest>;
 
 /// Last sample frame at which the audio of a dance, or transition, that starts at `first_frame` may
 /// begin without changing a bit.

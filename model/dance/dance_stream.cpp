@@ -27,10 +27,9 @@ void DanceStream::FinishAudio() {
   chain_->Change([](Timeline&) {});
 }
 
-DanceStream::DanceStream(SampleQueue& queue, const DanceConfig& config,
+DanceStream::DanceStream(SampleQueue& queue, const ValidDance& config,
                          std::shared_ptr<DanceSink> sink)
     : model_(queue.model()) {
-  config.Validate(model_);
   chain_ = std::make_shared<DanceChain>(queue, config, std::move(sink));
   chain_->Begin();
 }

@@ -29,8 +29,10 @@ class DanceChain;
 /// Thread-safe. Destruction cancels. The queue must outlive the last callback and all jobs.
 class DanceStream {
  public:
-  /// Throws as DanceConfig::Validate does.
-  DanceStream(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink);
+  /// `config`: for the queue's model.
+  DanceStream(SampleQueue& queue, const ValidDance& config, std::shared_ptr<DanceSink> sink);
+  DanceStream(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink)
+      : DanceStream(queue, ValidDance(config, queue.model()), std::move(sink)) {}
   ~DanceStream();
   DanceStream(const DanceStream&) = delete;
   DanceStream& operator=(const DanceStream&) = delete;

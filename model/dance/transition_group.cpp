@@ -273,10 +273,9 @@ void TransitionGroup::Impl::Done(CandidateReport report) {
   mailbox_.PostLast([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }
 
-TransitionGroup::TransitionGroup(SampleQueue& queue, GroupRequest request,
+TransitionGroup::TransitionGroup(SampleQueue& queue, ValidTransition request,
                                  std::shared_ptr<GroupSink> sink) {
-  request.Validate(queue.model());
-  impl_ = std::make_shared<Impl>(queue, std::move(request), std::move(sink));
+  impl_ = std::make_shared<Impl>(queue, *std::move(request), std::move(sink));
   impl_->Begin();
 }
 

@@ -47,7 +47,10 @@ class TransitionGroup {
  public:
   /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if not all candidates
   /// find room (SampleQueue::ReserveBulk); they have it until all of this is gone.
-  TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink);
+  TransitionGroup(SampleQueue& queue, ValidTransition request, std::shared_ptr<GroupSink> sink);
+  TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink)
+      : TransitionGroup(queue, ValidTransition(std::move(request), queue.model()),
+                        std::move(sink)) {}
   ~TransitionGroup();
   TransitionGroup(const TransitionGroup&) = delete;
   TransitionGroup& operator=(const TransitionGroup&) = delete;

@@ -86,9 +86,9 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
             "config.style: \"Calm\" is no style of the model fake; it has calm, wild");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }),
-            "config.output_fps: 0 is not in [1, 120]");
+            "config.frame_rate: 0 is not in [1, 120]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),
-            "config.output_fps: 121 is not in [1, 120]");
+            "config.frame_rate: 121 is not in [1, 120]");
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.history.assign(11, rest); }),
             "config.history: 11 poses, the limit is 10");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
