@@ -61,35 +61,10 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
   ServerDescription out;
   out.version = response.version();
   for (const v1::ModelInfo& model : response.models()) {
-    ModelDescription& added = out.models.emplace_back();
-    added.name = model.name();
-    added.fingerprint = model.fingerprint();
-    added.licence = model.licence();
-    added.card = model.card();
-    added.skeleton = FromProto(model.skeleton());
-    added.fps = model.model_frame_rate();
-    added.history_frames = model.history_frames();
-    added.default_temperature = model.default_temperature();
-    for (const int control : model.controls()) {
-      if (control == v1::CONTROL_ROOT_PATH) added.controls.emplace_back("root_path");
-      if (control == v1::CONTROL_VELOCITY_FACTORS) added.controls.emplace_back("velocity_factors");
-    }
-    for (const v1::VelocityReference& reference : model.velocity_references()) {
-      if (reference.speeds_size() != kBodyParts)
-        throw wire::Broken("a velocity reference of odd length");
-      added.velocity_references.push_back(
-          {reference.name(), {reference.speeds().begin(), reference.speeds().end()}});
-    }
-    added.styles = {model.styles().begin(), model.styles().end()};
-    added.takes_music = !model.takes_no_music();
-    added.deterministic = model.deterministic();
-    added.likelihood = model.likelihood();
-    added.audio_lead_s = model.audio_lead_s();
-    added.latency_frames = model.latency_frames();
+    ModelDescription& added = out.models.emplace_back(FromProto(model));
     // Servers before 0.2 do not tell their models' limits.
-    added.max_transition_frames = model.max_transition_frames() > 0
-                                      ? model.max_transition_frames()
-                                      : response.limits().max_transition_frames();
+    if (added.max_transition_frames == 0)
+      added.max_transition_frames = response.limits().max_transition_frames();
   }
   if (out.models.empty()) throw wire::Broken("a server without models");
   out.devices.assign(response.devices().begin(), response.devices().end());

@@ -9,6 +9,7 @@
 #include "model/audio/format.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
+#include "proto/wire/convert.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
 #include "server/refusal.h"
@@ -115,7 +116,7 @@ void ChoreographyService::Describe(v1::GetServerInfoResponse* response) const {
   FillLimits(serving_.calls.limits(), limits);
   int workers = 0;
   for (const Models::Use& queue : serving_.models.served()) {
-    FromModel(queue->model(), response->add_models());
+    *response->add_models() = wire::ToProto(DescribeModel(queue->model()));
     workers += queue->stats().workers;
     for (const std::string& device : queue->devices()) {
       const auto& known = response->devices();

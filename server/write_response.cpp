@@ -4,7 +4,6 @@
 
 #include "model/audio/format.h"
 #include "model/dance/transition.h"
-#include "proto/wire/convert.h"
 
 namespace choreo {
 
@@ -31,37 +30,36 @@ void FromContinuation(const Continuation& continuation, const ModelInfo& model, 
   }
 }
 
-void FromModel(const ModelInfo& model, v1::ModelInfo* out) {
-  out->set_name(model.name);
-  out->set_fingerprint(model.fingerprint);
-  out->set_licence(model.licence);
-  out->set_card(model.card);
-  *out->mutable_skeleton() = wire::ToProto(model.skeleton);
-  out->set_model_frame_rate(model.fps);
-  out->set_history_frames(model.history_frames);
-  out->set_default_temperature(model.default_temperature);
-  out->set_max_transition_frames(std::min(model.max_transition_frames, kMaxTransitionFrames));
-  if (model.root_path) out->add_controls(v1::CONTROL_ROOT_PATH);
-  if (model.velocity_factors) out->add_controls(v1::CONTROL_VELOCITY_FACTORS);
-  for (const VelocityReference& reference : model.velocity_references) {
-    v1::VelocityReference* added = out->add_velocity_references();
-    added->set_name(reference.name);
-    added->mutable_speeds()->Add(reference.factors.begin(), reference.factors.end());
-  }
-  out->set_deterministic(model.deterministic);
-  out->set_likelihood(model.likelihood);
-  out->mutable_styles()->Add(model.styles.begin(), model.styles.end());
-  out->set_takes_no_music(!TakesMusic(model));
-  if (out->takes_no_music()) return;
+ModelDescription DescribeModel(const ModelInfo& model) {
+  ModelDescription out{
+      .name = model.name,
+      .fingerprint = model.fingerprint,
+      .licence = model.licence,
+      .card = model.card,
+      .skeleton = model.skeleton,
+      .fps = model.fps,
+      .history_frames = model.history_frames,
+      .default_temperature = model.default_temperature,
+      .styles = model.styles,
+      .takes_music = TakesMusic(model),
+      .likelihood = model.likelihood,
+      .deterministic = model.deterministic,
+      .max_transition_frames = std::min(model.max_transition_frames, kMaxTransitionFrames)};
+  if (model.root_path) out.controls.emplace_back("root_path");
+  if (model.velocity_factors) out.controls.emplace_back("velocity_factors");
+  for (const auto& [name, speeds] : model.velocity_references)
+    out.velocity_references.push_back({name, {speeds.begin(), speeds.end()}});
+  if (!out.takes_music) return out;
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
-  out->set_audio_lead_s(static_cast<double>(kSomeFrame) / model.fps -
-                        static_cast<double>(LatestFirstSample(kSomeFrame, kMinSampleRate, model)) /
-                            kMinSampleRate);
+  out.audio_lead_s =
+      static_cast<double>(kSomeFrame) / model.fps -
+      static_cast<double>(LatestFirstSample(kSomeFrame, kMinSampleRate, model)) / kMinSampleRate;
   DanceConfig config;
   config.output_fps = model.fps;
   config.audio = DanceConfig::Audio{kMinSampleRate, 1, 0};
-  out->set_latency_frames(DanceStream::LatencyFrames(config, model));
+  out.latency_frames = DanceStream::LatencyFrames(config, model);
+  return out;
 }
 
 }  // namespace choreo

@@ -9,7 +9,6 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
 #include "studio/scratch_folder.h"
-#include "studio/to_page.h"
 
 namespace choreo::studio {
 namespace {
@@ -45,7 +44,7 @@ House::House(const client::Options& server, const std::filesystem::path& song,
   model_ = description.models.front();
   most_seconds_ = description.limits.max_audio_s;
   welcome_.set_version(description.version);
-  *welcome_.mutable_model() = ToProto(model_);
+  *welcome_.mutable_model() = wire::ToProto(model_);
   for (const cli::LibraryPose& pose : cli::PosesToDance(model_.skeleton)) {
     LibraryPose* added = welcome_.add_poses();
     added->set_id(pose.id);

@@ -31,26 +31,6 @@ v1::Continuation ToContinuation(const client::Continuation& continuation) {
 
 }  // namespace
 
-v1::ModelInfo ToProto(const client::ModelDescription& model) {
-  v1::ModelInfo out;
-  out.set_name(model.name);
-  out.set_fingerprint(model.fingerprint);
-  out.set_licence(model.licence);
-  *out.mutable_skeleton() = wire::ToProto(model.skeleton);
-  out.set_model_frame_rate(model.fps);
-  out.set_history_frames(model.history_frames);
-  out.set_default_temperature(model.default_temperature);
-  for (const std::string& control : model.controls) {
-    if (control == "root_path") out.add_controls(v1::CONTROL_ROOT_PATH);
-    if (control == "velocity_factors") out.add_controls(v1::CONTROL_VELOCITY_FACTORS);
-  }
-  out.set_max_transition_frames(model.max_transition_frames);
-  out.mutable_styles()->Add(model.styles.begin(), model.styles.end());
-  out.set_takes_no_music(!model.takes_music);
-  out.set_deterministic(model.deterministic);
-  return out;
-}
-
 v1::StreamDanceResponse ToProto(const client::Header& header) {
   v1::StreamDanceResponse out;
   *out.mutable_header() = ToHeader(header);

@@ -9,7 +9,6 @@
 /// What the page is told: the client library's structs as messages of choreo.v1.
 namespace choreo::studio {
 
-v1::ModelInfo ToProto(const client::ModelDescription& model);
 v1::StreamDanceResponse ToProto(const client::Header& header);
 v1::StreamDanceResponse ToProto(const client::FrameBlock& block);
 /// `fps`: the model's.

@@ -8,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/core/passage.h"
 #include "model/messages/dance_event.h"
+#include "model/messages/model_description.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -23,6 +24,7 @@ v1::Pose ToProto(const Pose& pose);
 v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
 v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);
+v1::ModelInfo ToProto(const ModelDescription& model);
 v1::QualityReport ToProto(const QualityReport& report);
 /// `fps`: the model's, at which frames are counted.
 v1::Event ToProto(const DanceEvent& event, double fps);
@@ -32,6 +34,7 @@ v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
                    v1::RotationEncoding encoding = v1::ROTATION_ENCODING_AXIS_ANGLE);
 
 Skeleton FromProto(const v1::Skeleton& skeleton);
+ModelDescription FromProto(const v1::ModelInfo& model);
 QualityReport FromProto(const v1::QualityReport& report);
 /// None for a kind of event that this version does not know yet.
 std::optional<DanceEvent> FromProto(const v1::Event& event);

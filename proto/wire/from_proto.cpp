@@ -48,6 +48,35 @@ Skeleton FromProto(const v1::Skeleton& skeleton) {
   return out;
 }
 
+ModelDescription FromProto(const v1::ModelInfo& model) {
+  ModelDescription out;
+  out.name = model.name();
+  out.fingerprint = model.fingerprint();
+  out.licence = model.licence();
+  out.card = model.card();
+  out.skeleton = FromProto(model.skeleton());
+  out.fps = model.model_frame_rate();
+  out.history_frames = model.history_frames();
+  out.default_temperature = model.default_temperature();
+  for (const int control : model.controls()) {
+    if (control == v1::CONTROL_ROOT_PATH) out.controls.emplace_back("root_path");
+    if (control == v1::CONTROL_VELOCITY_FACTORS) out.controls.emplace_back("velocity_factors");
+  }
+  for (const v1::VelocityReference& reference : model.velocity_references()) {
+    if (reference.speeds_size() != kBodyParts) throw Broken("a velocity reference of odd length");
+    out.velocity_references.push_back(
+        {reference.name(), {reference.speeds().begin(), reference.speeds().end()}});
+  }
+  out.styles = {model.styles().begin(), model.styles().end()};
+  out.takes_music = !model.takes_no_music();
+  out.likelihood = model.likelihood();
+  out.deterministic = model.deterministic();
+  out.audio_lead_s = model.audio_lead_s();
+  out.latency_frames = model.latency_frames();
+  out.max_transition_frames = model.max_transition_frames();
+  return out;
+}
+
 QualityReport FromProto(const v1::QualityReport& report) {
   QualityReport out;
   out.frames = report.frames();

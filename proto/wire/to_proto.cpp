@@ -92,6 +92,35 @@ v1::MusicPassage ToProto(const Passage& passage) {
   return out;
 }
 
+v1::ModelInfo ToProto(const ModelDescription& model) {
+  v1::ModelInfo out;
+  out.set_name(model.name);
+  out.set_fingerprint(model.fingerprint);
+  out.set_licence(model.licence);
+  out.set_card(model.card);
+  *out.mutable_skeleton() = ToProto(model.skeleton);
+  out.set_model_frame_rate(model.fps);
+  out.set_history_frames(model.history_frames);
+  out.set_default_temperature(model.default_temperature);
+  for (const std::string& control : model.controls) {
+    if (control == "root_path") out.add_controls(v1::CONTROL_ROOT_PATH);
+    if (control == "velocity_factors") out.add_controls(v1::CONTROL_VELOCITY_FACTORS);
+  }
+  out.set_audio_lead_s(model.audio_lead_s);
+  out.set_latency_frames(model.latency_frames);
+  out.set_max_transition_frames(model.max_transition_frames);
+  for (const auto& [name, speeds] : model.velocity_references) {
+    v1::VelocityReference* added = out.add_velocity_references();
+    added->set_name(name);
+    for (const double speed : speeds) added->add_speeds(static_cast<float>(speed));
+  }
+  out.set_takes_no_music(!model.takes_music);
+  out.set_deterministic(model.deterministic);
+  out.mutable_styles()->Add(model.styles.begin(), model.styles.end());
+  out.set_likelihood(model.likelihood);
+  return out;
+}
+
 v1::QualityReport ToProto(const QualityReport& report) {
   v1::QualityReport out;
   out.set_first_frame(report.measured_from);

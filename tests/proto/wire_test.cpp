@@ -1,0 +1,105 @@
+#include "proto/wire/convert.h"
+
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include "model/motion/velocity_factors.h"
+
+namespace choreo::wire_test {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+/// Whether each field that the API has is written, those of the messages inside too.
+void ExpectFull(const Message& message) {
+  const auto& type = *message.GetDescriptor();
+  const auto& reflection = *message.GetReflection();
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor* field = type.field(i);
+    if (field->real_containing_oneof()) continue;
+    EXPECT_TRUE(field->is_repeated() ? reflection.FieldSize(message, field) > 0
+                                     : reflection.HasField(message, field))
+        << field->full_name();
+    if (field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) continue;
+    if (!field->is_repeated()) {
+      ExpectFull(reflection.GetMessage(message, field));
+    } else if (reflection.FieldSize(message, field) > 0) {
+      ExpectFull(reflection.GetRepeatedMessage(message, field, 0));
+    }
+  }
+}
+
+template <class Proto>
+void ExpectBackAgain(const Proto& message) {
+  ExpectFull(message);
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(
+      wire::ToProto(wire::FromProto(message)), message))
+      << message.DebugString();
+}
+
+KeyReached SomeKey() { return {"a", 30, 0.25, 0.5, 0.75, 1, 1.25}; }
+
+TEST(Wire, ReportsComeBackWhole) {
+  QualityReport report{.frames = 90,
+                       .keys = {SomeKey()},
+                       .measured_from = 30,
+                       .log_likelihood = -2,
+                       .skate_ratio = 0.25,
+                       .support = 0.5,
+                       .beat_hit_rate = 0.75,
+                       .beat_coverage = 1.5,
+                       .max_key_acceleration = 9,
+                       .p95_acceleration = 8};
+  for (int part = 1; part <= kBodyParts; ++part) report.part_speeds.push_back({0.5 * part, 0.25});
+  ExpectBackAgain(wire::ToProto(report));
+}
+
+TEST(Wire, ModelsComeBackWhole) {
+  const ModelDescription model{.name = "default",
+                               .fingerprint = "f",
+                               .licence = "l",
+                               .card = "{}",
+                               .skeleton = Skeleton::Smpl24(),
+                               .fps = 30,
+                               .history_frames = 10,
+                               .default_temperature = 0.5,
+                               .controls = {"root_path", "velocity_factors"},
+                               .velocity_references = {{"median", {0.5, 1, 1.5, 2, 2.5}}},
+                               .styles = {"calm"},
+                               .takes_music = false,
+                               .likelihood = true,
+                               .deterministic = true,
+                               .audio_lead_s = 0.5,
+                               .latency_frames = 4,
+                               .max_transition_frames = 600};
+  ExpectBackAgain(wire::ToProto(model));
+}
+
+TEST(Wire, EventsComeBackWhole) {
+  for (const DanceEvent& event : std::vector<DanceEvent>{
+           SomeKey(), KeyRejected{"a", 30, 33, "late", KeyRejected::Code::kTooLate},
+           Beat{30, 1.25, Beat::Source::kHeard, 0.5, true},
+           Warning{30, "fast", Warning::Code::kTemperatureTooHigh}}) {
+    const v1::Event message = wire::ToProto(event, 30);
+    EXPECT_EQ(message.time(), event.index() == 3 ? 1.25 : 1);
+    ExpectFull(message);
+    const std::optional<DanceEvent> back = wire::FromProto(message);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(wire::ToProto(*back, 30).SerializeAsString(), message.SerializeAsString());
+  }
+  EXPECT_FALSE(wire::FromProto(v1::Event())) << "of a later version";
+}
+
+TEST(Wire, CodesOfLaterVersionsAreUnknown) {
+  v1::Event event;
+  event.mutable_warning()->set_code(static_cast<v1::WarningCode>(v1::WarningCode_MAX + 1));
+  EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kUnknown);
+  event.mutable_warning()->set_code(v1::WarningCode_MAX);
+  EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kTemperatureTooHigh);
+  event.mutable_keyframe_rejected()->set_code(v1::RejectionCode_MAX);
+  EXPECT_EQ(std::get<KeyRejected>(*wire::FromProto(event)).code, KeyRejected::Code::kAlreadyDanced);
+  event.mutable_beat()->set_source(v1::BeatSource_MAX);
+  EXPECT_EQ(std::get<Beat>(*wire::FromProto(event)).source, Beat::Source::kHeard);
+}
+
+}  // namespace choreo::wire_test
