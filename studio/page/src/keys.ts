@@ -9,7 +9,7 @@ import { danceFrom, edit } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
-import { closest, emptyProject, freeId, sorted, spoken } from './project';
+import { closest, emptyProject, freeId, sorted, spoken, wishes } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
@@ -31,8 +31,8 @@ export async function compose() {
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
-  const { dynamics, variation, lively, style, path, dancers, apart } = project.value ?? asked;
-  danceFrom({ ...asked, beats, dynamics, variation, lively, style, path, dancers, apart, seed, keys: named.map((key) => onPath(path, key)) }, -1);
+  const wished = wishes(project.value ?? asked);
+  danceFrom({ ...asked, ...wished, beats, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.

@@ -9,7 +9,7 @@ import { dancer, skeleton, wire } from './link';
 import { listen } from './microphone';
 import type { Microphone } from './microphone';
 import { Motion } from './motion';
-import { closest, emptyProject, freeId, sorted } from './project';
+import { closest, emptyProject, freeId, sorted, wishes } from './project';
 import type { Key } from './project';
 import { dropSketch } from './photos';
 import { audio, hear } from './songs';
@@ -62,12 +62,12 @@ export const startLive = () => work(async () => {
   [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
   [pieces, samples, granted, latency, isLost, drawing.value] = [[], 0, 0, 0, false, false];
   const asked = emptyProject(name, shownAhead);
-  const { style, dynamics, variation, lively, seed } = moment.value?.project ?? asked;
+  const before = moment.value?.project ?? asked;
   const early: Float32Array[] = [];
   microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
   rate = microphone.rate;
   const motion = new Motion(skeleton.joints, dancer.fps);
-  live.value = { project: { ...asked, style, dynamics, variation, lively, seed }, motion, beats: [] };
+  live.value = { project: { ...asked, ...wishes(before), path: asked.path, seed: before.seed }, motion, beats: [] };
   call = wire.open(
     { case: 'dance', value: { request: { case: 'config', value: {
       ...how(live.value.project), generateUntil: 0n,

@@ -58,6 +58,9 @@ export type Project = {
   apart: number;
 };
 
+/// How a dance should be, whatever its music and its keys.
+export const wishes = ({ style, dynamics, variation, lively, path }: Project) => ({ style, dynamics, variation, lively, path });
+
 export const emptyProject = (song: string, seconds: number): Project => ({
   song,
   seconds,
