@@ -73,10 +73,10 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
     spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
     spec.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
   }
-  if (model.root_path) {
+  if (model.Takes(kRootPath)) {
     const Eigen::Vector3d from = spec.history.back().root_position;
     const Eigen::Vector3d way = key.root_position - from;
-    spec.controls.root_path =
+    spec.controls[kRootPath].values =
         (way * Eigen::RowVectorXd::LinSpaced(kUsualFrames, 1.0 / kUsualFrames, 1)).colwise() + from;
   }
   return spec;

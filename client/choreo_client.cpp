@@ -6,6 +6,7 @@
 #include "client/convert.h"
 #include "client/remote_dance.h"
 #include "client/replicas.h"
+#include "proto/wire/controls.h"
 
 namespace choreo::client {
 namespace {
@@ -27,7 +28,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
   }
 }
 
-bool AreAsked(const Controls& controls) { return controls.root_path || controls.velocity_factors; }
+bool AreAsked(const Controls& controls) { return wire::ToProto(controls).ByteSizeLong() > 0; }
 
 v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   v1::GenerateTransitionRequest out;
@@ -59,7 +60,7 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   for (const Pose& pose : request.after) *out.add_after() = ToProto(pose);
   out.set_candidates(static_cast<uint32_t>(request.candidates));
   if (request.rank_by == RankBy::kLikelihood) out.set_rank_by(v1::RANK_BY_LIKELIHOOD);
-  if (AreAsked(config.controls)) *out.mutable_controls() = ToProto(config.controls);
+  if (AreAsked(config.controls)) *out.mutable_controls() = wire::ToProto(config.controls);
   return out;
 }
 
@@ -167,7 +168,7 @@ void RemoteDance::RemoveKey(const std::string& id) {
 
 void RemoteDance::SendControls(const Controls& controls) {
   v1::StreamDanceRequest request;
-  *request.mutable_controls() = ToProto(controls);
+  *request.mutable_controls() = wire::ToProto(controls);
   impl_->Send(std::move(request));
 }
 

@@ -14,7 +14,6 @@ using wire::FromProto, wire::ToProto;
 
 v1::DanceConfig ToProto(const DanceConfig& config);
 v1::Keyframe ToProto(const KeyPose& key);
-v1::Controls ToProto(const Controls& controls);
 
 /// Bytes of little-endian floats.
 std::string ToPcmBytes(std::span<const float> samples);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/core/passage.h"
+#include "model/motion/control_request.h"
 #include "model/motion/motion.h"
 
 /// What a client asks for: music, key poses, controls, and what a dance is made with. Frames are
@@ -52,26 +53,7 @@ struct Continuation {
 };
 
 /// Wishes beside key poses and music, for models that know them (ModelDescription::controls).
-struct Controls {
-  /// Where the root goes: points in time, at least 2, metres, in the world; frames are the model's.
-  /// One in each frame, or few, which a smooth curve leads through. Keys win over it.
-  struct RootPath {
-    std::vector<int64_t> frames = {};          ///< ascending
-    std::vector<Eigen::Vector2d> points = {};  ///< (x, z) at each
-    std::vector<double> heights = {};          ///< of the root, at each; empty: as the model likes
-  };
-  /// How lively parts of the body are. Either factors or speeds.
-  struct VelocityFactors {
-    std::vector<int64_t> frames = {};  ///< of each row, ascending; empty: one row, for always
-    std::vector<std::string> parts =
-        {};                            ///< of each column, of kBodyPartNames; empty: one, for all
-    std::vector<double> factors = {};  ///< [rows, columns] multipliers of the reference, 0 to 10
-    std::vector<double> speeds = {};   ///< [rows, columns] metres a frame, 0 to 0.5
-    std::string reference = {};        ///< empty: the model's first
-  };
-  std::optional<RootPath> root_path = {};
-  std::optional<VelocityFactors> velocity_factors = {};
-};
+using Controls = ControlRequest;
 
 /// What a dance is made with.
 struct DanceConfig {

@@ -3,6 +3,7 @@
 #include "client/convert.h"
 
 namespace choreo::client {
+
 Header FromProto(const v1::Header& header) {
   Header out;
   out.model = header.model();

@@ -20,46 +20,6 @@ v1::Keyframe ToProto(const KeyPose& key) {
   return out;
 }
 
-namespace {
-
-v1::RootPath ToProto(const Controls::RootPath& path) {
-  v1::RootPath out;
-  out.mutable_frames()->Add(path.frames.begin(), path.frames.end());
-  for (const Eigen::Vector2d& point : path.points) {
-    for (const double value : point) out.add_points(static_cast<float>(value));
-  }
-  for (const double height : path.heights) out.add_heights(static_cast<float>(height));
-  return out;
-}
-
-v1::VelocityFactors ToProto(const Controls::VelocityFactors& velocity) {
-  v1::VelocityFactors out;
-  out.mutable_frames()->Add(velocity.frames.begin(), velocity.frames.end());
-  for (const double factor : velocity.factors) out.add_factors(static_cast<float>(factor));
-  for (const double speed : velocity.speeds) out.add_speeds(static_cast<float>(speed));
-  out.set_reference(velocity.reference);
-  for (const std::string& name : velocity.parts) {
-    const std::optional<BodyPart> part = FindBodyPart(name);
-    if (!part) {
-      throw InvalidArgument("velocity_factors.parts",
-                            '"' + name + "\" is none of " + BodyPartNames());
-    }
-    out.add_parts(static_cast<v1::BodyPart>(v1::BODY_PART_TRUNK + static_cast<int>(*part)));
-  }
-  return out;
-}
-
-}  // namespace
-
-v1::Controls ToProto(const Controls& controls) {
-  v1::Controls out;
-  if (controls.root_path) *out.mutable_root_path() = ToProto(*controls.root_path);
-  if (controls.velocity_factors) {
-    *out.mutable_velocity_factors() = ToProto(*controls.velocity_factors);
-  }
-  return out;
-}
-
 v1::DanceConfig ToProto(const DanceConfig& config) {
   v1::DanceConfig out;
   out.set_model(config.model);

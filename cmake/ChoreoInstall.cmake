@@ -12,7 +12,7 @@ install(FILES client/choreo_client.h client/dance_config.h client/dance_messages
 install(FILES model/core/error.h model/core/grid.h model/core/limits.h model/core/passage.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/core)
 install(FILES model/messages/dance_event.h model/messages/model_description.h model/messages/quality_report.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/messages)
 # What these headers include, and the pose at rest, from which key poses are made.
-install(FILES model/motion/kinematics.h model/motion/motion.h model/motion/skeleton.h model/motion/velocity_factors.h
+install(FILES model/motion/control_request.h model/motion/kinematics.h model/motion/motion.h model/motion/skeleton.h model/motion/velocity_factors.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion)
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")
 install(DIRECTORY model/checkpoints DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo COMPONENT programs)

@@ -10,7 +10,7 @@
 #include "model/dance/music_beats.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
-#include "server/read_controls.h"
+#include "proto/wire/controls.h"
 #include "server/read_pose.h"
 
 namespace choreo {
@@ -249,6 +249,16 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
     throw InvalidArgument("audio", "there is no config.audio_format");
   }
   return request;
+}
+
+ControlRequest ToControls(const v1::Controls& controls, const std::string& field) {
+  std::vector<const google::protobuf::FieldDescriptor*> said;
+  controls.GetReflection()->ListFields(controls, &said);
+  if (!said.empty()) return wire::FromProto(controls, field);
+  std::string names;
+  for (const ControlRow& row : kControls)
+    names += (names.empty() ? "" : " or ") + std::string(row.name);
+  throw InvalidArgument(field, "empty; " + names + " must be there");
 }
 
 std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,

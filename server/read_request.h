@@ -25,6 +25,9 @@ ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
                             uint64_t fresh_seed);
 
+/// Throws for no control at all, too. What has a meaning is for ValidateControls to judge.
+ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
+
 /// Times of beats, within the longest music and strictly ascending.
 std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
                             const std::string& field);

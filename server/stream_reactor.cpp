@@ -15,7 +15,6 @@
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
 #include "server/music_file.h"
-#include "server/read_controls.h"
 #include "server/read_message.h"
 #include "server/read_pose.h"
 #include "server/read_request.h"

@@ -45,10 +45,10 @@ ModelDescription DescribeModel(const ModelInfo& model) {
       .likelihood = model.likelihood,
       .deterministic = model.deterministic,
       .max_transition_frames = std::min(model.max_transition_frames, kMaxTransitionFrames)};
-  if (model.root_path) out.controls.emplace_back("root_path");
-  if (model.velocity_factors) out.controls.emplace_back("velocity_factors");
-  for (const auto& [name, speeds] : model.velocity_references)
-    out.velocity_references.push_back({name, {speeds.begin(), speeds.end()}});
+  out.controls = model.controls;
+  for (const VelocityReference& reference : model.velocity_references)
+    out.velocity_references.push_back(
+        {reference.name, {reference.factors.begin(), reference.factors.end()}});
   if (!out.takes_music) return out;
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;

@@ -5,6 +5,7 @@
 
 #include "client/cli/key_faults.h"
 #include "client/convert.h"
+#include "proto/wire/controls.h"
 #include "studio/answers.h"
 #include "studio/company.h"
 #include "studio/from_page.h"
@@ -72,7 +73,7 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
     case v1::StreamDanceRequest::kRemoveKeyframe:
       return dance.RemoveKey(request.remove_keyframe().id());
     case v1::StreamDanceRequest::kControls:
-      return dance.SendControls(FromProto(request.controls()));
+      return dance.SendControls(wire::FromProto(request.controls(), "controls"));
     case v1::StreamDanceRequest::kGenerateUntil:
       return dance.GenerateUntil(request.generate_until().frame());
     case v1::StreamDanceRequest::kKeyframesComplete:

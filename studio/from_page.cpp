@@ -9,6 +9,7 @@
 #include "model/audio/format.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"
+#include "proto/wire/controls.h"
 
 namespace choreo::studio {
 namespace {
@@ -70,33 +71,6 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
   return out;
 }
 
-client::Controls FromProto(const v1::Controls& controls) {
-  client::Controls out;
-  if (controls.has_root_path()) {
-    const v1::RootPath& path = controls.root_path();
-    client::Controls::RootPath& added = out.root_path.emplace();
-    added.frames.assign(path.frames().begin(), path.frames().end());
-    RequireCount("root_path.points", path.points_size(), 2 * path.frames_size());
-    for (int i = 0; i < path.points_size(); i += 2)
-      added.points.emplace_back(path.points(i), path.points(i + 1));
-    added.heights.assign(path.heights().begin(), path.heights().end());
-  }
-  if (controls.has_velocity_factors()) {
-    const v1::VelocityFactors& velocity = controls.velocity_factors();
-    client::Controls::VelocityFactors& added = out.velocity_factors.emplace();
-    added.frames.assign(velocity.frames().begin(), velocity.frames().end());
-    added.factors.assign(velocity.factors().begin(), velocity.factors().end());
-    added.speeds.assign(velocity.speeds().begin(), velocity.speeds().end());
-    added.reference = velocity.reference();
-    for (const int part : velocity.parts()) {
-      if (part < v1::BODY_PART_TRUNK || part > v1::BODY_PART_RIGHT_LEG)
-        throw InvalidArgument("velocity_factors.parts", std::to_string(part) + " is no part");
-      added.parts.emplace_back(kBodyPartNames[static_cast<size_t>(part - v1::BODY_PART_TRUNK)]);
-    }
-  }
-  return out;
-}
-
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton) {
   client::DanceConfig out;
   const auto refuse = [](const char* field) {
@@ -153,7 +127,7 @@ client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request
                                     const Skeleton& skeleton) {
   client::TransitionRequest out;
   out.config = FromProto(request.config(), skeleton);
-  out.config.controls = FromProto(request.controls());
+  out.config.controls = wire::FromProto(request.controls(), "controls");
   out.frames = request.frames();
   if (request.has_audio() || request.config().has_audio_format())
     throw InvalidArgument("audio", "must be absent: the studio sees to it");

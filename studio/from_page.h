@@ -12,7 +12,6 @@
 namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
-client::Controls FromProto(const v1::Controls& controls);
 /// Without a model, which is the server's first; with beats where they are others than this program
 /// hears. Music comes in floats, if at all.
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);

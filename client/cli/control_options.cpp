@@ -7,7 +7,7 @@
 #include "client/cli/options.h"
 #include "client/cli/velocity_options.h"
 #include "model/core/rounded.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls.h"
 
 namespace choreo::cli {
 namespace {
@@ -16,9 +16,9 @@ bool Has(const client::ModelDescription& model, const std::string& control) {
   return std::ranges::find(model.controls, control) != model.controls.end();
 }
 
-void RequireControl(const std::string& control, const std::string& option,
-                    const client::ModelDescription& model,
+void RequireControl(size_t row, const std::string& option, const client::ModelDescription& model,
                     const client::ServerDescription& server) {
+  const std::string control(kControls[row].name);
   if (Has(model, control)) return;
   std::string others;
   for (const client::ModelDescription& other : server.models) {
@@ -95,12 +95,12 @@ client::Controls ControlOptions::Read(const client::ModelDescription& model,
                                       const client::ServerDescription& server) const {
   client::Controls controls;
   if (!path.empty() || !path_text.empty()) {
-    RequireControl("root_path", path.empty() ? path_text_name : "--path", model, server);
+    RequireControl(kRootPath, path.empty() ? path_text_name : "--path", model, server);
     controls.root_path = ParsePathFile(path.empty() ? path_text : ReadText(path, "path file"),
                                        PathName(), model.fps);
   }
   if (!velocities.empty()) {
-    RequireControl("velocity_factors", "--velocity", model, server);
+    RequireControl(kVelocityFactors, "--velocity", model, server);
     controls.velocity_factors = ReadVelocities(velocities, reference, model.fps);
   } else if (!reference.empty()) {
     throw InvalidArgument("--velocity-reference", "there is no --velocity");
@@ -129,9 +129,10 @@ Error ControlOptions::InTermsOf(const Error& error) const {
     if (!field.starts_with(prefix)) continue;
     field.remove_prefix(prefix.size());
     if (field == "velocity_factors.reference") return error.Of("--velocity-reference");
-    if (field.starts_with("velocity_factors")) return error.Of("--velocity");
-    if (!field.starts_with("root_path")) break;
-    if (field == "root_path") return error.Of("--path");
+    const auto row =
+        std::ranges::find(kControls, field.substr(0, field.find('.')), &ControlRow::name);
+    if (row == std::end(kControls)) break;
+    if (!field.starts_with("root_path.")) return error.Of(std::string(row->option));
     const size_t bracket = field.find('[');
     size_t index = 0;
     if (bracket != std::string_view::npos)

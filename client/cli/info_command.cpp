@@ -9,6 +9,7 @@
 #include "client/cli/connection.h"
 #include "client/cli/pose_library.h"
 #include "client/style_figures.h"
+#include "model/motion/controls.h"
 
 namespace choreo::cli {
 namespace {
@@ -111,10 +112,10 @@ void PrintControls(const client::ModelDescription& model) {
   if (model.deterministic)
     std::printf("  deterministic: --seed, --temperature and --candidates change nothing\n");
   if (model.likelihood) std::printf("  likelihood (--rank-by likelihood)\n");
-  for (const std::string& control : model.controls)
-    std::printf("  control: %s\n", control == "root_path"          ? "root path (--path)"
-                                   : control == "velocity_factors" ? "velocity factors (--velocity)"
-                                                                   : control.c_str());
+  for (const std::string& control : model.controls) {
+    const ControlRow& row = kControls[FindControl(control)];
+    std::printf("  control: %s (%s)\n", row.label.data(), row.option.data());
+  }
   for (const auto& reference : model.velocity_references) {
     std::printf("  velocity reference %s, cm a frame:", reference.name.c_str());
     for (size_t part = 0; part < reference.speeds.size(); ++part)

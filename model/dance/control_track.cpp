@@ -20,16 +20,16 @@ bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_
 
 }  // namespace
 
-void ControlRequest::Validate(const ModelInfo& model, const std::string& field) const {
-  const std::string refusal = "the model \"" + model.name + "\" does not have this control";
-  if (root_path) {
-    if (!model.root_path) throw InvalidArgument(field + ".root_path", refusal);
-    root_path->Validate(field + ".root_path");
-  }
-  if (velocity_factors) {
-    if (!model.velocity_factors) throw InvalidArgument(field + ".velocity_factors", refusal);
-    velocity_factors->Validate(model, field + ".velocity_factors");
-  }
+void ValidateControls(const ControlRequest& request, const ModelInfo& model,
+                      const std::string& field) {
+  const auto field_of = [&](size_t control) {
+    std::string name = field + "." + std::string(kControls[control].name);
+    if (model.Takes(control)) return name;
+    throw InvalidArgument(name, "the model \"" + model.name + "\" does not have this control");
+  };
+  if (request.root_path) ValidatePath(*request.root_path, field_of(kRootPath));
+  if (request.velocity_factors)
+    ValidateVelocities(*request.velocity_factors, model, field_of(kVelocityFactors));
 }
 
 void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::string& field) {
@@ -37,7 +37,9 @@ void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::s
     throw InvalidArgument(field, "is one more than the limit of " + std::to_string(kMaxControls));
   }
   const size_t values = values_ + (request.root_path ? request.root_path->frames.size() : 0) +
-                        (request.velocity_factors ? request.velocity_factors->values.size() : 0);
+                        (request.velocity_factors ? request.velocity_factors->factors.size() +
+                                                        request.velocity_factors->speeds.size()
+                                                  : 0);
   if (values > kMaxControlValues) {
     throw InvalidArgument(field, "brings the dance's controls to " + std::to_string(values) +
                                      " points and values, the limit is " +
@@ -100,7 +102,8 @@ void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request
   WarnOfDistance(way, warnings);
   const Lead floor = LeadPath(way);
 
-  request->controls.path_heights = std::ranges::any_of(way.curves, HasHeights);
+  ControlCurve& control = request->controls[kRootPath];
+  control.asked[1] = std::ranges::any_of(way.curves, HasHeights);
   way.axes = {0, 1, 0};
   for (const PathCurve*& curve : way.curves) {
     if (!HasHeights(curve)) curve = nullptr;
@@ -113,8 +116,8 @@ void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request
     way.end.emplace().position.y() = standing.value_or(model_->skeleton.pelvis_height);
   const Lead height = LeadPath(way);
 
-  Eigen::Matrix3Xd& path = request->controls.root_path;
-  path = floor.path + height.path;
+  const Eigen::Matrix3Xd path = floor.path + height.path;
+  control.values = path;
   const int64_t last = first_frame + frames - 1;
   const double missed = (floor.missed + height.missed).norm();
   if (missed > kKeyTolerance) warnings->push_back(KeyOffPath(key_id, last, missed));
@@ -146,20 +149,20 @@ void ControlTrack::WarnOfDistance(const LeadRequest& request,
 void ControlTrack::AskVelocities(TransitionRequest* request) const {
   const int64_t first_frame = request->first_frame;
   if (velocities_.empty() || velocities_.front().from > first_frame) return;
-  auto& factors = request->controls.velocity_factors;
-  factors.resize(kBodyParts, request->frames);
+  ControlCurve& factors = request->controls[kVelocityFactors];
+  factors.values.resize(kBodyParts, request->frames);
   VelocityRequest usual;
-  usual.values = {1};
+  usual.factors = {1};
   for (int part = 0; part < kBodyParts; ++part) {
     const auto body_part = static_cast<BodyPart>(part);
     const auto said = std::find_if(velocities_.rbegin(), velocities_.rend(), [&](const auto& one) {
-      return one.from <= first_frame && one.control.Names(body_part);
+      return one.from <= first_frame && Names(one.control, body_part);
     });
     const bool is_asked = said != velocities_.rend();
-    request->controls.parts_asked[static_cast<size_t>(part)] = is_asked;
+    factors.asked[static_cast<size_t>(part)] = is_asked;
     const VelocityRequest& asked = is_asked ? said->control : usual;
     for (int frame = 0; frame < request->frames; ++frame)
-      factors(part, frame) = asked.At(first_frame + frame, body_part, *model_);
+      factors.values(part, frame) = SpeedAt(asked, first_frame + frame, body_part, *model_);
   }
 }
 
@@ -173,7 +176,7 @@ std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) c
   std::string misses;
   for (size_t i = 0; i < kBodyParts; ++i) {
     const auto named = [part = static_cast<BodyPart>(i)](const auto& one) {
-      return one.control.Names(part);
+      return Names(one.control, part);
     };
     const auto [asked, danced] = report.part_speeds[i];
     const double miss = std::abs(danced - asked);

@@ -20,15 +20,10 @@ struct LeadRequest;
 inline constexpr size_t kMaxControls = 1000;
 inline constexpr size_t kMaxControlValues = 1'000'000;
 
-/// Controls as one message of a client states them.
-struct ControlRequest {
-  std::optional<RootPath> root_path;
-  std::optional<VelocityRequest> velocity_factors;
-
-  /// Throws Error(kInvalidArgument) below `field` for bad values and for a control that the model
-  /// does not take.
-  void Validate(const ModelInfo& model, const std::string& field) const;
-};
+/// Throws Error(kInvalidArgument) below `field` for bad values and for a control that the model
+/// does not take.
+void ValidateControls(const ControlRequest& request, const ModelInfo& model,
+                      const std::string& field);
 
 /// The controls of one dance. Of those set for transitions from a frame on, the last counts: of
 /// root paths the last that speaks of a frame, of velocity factors part by part; parts and frames

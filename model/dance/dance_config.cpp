@@ -100,7 +100,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     if (!target) throw InvalidArgument("after", "needs a target");
     ValidatePose(model.skeleton, *after, "after");
   }
-  controls.Validate(model, "controls");
+  ValidateControls(controls, model, "controls");
   if (!audio) {
     if (!samples.empty()) throw InvalidArgument("audio", "comes without config.audio_format");
     return;

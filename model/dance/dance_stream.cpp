@@ -82,7 +82,7 @@ void DanceStream::RemoveKey(const std::string& id) {
 void DanceStream::SetControls(const ControlRequest& request) {
   std::lock_guard lock(messages_);
   const std::string field = NextControls();
-  request.Validate(model_, field);
+  ValidateControls(request, model_, field);
   chain_->SetControls(request, field);
   ++controls_;
 }

@@ -8,30 +8,34 @@
 
 namespace choreo {
 
-void RootPath::Validate(const std::string& field) const {
-  ValidateFrames(frames, field + ".frames");
-  const auto count = static_cast<int64_t>(frames.size());
-  if (points.cols() != count) {
-    throw InvalidArgument(field + ".points", std::to_string(points.cols()) + " points for " +
-                                                 std::to_string(count) + " frames");
+void ValidatePath(const RootPath& path, const std::string& field) {
+  ValidateFrames(path.frames, field + ".frames");
+  const size_t count = path.points.size(), frames = path.frames.size();
+  const size_t heights = path.heights.size();
+  if (count != frames) {
+    throw InvalidArgument(field + ".points", std::to_string(count) + " points for " +
+                                                 std::to_string(frames) + " frames");
+  }
+  if (heights != 0 && heights != count) {
+    throw InvalidArgument(field + ".heights", std::to_string(heights) + " heights for " +
+                                                  std::to_string(count) + " points");
   }
   if (count < 2) {
     throw InvalidArgument(field + ".points",
                           std::to_string(count) + " points, a path needs at least 2");
   }
-  for (int64_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     // Written so that NaN fails too.
-    for (const int axis : {0, 2}) {
-      const double value = points(axis, i);
+    for (const int axis : {0, 1}) {
+      const double value = path.points[i][axis];
       if (std::abs(value) <= kMaxPosition) continue;
-      throw InvalidArgument(At(field + ".points", 2 * i + axis / 2),
+      throw InvalidArgument(At(field + ".points", static_cast<int64_t>(2 * i) + axis),
                             Show(value) + " m is not within " + Show(kMaxPosition) + " m of 0");
     }
-    const double height = points(1, i);
-    if (has_heights && !(height >= 0 && height <= kMaxRootHeight)) {
+    if (heights != 0 && !(path.heights[i] >= 0 && path.heights[i] <= kMaxRootHeight)) {
       throw InvalidArgument(
-          At(field + ".heights", i),
-          Show(height) + " m above the floor is not in [0, " + Show(kMaxRootHeight) + "]");
+          At(field + ".heights", static_cast<int64_t>(i)),
+          Show(path.heights[i]) + " m above the floor is not in [0, " + Show(kMaxRootHeight) + "]");
     }
   }
 }
@@ -46,10 +50,10 @@ PathPoint CubicBetween(const PathPoint& from, const PathPoint& to, double durati
 }
 
 PathCurve::PathCurve(const RootPath& path)
-    : frames_(path.frames), points_(path.frames.size()), has_heights_(path.has_heights) {
+    : frames_(path.frames), points_(path.frames.size()), has_heights_(!path.heights.empty()) {
   for (size_t i = 0; i < points_.size(); ++i) {
-    points_[i].position = path.points.col(static_cast<Eigen::Index>(i));
-    if (!has_heights_) points_[i].position.y() = 0;
+    const Eigen::Vector2d& point = path.points[i];
+    points_[i].position = {point.x(), has_heights_ ? path.heights[i] : 0, point.y()};
   }
   const auto duration = [this](size_t leg) {
     return static_cast<double>(frames_[leg + 1] - frames_[leg]);

@@ -5,23 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "model/motion/control_request.h"
+
 namespace choreo {
 
 /// Metres above the floor: a metre more than standing, which nobody leaps.
 inline constexpr double kMaxRootHeight = 2;
 
-/// Where the root should be, as a client says it: points in time, world frame, metres. A dense path
-/// has a point in each frame; of a sparse one the smooth curve through its points is meant.
-struct RootPath {
-  std::vector<int64_t> frames;  ///< of each point, absolute, at the model's rate; ascending
-  Eigen::Matrix3Xd points;      ///< [3, points]; y is read with heights alone
-  bool has_heights = false;     ///< whether it says how high the root is (a jump, a squat)
+/// As a client says it: points in time, world frame, metres. A dense path has a point in each
+/// frame; of a sparse one the smooth curve through its points is meant.
+using RootPath = ControlRequest::RootPath;
 
-  /// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not
-  /// ascend or lie outside a dance, points that are not finite or further than kMaxPosition from
-  /// the origin, heights outside [0, kMaxRootHeight].
-  void Validate(const std::string& field) const;
-};
+/// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not ascend
+/// or lie outside a dance, points that are not finite or further than kMaxPosition from the origin,
+/// heights of other points or outside [0, kMaxRootHeight].
+void ValidatePath(const RootPath& path, const std::string& field);
 
 /// A place and how it moves on.
 struct PathPoint {

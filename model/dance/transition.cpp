@@ -26,9 +26,9 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
 
 // Where a key leaves its place open, a path says where it is.
 std::optional<Target> Placed(std::optional<Target> target, const Controls& controls) {
-  const Eigen::Matrix3Xd& path = controls.root_path;
-  if (target && !target->mask.root_position && path.cols() > 0) {
-    target->pose.root_position = path.col(path.cols() - 1);
+  const ControlCurve& path = controls[kRootPath];
+  if (target && !target->mask.root_position && path.IsGiven()) {
+    target->pose.root_position = path.values.rightCols<1>();
     target->mask.root_position = true;
   }
   return target;
@@ -102,8 +102,9 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
                         ? std::nullopt
                         : StandingHeight(model.skeleton, world_target_->pose, target.mask);
   }
-  for (auto place : spec_.controls.root_path.colwise())
-    place = ground_.ToLocal(Eigen::Vector3d(place)).unaryExpr(&ToFloat);
+  spec_.controls.ToLocal(ground_);
+  for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
+    spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
   footwork_ = request.footwork;
   if (!request.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
@@ -174,7 +175,7 @@ void TransitionRun::PutOnFeet() {
     const FootworkContext context{.skeleton = model_->skeleton,
                                   .history = std::span(history).last(spec_.history.size()),
                                   .keyed = ends && spec_.arrival,
-                                  .has_path = spec_.controls.root_path.cols() > 0,
+                                  .has_path = spec_.controls[kRootPath].IsGiven(),
                                   .offset_before = offset_,
                                   .fps = model_->fps,
                                   .options = model_->footwork};
@@ -197,9 +198,8 @@ DanceFrame TransitionRun::Finish(size_t at) {
   CheckFinite(at, world_, contacts, "as arrival and footwork leave it");
   DanceFrame frame{world_, contacts};
   if (!drawn_.log_likelihoods.empty()) frame.log_likelihood = drawn_.log_likelihoods[at];
-  const auto& factors = spec_.controls.velocity_factors;
-  if (factors.cols() > 0) {
-    std::ranges::copy(factors.col(static_cast<Eigen::Index>(at)),
+  if (const ControlCurve& factors = spec_.controls[kVelocityFactors]; factors.IsGiven()) {
+    std::ranges::copy(factors.values.col(static_cast<Eigen::Index>(at)).cast<float>(),
                       frame.asked_speeds.emplace().begin());
   }
   return frame;
@@ -222,7 +222,7 @@ Eigen::Vector3d TransitionRun::StageAfter(size_t frames) const {
   if (frames == 0) return stage_;
   const bool is_there =
       frames == frames_.size() && spec_.target && spec_.target->mask.root_position;
-  const bool has_path = spec_.controls.root_path.cols() > 0;
+  const bool has_path = spec_.controls[kRootPath].IsGiven();
   return is_there || has_path ? frames_[frames - 1].pose.root_position : stage_;
 }
 
@@ -233,7 +233,7 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
   const double seconds = spec_.frames / model_->fps;
   RequiredSpeed speed;
   // What a path asks for is told of the path.
-  if (target.mask.root_position && spec_.controls.root_path.cols() == 0) {
+  if (target.mask.root_position && !spec_.controls[kRootPath].IsGiven()) {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }
   for (int joint = 0; joint < from.rotations.cols(); ++joint) {

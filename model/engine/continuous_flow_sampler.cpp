@@ -28,11 +28,8 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
     }
   }
   request.stage = spec.stage.value_or(Eigen::Vector3d::Zero());
-  request.path = spec.controls.root_path;
-  request.path_heights = spec.controls.path_heights;
+  request.controls = spec.controls;
   request.beats = spec.beats;
-  request.energy = spec.controls.velocity_factors.cast<double>();
-  request.asked = spec.controls.parts_asked;
   request.energy_shift = spec.energy;
   if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
     request.style = static_cast<int>(style - styles.begin());
@@ -51,6 +48,7 @@ class PlanSampling : public Sampling {
   /// Takes what a round has come to; true while another one is to be sampled.
   bool EndRound();
   void Finish();
+  ControlCurve& Energy() { return request_.controls[kVelocityFactors]; }
 
   const ModelInfo* model_;
   const FlowModelParts* parts_;
@@ -81,8 +79,8 @@ PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
       history_(spec.history),
       beats_(spec.beats),
       keyed_(Keyed(spec)),
-      has_path_(spec.controls.root_path.cols() > 0),
-      has_heights_(spec.controls.path_heights),
+      has_path_(spec.controls[kRootPath].IsGiven()),
+      has_heights_(spec.controls[kRootPath].asked[1]),
       request_(ToWindowRequest(spec, model.styles)),
       noise_{.seed = spec.seed,
              .candidate = spec.candidate,
@@ -92,9 +90,9 @@ PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
              .temperature = spec.temperature},
       sampler_(std::in_place, parts, network, request_, noise_),
       // The mean way is as lively as it is.
-      in_rounds_(noise_.temperature > 0 && request_.energy.cols() > 0 &&
-                 std::ranges::count(request_.asked, true) > 0),
-      wanted_(request_.energy),
+      in_rounds_(noise_.temperature > 0 && Energy().IsGiven() &&
+                 std::ranges::count(Energy().asked, true) > 0),
+      wanted_(Energy().values),
       least_(std::numeric_limits<double>::infinity()) {}
 
 bool PlanSampling::Continue() {
@@ -124,11 +122,11 @@ bool PlanSampling::EndRound() {
   double most = 0;
   for (int part = 0; part < asked.size(); ++part) {
     const auto at = static_cast<size_t>(part);
-    if (!request_.asked[at]) continue;
+    if (!Energy().Asks(part)) continue;
     const double missing = EnergyLevel(asked[part], danced[at]);
     most = std::max(most, std::abs(missing));
     more_[at] = std::clamp(more_[at] + missing / kAnswer, -kFarthest, kFarthest);
-    request_.energy.row(part) = std::exp(more_[at]) * wanted_.row(part);
+    Energy().values.row(part) = std::exp(more_[at]) * wanted_.row(part);
   }
   if (most < least_) {
     least_ = most;

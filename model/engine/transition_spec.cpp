@@ -7,18 +7,6 @@
 namespace choreo {
 namespace {
 
-template <typename Matrix>
-void CheckControl(const Matrix& values, bool taken, int frames, const ModelInfo& model,
-                  const std::string& field) {
-  if (values.cols() == 0) return;
-  if (!taken) throw InvalidArgument(field, "the model '" + model.name + "' does not take it");
-  if (values.cols() != frames) {
-    throw InvalidArgument(
-        field, std::to_string(values.cols()) + " frames, must be " + std::to_string(frames));
-  }
-  if (!values.allFinite()) throw InvalidArgument(field, "not finite");
-}
-
 void CheckRows(const Eigen::MatrixXf& rows, int count, const ModelInfo& model,
                const std::string& field) {
   if (rows.rows() == model.audio_features && rows.cols() == count) return;
@@ -73,15 +61,7 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
     throw InvalidArgument("noise_like", std::to_string(like) + " frames, must be 0 or " +
                                             std::to_string(spec.frames));
   }
-  const Controls& controls = spec.controls;
-  CheckControl(controls.root_path, model.root_path, spec.frames, model, "controls.root_path");
-  CheckControl(controls.velocity_factors, model.velocity_factors, spec.frames, model,
-               "controls.velocity_factors");
-  if (controls.velocity_factors.size() > 0 && controls.velocity_factors.minCoeff() < 0) {
-    throw InvalidArgument(
-        "controls.velocity_factors",
-        std::to_string(controls.velocity_factors.minCoeff()) + " m a frame, must be at least 0");
-  }
+  spec.controls.Check(model.controls, model.name, spec.frames);
 }
 
 }  // namespace choreo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/flow/footwork_options.h"
+#include "model/motion/controls.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
@@ -41,28 +43,17 @@ struct ModelInfo {
   /// It reads the MFCC rows of a transition, so live it waits for the music of the whole of it.
   /// False: rows change nothing.
   bool hears_music = true;
-  bool deterministic = false;     ///< seed, candidate and temperature change nothing
-  bool likelihood = false;        ///< plans have exact ones (Plan::log_likelihoods)
-  bool root_path = false;         ///< takes Controls::root_path
-  bool velocity_factors = false;  ///< takes Controls::velocity_factors
+  bool deterministic = false;              ///< seed, candidate and temperature change nothing
+  bool likelihood = false;                 ///< plans have exact ones (Plan::log_likelihoods)
+  std::vector<std::string> controls = {};  ///< that it takes, of the names in kControls
   /// The first one, "median", is the default. At least one where velocity factors are taken.
   std::vector<VelocityReference> velocity_references = {};
   std::vector<std::string> styles = {};  ///< that may be asked for
   FootworkOptions footwork = {};
-};
 
-/// What is asked of a transition beside its key (paper C, Section 3.3). What is left empty, the
-/// model chooses.
-struct Controls {
-  /// [3, frames] or empty: where the root should be in each frame, metres; from the history's last
-  /// root to the target's (dance/path_lead.h bends it there).
-  Eigen::Matrix3Xd root_path;
-  bool path_heights = true;  ///< whether somebody asked for its heights; else they are a guess
-  /// [kBodyParts, frames] or empty: how lively each part should be in each frame
-  /// (motion/velocity_factors.h), metres a frame, at least 0.
-  Eigen::Matrix<float, kBodyParts, Eigen::Dynamic> velocity_factors;
-  /// By BodyPart: whether somebody asked for it; the others' factors are the model's reference.
-  std::array<bool, kBodyParts> parts_asked = {true, true, true, true, true};
+  bool Takes(size_t control) const {
+    return std::ranges::find(controls, kControls[control].name) != controls.end();
+  }
 };
 
 /// Everything that a transition is a function of. All poses stand in the transition's canonical
@@ -81,7 +72,7 @@ struct TransitionSpec {
   /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to
   /// it (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
-  Controls controls;
+  Controls controls;        ///< beside the key (paper C, Section 3.3)
   EnergyShift energy = {};  ///< of models that say themselves how lively they are
   uint64_t seed = 0;
   uint32_t candidate = 0;

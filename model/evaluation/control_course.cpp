@@ -75,7 +75,7 @@ void ControlCourse::Redraw(const Draw& draw) {
     TransitionRequest request = RequestFor(i);
     std::vector<Warning> warnings;
     track.Ask("key", &request, &warnings);
-    windows_[i].path = request.controls.root_path;
+    windows_[i].path = request.controls[kRootPath].values;
     windows_[i].factors.resize(kBodyParts, 0);
   }
 }
@@ -104,9 +104,9 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
   std::vector<TransitionRequest> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
     TransitionRequest request = RequestFor(i);
-    if (way.TakesPath()) request.controls.root_path = windows_[i].path;
+    if (way.TakesPath()) request.controls[kRootPath].values = windows_[i].path;
     if (way.TakesVelocityFactors())
-      request.controls.velocity_factors = (scale * windows_[i].factors).cast<float>();
+      request.controls[kVelocityFactors].values = scale * windows_[i].factors;
     way.Restrict(&request);
     requests.push_back(std::move(request));
   }

@@ -64,7 +64,7 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
 
 std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.root_path) return {};
+  if (!model.Takes(kRootPath)) return {};
   const std::vector<Method> ways = WaysOf(evaluation.methods);
   const std::string asked =
       "Transitions between real poses, with the real dance's root path and velocity factors" +
@@ -137,7 +137,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
 
 std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.root_path) return {};
+  if (!model.Takes(kRootPath)) return {};
   ControlCourse course(evaluation, kFactorFrames);
   const std::string asked = std::to_string(kFactorFrames) + " frames on the real path";
   std::vector<Table> tables;
@@ -157,7 +157,7 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
 
 std::vector<Table> EvaluateRepetition(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.root_path) return {};
+  if (!model.Takes(kRootPath)) return {};
   Table table = evaluation.NewTable("repetition", "Repetition and endings", {"method"});
   table.note =
       "Shares of half seconds: that repeat one before them, and that hold still in the last fifth "

@@ -20,6 +20,8 @@ constexpr std::pair<const char*, Drawing> kPaths[] = {{"as danced", Drawing::kDa
                                                       {"on the spot", Drawing::kOnTheSpot},
                                                       {"a bow", Drawing::kBow}};
 
+Eigen::Vector2d OnFloor(const Eigen::Vector3d& place) { return {place.x(), place.z()}; }
+
 // Heights are nobody's concern: they lead from the dancer's to the key's.
 RootPath Draw(Drawing way, ControlledWindow* window) {
   const Eigen::Vector3d start = window->before.root_position;
@@ -30,12 +32,10 @@ RootPath Draw(Drawing way, ControlledWindow* window) {
     const Eigen::Vector3d left = HeadingRotation(Heading(ExpMap(window->before.rotations.col(0)))) *
                                  Eigen::Vector3d::UnitX();
     path.frames = {0, kFrames / 2, kFrames - 1};
-    path.points.resize(3, 3);
-    path.points << start, (start + end) / 2 + kAside * left, end;
+    path.points = {OnFloor(start), OnFloor((start + end) / 2 + kAside * left), OnFloor(end)};
   } else {
     path.frames = {0, kFrames - 1};
-    path.points.resize(3, 2);
-    path.points << start + (end - start) / kFrames, end;
+    path.points = {OnFloor(start + (end - start) / kFrames), OnFloor(end)};
   }
   return path;
 }
@@ -54,7 +54,7 @@ double PathSpeed(const ControlledWindow& window, double fps) {
 
 std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
-  if (!model.root_path) return {};
+  if (!model.Takes(kRootPath)) return {};
   Table table = evaluation.NewTable("drawn", "Drawn paths", {"path", "method"});
   table.note = std::to_string(kFrames) +
                " frames between real poses on paths that nobody danced, no velocity factors asked "

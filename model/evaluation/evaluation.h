@@ -34,9 +34,9 @@ struct Method {
   bool Lasts(int frames) const {
     return kind != Kind::kModel || frames <= sampler->model().max_transition_frames;
   }
-  bool TakesPath() const { return kind != Kind::kModel || sampler->model().root_path; }
+  bool TakesPath() const { return kind != Kind::kModel || sampler->model().Takes(kRootPath); }
   bool TakesVelocityFactors() const {
-    return kind == Kind::kModel && sampler->model().velocity_factors;
+    return kind == Kind::kModel && sampler->model().Takes(kVelocityFactors);
   }
   /// Takes from a request what this method is not told, and what it does without.
   void Restrict(TransitionRequest* request) const {

@@ -84,13 +84,10 @@ std::vector<Key> KeysOf(std::span<const Pose> dance) {
 ControlRequest Circle(size_t frames) {
   constexpr double kRadius = 0.75, kAround = 24 * 30;
   RootPath path;
-  for (size_t frame = 0; frame < frames; frame += 15)
+  for (size_t frame = 0; frame < frames; frame += 15) {
     path.frames.push_back(static_cast<int64_t>(frame));
-  path.points.resize(3, std::ssize(path.frames));
-  for (Eigen::Index i = 0; i < path.points.cols(); ++i) {
-    const double turn =
-        2 * std::numbers::pi * static_cast<double>(path.frames[static_cast<size_t>(i)]) / kAround;
-    path.points.col(i) << kRadius * std::sin(turn), 0, kRadius * (1 - std::cos(turn));
+    const double turn = 2 * std::numbers::pi * static_cast<double>(frame) / kAround;
+    path.points.emplace_back(kRadius * std::sin(turn), kRadius * (1 - std::cos(turn)));
   }
   ControlRequest controls;
   controls.root_path = std::move(path);

@@ -240,7 +240,7 @@ void Judge::Hits() {
     config.seed += static_cast<uint64_t>(options_.seeds);
     const std::vector<Key> keys = KeysOf(dance);
     keyed += Hits(song, DanceTo(queue_, song.mono, config, keys)) / options_.seeds;
-    if (!queue_.model().root_path) continue;
+    if (!queue_.model().Takes(kRootPath)) continue;
     on_path +=
         Hits(song, DanceTo(queue_, song.mono, config, keys, Circle(dance.size()))) / options_.seeds;
   }
@@ -250,7 +250,7 @@ void Judge::Hits() {
   };
   row("free", free);
   row("keyed", keyed);
-  if (queue_.model().root_path) row("keyed on a path", on_path);
+  if (queue_.model().Takes(kRootPath)) row("keyed on a path", on_path);
 }
 
 }  // namespace

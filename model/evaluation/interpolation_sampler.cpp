@@ -22,8 +22,8 @@ class Interpolation : public Sampling {
     for (int frame = 0; frame < spec_.frames; ++frame) {
       Pose& pose = plan_.poses.emplace_back(
           InterpolatePoses(from, to, (frame + 1.0) / static_cast<double>(spec_.frames)));
-      if (spec_.controls.root_path.cols() > 0)
-        pose.root_position = spec_.controls.root_path.col(frame);
+      if (spec_.controls[kRootPath].IsGiven())
+        pose.root_position = spec_.controls[kRootPath].values.col(frame);
     }
     plan_.contacts.resize(plan_.poses.size());
     return false;

@@ -29,9 +29,10 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
 // Says how lively the parts are that nobody asks for: as dancers may be there.
 void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
                   WindowRequest* request) {
-  if (request->energy.cols() == 0) {
-    request->energy = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
-    request->asked.fill(false);
+  ControlCurve& asked = request->controls[kVelocityFactors];
+  if (!asked.IsGiven()) {
+    asked.values = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
+    asked.asked.assign(kBodyParts, false);
   }
   // Behind the numbers that each frame is made of: of the first the window's level, of all the
   // curve's.
@@ -57,16 +58,15 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   if (lingers) ways = model.energy.Bound(ways);
   levels.array() += request->energy_shift.now;
   ways.array() += request->energy_shift.now;
-  for (size_t part = 0; part < request->asked.size(); ++part) {
-    if (request->asked[part]) continue;
-    const auto row = static_cast<Eigen::Index>(part);
-    const double median = model.config.median_factors[part];
-    auto energy = request->energy.row(row);
-    for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(ways(row, i), median);
+  for (int part = 0; part < kBodyParts; ++part) {
+    if (asked.Asks(part)) continue;
+    const double median = model.config.median_factors[static_cast<size_t>(part)];
+    auto energy = asked.values.row(part);
+    for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(ways(part, i), median);
     // The window's level is that of its mean.
     if (const double mean = energy.mean(); lingers && mean > 0)
-      energy *= EnergyFactor(levels[row], median) / mean;
-    request->asked[part] = true;
+      energy *= EnergyFactor(levels[part], median) / mean;
+    asked.asked[static_cast<size_t>(part)] = true;
   }
 }
 
@@ -74,15 +74,16 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
 // needs no such thing.
 void Tell(const FlowModelParts& model, double temperature, WindowRequest* request) {
   if (!model.response.known()) return;
+  Eigen::MatrixXd& factors = request->controls[kVelocityFactors].values;
   for (int part = 0; part < kBodyParts; ++part) {
     const double median = model.config.median_factors[static_cast<size_t>(part)];
-    const double wanted = request->energy.row(part).mean();
+    const double wanted = factors.row(part).mean();
     if (wanted <= 0) continue;
     const double level = EnergyLevel(wanted, median);
     const double told = level + temperature * (model.response.Told(part, level) - level);
     // Not beyond what training saw, where that is not asked for.
     const double most = EnergyFactor(model.energy.most[EnergyPrior::kHistoryInput + part], median);
-    for (double& energy : request->energy.row(part))
+    for (double& energy : factors.row(part))
       energy = std::min(energy * (EnergyFactor(told, median) / wanted), std::max(energy, most));
   }
 }
@@ -90,10 +91,11 @@ void Tell(const FlowModelParts& model, double temperature, WindowRequest* reques
 // Where the root is asked to be: of which axes, [3, w] as residuals x, and those white.
 struct KnownPath {
   KnownPath(const WindowRequest& request, const FlowWindow& window) {
-    if (request.path.cols() == 0) return;
+    const ControlCurve& path = request.controls[kRootPath];
+    if (!path.IsGiven()) return;
     axes = {0, 2};
-    if (request.path_heights) axes.push_back(1);
-    x = request.path.colwise() - request.history.back().root_position;
+    if (path.Asks(1)) axes.push_back(1);
+    x = path.values.colwise() - request.history.back().root_position;
     x -= window.mean().topRows<3>();
     z.resize(3, x.cols());
     for (int axis = 0; axis < 3; ++axis)

@@ -42,10 +42,9 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
     part.turning.reset();
     part.energy_shift.before = energy_shift.now;
   }
-  if (path.cols() > 0) part.path = path.middleCols(from, count);
-  for (auto place : part.path.colwise()) place = ground.ToLocal(Eigen::Vector3d(place));
+  part.controls = controls.Part(from, count);
+  part.controls.ToLocal(ground);
   for (double& beat : part.beats) beat -= from;
-  if (energy.cols() > 0) part.energy = energy.middleCols(from, count);
   if (stage) part.stage = ground.ToLocal(*stage);
   return part;
 }
@@ -58,41 +57,30 @@ WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request
     mirrored.mask.joints[joint] = request.mask.joints[static_cast<size_t>(pairs[joint])];
   // A rotation vector keeps what lies across the mirror, a place turns that alone.
   if (request.turning) mirrored.turning->tail<2>() *= -1;
-  if (request.path.cols() > 0) mirrored.path.row(0) *= -1;
+  mirrored.controls.Mirror();
   if (request.stage) mirrored.stage->x() *= -1;
-  for (const auto& [left, right] : {std::pair(BodyPart::kLeftArm, BodyPart::kRightArm),
-                                    std::pair(BodyPart::kLeftLeg, BodyPart::kRightLeg)}) {
-    const auto l = static_cast<size_t>(left), r = static_cast<size_t>(right);
-    std::swap(mirrored.asked[l], mirrored.asked[r]);
-    if (request.energy.cols() > 0) {
-      mirrored.energy.row(static_cast<Eigen::Index>(l)) =
-          request.energy.row(static_cast<Eigen::Index>(r));
-      mirrored.energy.row(static_cast<Eigen::Index>(r)) =
-          request.energy.row(static_cast<Eigen::Index>(l));
-    }
-  }
   return mirrored;
 }
 
 Eigen::MatrixXd LevelCurves(const WindowRequest& request,
                             const std::array<double, kBodyParts>& medians) {
+  const ControlCurve& energy = request.controls[kVelocityFactors];
   Eigen::MatrixXd levels = Eigen::MatrixXd::Constant(kBodyParts, request.frames, NAN);
-  for (size_t part = 0; part < medians.size() && request.energy.cols() > 0; ++part) {
-    if (!request.asked[part]) continue;
-    const auto row = static_cast<Eigen::Index>(part);
+  for (int part = 0; part < kBodyParts; ++part) {
+    if (!energy.Asks(part)) continue;
     for (int i = 0; i < request.frames; ++i)
-      levels(row, i) = EnergyLevel(request.energy(row, i), medians[part]);
+      levels(part, i) = EnergyLevel(energy.values(part, i), medians[static_cast<size_t>(part)]);
   }
   return levels;
 }
 
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians) {
+  const ControlCurve& energy = request.controls[kVelocityFactors];
   std::array<std::optional<double>, kBodyParts> levels;
-  for (size_t part = 0; part < levels.size() && request.energy.cols() > 0; ++part) {
-    if (!request.asked[part]) continue;
-    levels[part] =
-        EnergyLevel(request.energy.row(static_cast<Eigen::Index>(part)).mean(), medians[part]);
+  for (int part = 0; part < kBodyParts; ++part) {
+    const auto at = static_cast<size_t>(part);
+    if (energy.Asks(part)) levels[at] = EnergyLevel(energy.values.row(part).mean(), medians[at]);
   }
   return levels;
 }

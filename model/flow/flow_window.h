@@ -10,10 +10,10 @@
 
 #include "model/flow/motion_prior.h"
 #include "model/motion/canonical.h"
+#include "model/motion/controls.h"
 #include "model/motion/mirror.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
-#include "model/motion/velocity_factors.h"
 
 namespace choreo {
 
@@ -30,13 +30,10 @@ struct WindowRequest {
   /// The way round that the root is known to turn to its key, a rotation vector. None: the one
   /// that the history leads to.
   std::optional<Eigen::Vector3d> turning = {};
-  Eigen::Matrix3Xd path = {};      ///< [3, w] root positions, or empty
-  bool path_heights = false;       ///< whether the path's heights are asked for, too
+  Controls controls = {};          ///< of its frames
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
-  Eigen::MatrixXd energy = {};     ///< [kBodyParts, w] velocity factors, metres a frame, or empty
-  std::array<bool, kBodyParts> asked = {true, true, true, true, true};  ///< rows of `energy` known
-  EnergyShift energy_shift = {};  ///< of the rows that are not
-  int style = -1;                 ///< index of a style, or -1
+  EnergyShift energy_shift = {};   ///< of the body parts whose velocity factors nobody asks for
+  int style = -1;                  ///< index of a style, or -1
   /// The middle of the floor that the dancer keeps to, or unknown; unread where a key or a path
   /// says where the root goes.
   std::optional<Eigen::Vector3d> stage = {};
@@ -45,7 +42,9 @@ struct WindowRequest {
   /// those, and all else, stand in the frame that `ground` is of the request's.
   WindowRequest Part(int from, int count, std::span<const Pose> poses,
                      const GroundFrame& ground) const;
-  bool StageCounts() const { return stage && path.cols() == 0 && !(key && mask.root_position); }
+  bool StageCounts() const {
+    return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
+  }
 };
 
 /// The same of a dancer whose left is its right, who stands in the mirrored canonical frame.

@@ -14,12 +14,46 @@ constexpr int kTimeWidth = 16;       // of each embedded number of frames
 constexpr double kLongestBeat = 27;  // frames: slower beats are halved, as dancers do
 constexpr double kUsualBeat = 15;    // frames
 constexpr double kPathScale = 0.3;   // metres
-constexpr int kBeatFeatures = 6, kPathFeatures = 5, kEnergyFeatures = 2 * kBodyParts;
+constexpr int kBeatFeatures = 6;
 
-// Places in a frame's features.
-constexpr int kIsHistory = 0, kBeat = 1, kPath = kBeat + kBeatFeatures,
-              kEnergy = kPath + kPathFeatures, kSince = kEnergy + kEnergyFeatures,
-              kLeft = kSince + kTimeWidth, kWidth = kLeft + kTimeWidth;
+// Places in a frame's features: those of the controls stand in the order of their rows, and behind
+// them how far it is from the start and to the key.
+constexpr int kIsHistory = 0, kBeat = 1, kFirstControl = kBeat + kBeatFeatures;
+
+int FeaturesOf(const ControlRow& row) {
+  return row.features == ControlFeatures::kOffMean ? 5 : 2 * row.channels;
+}
+
+int ControlsWidth(std::span<const ControlRow> rows) {
+  int width = 0;
+  for (const ControlRow& row : rows) width += FeaturesOf(row);
+  return width;
+}
+
+// Of a place that is `mean` away from the history's last root, as far as nobody asks anything else.
+void DescribeOff(const ControlCurve& curve, int frame, const Eigen::Vector3d& root,
+                 const Eigen::Vector3d& mean, std::span<float> features) {
+  Eigen::Vector3d off = curve.values.col(frame) - root;
+  off -= mean;
+  if (!curve.Asks(1)) off.y() = 0;
+  features[0] = 1;
+  features[1] = curve.Asks(1) ? 1 : 0;
+  for (int axis = 0; axis < 3; ++axis)
+    features[2 + static_cast<size_t>(axis)] = static_cast<float>(off[axis] / kPathScale);
+}
+
+void DescribeChannels(const ControlRow& row, const ControlCurve& curve, int frame,
+                      const std::array<double, kBodyParts>& medians, std::span<float> features) {
+  const auto channels = static_cast<size_t>(row.channels);
+  for (size_t channel = 0; channel < channels; ++channel) {
+    const auto at = static_cast<int>(channel);
+    if (!curve.Asks(at)) continue;
+    const double value = curve.values(at, frame);
+    features[channel] = static_cast<float>(
+        row.features == ControlFeatures::kLevel ? EnergyLevel(value, medians[channel]) : value);
+    features[channels + channel] = 1;
+  }
+}
 
 }  // namespace
 
@@ -37,7 +71,9 @@ std::optional<BeatPhase> PhaseAt(std::span<const double> beats, double at) {
   return BeatPhase{since - std::floor(since), period};
 }
 
-int FrameFeatures() { return kWidth; }
+int FrameFeatures(std::span<const ControlRow> controls) {
+  return kFirstControl + ControlsWidth(controls) + 2 * kTimeWidth;
+}
 
 int WholeFeatures(const Skeleton& skeleton, const ContinuousFlowConfig& config) {
   const int joints = skeleton.joints(), dimensions = 3 + 3 * joints;
@@ -53,7 +89,9 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   const Pose& last = request.history.back();
   const Eigen::VectorXd spread = prior.VelocitySpread();
   WindowFeatures features;
-  features.frames = Eigen::MatrixXf::Zero(kWidth, tau + frames);
+  const std::span<const ControlRow> rows = request.controls.rows();
+  const int since = kFirstControl + ControlsWidth(rows), left = since + kTimeWidth;
+  features.frames = Eigen::MatrixXf::Zero(FrameFeatures(rows), tau + frames);
   for (int t = 0; t < tau + frames; ++t) {
     const int i = t - tau;  // frame of the window
     auto at = features.frames.col(t);
@@ -66,22 +104,19 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
           static_cast<float>(std::cos(2 * angle)),
           static_cast<float>(2 * std::log(beat->period / kUsualBeat));
     }
-    EmbedCount(i, place(kSince));
-    if (request.key) EmbedCount(request.to_key - 1 - i, place(kLeft));
+    EmbedCount(i, place(since));
+    if (request.key) EmbedCount(request.to_key - 1 - i, place(left));
     if (i < 0) continue;
-    if (request.path.cols() > 0) {
-      Eigen::Vector3d off = request.path.col(i) - last.root_position;
-      off -= window.mean().col(i).head<3>();
-      if (!request.path_heights) off.y() = 0;
-      at[kPath] = 1;
-      at[kPath + 1] = request.path_heights ? 1 : 0;
-      at.segment<3>(kPath + 2) = (off / kPathScale).cast<float>();
-    }
-    for (int part = 0; part < kBodyParts && request.energy.cols() > 0; ++part) {
-      if (!request.asked[static_cast<size_t>(part)]) continue;
-      const double median = config.median_factors[static_cast<size_t>(part)];
-      at[kEnergy + part] = static_cast<float>(EnergyLevel(request.energy(part, i), median));
-      at[kEnergy + kBodyParts + part] = 1;
+    float* next = at.data() + kFirstControl;
+    for (size_t control = 0; control < rows.size(); next += FeaturesOf(rows[control++])) {
+      const ControlCurve& curve = request.controls[control];
+      const std::span<float> own(next, static_cast<size_t>(FeaturesOf(rows[control])));
+      if (!curve.IsGiven()) continue;
+      if (rows[control].features == ControlFeatures::kOffMean) {
+        DescribeOff(curve, i, last.root_position, window.mean().col(i).head<3>(), own);
+      } else {
+        DescribeChannels(rows[control], curve, i, config.median_factors, own);
+      }
     }
   }
 

@@ -12,11 +12,11 @@
 namespace choreo {
 
 struct WindowFeatures {
-  Eigen::MatrixXf frames;  ///< [FrameFeatures(), tau + w]: beats, path, energy, time
+  Eigen::MatrixXf frames;  ///< [FrameFeatures(), tau + w]: beats, controls, time
   Eigen::VectorXf whole;   ///< [WholeFeatures()]: pose and velocity left, way to the key, style
 };
 
-int FrameFeatures();
+int FrameFeatures(std::span<const ControlRow> controls = kControls);
 int WholeFeatures(const Skeleton& skeleton, const ContinuousFlowConfig& config);
 
 WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConfig& config,

@@ -18,7 +18,7 @@ struct ModelDescription {
   double fps = kModelFps;
   int history_frames = 0;  ///< frames of the past that it looks at
   double default_temperature = 0;
-  std::vector<std::string> controls = {};  ///< "root_path", "velocity_factors"
+  std::vector<std::string> controls = {};  ///< of the names in kControls (motion/controls.h)
   /// How lively its dancers usually are: what multipliers refer to; the first is the default.
   struct VelocityReference {
     std::string name = {};

@@ -39,7 +39,7 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   info.hears_music = false;  // but its beats
   info.default_temperature = config.temperature;
   info.max_temperature = kMaxFlowTemperature;
-  info.root_path = info.velocity_factors = true;
+  info.controls = ControlNames();
   info.velocity_references = {MedianReference(config.median_factors)};
   info.styles = config.styles;
   info.footwork = config.plan.footwork;

@@ -247,7 +247,7 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
     for (int part = 0; part < kBodyParts; ++part) {
       const auto at = static_cast<size_t>(part);
       const double median = model.config.median_factors[at];
-      wanted[part] = EnergyLevel(request.energy.row(part).mean(), median);
+      wanted[part] = EnergyLevel(request.controls[kVelocityFactors].values.row(part).mean(), median);
       came[part] = EnergyLevel(factors[at], median);
     }
     told += wanted / count;

@@ -76,19 +76,21 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
   if (random->Uniform() < variation.beats)
     request.beats = BeatsFor(track, first, first + frames, random);
   if (random->Uniform() < variation.energy) {
-    request.energy = track.energy.middleCols(first, frames);
+    ControlCurve& energy = request.controls[kVelocityFactors];
+    energy.values = track.energy.middleCols(first, frames);
     if (random->Uniform() < kConstant) {
-      const Eigen::VectorXd constant = request.energy.rowwise().mean();
-      request.energy = constant.replicate(1, frames);
+      const Eigen::VectorXd constant = energy.values.rowwise().mean();
+      energy.values = constant.replicate(1, frames);
     }
     const double known = random->Uniform() < 0.7 ? 1 : random->Uniform();
-    for (bool& asked : request.asked) asked = random->Uniform() < known;
+    for (auto&& asked : energy.asked) asked = random->Uniform() < known;
   }
   if (random->Uniform() < variation.path) {
-    request.path.resize(3, frames);
-    for (int i = 0; i < frames; ++i) request.path.col(i) = way[i].root_position;
-    if (random->Uniform() < 0.4) request.path = SmoothRows(request.path, kDrawnSigma);
-    request.path_heights = random->Uniform() < 0.3;
+    ControlCurve& path = request.controls[kRootPath];
+    path.values.resize(3, frames);
+    for (int i = 0; i < frames; ++i) path.values.col(i) = way[i].root_position;
+    if (random->Uniform() < 0.4) path.values = SmoothRows(path.values, kDrawnSigma);
+    path.asked[1] = random->Uniform() < 0.3;
   }
   if (random->Uniform() < variation.stage) request.stage = stage;
   return request;

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <iterator>
 
 #include "model/core/error.h"
+#include "model/motion/controls.h"
 #include "model/motion/velocity_factors.h"
 #include "proto/wire/convert.h"
 
@@ -59,8 +61,9 @@ ModelDescription FromProto(const v1::ModelInfo& model) {
   out.history_frames = model.history_frames();
   out.default_temperature = model.default_temperature();
   for (const int control : model.controls()) {
-    if (control == v1::CONTROL_ROOT_PATH) out.controls.emplace_back("root_path");
-    if (control == v1::CONTROL_VELOCITY_FACTORS) out.controls.emplace_back("velocity_factors");
+    // A newer server may have others.
+    if (control >= 1 && control <= std::ssize(kControls))
+      out.controls.emplace_back(kControls[control - 1].name);
   }
   for (const v1::VelocityReference& reference : model.velocity_references()) {
     if (reference.speeds_size() != kBodyParts) throw Broken("a velocity reference of odd length");

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 
+#include "model/motion/controls.h"
 #include "model/motion/rotation.h"
 #include "proto/wire/convert.h"
 
@@ -102,10 +103,8 @@ v1::ModelInfo ToProto(const ModelDescription& model) {
   out.set_model_frame_rate(model.fps);
   out.set_history_frames(model.history_frames);
   out.set_default_temperature(model.default_temperature);
-  for (const std::string& control : model.controls) {
-    if (control == "root_path") out.add_controls(v1::CONTROL_ROOT_PATH);
-    if (control == "velocity_factors") out.add_controls(v1::CONTROL_VELOCITY_FACTORS);
-  }
+  for (const std::string& control : model.controls)
+    out.add_controls(static_cast<v1::Control>(FindControl(control) + 1));
   out.set_audio_lead_s(model.audio_lead_s);
   out.set_latency_frames(model.latency_frames);
   out.set_max_transition_frames(model.max_transition_frames);

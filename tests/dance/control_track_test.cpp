@@ -17,12 +17,8 @@ class ControlTrackTest : public testing::Test {
  protected:
   static ControlRequest Way(std::vector<int64_t> frames, const std::vector<double>& x,
                             const std::vector<double>& heights = {}) {
-    RootPath path{std::move(frames), Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(x.size())),
-                  !heights.empty()};
-    for (size_t i = 0; i < x.size(); ++i) {
-      path.points(0, static_cast<Eigen::Index>(i)) = x[i];
-      if (!heights.empty()) path.points(1, static_cast<Eigen::Index>(i)) = heights[i];
-    }
+    RootPath path{.frames = std::move(frames), .heights = heights};
+    for (const double one : x) path.points.emplace_back(one, 0);
     return {path, {}};
   }
   static ControlRequest Velocity(VelocityRequest velocity) { return {{}, std::move(velocity)}; }
@@ -47,7 +43,7 @@ class ControlTrackTest : public testing::Test {
   }
   void ExpectRefused(const ControlRequest& request, const std::string& message) const {
     ExpectError(ErrorCode::kInvalidArgument, message,
-                [&] { request.Validate(sampler_.model(), "controls"); });
+                [&] { ValidateControls(request, sampler_.model(), "controls"); });
   }
 
   const ControlledSampler sampler_;
@@ -58,25 +54,25 @@ class ControlTrackTest : public testing::Test {
 };
 
 TEST_F(ControlTrackTest, SaysNothingWhereNothingWasSaid) {
-  EXPECT_EQ(For(0, 60).controls.root_path.cols(), 0);
+  EXPECT_EQ(For(0, 60).controls[kRootPath].values.cols(), 0);
   track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
-  EXPECT_EQ(For(0, 100).controls.root_path.cols(), 0);
-  EXPECT_EQ(For(201, 60).controls.root_path.cols(), 0);
-  EXPECT_EQ(For(100, 60).controls.root_path.cols(), 60);
-  EXPECT_EQ(For(100, 60).controls.velocity_factors.cols(), 0);
+  EXPECT_EQ(For(0, 100).controls[kRootPath].values.cols(), 0);
+  EXPECT_EQ(For(201, 60).controls[kRootPath].values.cols(), 0);
+  EXPECT_EQ(For(100, 60).controls[kRootPath].values.cols(), 60);
+  EXPECT_EQ(For(100, 60).controls[kVelocityFactors].values.cols(), 0);
 }
 
 TEST_F(ControlTrackTest, LaterPathsTakeOverInTransitionsFromTheirFrameOn) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 300}, {1, 1}), 60, "controls");
-  EXPECT_NEAR(For(0, 120).controls.root_path(0, 119), 1.19, 1e-9);
-  EXPECT_NEAR(For(60, 60).controls.root_path(0, 59), 1, 1e-9);
+  EXPECT_NEAR(For(0, 120).controls[kRootPath].values(0, 119), 1.19, 1e-9);
+  EXPECT_NEAR(For(60, 60).controls[kRootPath].values(0, 59), 1, 1e-9);
 }
 
 TEST_F(ControlTrackTest, APathMayComeInPieces) {
   track_.Set(Way({0, 99}, {0, 0.99}), 0, "controls");
   track_.Set(Way({100, 199}, {1, 1.99}), 0, "controls");
-  const Eigen::Matrix3Xd path = For(0, 200).controls.root_path;
+  const Eigen::Matrix3Xd path = For(0, 200).controls[kRootPath].values;
   for (const int frame : {0, 50, 99, 100, 150, 199})
     EXPECT_NEAR(path(0, frame), 0.01 * frame, 0.02) << frame;
   EXPECT_TRUE(For(0, 200).warnings.empty());
@@ -86,7 +82,7 @@ TEST_F(ControlTrackTest, WhatIsNeverDancedChangesNothing) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 50}, {9, 9}), 60, "controls");     // over before it counts
   track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // behind all that is danced
-  EXPECT_NEAR(For(60, 140).controls.root_path(0, 139), 1.99, 1e-9);
+  EXPECT_NEAR(For(60, 140).controls[kRootPath].values(0, 139), 1.99, 1e-9);
 }
 
 TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
@@ -111,8 +107,8 @@ TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
   EXPECT_FALSE(track_.SpeedsMissed(report)) << "nothing was asked";
   report.part_speeds = {{0.02, 0.01}, {0.02, 0.0222}, {0.01, 0.0118}, {0, 0.002}, {0, 0.0009}};
   VelocityRequest velocity;
-  velocity.values = {1};
-  velocity.parts = {BodyPart::kLeftArm};
+  velocity.factors = {1};
+  velocity.parts = {"left_arm"};
   track_.Set(Velocity(velocity), 0, "controls");
   EXPECT_FALSE(track_.SpeedsMissed(report)) << "of the arm alone something was asked";
   velocity.parts.clear();
@@ -129,14 +125,14 @@ TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
 TEST_F(ControlTrackTest, HeightsComeFromThePathOrFromTheDancer) {
   here_.root_position.y() = 0.5;
   track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
-  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), standing_, 1e-9);
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), standing_, 1e-9);
   AimAt(0.89);
   target_->pose.root_position.y() = 0.7;
-  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), 0.7, 1e-9);
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), 0.7, 1e-9);
   EXPECT_TRUE(For(0, 90).warnings.empty());
   track_.Set(Way({0, 50, 100}, {0, 0.5, 1}, {0.5, 1.3, 0.6}), 0, "controls");
   target_.reset();
-  EXPECT_NEAR(For(0, 90).controls.root_path(1, 50), 1.3, 1e-9);
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 50), 1.3, 1e-9);
 }
 
 TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
@@ -150,15 +146,15 @@ TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
     target_->pose.rotations(0, hip) = -0.6;
   const double crouched = *StandingHeight(skeleton, target_->pose);
   ASSERT_LT(crouched, standing_ - 0.02);
-  const Eigen::Matrix3Xd path = For(0, 90).controls.root_path;
+  const Eigen::Matrix3Xd path = For(0, 90).controls[kRootPath].values;
   EXPECT_NEAR(path(1, 89), crouched, 1e-9);
   EXPECT_NEAR(path(0, 89), 0.89, 1e-9);
   target_->mask.joints.assign(24, false);
   target_->mask.joints[static_cast<size_t>(skeleton.left_elbow)] = true;
-  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), standing_, 1e-9) << "legs are open";
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), standing_, 1e-9) << "legs are open";
   target_->mask.joints.clear();
   track_.Set(Way({0, 100}, {0, 1}, {standing_, 1.4}), 0, "controls");
-  EXPECT_GT(For(0, 90).controls.root_path(1, 89), standing_ + 0.2);
+  EXPECT_GT(For(0, 90).controls[kRootPath].values(1, 89), standing_ + 0.2);
 }
 
 TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
@@ -221,19 +217,19 @@ TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   AimAt(1.09);
   const Asked asked = For(0, 90);
-  EXPECT_NEAR(asked.controls.root_path(0, 89), 1.09, 1e-9);
+  EXPECT_NEAR(asked.controls[kRootPath].values(0, 89), 1.09, 1e-9);
   ASSERT_EQ(asked.warnings.size(), 1u);
   EXPECT_EQ(asked.warnings[0].code, Warning::Code::kKeyOffPath);
   EXPECT_EQ(asked.warnings[0].frame, 89);
   EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.2 m off the root path"));
   AimAt(0.92);  // within 5 cm
   EXPECT_TRUE(For(0, 90).warnings.empty());
-  EXPECT_NEAR(For(0, 90).controls.root_path(0, 89), 0.92, 1e-9);
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(0, 89), 0.92, 1e-9);
   // A key that asks nothing of where the dancer is contradicts no path.
   AimAt(5);
   target_->mask.root_position = false;
   EXPECT_TRUE(For(0, 90).warnings.empty());
-  EXPECT_NEAR(For(0, 90).controls.root_path(0, 89), 0.89, 1e-9);
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(0, 89), 0.89, 1e-9);
 }
 
 TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
@@ -244,7 +240,7 @@ TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
     ASSERT_EQ(asked.warnings.size(), 1u) << "a key right behind the end";
     EXPECT_EQ(asked.warnings[0].code, Warning::Code::kKeyOffPath);
     EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.4"));
-    const Eigen::Matrix3Xd& path = asked.controls.root_path;
+    const Eigen::Matrix3Xd& path = asked.controls[kRootPath].values;
     for (int frame = 1; frame < frames; ++frame)
       EXPECT_LT(30 * (path.col(frame) - path.col(frame - 1)).norm(), 2) << frame;
   }
@@ -255,7 +251,7 @@ TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
   EXPECT_EQ(For(0, 90).warnings[0].code, Warning::Code::kKeyOffHeight);
   target_.reset();
   EXPECT_TRUE(For(0, 90).warnings.empty());
-  EXPECT_NEAR(For(0, 90).controls.root_path(1, 89), 0.5, 1e-9);
+  EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), 0.5, 1e-9);
 }
 
 TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
@@ -270,74 +266,78 @@ TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
 
 TEST_F(ControlTrackTest, MultipliesTheReferences) {
   VelocityRequest arms;
-  arms.parts = {BodyPart::kLeftArm, BodyPart::kRightArm};
-  arms.values = {2, 0.5F};
+  arms.parts = {"left_arm", "right_arm"};
+  arms.factors = {2, 0.5};
   track_.Set(Velocity(arms), 0, "controls");
   // The fake model's median is 0.01 to 0.05 m a frame.
   const Eigen::Matrix<float, kBodyParts, Eigen::Dynamic> factors =
-      For(0, 10).controls.velocity_factors;
+      For(0, 10).controls[kVelocityFactors].values.cast<float>();
   ASSERT_EQ(factors.cols(), 10);
   EXPECT_THAT(std::vector<float>(factors.col(9).begin(), factors.col(9).end()),
               testing::Pointwise(testing::FloatEq(), {0.01F, 0.04F, 0.015F, 0.04F, 0.05F}));
   VelocityRequest calm;
-  calm.values = {3};
+  calm.factors = {3};
   calm.reference = "calm";
   track_.Set(Velocity(calm), 5, "controls");
-  EXPECT_FLOAT_EQ(For(4, 10).controls.velocity_factors(1, 9), 0.04F);
-  EXPECT_FLOAT_EQ(For(5, 10).controls.velocity_factors(1, 0), 0.006F);
+  EXPECT_FLOAT_EQ(For(4, 10).controls[kVelocityFactors].values(1, 9), 0.04F);
+  EXPECT_FLOAT_EQ(For(5, 10).controls[kVelocityFactors].values(1, 0), 0.006F);
 }
 
 TEST_F(ControlTrackTest, InterpolatesBetweenFramesAndReplacesPartByPart) {
   VelocityRequest rising;
   rising.frames = {10, 20};
-  rising.parts = {BodyPart::kTrunk, BodyPart::kLeftLeg};
-  rising.values = {0.1F, 0.2F, 0.3F, 0.2F};
-  rising.absolute = true;
+  rising.parts = {"trunk", "left_leg"};
+  rising.speeds = {0.1, 0.2, 0.3, 0.2};
   track_.Set(Velocity(rising), 0, "controls");
   VelocityRequest leg;
-  leg.parts = {BodyPart::kLeftLeg};
-  leg.values = {0};
-  leg.absolute = true;
+  leg.parts = {"left_leg"};
+  leg.speeds = {0};
   track_.Set(Velocity(leg), 15, "controls");
-  const auto factors = For(0, 40).controls.velocity_factors;
+  const auto factors = For(0, 40).controls[kVelocityFactors].values;
   EXPECT_FLOAT_EQ(factors(0, 0), 0.1F);
   EXPECT_FLOAT_EQ(factors(0, 15), 0.2F);
   EXPECT_FLOAT_EQ(factors(0, 39), 0.3F);
   EXPECT_FLOAT_EQ(factors(3, 15), 0.2F);
-  EXPECT_FLOAT_EQ(For(15, 25).controls.velocity_factors(3, 0), 0);
+  EXPECT_FLOAT_EQ(For(15, 25).controls[kVelocityFactors].values(3, 0), 0);
 }
 
 TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
   VelocityRequest request;
-  request.values = {-0.5F};
+  request.factors = {-0.5};
   ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: -0.5 is not in [0, 10]");
-  request.values = {11};
+  request.factors = {11};
   ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: 11 is not in [0, 10]");
-  request.values = {std::numeric_limits<float>::quiet_NaN()};
+  request.factors = {std::numeric_limits<double>::quiet_NaN()};
   ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: nan is not in");
-  request.absolute = true;
-  request.values = {0.6F};
+  request = {.speeds = {0.6}};
   ExpectRefused(Velocity(request),
                 "controls.velocity_factors.speeds[0]: 0.6 m a frame is not in [0, 0.5]");
-  request.values = {};
-  ExpectRefused(Velocity(request),
-                "controls.velocity_factors.speeds: 0 values, but rows times columns are 1 times 1");
+  request.speeds = {};
+  ExpectRefused(
+      Velocity(request),
+      "controls.velocity_factors.factors: 0 values, but rows times columns are 1 times 1");
   request = {};
   request.frames = {0, 30, 20};
-  request.values = {1, 1, 1};
+  request.factors = {1, 1, 1};
   ExpectRefused(Velocity(request),
                 "controls.velocity_factors.frames[2]: 20 is not after the frame before it, 30");
   request.frames = {0, 30};
-  request.parts = {BodyPart::kTrunk, BodyPart::kLeftArm};
+  request.parts = {"trunk", "left_arm"};
   ExpectRefused(
       Velocity(request),
       "controls.velocity_factors.factors: 3 values, but rows times columns are 2 times 2");
   request = {};
-  request.values = {1, 1};
-  request.parts = {BodyPart::kTrunk, BodyPart::kTrunk};
+  request.factors = {1, 1};
+  request.parts = {"trunk", "trunk"};
   ExpectRefused(Velocity(request), "controls.velocity_factors.parts[1]: trunk is there twice");
+  request.parts = {"tail"};
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.parts[0]: \"tail\" is none of trunk,");
+  request = {.factors = {1}, .speeds = {0.1}};
+  ExpectRefused(Velocity(request),
+                "controls.velocity_factors.speeds: and factors exclude each other");
   request = {};
-  request.values = {1};
+  request.factors = {1};
   request.reference = "frantic";
   ExpectRefused(Velocity(request),
                 "controls.velocity_factors.reference: \"frantic\" is none of the model's, median, "
@@ -348,11 +348,11 @@ TEST_F(ControlTrackTest, RefusesWhatTheModelDoesNotTake) {
   const FakeSampler plain;
   const auto refused = [&](const ControlRequest& request, const std::string& message) {
     ExpectError(ErrorCode::kInvalidArgument, message,
-                [&] { request.Validate(plain.model(), "controls"); });
+                [&] { ValidateControls(request, plain.model(), "controls"); });
   };
   refused(Way({0, 9}, {0, 1}), "controls.root_path: the model \"fake\" does not have this control");
   VelocityRequest request;
-  request.values = {1};
+  request.factors = {1};
   refused(Velocity(request),
           "controls.velocity_factors: the model \"fake\" does not have this control");
 }
@@ -364,7 +364,7 @@ TEST_F(ControlTrackTest, KeepsNoMoreThanItsLimits) {
   });
   ControlTrack other(sampler_.model());
   VelocityRequest huge;
-  huge.values.assign(kMaxControlValues + 1, 1);
+  huge.factors.assign(kMaxControlValues + 1, 1);
   ExpectError(ErrorCode::kInvalidArgument, "1000001 points and values, the limit is 1000000",
               [&] { other.Set(Velocity(huge), 0, "controls"); });
 }

@@ -13,15 +13,14 @@ using testing::HasSubstr;
 ControlRequest Way(int64_t from, int64_t to, double x0, double x1) {
   ControlRequest request;
   request.root_path.emplace().frames = {from, to};
-  request.root_path->points.resize(3, 2);
-  request.root_path->points << x0, x1, 0, 0, x0, x1;
+  request.root_path->points = {{x0, x0}, {x1, x1}};
   return request;
 }
 
 ControlRequest Factor(BodyPart part, float factor) {
   ControlRequest request;
-  request.velocity_factors.emplace().parts = {part};
-  request.velocity_factors->values = {factor};
+  request.velocity_factors.emplace().parts.emplace_back(kBodyPartNames[static_cast<size_t>(part)]);
+  request.velocity_factors->factors = {factor};
   return request;
 }
 
@@ -161,8 +160,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
   }
   // A path that says how high the root is wins.
   ControlRequest jump = Way(0, 299, 0, 2);
-  jump.root_path->has_heights = true;
-  jump.root_path->points.row(1).setConstant(1.2);
+  jump.root_path->heights = {1.2, 1.2};
   const Recording high = Perform([&](DanceStream& s) {
     s.SetControls(jump);
     s.SetKey("crouch", AtFrame{100}, crouch, nowhere);
@@ -280,7 +278,11 @@ TEST_F(ControlledDanceTest, MovingTheSceneMovesTheDance) {
   config_.history = history;
   const Recording here = Perform(messages);
   for (Pose& pose : config_.history) pose = Placed(pose, heading, shift);
-  path.root_path->points = (HeadingRotation(heading) * path.root_path->points).colwise() + shift;
+  for (Eigen::Vector2d& point : path.root_path->points) {
+    const Eigen::Vector3d turned =
+        HeadingRotation(heading) * Eigen::Vector3d(point.x(), 0, point.y()) + shift;
+    point = {turned.x(), turned.z()};
+  }
   const Recording there = Perform(messages);
   ASSERT_TRUE(here.summary && there.summary);
   for (size_t i = 0; i < here.poses.size(); ++i) {

@@ -39,8 +39,8 @@ Message RandomMessage(int64_t granted, int64_t frames, std::mt19937& random) {
       return [id](DanceStream& stream) { stream.RemoveKey(id); };
     case 3: {
       ControlRequest request;
-      request.velocity_factors.emplace().values = {0.5F +
-                                                   0.01F * static_cast<float>(random() % 100)};
+      request.velocity_factors.emplace().factors = {0.5F +
+                                                    0.01F * static_cast<float>(random() % 100)};
       return [request](DanceStream& stream) { stream.SetControls(request); };
     }
     case 4: {

@@ -14,9 +14,11 @@ namespace choreo::root_path_test {
 
 RootPath Path(std::vector<int64_t> frames, const std::vector<Eigen::Vector3d>& points,
               bool has_heights = false) {
-  RootPath path{std::move(frames), Eigen::Matrix3Xd(3, points.size()), has_heights};
-  for (size_t i = 0; i < points.size(); ++i)
-    path.points.col(static_cast<Eigen::Index>(i)) = points[i];
+  RootPath path{.frames = std::move(frames)};
+  for (const Eigen::Vector3d& point : points) {
+    path.points.emplace_back(point.x(), point.z());
+    if (has_heights) path.heights.push_back(point.y());
+  }
   return path;
 }
 
@@ -87,7 +89,7 @@ TEST(PathCurve, TurnsWithItsPoints) {
 TEST(RootPath, RefusesWhatIsNoPath) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](const RootPath& path, const std::string& message) {
-    ExpectError(ErrorCode::kInvalidArgument, message, [&] { path.Validate("root_path"); });
+    ExpectError(ErrorCode::kInvalidArgument, message, [&] { ValidatePath(path, "root_path"); });
   };
   refused(Path({}, {}), "root_path.points: 0 points, a path needs at least 2");
   refused(Path({4}, {{0, 0, 0}}), "root_path.points: 1 points, a path needs at least 2");
@@ -105,7 +107,7 @@ TEST(RootPath, RefusesWhatIsNoPath) {
   // Ten hours.
   refused(Path({0, 1'080'000}, {{0, 0, 0}, {0, 0, 1}}),
           "root_path.frames[1]: 1080000 is not in [0, 108000]");
-  EXPECT_NO_THROW(Path({0, kMaxDanceFrames}, {{0, nan, 0}, {0, 0, 1}}).Validate("root_path"));
+  EXPECT_NO_THROW(ValidatePath(Path({0, kMaxDanceFrames}, {{0, nan, 0}, {0, 0, 1}}), "root_path"));
 }
 
 class LeadTest : public testing::Test {

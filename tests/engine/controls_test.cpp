@@ -13,11 +13,11 @@ class ControlsTest : public testing::Test {
   ControlsTest() {
     model_.name = "walker";
     model_.skeleton = Skeleton::Smpl24();
-    model_.root_path = model_.velocity_factors = true;
+    model_.controls = ControlNames();
     spec_.frames = 5;
     spec_.history.assign(static_cast<size_t>(model_.history_frames), RestPose(model_.skeleton));
-    spec_.controls.root_path.setZero(3, 5);
-    spec_.controls.velocity_factors.setConstant(kBodyParts, 5, 0.02F);
+    spec_.controls[kRootPath].values.setZero(3, 5);
+    spec_.controls[kVelocityFactors].values.setConstant(kBodyParts, 5, 0.02F);
   }
 
   void ExpectRefused(const std::string& part) const {
@@ -30,32 +30,32 @@ class ControlsTest : public testing::Test {
 
 TEST_F(ControlsTest, AreTakenBothOrEitherOrNone) {
   EXPECT_NO_THROW(ValidateSpec(spec_, model_));
-  spec_.controls.root_path.resize(3, 0);
+  spec_.controls[kRootPath].values.resize(3, 0);
   EXPECT_NO_THROW(ValidateSpec(spec_, model_));
   spec_.controls = {};
   EXPECT_NO_THROW(ValidateSpec(spec_, model_));
 }
 
 TEST_F(ControlsTest, OfAnotherModelAreRefused) {
-  model_.root_path = false;
+  std::erase(model_.controls, "root_path");
   ExpectRefused("controls.root_path: the model 'walker' does not take it");
-  spec_.controls.root_path.resize(3, 0);
-  model_.velocity_factors = false;
+  spec_.controls[kRootPath].values.resize(3, 0);
+  model_.controls.clear();
   ExpectRefused("controls.velocity_factors: the model 'walker' does not take it");
 }
 
 TEST_F(ControlsTest, OfTheWrongSizeAreRefused) {
-  spec_.controls.root_path.setZero(3, 4);
+  spec_.controls[kRootPath].values.setZero(3, 4);
   ExpectRefused("controls.root_path: 4 frames, must be 5");
-  spec_.controls.root_path.resize(3, 0);
-  spec_.controls.velocity_factors.setZero(kBodyParts, 6);
+  spec_.controls[kRootPath].values.resize(3, 0);
+  spec_.controls[kVelocityFactors].values.setZero(kBodyParts, 6);
   ExpectRefused("controls.velocity_factors: 6 frames, must be 5");
 }
 
 TEST_F(ControlsTest, ThatAreNoNumbersOrNegativeAreRefused) {
-  spec_.controls.velocity_factors(2, 3) = -0.01F;
+  spec_.controls[kVelocityFactors].values(2, 3) = -0.01F;
   ExpectRefused("controls.velocity_factors: -0.01");
-  spec_.controls.root_path(1, 4) = std::numeric_limits<float>::quiet_NaN();
+  spec_.controls[kRootPath].values(1, 4) = std::numeric_limits<float>::quiet_NaN();
   ExpectRefused("controls.root_path: not finite");
 }
 

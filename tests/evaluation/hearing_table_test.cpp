@@ -13,7 +13,7 @@ namespace choreo::hearing_table_test {
 
 class Fake : public FakeSampler {
  public:
-  Fake() { model_.root_path = true; }
+  Fake() { model_.controls = {"root_path"}; }
 };
 
 const Table& HeardByTheFake() {

@@ -120,8 +120,8 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
   const Eigen::VectorXf differ = told(scene.request, 1) - told(scene.request, 2);
   EXPECT_EQ((differ.array() != 0).count(), kBodyParts);
   WindowRequest arm = scene.request;
-  arm.energy = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
-  arm.asked = {false, true, false, false, false};
+  arm.controls[kVelocityFactors].values = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
+  arm.controls[kVelocityFactors].asked = {false, true, false, false, false};
   const Eigen::VectorXf of_others = told(arm, 1) - told(arm, 2);
   EXPECT_EQ((of_others.array() != 0).count(), kBodyParts - 1);
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
@@ -162,7 +162,7 @@ TEST(FlowSampler, ANetworkIsToldWhatMakesItDanceAsIsAsked) {
   Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
-  scene.request.energy = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
+  scene.request.controls[kVelocityFactors].values = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
   const Listening network;
   const auto told = [&] {
     SampleWindow(parts, network, scene.request, {.temperature = 1});
@@ -189,8 +189,8 @@ TEST(FlowSampler, TheMusicsEnergyIsAddedOnceToWhatNobodyAsksFor) {
     return network.told;
   };
   WindowRequest arm = scene.request;
-  arm.energy = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
-  arm.asked = {false, true, false, false, false};
+  arm.controls[kVelocityFactors].values = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
+  arm.controls[kVelocityFactors].asked = {false, true, false, false, false};
   const Eigen::VectorXf calm = told(arm);
   arm.energy_shift.now = 0.5;
   const Eigen::VectorXf shifted = told(arm) - calm;
@@ -265,13 +265,14 @@ TEST(FlowSampler, WhatBeatsAndStyleChangeIsDoneAsOftenAsTheModelSays) {
 
 TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {
   Scene scene = MakeScene(30);
-  scene.request.path.resize(3, 30);
+  scene.request.controls[kRootPath].values.resize(3, 30);
   for (int i = 0; i < 30; ++i)
-    scene.request.path.col(i) = scene.truth[static_cast<size_t>(i)].root_position;
+    scene.request.controls[kRootPath].values.col(i) =
+        scene.truth[static_cast<size_t>(i)].root_position;
   const FlowModelParts parts = Parts();
   const Silent network;
   for (const bool heights : {false, true}) {
-    scene.request.path_heights = heights;
+    scene.request.controls[kRootPath].asked[1] = heights;
     const auto poses = SampleWindow(parts, network, scene.request, {.seed = 3, .temperature = 1});
     for (size_t i = 0; i < poses.size(); ++i) {
       const Eigen::Vector3d miss = poses[i].root_position - scene.truth[i].root_position;

@@ -96,7 +96,7 @@ TEST(FlowWindow, WhoIsOffTheStageComesBack) {
   WindowRequest arms = scene.request;
   arms.mask.root_position = false;
   EXPECT_GT(led(arms, {1, 0, 0}).x(), 0.03);
-  open.path = scene.request.key->root_position.replicate(1, 30);
+  open.controls[kRootPath].values = scene.request.key->root_position.replicate(1, 30);
   EXPECT_EQ(led(open, {1, 0, 0}).norm(), 0) << "the path does";
 }
 
@@ -124,19 +124,20 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
   request.mask.joints.assign(24, true);
   request.mask.joints[16] = false;
   request.turning = Eigen::Vector3d(0.1, 2, -0.3);
-  request.path = Eigen::Matrix3Xd::Random(3, 30);
-  request.energy = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
-  request.asked = {true, true, false, false, true};
+  request.controls[kRootPath].values = Eigen::Matrix3Xd::Random(3, 30);
+  request.controls[kVelocityFactors].values = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
+  request.controls[kVelocityFactors].asked = {true, true, false, false, true};
   request.stage = Eigen::Vector3d(1, 0, 2);
   const std::vector<int> pairs = MirrorPairs(Skeleton::Smpl24());
   const WindowRequest other = Mirror(pairs, request), back = Mirror(pairs, other);
   EXPECT_FALSE(other.mask.joints[17]);
-  EXPECT_EQ(other.path.row(0), -request.path.row(0));
-  EXPECT_EQ(other.energy.row(1), request.energy.row(2));
-  EXPECT_EQ(other.asked, (std::array{true, false, true, true, false}));
+  EXPECT_EQ(other.controls[kRootPath].values.row(0), -request.controls[kRootPath].values.row(0));
+  EXPECT_EQ(other.controls[kVelocityFactors].values.row(1),
+            request.controls[kVelocityFactors].values.row(2));
+  EXPECT_EQ(other.controls[kVelocityFactors].asked, (std::vector{true, false, true, true, false}));
   EXPECT_EQ(back.mask.joints, request.mask.joints);
-  EXPECT_EQ(back.energy, request.energy);
-  EXPECT_EQ(back.path, request.path);
+  EXPECT_EQ(back.controls[kVelocityFactors].values, request.controls[kVelocityFactors].values);
+  EXPECT_EQ(back.controls[kRootPath].values, request.controls[kRootPath].values);
   EXPECT_EQ(*back.turning, *request.turning);
   EXPECT_EQ(*back.stage, *request.stage);
   EXPECT_EQ(Apart(*back.key, *request.key), 0);

@@ -13,16 +13,17 @@ WindowRequest Asked() {
   Scene scene = MakeScene(30);
   WindowRequest request = scene.request;
   request.beats = {2, 13, 25};
-  request.path.resize(3, 30);
-  request.energy.resize(kBodyParts, 30);
+  ControlCurve& path = request.controls[kRootPath];
+  ControlCurve& energy = request.controls[kVelocityFactors];
+  path.values.resize(3, 30);
+  energy.values.resize(kBodyParts, 30);
   for (int i = 0; i < 30; ++i) {
-    request.path.col(i) =
+    path.values.col(i) =
         scene.truth[static_cast<size_t>(i)].root_position + Eigen::Vector3d(0.1, 0.2, 0.01 * i);
     for (int part = 0; part < kBodyParts; ++part)
-      request.energy(part, i) = 0.01 * (part + 1) + 0.001 * i;
+      energy.values(part, i) = 0.01 * (part + 1) + 0.001 * i;
   }
-  request.path_heights = true;
-  request.asked = {true, true, false, true, true};
+  energy.asked = {true, true, false, true, true};
   request.style = 1;
   return request;
 }
@@ -36,114 +37,23 @@ WindowFeatures Features() {
                         FlowWindow(parts.prior, request));
 }
 
-constexpr float kOfHistory[] = {1,
-                                1,
-                                0.9898214F,
-                                -0.1423148F,
-                                -0.2817326F,
-                                -0.959493F,
-                                -0.6203098F,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0,
-                                0.2794155F,
-                                0.9601703F,
-                                -0.9471481F,
-                                -0.3207965F,
-                                -0.5646425F,
-                                0.8253356F,
-                                -0.1886003F,
-                                0.9820539F,
-                                -0.059964F,
-                                0.9982005F,
-                                -0.01897253F,
-                                0.99982F,
-                                -0.005999964F,
-                                0.999982F,
-                                -0.001897365F,
-                                0.9999982F,
-                                -0.4281827F,
-                                -0.9036922F,
-                                -0.9973804F,
-                                0.0723343F,
-                                -0.3507832F,
-                                -0.9364567F,
-                                0.8942699F,
-                                0.447528F,
-                                0.3428978F,
-                                0.9393727F,
-                                0.1104539F,
-                                0.9938812F,
-                                0.03499286F,
-                                0.9993876F,
-                                0.01106775F,
-                                0.9999387F};
-constexpr float kOfTheWindow[] = {0,
-                                  1,
-                                  0.9898214F,
-                                  -0.1423148F,
-                                  -0.2817326F,
-                                  -0.959493F,
-                                  -0.6203098F,
-                                  1,
-                                  1,
-                                  0.3422788F,
-                                  0.6731758F,
-                                  0.1801201F,
-                                  0.3746935F,
-                                  0.2135741F,
-                                  0,
-                                  0.1150693F,
-                                  0.09352606F,
-                                  1,
-                                  1,
-                                  0,
-                                  1,
-                                  1,
-                                  -0.9589243F,
-                                  0.2836622F,
-                                  0.9999465F,
-                                  -0.01034232F,
-                                  0.4794255F,
-                                  0.8775826F,
-                                  0.1574559F,
-                                  0.987526F,
-                                  0.04997917F,
-                                  0.9987503F,
-                                  0.01581073F,
-                                  0.999875F,
-                                  0.004999979F,
-                                  0.9999875F,
-                                  0.001581138F,
-                                  0.9999987F,
-                                  -0.9055784F,
-                                  0.424179F,
-                                  0.9652193F,
-                                  0.2614414F,
-                                  0.6754632F,
-                                  -0.7373937F,
-                                  0.6881576F,
-                                  0.7255613F,
-                                  0.2377026F,
-                                  0.971338F,
-                                  0.07582182F,
-                                  0.9971214F,
-                                  0.0239977F,
-                                  0.999712F,
-                                  0.007589393F,
-                                  0.9999712F};
+// clang-format off
+constexpr float kOfHistory[] = {
+    1, 1, 0.9898214F, -0.1423148F, -0.2817326F, -0.959493F, -0.6203098F, 0, 0, 0, 0, 0, 0, 0, 0,
+    0, 0, 0, 0, 0, 0, 0, 0.2794155F, 0.9601703F, -0.9471481F, -0.3207965F, -0.5646425F,
+    0.8253356F, -0.1886003F, 0.9820539F, -0.059964F, 0.9982005F, -0.01897253F, 0.99982F,
+    -0.005999964F, 0.999982F, -0.001897365F, 0.9999982F, -0.4281827F, -0.9036922F, -0.9973804F,
+    0.0723343F, -0.3507832F, -0.9364567F, 0.8942699F, 0.447528F, 0.3428978F, 0.9393727F,
+    0.1104539F, 0.9938812F, 0.03499286F, 0.9993876F, 0.01106775F, 0.9999387F};
+constexpr float kOfTheWindow[] = {
+    0, 1, 0.9898214F, -0.1423148F, -0.2817326F, -0.959493F, -0.6203098F, 1, 1, 0.3422788F,
+    0.6731758F, 0.1801201F, 0.3746935F, 0.2135741F, 0, 0.1150693F, 0.09352606F, 1, 1, 0, 1, 1,
+    -0.9589243F, 0.2836622F, 0.9999465F, -0.01034232F, 0.4794255F, 0.8775826F, 0.1574559F,
+    0.987526F, 0.04997917F, 0.9987503F, 0.01581073F, 0.999875F, 0.004999979F, 0.9999875F,
+    0.001581138F, 0.9999987F, -0.9055784F, 0.424179F, 0.9652193F, 0.2614414F, 0.6754632F,
+    -0.7373937F, 0.6881576F, 0.7255613F, 0.2377026F, 0.971338F, 0.07582182F, 0.9971214F,
+    0.0239977F, 0.999712F, 0.007589393F, 0.9999712F};
+// clang-format on
 
 void ExpectColumn(const Eigen::MatrixXf& features, int at, std::span<const float> golden) {
   ASSERT_EQ(static_cast<size_t>(features.rows()), golden.size());

@@ -86,7 +86,7 @@ TEST_F(ContinuousFlowSamplerTest, IsRefusedUnderANameThatNobodyCanPrintAndBeyond
 
 TEST_F(ContinuousFlowSamplerTest, TellsWhatItTakes) {
   const ModelInfo& model = sampler_->model();
-  EXPECT_TRUE(model.root_path && model.velocity_factors);
+  EXPECT_EQ(model.controls, ControlNames());
   EXPECT_FALSE(model.deterministic);
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
@@ -137,7 +137,7 @@ TEST_F(ContinuousFlowSamplerTest, CudaDancesAsTheCpuDoes) {
 // last slice.
 TEST_F(ContinuousFlowSamplerTest, SlicesGiveTheSameBitsWhateverComesBetween) {
   TransitionSpec lively = Spec(2, 40);
-  lively.controls.velocity_factors.setConstant(kBodyParts, lively.frames, 0.05F);
+  lively.controls[kVelocityFactors].values.setConstant(kBodyParts, lively.frames, 0.05F);
   const std::vector<std::pair<TransitionSpec, int>> wanted = {
       {Spec(1, 16), 8 + 1}, {Spec(3, 40), 3 * 8 + 1}, {lively, 3 * 3 * 8 + 1}};
   std::vector<TransitionSpec> specs;
@@ -173,11 +173,11 @@ TEST_F(ContinuousFlowSamplerTest, BeatsAndLimbsThatAreAskedForChangeIt) {
   for (double& beat : other.beats) beat += 5;
   EXPECT_GT(LargestDifference(plain, Dance(other)), 1e-4);
   other = spec;
-  other.controls.velocity_factors.setConstant(kBodyParts, spec.frames, 0.05F);
+  other.controls[kVelocityFactors].values.setConstant(kBodyParts, spec.frames, 0.05F);
   const auto lively = Dance(other);
   EXPECT_GT(LargestDifference(plain, lively), 1e-4);
   // What nobody asks for is unknown, whatever value stands there.
-  other.controls.parts_asked.fill(false);
+  other.controls[kVelocityFactors].asked.assign(kBodyParts, false);
   ExpectSameBits(plain, Dance(other));
 }
 
@@ -192,10 +192,10 @@ TEST_F(ContinuousFlowSamplerTest, AStyleThatIsAskedForChangesIt) {
 TEST_F(ContinuousFlowSamplerTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) {
   TransitionSpec spec = Spec(3, 40);
   spec.target.reset();
-  spec.controls.root_path.resize(3, spec.frames);
+  spec.controls[kRootPath].values.resize(3, spec.frames);
   for (int i = 0; i < spec.frames; ++i)
-    spec.controls.root_path.col(i) << 0.01F * static_cast<float>(i), 0.9F, 0.0F;
-  spec.controls.path_heights = false;
+    spec.controls[kRootPath].values.col(i) << 0.01F * static_cast<float>(i), 0.9F, 0.0F;
+  spec.controls[kRootPath].asked[1] = false;
   const auto dance = Dance(spec);
   for (int i = 0; i < spec.frames; ++i) {
     EXPECT_NEAR(dance.poses[static_cast<size_t>(i)].root_position.x(), 0.01 * i, 1e-5);

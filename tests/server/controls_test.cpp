@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
+#include "proto/wire/controls.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::controls_test {
@@ -69,6 +72,38 @@ float Asked(const Answer::Joined& dance, BodyPart part, int frame) {
   const Skeleton& body = Skeleton::Smpl24();
   const int joint = body.Find(kTellingJoints[static_cast<size_t>(part)]);
   return dance.rotations[static_cast<size_t>(3 * (frame * body.joints() + joint))];
+}
+
+TEST(ControlRows, AreTheApisControls) {
+  ASSERT_EQ(v1::Control_descriptor()->value_count(), 1 + std::ssize(kControls));
+  for (int row = 0; row < std::ssize(kControls); ++row) {
+    const std::string name(kControls[row].name);
+    EXPECT_NE(v1::Controls::descriptor()->FindFieldByName(name), nullptr) << name;
+    std::string capitals = "CONTROL_" + name;
+    std::ranges::transform(capitals, capitals.begin(),
+                           [](unsigned char c) { return std::toupper(c); });
+    EXPECT_EQ(v1::Control_Name(static_cast<v1::Control>(row + 1)), capitals);
+  }
+}
+
+TEST(ControlRows, ComeThroughTheWireAsTheyWere) {
+  ControlRequest asked;
+  asked.root_path = {.frames = {0, 9}, .points = {{1, 2}, {3, 4}}, .heights = {0.5, 1}};
+  asked.velocity_factors = {.frames = {3},
+                            .parts = {"trunk", "right_leg"},
+                            .factors = {1, 2},
+                            .speeds = {0.25, 0.5},
+                            .reference = "calm"};
+  const ControlRequest came = wire::FromProto(wire::ToProto(asked), "controls");
+  ASSERT_TRUE(came.root_path && came.velocity_factors);
+  EXPECT_EQ(came.root_path->frames, asked.root_path->frames);
+  EXPECT_EQ(came.root_path->points, asked.root_path->points);
+  EXPECT_EQ(came.root_path->heights, asked.root_path->heights);
+  EXPECT_EQ(came.velocity_factors->frames, asked.velocity_factors->frames);
+  EXPECT_EQ(came.velocity_factors->parts, asked.velocity_factors->parts);
+  EXPECT_EQ(came.velocity_factors->factors, asked.velocity_factors->factors);
+  EXPECT_EQ(came.velocity_factors->speeds, asked.velocity_factors->speeds);
+  EXPECT_EQ(came.velocity_factors->reference, asked.velocity_factors->reference);
 }
 
 TEST_F(ControlsServerTest, InfoTellsWhichModelTakesWhich) {

@@ -121,11 +121,12 @@ class FakeSampling : public Sampling {
   // So that a test can see in the dance what was asked of the model.
   void Obey(int frame, Eigen::VectorXd* next) const {
     const Controls& controls = spec_.controls;
-    if (controls.root_path.cols() > 0) next->head<3>() = controls.root_path.col(frame);
-    if (controls.velocity_factors.cols() == 0) return;
+    if (controls[kRootPath].IsGiven()) next->head<3>() = controls[kRootPath].values.col(frame);
+    const ControlCurve& factors = controls[kVelocityFactors];
+    if (!factors.IsGiven()) return;
     for (int part = 0; part < kBodyParts; ++part) {
       const auto& joint = kTellingJoints[static_cast<size_t>(part)];
-      (*next)[3 + 3 * model_.skeleton.Find(joint)] = controls.velocity_factors(part, frame);
+      (*next)[3 + 3 * model_.skeleton.Find(joint)] = factors.values(part, frame);
     }
   }
 
@@ -153,7 +154,7 @@ class ControlledSampler : public FakeSampler {
   explicit ControlledSampler(const std::string& name = "fake") {
     model_.name = name;
     model_.fingerprint = name + "-controlled";
-    model_.root_path = model_.velocity_factors = true;
+    model_.controls = ControlNames();
     model_.velocity_references = {{"median", {0.01F, 0.02F, 0.03F, 0.04F, 0.05F}},
                                   {"calm", {0.001F, 0.002F, 0.003F, 0.004F, 0.005F}}};
   }

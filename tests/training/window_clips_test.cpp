@@ -196,11 +196,12 @@ TEST_F(WindowClipsTest, WhatIsToldIsMeasuredByWhatIsDanced) {
         clips.Draw(parts, 64, kFrames, kFrames, {.no_key = 1, .energy = 1}, &random);
     requests.insert(requests.end(), batch.requests.begin(), batch.requests.end());
   }
-  for (WindowRequest& request : requests) request.asked.fill(true);
+  for (WindowRequest& request : requests)
+    request.controls[kVelocityFactors].asked.assign(kBodyParts, true);
   const EnergyResponse honest = MeasureResponse(parts, Silent(), requests);
   ASSERT_TRUE(honest.known());
   // Who is told twice as much dances no more: as much less comes of it.
-  for (WindowRequest& request : requests) request.energy *= 2;
+  for (WindowRequest& request : requests) request.controls[kVelocityFactors].values *= 2;
   const EnergyResponse doubled = MeasureResponse(parts, Silent(), requests);
   EXPECT_NEAR(doubled.slope[0], honest.slope[0], 0.05);
   EXPECT_NEAR(doubled.offset[0], honest.offset[0] - honest.slope[0] * std::log(2), 0.1);

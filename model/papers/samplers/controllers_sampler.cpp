@@ -94,8 +94,8 @@ Walk::Walk(const ModelInfo& model, ControllersModel network, const TransitionSpe
   transition.target_turn = torch::full({1}, NearestTurn(facing.heading, 0), torch::kFloat32);
   transition.has_target = torch::full({1, 1}, spec.target ? 1.0F : 0.0F);
   const Controls dense = DenseControls(spec, model_);
-  transition.path = RowsOf(dense.root_path.cast<float>());
-  transition.factors = RowsOf(dense.velocity_factors);
+  transition.path = RowsOf(dense[kRootPath].values.cast<float>());
+  transition.factors = RowsOf(dense[kVelocityFactors].values.cast<float>());
 
   given_ = network_->Prepare(transition);
   walked_ =

@@ -47,11 +47,13 @@ Eigen::Matrix3Xd SmoothPath(const TransitionSpec& spec) {
 
 Controls DenseControls(const TransitionSpec& spec, const ModelInfo& model) {
   Controls dense = spec.controls;
-  if (dense.root_path.cols() == 0) dense.root_path = SmoothPath(spec);
-  if (dense.velocity_factors.cols() == 0) {
+  if (!dense[kRootPath].IsGiven()) dense[kRootPath].values = SmoothPath(spec);
+  if (!dense[kVelocityFactors].IsGiven()) {
     const auto& median = model.velocity_references.front().factors;
-    dense.velocity_factors =
-        Eigen::Map<const Eigen::Vector<float, kBodyParts>>(median.data()).replicate(1, spec.frames);
+    dense[kVelocityFactors].values =
+        Eigen::Map<const Eigen::Vector<float, kBodyParts>>(median.data())
+            .cast<double>()
+            .replicate(1, spec.frames);
   }
   return dense;
 }

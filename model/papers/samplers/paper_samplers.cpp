@@ -23,8 +23,9 @@ SamplerFactory LoadControllers(const Safetensors& content, const std::string& na
   info.hears_music = false;
   info.default_temperature = 0;
   info.deterministic = true;
-  info.root_path = true;
-  info.velocity_factors = checkpoint.model->config().velocity_factors;
+  info.controls.emplace_back(kControls[kRootPath].name);
+  if (checkpoint.model->config().velocity_factors)
+    info.controls.emplace_back(kControls[kVelocityFactors].name);
   info.velocity_references = {MedianReference(checkpoint.median_factors)};
   return [info, model = checkpoint.model] {
     return std::make_unique<ControllersSampler>(info, model);

@@ -85,6 +85,28 @@ TEST_F(ControllersModelTest, FactorsAreThoseOfTheWholeHouse) {
   EXPECT_LT(Difference(mine, batch.factors.narrow(1, 1, 7)), 2e-5);
 }
 
+// Windows of 7 frames around each, ahead of the first the history's, behind the last the last: what
+// shipped checkpoints were trained on.
+TEST_F(ControllersModelTest, IsToldOfControlsAroundEachFrame) {
+  const ControlledTransition asked = Draw(20).transition;
+  torch::NoGradGuard no_grad;
+  ControllersModel model = Random4(Small());
+  const ControlledGiven given = model->Prepare(asked);
+  const Tensor middle = torch::tensor({0.0, Skeleton::Smpl24().pelvis_height, 0.0});
+  const Tensor speeds = FactorsOf(Steps(asked.history), model->shares());
+  for (int64_t frame = 0; frame < 20; ++frame) {
+    for (int64_t at = 0; at < 7; ++at) {
+      const int64_t of = std::min<int64_t>(frame + at - 3, 19);
+      const Tensor place =
+          of < 0 ? asked.history.root.select(1, 10 + of) : asked.path.select(1, of);
+      const Tensor factors = of < 0 ? speeds.select(1, 9 + of) : asked.factors.select(1, of);
+      EXPECT_LT(Difference(given.path_window.select(1, frame).select(1, at), place - middle), 1e-5);
+      EXPECT_LT(Difference(given.factor_window.select(1, frame).select(1, at), factors / 0.01),
+                1e-3);
+    }
+  }
+}
+
 TEST_F(ControllersModelTest, StartsAsTheMeanPostureAtTheOrigin) {
   ControllersModel model(Small(), Skeleton::Smpl24());
   model->SetNormalisation(torch::full({23, 3}, 0.3), torch::full({23, 3}, 0.1),

@@ -35,11 +35,11 @@ class ControllersSamplerTest : public testing::Test {
   TransitionSpec Spec(uint64_t seed, int frames = 12) const {
     TransitionSpec spec = RandomSpec(sampler_->model(), seed, frames);
     if (seed % 2 == 0) {
-      spec.controls.root_path.resize(3, frames);
+      spec.controls[kRootPath].values.resize(3, frames);
       for (int t = 0; t < frames; ++t)
-        spec.controls.root_path.col(t) << 0.01F * static_cast<float>(t), 0.9F,
+        spec.controls[kRootPath].values.col(t) << 0.01F * static_cast<float>(t), 0.9F,
             0.02F * static_cast<float>(t);
-      spec.controls.velocity_factors.setConstant(kBodyParts, frames, 0.03F);
+      spec.controls[kVelocityFactors].values.setConstant(kBodyParts, frames, 0.03F);
     }
     return spec;
   }
@@ -51,8 +51,7 @@ class ControllersSamplerTest : public testing::Test {
 TEST_F(ControllersSamplerTest, TellsWhatItTakes) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.name, "controllers-paper");
-  EXPECT_TRUE(model.root_path);
-  EXPECT_TRUE(model.velocity_factors);
+  EXPECT_EQ(model.controls, ControlNames());
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_EQ(model.velocity_references[0].name, "median");
   EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
@@ -88,12 +87,12 @@ TEST_F(ControllersSamplerTest, FollowsItsPathAndReachesItsKey) {
   for (int t = 0; t < 60; ++t) {
     const double u = (t + 1) / 60.0;
     const Eigen::Vector3d bow(0.3 * std::sin(std::numbers::pi * u), 0, 0);
-    spec.controls.root_path.col(t) = from + u * way + bow;
+    spec.controls[kRootPath].values.col(t) = from + u * way + bow;
   }
   const Plan plan = sampler_->Sample(spec);
   for (int t = 0; t < 60; ++t) {
     const Pose& pose = plan.poses[static_cast<size_t>(t)];
-    EXPECT_LT((pose.root_position - spec.controls.root_path.col(t)).norm(), 0.2);
+    EXPECT_LT((pose.root_position - spec.controls[kRootPath].values.col(t)).norm(), 0.2);
   }
   EXPECT_LT((plan.poses.back().root_position - spec.target->pose.root_position).norm(), 0.01);
 }

@@ -10,7 +10,7 @@ class DenseControlsTest : public testing::Test {
  protected:
   DenseControlsTest() {
     model_.skeleton = Skeleton::Smpl24();
-    model_.root_path = model_.velocity_factors = true;
+    model_.controls = ControlNames();
     model_.velocity_references = {{"median", {0.01F, 0.02F, 0.03F, 0.04F, 0.05F}}};
     spec_.frames = 60;
     for (int t = 0; t < model_.history_frames; ++t) {
@@ -31,14 +31,15 @@ class DenseControlsTest : public testing::Test {
 
 TEST_F(DenseControlsTest, LeaveWithTheVelocityOfTheHistoryAndEndAtTheKey) {
   const Controls dense = DenseControls(spec_, model_);
-  ASSERT_EQ(dense.root_path.cols(), 60);
-  const Eigen::Vector3d first = dense.root_path.col(0).cast<double>() - Start();
+  ASSERT_EQ(dense[kRootPath].values.cols(), 60);
+  const Eigen::Vector3d first = dense[kRootPath].values.col(0).cast<double>() - Start();
   EXPECT_NEAR(first.z(), 0.02, 0.002);
   EXPECT_NEAR(first.x(), 0, 0.002);
-  EXPECT_LT((dense.root_path.col(59).cast<double>() - spec_.target->pose.root_position).norm(),
-            1e-5);
+  EXPECT_LT(
+      (dense[kRootPath].values.col(59).cast<double>() - spec_.target->pose.root_position).norm(),
+      1e-5);
   for (int part = 0; part < kBodyParts; ++part) {
-    EXPECT_FLOAT_EQ(dense.velocity_factors(part, 30),
+    EXPECT_FLOAT_EQ(dense[kVelocityFactors].values(part, 30),
                     model_.velocity_references[0].factors[static_cast<size_t>(part)]);
   }
 }
@@ -46,33 +47,34 @@ TEST_F(DenseControlsTest, LeaveWithTheVelocityOfTheHistoryAndEndAtTheKey) {
 TEST_F(DenseControlsTest, WithoutAKeyTheRootComesToAStop) {
   spec_.target.reset();
   const Controls dense = DenseControls(spec_, model_);
-  EXPECT_LT((dense.root_path.col(59) - dense.root_path.col(58)).norm(), 1e-4);
-  EXPECT_GT(dense.root_path(2, 59), 0.05);
-  EXPECT_NEAR(dense.root_path(1, 59), Start().y(), 1e-6);
+  EXPECT_LT((dense[kRootPath].values.col(59) - dense[kRootPath].values.col(58)).norm(), 1e-4);
+  EXPECT_GT(dense[kRootPath].values(2, 59), 0.05);
+  EXPECT_NEAR(dense[kRootPath].values(1, 59), Start().y(), 1e-6);
 }
 
 TEST_F(DenseControlsTest, AKeyThatLeavesItsPlaceOpenIsMetAtItsHeight) {
   spec_.target->mask.root_position = false;
   const Controls open = DenseControls(spec_, model_);
-  EXPECT_NEAR(open.root_path(1, 59), Start().y(), 1e-6);
+  EXPECT_NEAR(open[kRootPath].values(1, 59), Start().y(), 1e-6);
   spec_.target->height = 0.6;
   const Controls dense = DenseControls(spec_, model_);
-  EXPECT_NEAR(dense.root_path(1, 59), 0.6, 1e-6);
-  for (const int axis : {0, 2}) EXPECT_EQ(dense.root_path.row(axis), open.root_path.row(axis));
+  EXPECT_NEAR(dense[kRootPath].values(1, 59), 0.6, 1e-6);
+  for (const int axis : {0, 2})
+    EXPECT_EQ(dense[kRootPath].values.row(axis), open[kRootPath].values.row(axis));
 }
 
 // Bent to history and key it comes from dance/path_lead.h.
 TEST_F(DenseControlsTest, WhatIsGivenStaysAsItIs) {
-  spec_.controls.root_path.setRandom(3, 60);
-  spec_.controls.velocity_factors.setConstant(kBodyParts, 60, 0.07F);
+  spec_.controls[kRootPath].values.setRandom(3, 60);
+  spec_.controls[kVelocityFactors].values.setConstant(kBodyParts, 60, 0.07F);
   const Controls dense = DenseControls(spec_, model_);
-  EXPECT_EQ(dense.root_path, spec_.controls.root_path);
-  EXPECT_EQ(dense.velocity_factors, spec_.controls.velocity_factors);
+  EXPECT_EQ(dense[kRootPath].values, spec_.controls[kRootPath].values);
+  EXPECT_EQ(dense[kVelocityFactors].values, spec_.controls[kVelocityFactors].values);
 }
 
 TEST_F(DenseControlsTest, OneFrameIsTheKeys) {
   spec_.frames = 1;
-  EXPECT_LT((DenseControls(spec_, model_).root_path.col(0).cast<double>() -
+  EXPECT_LT((DenseControls(spec_, model_)[kRootPath].values.col(0).cast<double>() -
              spec_.target->pose.root_position)
                 .norm(),
             1e-5);

@@ -39,7 +39,7 @@ TEST_F(InbetweenerTileTest, TellsThatItIsDeterministicAndHearsNothing) {
   EXPECT_EQ(model.name, "harvey");
   EXPECT_TRUE(model.deterministic);
   EXPECT_FALSE(model.hears_music);
-  EXPECT_FALSE(model.root_path);
+  EXPECT_FALSE(model.Takes(kRootPath));
   EXPECT_FALSE(HeededBy(*sampler_).kind);
 }
 
