@@ -8,13 +8,11 @@
 #include <fstream>
 #include <utility>
 
-#include "client/cli/control_options.h"
 #include "client/cli/dance_keys.h"
 #include "client/cli/json_fields.h"
 #include "client/cli/key_faults.h"
 #include "client/cli/key_file.h"
 #include "client/cli/project_file.h"
-#include "client/cli/velocity_options.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh.h"
 #include "model/formats/motion_file.h"
@@ -171,12 +169,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     cli::FitIntoDance({.frames = *config.frames, .fps = model.fps}, keys.places[i], &keys.poses[i]);
   }
-  if (!project.velocities.empty())
-    config.controls.velocity_factors = cli::ReadVelocities(project.velocities, "", model.fps);
-  if (!project.path.empty()) {
-    config.controls.root_path =
-        cli::ParsePathFile(project.path, std::string(kName) + ":path", model.fps);
-  }
+  config.controls = project.controls.Read(model, {.models = {model}});
   client::Audio audio;
   if (song) {
     config.music_beats = project.beats;

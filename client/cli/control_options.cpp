@@ -83,6 +83,13 @@ void ControlOptions::AddTo(CLI::App& command) {
                      "model's first.");
 }
 
+void ControlOptions::Follow(const ControlOptions& project) {
+  path_text = project.path_text;
+  path_text_name = project.path_text_name;
+  // Of several sources the last that speaks of a part counts: those of the command line.
+  velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
+}
+
 std::vector<NamedFile> ControlOptions::Files() const {
   std::vector<NamedFile> files = {{"--path", path}};
   for (const std::string& source : velocities) {

@@ -28,6 +28,8 @@ struct ControlOptions {
   std::string reference;
 
   void AddTo(CLI::App& command);
+  /// Takes what a project says and these options do not.
+  void Follow(const ControlOptions& project);
   /// The files that they name.
   std::vector<NamedFile> Files() const;
   /// Throws Error as ParsePathFile and ReadVelocities do, Error(kNotFound) for a path file that

@@ -53,11 +53,7 @@ void TakeProject(DanceOptions* options) {
   if (!options->music_dynamics) options->music_dynamics = project.music_dynamics;
   if (!options->variation) options->variation = project.variation;
   if (options->dancers.empty() && project.has_dancers) options->dancers = options->project;
-  options->controls.path_text = project.path;
-  options->controls.path_text_name = options->project + ":path";
-  // Of several sources the last that speaks of a part counts: those of the command line.
-  std::vector<std::string>& velocities = options->controls.velocities;
-  velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
+  options->controls.Follow(project.controls);
 }
 
 std::filesystem::path OutputPath(const DanceOptions& options) {

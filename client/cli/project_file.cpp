@@ -68,7 +68,7 @@ std::vector<std::string> Velocities(const json& lively, const std::string& field
       throw InvalidArgument(field + "." + member, message.str());
     }
     as_usual = as_usual && factor == 1;
-    out.push_back(part + '=' + value.dump());  // which reads back to the bit
+    out.push_back(part + '=' + value.dump());  // every digit of it
   }
   return as_usual ? std::vector<std::string>{} : out;
 }
@@ -113,11 +113,12 @@ Project ParseProject(const json& file, const std::string& name) {
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
                                              std::to_string(kMostInBar));
   }
-  if (file.contains("lively")) project.velocities = Velocities(file["lively"], name + ":lively");
+  if (file.contains("lively")) project.controls.velocities = Velocities(file["lively"], name + ":lively");
   if (file.contains("path")) {
     if (!file["path"].is_object())
       throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");
-    project.path = file["path"].dump();
+    project.controls.path_text = file["path"].dump();
+    project.controls.path_text_name = name + ":path";
   }
   project.has_dancers = file.contains("dancers");
   return project;

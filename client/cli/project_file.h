@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/control_options.h"
+
 namespace choreo::cli {
 
 /// What a project of the studio says beside its keys, which are read as a key file's (key_file.h).
@@ -17,8 +19,7 @@ struct Project {
   std::string style = {};                                     ///< empty: as it comes
   std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
   std::vector<double> beats = {};            ///< of the song, seconds; none: as they are found
-  std::vector<std::string> velocities = {};  ///< as --velocity takes them; none where all are 1
-  std::string path = {};                     ///< the text of a path file (control_options.h)
+  ControlOptions controls = {};              ///< no velocities where all are 1
   bool has_dancers = false;                  ///< several, whom ReadDancers reads (dancers.h)
 };
 
