@@ -120,16 +120,16 @@ std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage>
 std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const float> onset_strength,
                                       std::span<const Passage> passages,
                                       const SuggestionRequest& request) {
-  const auto& [count, from_s, until_s, named] = request;
+  const int64_t count = request.count;
   const std::vector<double> all = track.Seconds();
   const auto part = [&](const auto& of_beats) {
-    const auto first = std::ranges::lower_bound(all, from_s) - all.begin();
-    const auto end = std::ranges::upper_bound(all, until_s) - all.begin();
+    const auto first = std::ranges::lower_bound(all, request.from_s) - all.begin();
+    const auto end = std::ranges::upper_bound(all, request.until_s) - all.begin();
     return std::span(of_beats).subspan(static_cast<size_t>(first),
                                        static_cast<size_t>(std::max(first, end) - first));
   };
   const std::span<const double> times = part(all);
-  CheckCount(times, count, named);
+  CheckCount(times, count, request.named);
   const auto before = static_cast<size_t>(times.data() - all.data());
   const std::vector<double> strengths = Strengths(part(track.frames), onset_strength);
   const std::vector<Phrase> all_phrases = FindPhrases(track, passages);
