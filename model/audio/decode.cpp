@@ -36,8 +36,13 @@ bool IsAdts(const ByteSource& source) {  // AAC: twelve set bits, then layer 0
 
 std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& name) {
   if (source.size == 0) throw InvalidArgument(name, "0 bytes of audio");
+  // Taggers put ID3 before what is no MP3, too.
+  if (const int64_t sound = TagEnd(source, 0);
+      sound > 0 && (source.Has(sound, "fLaC") || source.Has(sound, "OggS")))
+    return Open(PartOf(source, sound, source.size), name);
   const bool is_wave = source.Has(8, "WAVE");
-  if (is_wave && (source.Has(0, "RIFF") || source.Has(0, "RF64") || source.Has(0, "RIFX")))
+  if (is_wave && (source.Has(0, "RIFF") || source.Has(0, "RF64") || source.Has(0, "BW64") ||
+                  source.Has(0, "RIFX")))
     return ReadWav(source, name);
   if (source.Has(0, "fLaC")) return ReadFlac(source, name);
   if (source.Has(0, "OggS")) return ReadOgg(source, name);

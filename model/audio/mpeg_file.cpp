@@ -61,16 +61,6 @@ std::optional<Frame> FrameAt(const ByteSource& source, int64_t at) {
   return frame;
 }
 
-/// Where an ID3v2 tag that begins at `at` ends, or `at` where there is none: its length is in four
-/// bytes of seven bits, behind ten that it does not count.
-int64_t TagEnd(const ByteSource& source, int64_t at) {
-  if (!source.Has(at, "ID3")) return at;
-  const uint32_t size = __builtin_bswap32(source.Word(at + 6));
-  return at + 10 +
-         (int64_t{size & 0x7f} | int64_t{(size & 0x7f00) >> 1} | int64_t{(size & 0x7f0000) >> 2} |
-          int64_t{(size & 0x7f000000) >> 3});
-}
-
 /// A frame that two of its kind follow.
 std::optional<Frame> SyncAt(const ByteSource& source, int64_t at) {
   const std::optional<Frame> frame = FrameAt(source, at);
@@ -271,6 +261,15 @@ class MpegReader final : public SoundReader {
 };
 
 }  // namespace
+
+// Its length is in four bytes of seven bits, behind ten that it does not count.
+int64_t TagEnd(const ByteSource& source, int64_t at) {
+  if (!source.Has(at, "ID3")) return at;
+  const uint32_t size = __builtin_bswap32(source.Word(at + 6));
+  return at + 10 +
+         (int64_t{size & 0x7f} | int64_t{(size & 0x7f00) >> 1} | int64_t{(size & 0x7f0000) >> 2} |
+          int64_t{(size & 0x7f000000) >> 3});
+}
 
 bool LooksLikeMpeg(const ByteSource& source) {
   return FindSync(source, 0, std::min(TagEnd(source, 0) + kSearched, source.size)).has_value();

@@ -51,6 +51,9 @@ std::unique_ptr<SoundReader> ReadMpeg(const ByteSource& source, const std::strin
 /// FLAC packets in an Ogg stream.
 std::unique_ptr<SoundReader> ReadOggFlac(const ByteSource& source, const std::string& name);
 
+/// Where an ID3v2 tag that begins at `at` ends, or `at` where there is none.
+int64_t TagEnd(const ByteSource& source, int64_t at);
+
 /// Whether frames of MPEG audio, layer 1 to 3, follow each other near the beginning.
 bool LooksLikeMpeg(const ByteSource& source);
 

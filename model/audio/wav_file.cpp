@@ -96,36 +96,71 @@ bool IsBurst(const ByteSource& source, int64_t body) {
   return false;
 }
 
+/// Where the chunk behind one of `size` bytes begins: some leave out the byte that pads it.
+int64_t Behind(const ByteSource& source, int64_t body, int64_t size) {
+  const int64_t padded = body + size + size % 2;
+  return IsChunk(source, padded) || !IsChunk(source, body + size) ? padded : body + size;
+}
+
+/// The samples alone behind a header of our own, which takes the place of what stands before them:
+/// libsndfile looks for them otherwise than others where chunks are odd, or lengths are wrong.
+ByteSource Plain(const ByteSource& source, const std::string& format, int64_t body, int64_t size) {
+  const std::string head = "WAVE" + format + "data" + FourBytes(static_cast<uint32_t>(size));
+  const auto all = std::min<int64_t>(std::ssize(head) + size, UINT32_MAX);
+  const int64_t begin = body - 8 - std::ssize(head);
+  return Patched(PartOf(source, begin, body + size), 0,
+                 "RIFF" + FourBytes(static_cast<uint32_t>(all)) + head);
+}
+
 }  // namespace
 
 std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string& name) {
   constexpr uint32_t kPcm = 1, kMpegLayer3 = 0x55;
+  constexpr int64_t kMost = 0xfffffff0, kLongestFormat = 1024;
+  std::vector<std::string> notes;
+  const auto as_it_is = [&] { return std::make_unique<WavReader>(source, name, notes); };
+  if (source.Has(0, "RIFX")) return as_it_is();  // numbers the other way round
+  // RF64's and BW64's lengths stand in a chunk of their own.
+  const bool is_long = !source.Has(0, "RIFF");
+  int64_t long_size = 0;
+  std::string format_chunk;
   uint32_t format = 0;
-  if (!source.Has(0, "RIFF"))  // RF64 and others, whose lengths stand elsewhere
-    return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
+  bool odd = false;
   for (int64_t at = 12; at + 8 <= source.size;) {
-    const int64_t size = source.Word(at + 4), body = at + 8;
-    if (source.Has(at, "fmt ")) format = source.Word(body) & 0xffff;
+    const int64_t body = at + 8;
+    int64_t size = source.Word(at + 4);
+    if (source.Has(at, "ds64"))
+      long_size = int64_t{source.Word(body + 8)} | int64_t{source.Word(body + 12) & 0xffff} << 32;
+    if (source.Has(at, "fmt ") && size <= kLongestFormat) {
+      format = source.Word(body) & 0xffff;
+      format_chunk.resize(static_cast<size_t>(std::min(8 + size, source.size - at)));
+      source.read_at(at, std::as_writable_bytes(std::span(format_chunk)));
+    }
     if (!source.Has(at, "data")) {
-      at = body + size + size % 2;
+      odd = odd || size % 2 != 0;
+      at = Behind(source, body, size);
       continue;
     }
+    if (is_long && size == UINT32_MAX) size = long_size;
     // Programs that write into a pipe can't know the length beforehand, and state what they like.
     const int64_t held = source.size - body;
-    const bool is_right = size > 0 && size <= held && IsChunk(source, body + size + size % 2);
+    const bool is_right = size > 0 && size <= held && IsChunk(source, Behind(source, body, size));
     if (format == kMpegLayer3)
       return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
     if (format == kPcm && IsBurst(source, body)) {
       throw InvalidArgument(name, std::string("no samples but AC-3 or the like, for a receiver: ") +
                                       kAskFfmpeg + " makes a file that is taken");
     }
-    if (is_right || held == 0)
-      return std::make_unique<WavReader>(source, name, std::vector<std::string>{});
-    std::vector<std::string> notes;
-    notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +
-                    std::to_string(held) + " are there");
-    const auto all = static_cast<uint32_t>(std::min<int64_t>(held, 0xfffffff0));
-    return std::make_unique<WavReader>(Patched(source, at + 4, FourBytes(all)), name, notes);
+    if (!is_right && held > 0) {
+      notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +
+                      std::to_string(held) + " are there");
+      size = held;
+    }
+    const bool plain = (is_long || odd || !is_right) && held > 0 && !format_chunk.empty() &&
+                       (!is_right || size <= kMost);
+    if (!plain) return as_it_is();
+    return std::make_unique<WavReader>(Plain(source, format_chunk, body, std::min(size, kMost)),
+                                       name, notes);
   }
   throw InvalidArgument(
       name, "truncated: it ends at byte " + std::to_string(source.size) + ", before any samples");

@@ -320,6 +320,48 @@ TEST_F(DecodeTest, WavIsReadWhateverItsHeaderSays) {
   }
 }
 
+// RF64 and BW64, as recorders write them: lengths in a chunk of their own, others of odd length.
+TEST_F(DecodeTest, LongWavIsReadWhateverItsHeaderSays) {
+  const std::string wav =
+      Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 22050, 1, Sine(440, 22050, 22050)));
+  const size_t data = wav.find("data");
+  const std::string format = wav.substr(12, 24), samples = wav.substr(data + 8);
+  const auto number = [](uint64_t value, size_t size) {
+    return std::string(reinterpret_cast<const char*>(&value), size);
+  };
+  const std::string whole = number(UINT32_MAX, 4);
+  for (const std::string kind : {"RF64", "BW64"}) {
+    for (const std::string& odd : {std::string(), "iXML" + number(5, 4) + "<a/>\n" + '\0',
+                                   "iXML" + number(5, 4) + "<a/>\n"}) {
+      for (const uint64_t stated :
+           {samples.size(), size_t{0}, samples.size() / 2, size_t{1} << 40}) {
+        SCOPED_TRACE(kind + " " + std::to_string(odd.size()) + " " + std::to_string(stated));
+        const DecodedAudio audio =
+            Decode(kind + whole + "WAVEds64" + number(28, 4) + number(0, 8) + number(stated, 8) +
+                   number(0, 12) + odd + format + "data" + whole + samples + "axml" + number(7, 4) +
+                   "<a></a>" + '\0');
+        const bool is_right = stated == samples.size();
+        EXPECT_NEAR(audio.seconds(), 1, is_right ? 1e-9 : 0.001);
+        EXPECT_EQ(audio.notes.empty(), is_right);
+      }
+    }
+  }
+  // In WAV, too.
+  const std::string list = "LIST" + number(7, 4) + "INFOabc";
+  for (const std::string& odd : {list, list + '\0'})
+    EXPECT_NEAR(Decode(wav.substr(0, 12) + odd + wav.substr(12)).seconds(), 1, 1e-9);
+}
+
+TEST_F(DecodeTest, TagsBeforeOtherSoundThanMp3ArePassedOver) {
+  const std::string tag = "ID3\x04" + std::string(5, '\0') + '\x20' + std::string(32, '\0');
+  for (const int format : {SF_FORMAT_FLAC | SF_FORMAT_PCM_16, SF_FORMAT_OGG | SF_FORMAT_VORBIS}) {
+    const std::string bytes = Bytes(Write(format, 22050, 1, Sine(440, 22050, 22050)));
+    const DecodedAudio audio = Decode(tag + bytes);
+    EXPECT_NEAR(audio.seconds(), 1, 1e-9);
+    EXPECT_TRUE(audio.notes.empty());
+  }
+}
+
 TEST_F(DecodeTest, ChannelsThatCancelEachOtherAreHeardAndToldOf) {
   const std::vector<float> left = Sine(440, 22050, 22050, 0.5);
   std::vector<float> both;
