@@ -67,6 +67,16 @@ std::optional<Layout> FindLayout(const NpzArchive& npz) {
   return std::nullopt;
 }
 
+// For messages.
+std::string LayoutNames() {
+  std::string names;
+  for (const Layout& layout : kLayouts) {
+    if (layout.root != nullptr) names += layout.root + std::string(" and ");
+    names += layout.body + std::string(", ");
+  }
+  return names + "joints";
+}
+
 double ReadRate(const NpzArchive& npz, double otherwise, bool known, const MotionReading& reading) {
   for (const char* name : kRateNames) {
     if (!npz.Has(name)) continue;
@@ -209,7 +219,12 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   }
   if (const auto joints = found ? std::nullopt : FindJointArray(npz))
     return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
-  if (!found) npz.Array("poses");  // which is not there: names what is
+  if (!found) {
+    std::string names;
+    for (const std::string& name : npz.Names()) names += (names.empty() ? "" : ", ") + name;
+    throw InvalidArgument("", "has no array of rotations by a name that is known, " +
+                                  LayoutNames() + " (it has: " + Printable(names) + ")");
+  }
   const Layout& layout = *found;
   const int64_t people = PeopleIn(
       npz.Array(layout.body), [&](int64_t width) { return AreRotations(width, JointsOf(layout)); });

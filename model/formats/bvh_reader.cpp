@@ -1,6 +1,9 @@
+#include <iconv.h>
+
 #include <algorithm>
 #include <boost/locale/encoding_utf.hpp>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "model/core/atomic_file.h"
@@ -19,12 +22,32 @@ constexpr double kMinFrameTime = 1e-5, kMaxFrameTime = 4;
 constexpr double kMaxLength = 1000 * kMaxPosition;  // file units, which may be millimetres
 constexpr double kMaxDegrees = kMaxWoundRotation * kDegrees;
 
+std::optional<std::string> FromCodePage(const char* page, std::string text) {
+  const iconv_t converter = iconv_open("UTF-8", page);
+  // NOLINTNEXTLINE: the way iconv says so
+  if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
+  std::string utf8(3 * text.size(), '\0');
+  char *from = text.data(), *to = utf8.data();
+  size_t left = text.size(), room = utf8.size();
+  const bool whole = iconv(converter, &from, &left, &to, &room) != static_cast<size_t>(-1);
+  iconv_close(converter);
+  utf8.resize(utf8.size() - room);
+  return whole ? std::optional(std::move(utf8)) : std::nullopt;
+}
+
+// Names may be written as Windows does in Japan, or in the West.
+std::string FromAnyBytes(std::string text) {
+  for (const char* page : {"UTF-8", "CP932", "ISO-8859-1"})
+    if (auto utf8 = FromCodePage(page, text)) return *std::move(utf8);
+  return text;
+}
+
 // What Windows calls "Unicode": UTF-16, with a byte order mark or without.
 std::string ToUtf8(std::string_view text, const std::string& name) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const bool little = text.size() > 1 && (text.starts_with("\xFF\xFE") || text[1] == '\0');
   const bool big = text.size() > 1 && (text.starts_with("\xFE\xFF") || text[0] == '\0');
-  if (!little && !big) return std::string(text);
+  if (!little && !big) return FromAnyBytes(std::string(text));
   std::u16string units;
   for (size_t i = 0; i + 1 < text.size(); i += 2) {
     const auto first = static_cast<unsigned char>(text[i]);

@@ -1,5 +1,6 @@
 #include "model/formats/joint_arrays.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -15,8 +16,8 @@
 namespace choreo {
 namespace {
 
-constexpr const char* kPlacesNames[] = {"joints", "joints3d", "joint_positions", "positions",
-                                        "pred_position"};
+constexpr const char* kPlacesNames[] = {"joints",    "joints3d",      "joint_positions",
+                                        "positions", "pred_position", "motion"};
 constexpr int64_t kPlacedBody = 22;
 // Of a limb's mean length: networks stretch bones a little.
 constexpr double kStretch = 0.1;
@@ -40,6 +41,19 @@ std::vector<Eigen::Matrix3Xd> PlacesOfFrames(const NpyArray& array) {
     frames.emplace_back(
         Eigen::Map<const Eigen::Matrix3Xd>(values.data() + 3 * shape[1] * frame, 3, shape[1]));
   return frames;
+}
+
+// MDM's [people, joints, 3, frames].
+NpyArray FramesFirst(const NpyArray& array) {
+  const int64_t people = array.shape[0], width = 3 * array.shape[1], frames = array.shape[3];
+  const std::vector<double> values = array.As<double>();
+  std::vector<double> turned(values.size());
+  for (int64_t person = 0; person < people; ++person) {
+    const auto from = person * width * frames;
+    Eigen::Map<Eigen::MatrixXd>(turned.data() + from, width, frames) =
+        Eigen::Map<const Eigen::MatrixXd>(values.data() + from, frames, width).transpose();
+  }
+  return {{people, frames, array.shape[1], 3}, std::move(turned)};
 }
 
 bool KeepLengths(const std::vector<Eigen::Matrix3Xd>& frames) {
@@ -93,6 +107,8 @@ std::optional<NpyArray> FindJointArray(const NpzArchive& npz) {
   for (const char* name : kPlacesNames) {
     if (!npz.Has(name)) continue;
     NpyArray array = npz.Array(name);
+    if (array.shape.size() == 4 && array.shape[2] == 3 && IsPlacedFrame(3 * array.shape[1]))
+      array = FramesFirst(array);
     // Flat, as Bailando's.
     if (array.shape.size() > 1 && array.shape.back() > 3 && array.shape.back() % 3 == 0) {
       array.shape.back() /= 3;

@@ -34,11 +34,29 @@ SkeletonMotion ReadPickled(std::string_view pickle, const std::filesystem::path&
   return {Skeleton::Smpl24(), ReadSmplMotion(ParsePickledArrays(pickle, path.string()), reading)};
 }
 
+// Objects among arrays: a number, a dict, or what says nothing of the motion.
+void TakePickled(const std::string& key, const std::string& pickle, NpzArchive* npz) {
+  try {
+    npz->SetArray(key, ParsePickledArray(pickle, key));
+  } catch (const Error&) {
+    try {
+      npz->SetNested(key, ParsePickledArrays(pickle, key));
+    } catch (const Error&) {
+      // Is refused if it is asked for.
+    }
+  }
+}
+
 SkeletonMotion ReadAnyNpz(const std::filesystem::path& path, const Skeleton*,
                           const MotionReading& reading) {
-  const NpzArchive npz = NpzArchive::Read(path);
-  if (const std::string_view pickle = npz.OnlyPickle(); !pickle.empty())
-    return ReadPickled(pickle, path, reading);
+  NpzArchive npz = NpzArchive::Read(path);
+  const std::vector<std::string> names = npz.Names();
+  for (const std::string& name : names) {
+    const std::string_view pickle = npz.Pickle(name);
+    if (pickle.empty()) continue;
+    if (names.size() == 1) return ReadPickled(pickle, path, reading);
+    TakePickled(name, std::string(pickle), &npz);
+  }
   if (!npz.Has("skeleton")) return {Skeleton::Smpl24(), ReadSmplMotion(npz, reading)};
   reading.RefuseBody();
   const Skeleton skeleton = SkeletonFromJson(npz.Text("skeleton"));

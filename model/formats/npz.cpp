@@ -152,10 +152,14 @@ bool NpzArchive::IsText(const std::string& key) const {
   return descr.size() > 1 && (descr[1] == 'U' || descr[1] == 'S');
 }
 
-std::string_view NpzArchive::OnlyPickle() const {
-  if (members_.size() != 1) return {};
-  const auto& [key, bytes] = *members_.begin();
-  const NpyParts parts = SplitNpy(bytes, name_ + ":" + key);
+std::vector<std::string> NpzArchive::Names() const {
+  std::vector<std::string> names;
+  for (const auto& [key, bytes] : members_) names.push_back(key);
+  return names;
+}
+
+std::string_view NpzArchive::Pickle(const std::string& key) const {
+  const NpyParts parts = SplitNpy(Member(key), name_ + ":" + key);
   return parts.descr == kNpyObjects ? parts.values : std::string_view();
 }
 

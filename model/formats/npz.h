@@ -29,8 +29,12 @@ class NpzArchive {
   std::string Text(const std::string& key) const;
   /// Whether it is an array of characters.
   bool IsText(const std::string& key) const;
-  /// Where nothing but one array of objects is there, their pickle (pickle.h); else empty.
-  std::string_view OnlyPickle() const;
+  std::vector<std::string> Names() const;
+  /// The pickle of an array of objects (pickle.h); empty for an array of another kind.
+  std::string_view Pickle(const std::string& key) const;
+
+  /// Of what file it is, for messages.
+  void SetName(const std::string& name) { name_ = name; }
 
   /// Another archive's arrays, as of a dict within a dict; the names of all such; one of them.
   void SetNested(const std::string& name, const NpzArchive& archive);

@@ -58,7 +58,15 @@ class Unpickler {
  public:
   Unpickler(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
 
-  NpzArchive Run() {
+  /// What the pickle is of, which must be this.
+  Ref Run(Kind kind) {
+    if (bytes_.starts_with("\x1f\x8b")) throw InvalidArgument(name_, "is compressed: gunzip it");
+    if (bytes_.starts_with("PK")) {
+      throw InvalidArgument(
+          name_,
+          "is a zip, as of torch.save or numpy.savez: call it .npz if numpy wrote "
+          "it, else write its arrays by numpy.savez");
+    }
     // Protocols 0 and 1 begin with their first operation.
     opcode_ = bytes_.empty() ? 0 : static_cast<unsigned char>(bytes_.front());
     if (opcode_ == 0x80) Take(1);
@@ -67,7 +75,7 @@ class Unpickler {
     for (int operation = 0; operation < kMostOperations; ++operation) {
       start_ = at_;
       opcode_ = Byte();
-      if (opcode_ == '.') return Expect(TakeOnly(Pop()), kDict)->dict;
+      if (opcode_ == '.') return Expect(TakeOnly(Pop()), kind);
       const auto known = kOperations.find(opcode_);
       if (known == kOperations.end()) Refuse("is not read");
       known->second(*this);
@@ -379,7 +387,14 @@ const std::map<int, void (*)(Unpickler&)> Unpickler::kOperations = {
 }  // namespace
 
 NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name) {
-  return Unpickler(name, bytes).Run();
+  NpzArchive dict = Unpickler(name, bytes).Run(kDict)->dict;
+  dict.SetName(name);
+  return dict;
+}
+
+NpyArray ParsePickledArray(std::string_view bytes, const std::string& name) {
+  const Ref number = Unpickler(name, bytes).Run(kNumber);
+  return *number->array;
 }
 
 }  // namespace choreo

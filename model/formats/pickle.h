@@ -17,4 +17,7 @@ namespace choreo {
 /// else.
 NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name);
 
+/// The same, of a pickle of one array or number, or of such in an array of objects.
+NpyArray ParsePickledArray(std::string_view bytes, const std::string& name);
+
 }  // namespace choreo

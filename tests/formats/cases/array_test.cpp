@@ -1,3 +1,5 @@
+#include <zip.h>
+
 #include <functional>
 #include <map>
 #include <string>
@@ -55,6 +57,19 @@ struct SmplArrays {
     return all;
   }
 };
+
+// Another member: an array of objects, which is this pickle.
+void AddObject(const std::filesystem::path& path, const std::string& key,
+               const std::string& pickle) {
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), 0, &code);
+  ASSERT_NE(archive, nullptr);
+  const std::string npy = JoinNpy({.descr = "|O", .shape = {}, .values = pickle});
+  ASSERT_GE(zip_file_add(archive, (key + ".npy").c_str(),
+                         zip_source_buffer(archive, npy.data(), npy.size(), 0), 0),
+            0);
+  ASSERT_EQ(zip_close(archive), 0);
+}
 
 std::vector<double> AsMatrix(const Eigen::Vector3d& turn) {
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> m = ExpMap(turn);
@@ -295,6 +310,62 @@ TEST_F(CasesTest, NamesOfTheTrade) {
                 .norm()
                 .maxCoeff(),
             0.03);
+}
+
+// Objects among arrays are read where they are numbers or dicts; what a file is, and has, is said.
+TEST_F(CasesTest, ObjectsAmongArrays) {
+  using namespace std::string_literals;
+  const SmplArrays smpl;
+  const NpyArray poses{{smpl.frames(), 72}, smpl.All(AsVector, 24)};
+  const auto with = [&](const std::string& key, const std::string& pickle) {
+    NpzArchive npz;
+    npz.SetArray("poses", poses);
+    npz.SetArray("trans", smpl.Trans());
+    npz.Write(folder_ / "a.npz");
+    AddObject(folder_ / "a.npz", key, pickle);
+    return ReadFile("a.npz");
+  };
+  // What numpy.savez writes of fps=numpy.array(50, dtype=object), and of a text.
+  const Read read = with("fps", "\x80\x04K\x32."s);
+  EXPECT_EQ(read.motion.fps, 50);
+  EXPECT_LT(WorstJoint(smpl.motion, read.motion), 1e-6);
+  EXPECT_EQ(with("info", "\x80\x04X\x02\0\0\0hi."s).motion.fps, 30);
+  NpzArchive other;
+  other.SetArray("rotmats", poses);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.npz: has no array of rotations by a name that is known, poses, ",
+              [&] { ReadNpz(other); });
+  WritePickle(folder_ / "b.pkl", {{"rotmats", poses}});
+  ExpectError(ErrorCode::kInvalidArgument, "b.pkl: has no array of rotations",
+              [&] { ReadFile("b.pkl"); });
+  ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is compressed: gunzip it",
+              [&] { ReadBytes("c.pkl", "\x1f\x8b\x08"s); });
+  ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is a zip, as of torch.save",
+              [&] { ReadBytes("c.pkl", "PK\x03\x04"s); });
+}
+
+// MDM's results: places of joints, people first and frames last.
+TEST_F(CasesTest, PlacesWhoseFramesComeLast) {
+  const SmplArrays smpl;
+  std::vector<double> places(static_cast<size_t>(2 * 66 * smpl.frames()));
+  for (int64_t frame = 0; frame < smpl.frames(); ++frame) {
+    const Eigen::Matrix3Xd at =
+        JointPositions(kSmpl, smpl.motion.frames[static_cast<size_t>(frame)]);
+    for (int64_t value = 0; value < 66; ++value)
+      places[static_cast<size_t>((66 + value) * smpl.frames() + frame)] = at.data()[value];
+  }
+  NpzArchive npz;
+  npz.SetArray("motion", {{2, 22, 3, smpl.frames()}, places});
+  ExpectError(ErrorCode::kInvalidArgument, "joints: are of 2 people", [&] { ReadNpz(npz); });
+  const Read read = ReadNpz(npz, {.body = "1"});
+  ASSERT_EQ(read.motion.frames.size(), static_cast<size_t>(smpl.frames()));
+  EXPECT_LT(
+      (JointPositions(kSmpl, read.motion.frames[9]) - JointPositions(kSmpl, smpl.motion.frames[9]))
+          .leftCols(22)
+          .colwise()
+          .norm()
+          .maxCoeff(),
+      0.03);
 }
 
 // Y up, and upright: up a staircase, away from where the floor was.

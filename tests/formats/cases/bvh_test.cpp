@@ -1,3 +1,5 @@
+#include <iconv.h>
+
 #include <string>
 #include <vector>
 
@@ -57,6 +59,33 @@ TEST_F(CasesTest, BvhAsOtherToolsWriteIt) {
   }
   const std::string slow = replaced("Frame Time: 0.033333333", "Frame Time: 0");
   EXPECT_EQ(ReadBytes("a.bvh", slow, {.fps = 120}).motion.fps, 120);
+}
+
+// As MMD's converters write it: 頭 and 右腕 are bytes of Shift-JIS.
+TEST_F(CasesTest, NamesInOtherCodePages) {
+  const RigNames mmd = [](const std::string& bone) {
+    return bone == "pelvis" ? "下半身" : NameInRig("MMD", bone);
+  };
+  const std::string text = BvhText(MakeBvh({.names = mmd}));
+  const Motion base = ReadBytes("base.bvh", text).motion;
+  const iconv_t converter = iconv_open("CP932", "UTF-8");
+  std::string from = text, bytes(2 * text.size(), '\0');
+  char *in = from.data(), *out = bytes.data();
+  size_t left = from.size(), room = bytes.size();
+  ASSERT_EQ(iconv(converter, &in, &left, &out, &room), 0U);
+  iconv_close(converter);
+  bytes.resize(bytes.size() - room);
+  EXPECT_LT(WorstJoint(base, ReadBytes("a.bvh", bytes).motion), 1e-9);
+  // Of the West: names that mean nothing have a way out that names them.
+  std::string western = BvhText(MakeBvh({.names = [](const std::string& bone) {
+    return "Kn\xF6" + std::to_string(RigIndex(bone));
+  }}));
+  try {
+    ReadBytes("b.bvh", western);
+    FAIL();
+  } catch (const UnknownBones& error) {
+    EXPECT_EQ(error.rig().names[0], "Knö0");
+  }
 }
 
 TEST_F(CasesTest, OnePoseNeedsNoFrameTime) {
