@@ -84,9 +84,12 @@ void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem:
 
 void SuggestBoneMap(const std::filesystem::path& out, const std::string& name, const RigNodes& rig,
                     HumanBones found) {
+  RigNodes upright = rig;
   if (rig.names.empty()) throw InvalidArgument(name, "has no nodes");
   const std::string missing = MissingBone(found);
-  const HumanBones guess = GuessBones(rig.parents, rig.places, rig.joints);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  const HumanBones guess = GuessBones(rig.parents, rig.places, rig.joints, &turn);
+  upright.places = turn * rig.places;
   for (const auto& [bone, node] : guess.bones) {
     const bool taken =
         std::ranges::any_of(found.bones, [n = node](const auto& o) { return o.second == n; });
@@ -99,7 +102,7 @@ void SuggestBoneMap(const std::filesystem::path& out, const std::string& name, c
     throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
                                     map.string() + " is there already: --map it, or remove it");
   }
-  WriteBoneMap(map, picture, rig, found);
+  WriteBoneMap(map, picture, upright, found);
   throw InvalidArgument(name, "its names do not say which bone is the " + missing + "; " +
                                   map.string() + " is a guess, " + picture.string() +
                                   " a picture: mend the one by the other, then --map " +

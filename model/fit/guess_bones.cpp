@@ -1,7 +1,9 @@
 #include "model/fit/guess_bones.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -152,13 +154,63 @@ void TurnRound(const Eigen::Matrix3Xd& places, HumanBones* found) {
   found->bones = std::move(turned);
 }
 
+// How much of a body stands as bodies do.
+int Plausible(const HumanBones& found, const Eigen::Matrix3Xd& places) {
+  constexpr double kAlike = 0.1;  // of a bone's length, which it may differ from the other side's
+  int points = 0;
+  const auto place = [&](const std::string& bone) -> std::optional<Eigen::Vector3d> {
+    const int node = found.Find(bone);
+    if (node < 0) return std::nullopt;
+    return places.col(node);
+  };
+  const auto above = [&](const std::string& high, const std::string& low) {
+    const auto a = place(high), b = place(low);
+    points += a && b && a->y() - b->y() > (*a - *b).norm() / 2 ? 1 : 0;
+  };
+  above("head", "pelvis");
+  for (const std::string side : {"left_", "right_"}) {
+    above(side + "hip", side + "knee"), above(side + "knee", side + "ankle");
+    above("head", side + "shoulder"), above(side + "shoulder", side + "hip");
+  }
+  for (const auto& [from, to] : {std::pair("hip", "knee"), std::pair("knee", "ankle"),
+                                 std::pair("shoulder", "elbow"), std::pair("elbow", "wrist")}) {
+    double lengths[2] = {-1, 1};
+    for (const int side : {0, 1}) {
+      const std::string name = side == 0 ? "left_" : "right_";
+      if (const auto a = place(name + from), b = place(name + to); a && b)
+        lengths[side] = (*a - *b).norm();
+    }
+    points += std::abs(lengths[0] - lengths[1]) < kAlike * std::abs(lengths[1]) ? 1 : 0;
+  }
+  return points;
+}
+
 }  // namespace
 
 HumanBones GuessBones(const std::vector<int>& parents, const Eigen::Matrix3Xd& places,
-                      const std::vector<bool>& joints) {
-  HumanBones found = BodyGuess(parents, places, joints).Guess();
-  TurnRound(places, &found);
-  return found;
+                      const std::vector<bool>& joints, Eigen::Matrix3d* upright) {
+  HumanBones best;
+  int most = -1;
+  // The axes as files have them, the likely ones first.
+  for (const Eigen::Vector3d& up :
+       {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 0),
+        Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(-1, 0, 0)}) {
+    const Eigen::Matrix3d stand =
+        Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    for (const double heading : {0.0, -M_PI / 2}) {
+      const Eigen::Matrix3d turn =
+          Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitY()).toRotationMatrix() * stand;
+      const Eigen::Matrix3Xd turned = turn * places;
+      HumanBones found = BodyGuess(parents, turned, joints).Guess();
+      const int points = Plausible(found, turned);
+      if (points <= most) continue;
+      most = points;
+      TurnRound(turned, &found);
+      best = std::move(found);
+      if (upright != nullptr) *upright = turn;
+    }
+  }
+  return best;
 }
 
 }  // namespace choreo

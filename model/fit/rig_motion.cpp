@@ -9,6 +9,8 @@
 #include "model/fit/rig_reading.h"
 #include "model/fit/sources.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/mirror.h"
+#include "model/motion/pose_faults.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"
 
@@ -25,16 +27,23 @@ Eigen::Matrix3d Blend(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double
   return Eigen::Quaterniond(a).slerp(share, Eigen::Quaterniond(b)).toRotationMatrix();
 }
 
-// Left is right, and right is left.
-HumanBones Exchanged(const HumanBones& bones) {
+// Left is right, and right is left: of the "body", its "arms" or its "legs".
+HumanBones Exchanged(const HumanBones& bones, const std::string& of) {
   HumanBones exchanged{.rig = bones.rig, .bones = {}};
   for (const auto& [bone, index] : bones.bones) {
-    const bool left = bone.starts_with("left_"), right = bone.starts_with("right_");
-    exchanged.bones[left    ? "right_" + bone.substr(5)
-                    : right ? "left_" + bone.substr(6)
-                            : bone] = index;
+    const bool leg = bone.ends_with("_hip") || bone.ends_with("_knee") ||
+                     bone.ends_with("_ankle") || bone.ends_with("_foot");
+    const bool counts = of == "body" || (of == "legs") == leg;
+    exchanged.bones[counts ? OtherSide(bone) : bone] = index;
   }
   return exchanged;
+}
+
+// How many of its frames bend joints as no body can.
+double ShareBent(const Motion& motion) {
+  const auto bent = std::ranges::count_if(
+      motion.frames, [](const Pose& pose) { return !BendFaults(SmplBody(), pose).empty(); });
+  return static_cast<double>(bent) / static_cast<double>(motion.frames.size());
 }
 
 class RigFitter {
@@ -209,14 +218,26 @@ class RigFitter {
 
 RigFit FitRig(const RigMotion& rig, double scale) {
   const RigReading as_named(rig);
-  if (as_named.Stands()) return RigFitter(as_named, scale).Fit();
-  RigMotion mirrored = rig;
-  mirrored.bones = Exchanged(rig.bones);
-  const RigReading as_placed(mirrored);
-  if (!as_placed.Stands()) return RigFitter(as_named, scale).Fit();
-  RigFit fit = RigFitter(as_placed, scale).Fit();
-  fit.exchanged = true;
-  return fit;
+  const auto named = [&] { return RigFitter(as_named, scale).Fit(); };
+  // Toes say where ahead is; without them, knees and elbows do.
+  const bool has_toes = as_named.Find("left_foot") >= 0 && as_named.Find("right_foot") >= 0;
+  if (as_named.Stands() && has_toes) return named();
+  std::optional<RigFit> as_it_is;
+  if (as_named.Stands()) {
+    as_it_is = named();
+    if (ShareBent(as_it_is->motion) <= kMostFrames) return *std::move(as_it_is);
+  }
+  for (const std::string of : {"body", "arms", "legs"}) {
+    RigMotion other = rig;
+    other.bones = Exchanged(rig.bones, of);
+    const RigReading as_placed(other);
+    if (!as_placed.Stands()) continue;
+    RigFit fit = RigFitter(as_placed, scale).Fit();
+    if (as_it_is && ShareBent(fit.motion) > 1 - kMostFrames) continue;
+    fit.exchanged = of;
+    return fit;
+  }
+  return as_it_is ? *std::move(as_it_is) : named();
 }
 
 }  // namespace choreo

@@ -40,8 +40,9 @@ struct RigFit {
   bool rest = true;   ///< false: its rest pose is no body's, what bones are at rest is a guess
   bool turns = true;  ///< false: its rotations do not carry its joints, positions alone were fitted
   std::vector<std::string> missing;  ///< "neck", "head", "collars", "toes": what it has not
-  /// Its left is on the right at rest, as in a mirror: bones were taken by where they stand.
-  bool exchanged = false;
+  /// Whose left is on the right, as in a mirror, or "": "body", "arms" or "legs". They were taken
+  /// by where they stand.
+  std::string exchanged = {};
 };
 
 /// Limbs point where the rig's do. Pelvis, chest, head, hands and feet are turned in the world as

@@ -22,7 +22,6 @@ constexpr double kTrunkAside = 35 / kDegrees;
 // A bone that carries the next one has it in the same place, radians and bones.
 constexpr double kLooseBone = 15 / kDegrees;
 constexpr int kMostLoose = 2;
-constexpr double kMostFrames = 0.9;
 
 const Skeleton& OurBody() { return Skeleton::Smpl24(); }
 
@@ -61,6 +60,8 @@ std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matr
     const double aside = AngleBetween(place(segment.to) - place(segment.from), ours);
     if (aside > (leg ? kLegsAside : kArmsAside)) return std::nullopt;
   }
+  for (const std::string joint : {"hip", "shoulder"})
+    if ((place("left_" + joint) - place("right_" + joint)).x() < 0) return std::nullopt;
   // A body that rests does so alike on both sides; one in the middle of a dance does not.
   for (size_t i = 0; i < LimbSegments().size() / 2; ++i) {
     const LimbSegment &left = LimbSegments()[i],

@@ -12,6 +12,9 @@
 /// What a recording of a rig tells of the rig, before any of it is fitted. Private to this folder.
 namespace choreo {
 
+/// What so many frames show is a rule.
+inline constexpr double kMostFrames = 0.9;
+
 /// The bones whose ends say where they point: by SMPL's names, which are HumanBones', too.
 struct LimbSegment {
   std::string from, to;

@@ -47,10 +47,10 @@ std::string Joined(const std::vector<std::string>& words) {
 }
 
 void Tell(const RigFit& fit, const MotionReading& reading) {
-  if (fit.exchanged) {
-    reading.Note(
-        "its left and right are exchanged, as in a mirror: limbs are taken by where they stand, "
-        "not by their names");
+  if (!fit.exchanged.empty()) {
+    reading.Note((fit.exchanged == "body" ? "its" : "its " + fit.exchanged + "'") +
+                 " left and right are exchanged, as in a mirror: limbs are taken by where they "
+                 "stand, not by their names");
   }
   if (!fit.turns) {
     reading.Note(

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "model/fit/character_body.h"
@@ -29,6 +30,27 @@ TEST(GuessBones, FindsABodyByWhereItStands) {
         for (const auto& [bone, node] : guess.bones)
           EXPECT_EQ(body.joint_names[static_cast<size_t>(node)], bone) << facing << " " << down;
       }
+    }
+  }
+}
+
+TEST(GuessBones, WhicheverAxisIsUpAndAhead) {
+  const Skeleton& body = Smpl();
+  const Eigen::Matrix3Xd places = JointPositions(body, RestPose(body));
+  for (const Eigen::Vector3d& up :
+       {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(-1, 0, 0)}) {
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const Eigen::Matrix3d turn =
+          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), up).toRotationMatrix() *
+          Eigen::AngleAxisd(quarter * std::numbers::pi / 2, Eigen::Vector3d::UnitY())
+              .toRotationMatrix();
+      Eigen::Matrix3d upright;
+      const HumanBones guess = GuessBones(body.parents, turn * places,
+                                          std::vector<bool>(body.parents.size(), true), &upright);
+      EXPECT_EQ(MissingBone(guess), "");
+      for (const auto& [bone, node] : guess.bones)
+        EXPECT_EQ(body.joint_names[static_cast<size_t>(node)], bone) << up.transpose() << quarter;
+      EXPECT_TRUE((upright * up).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "model/fit/find_bones.h"
+#include "model/motion/mirror.h"
 #include "tests/formats/cases/cases.h"
 #include "tests/support/expect_error.h"
 
@@ -204,6 +205,40 @@ TEST_F(CasesTest, NamesThatSayNothingHaveAWayOut) {
   mapped.bones[3].name = "x";
   ExpectError(ErrorCode::kInvalidArgument, "map: \"x\" is none of its nodes",
               [&] { ReadFile("a.bvh", mapped); });
+}
+
+// As a map is made by hand: arms or legs are mended by where they stand, the whole by toes, and
+// without toes by where knees bend.
+TEST_F(CasesTest, SidesAreTakenByWhereTheyStand) {
+  const RigNames human = NamesOf(kHumanIkRig);
+  const BvhFile file = MakeBvh({.names = human, .turn = Expressive});
+  BvhFile toeless = file;
+  for (BvhJoint& joint : toeless.joints)
+    if (joint.name.find("ToeBase") != std::string::npos) joint.name = "x" + joint.name.substr(0, 1);
+  const auto mapped = [&](const auto& is_wrong) {
+    MotionReading reading;
+    for (const RigJoint& joint : RigBody()) {
+      if (joint.bone.ends_with("_foot")) continue;
+      const std::string bone = is_wrong(joint.bone) ? OtherSide(joint.bone) : joint.bone;
+      reading.bones.push_back({.bone = joint.bone, .name = human(bone), .field = "map"});
+    }
+    return reading;
+  };
+  const auto arm = [](const std::string& bone) {
+    return bone.ends_with("collar") || bone.ends_with("shoulder") || bone.ends_with("elbow") ||
+           bone.ends_with("wrist");
+  };
+  WriteBvh(folder_ / "a.bvh", file);
+  const Read arms = ReadFile("a.bvh", mapped(arm));
+  EXPECT_TRUE(arms.Says("its arms' left and right are exchanged")) << Said(arms);
+  EXPECT_LT(Compare(arms.motion, Expressive).turns, kOpen);
+  const Read legs = ReadFile("a.bvh", mapped([&](const auto& bone) { return !arm(bone); }));
+  EXPECT_TRUE(legs.Says("left and right are exchanged")) << Said(legs);
+  EXPECT_LT(Compare(legs.motion, Expressive).limbs, 0.1);
+  WriteBvh(folder_ / "a.bvh", toeless);
+  const Read whole = ReadFile("a.bvh", mapped([](const auto&) { return true; }));
+  EXPECT_TRUE(whole.Says("its left and right are exchanged")) << Said(whole);
+  EXPECT_LT(Compare(whole.motion, Expressive).limbs, 0.1);
 }
 
 TEST_F(CasesTest, WhatDoesNotMoveIsSaid) {
