@@ -8,10 +8,15 @@
 namespace choreo::cli {
 namespace {
 
-void Say(const std::filesystem::path& path, const std::vector<std::string>& notes) {
+void Say(const std::filesystem::path& path, const std::vector<std::string>& notes,
+         bool of_convert) {
   static std::set<std::string> said;
   for (const std::string& note : notes) {
-    const std::string line = "note: " + path.string() + ": " + note;
+    std::string line = "note: " + path.string() + ": " + note;
+    // Beyond the path, which may be anything.
+    const size_t option =
+        of_convert ? std::string::npos : line.find(" --", line.size() - note.size());
+    if (option != std::string::npos) line.insert(option, " choreo convert");
     if (said.insert(line).second) std::cerr << line << '\n';
   }
 }
@@ -22,7 +27,14 @@ SkeletonMotion ReadMotionNoting(const std::filesystem::path& path, MotionReading
   std::vector<std::string> notes;
   reading.notes = &notes;
   SkeletonMotion read = ReadMotion(path, reading);
-  Say(path, notes);
+  Say(path, notes, true);
+  return read;
+}
+
+SkeletonMotion ReadMotionNoting(const std::filesystem::path& path) {
+  std::vector<std::string> notes;
+  SkeletonMotion read = ReadMotion(path, {.notes = &notes});
+  Say(path, notes, false);
   return read;
 }
 
@@ -32,7 +44,7 @@ Motion ReadMotionNoting(const std::filesystem::path& path, const Skeleton& skele
   MotionReading reading;
   reading.notes = &notes;
   Motion motion = ReadMotion(path, skeleton, other, reading);
-  Say(path, notes);
+  Say(path, notes, false);
   return motion;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/printable.h"
 
 namespace choreo::cli {
 namespace {
@@ -39,11 +40,22 @@ class MemoryFile {
 bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
                      const MemoryFile& log) {
   const std::string input = "file:" + path.string();  // a name, whatever it looks like
-  std::vector<std::string> words{"ffmpeg",    "-hide_banner", "-nostats",
-                                 "-nostdin",  "-i",           input,
-                                 "-vn",       "-af",          "aresample=async=1:first_pts=0",
-                                 "-f",        "wav",          "-c:a",
-                                 "pcm_f32le", "pipe:1"};
+  std::vector<std::string> words{"ffmpeg",
+                                 "-hide_banner",
+                                 "-nostats",
+                                 "-loglevel",
+                                 "level+info",
+                                 "-nostdin",
+                                 "-i",
+                                 input,
+                                 "-vn",
+                                 "-af",
+                                 "aresample=async=1:first_pts=0",
+                                 "-f",
+                                 "wav",
+                                 "-c:a",
+                                 "pcm_f32le",
+                                 "pipe:1"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -61,28 +73,49 @@ bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// How many sound tracks the input has, by what ffmpeg says of it.
-int CountTracks(const MemoryFile& log) {
+/// What ffmpeg says of its input.
+struct FfmpegSays {
+  int tracks = 0;          ///< of sound
+  std::string error = {};  ///< the first, or none
+};
+
+FfmpegSays Listen(const MemoryFile& log) {
   std::ifstream lines(log.path());
-  int tracks = 0;
-  for (std::string line; std::getline(lines, line) && !line.starts_with("Output #");) {
-    if (line.find("Stream #0:") != std::string::npos && line.find(": Audio: ") != std::string::npos)
-      ++tracks;
+  FfmpegSays says;
+  bool of_input = true;
+  for (std::string line; std::getline(lines, line);) {
+    const auto has = [&](const char* words) { return line.find(words) != std::string::npos; };
+    of_input = of_input && !has("] Output #");
+    if (of_input && has("Stream #0:") && has(": Audio: ")) ++says.tracks;
+    for (const std::string level : {"[error] ", "[fatal] "}) {
+      if (says.error.empty() && has(level.c_str()))
+        says.error = Printable(line.substr(line.find(level) + level.size()));
+    }
   }
-  return tracks;
+  return says;
 }
 
 std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, double seconds,
                                            double start) {
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
   const MemoryFile wav, log;
-  if (!ConvertByFfmpeg(path, wav, log)) return std::nullopt;
+  const bool converted = ConvertByFfmpeg(path, wav, log);
+  const FfmpegSays says = Listen(log);
+  if (!converted && says.error.empty()) return std::nullopt;
+  if (!converted) {
+    throw InvalidArgument(
+        path.string(), std::string("not ") + kSoundFormats + " audio, and ffmpeg " +
+                           (says.tracks > 0 ? "fails: " : "finds no sound in it: ") + says.error);
+  }
   try {
     DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start);
     // Into a pipe it can't write the length.
     audio.notes = {"read by ffmpeg"};
-    if (const int tracks = CountTracks(log); tracks > 1) {
-      audio.notes.push_back("has " + std::to_string(tracks) +
+    if (!says.error.empty()) {
+      audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + says.error);
+    }
+    if (says.tracks > 1) {
+      audio.notes.push_back("has " + std::to_string(says.tracks) +
                             " sound tracks, of which ffmpeg chose one; `ffmpeg -i FILE -map 0:a:1 "
                             "song.wav` takes the second");
     }

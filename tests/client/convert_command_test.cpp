@@ -37,6 +37,15 @@ TEST_F(ConvertCommandTest, WhatAFileSaysWronglyIsNotedInOneLine) {
   EXPECT_THAT(Convert("z.bvh", "--body B").said, HasSubstr("--body: \"B\" is none of its bodies"));
 }
 
+// Notes name options; what has others is told whose they are.
+TEST_F(ConvertCommandTest, NotesNameTheCommandThatHasTheOption) {
+  const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  WriteBvh(folder_ / "z.bvh", MakeBvh({.world = z_up}));
+  EXPECT_THAT(Convert("z.bvh").said, HasSubstr("; --up y lets it lie"));
+  EXPECT_THAT(Choreo("pose --from " + At("z.bvh@0.5")).said,
+              HasSubstr("; choreo convert --up y lets it lie"));
+}
+
 TEST_F(ConvertCommandTest, AMotionWhoseNamesSayNothingHasAMap) {
   const RigNames nameless = [](const std::string& bone) {
     return "bone" + std::to_string(RigIndex(bone));

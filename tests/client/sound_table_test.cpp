@@ -109,6 +109,22 @@ TEST(SoundTable, IsWhatBecomesOfThem) {
   }
 }
 
+// Why it can't read what it can't.
+TEST(SoundTable, WhatFfmpegSaysIsPassedOn) {
+  if (Shell("ffmpeg -version").code != 0)
+    GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
+  const TemporaryFolder folder;
+  const auto make = [&](const std::string& words, const char* name) {
+    const Outcome made =
+        Shell("ffmpeg -nostdin -v error -y " + words + " " + (folder / name).string());
+    ASSERT_EQ(made.code, 0) << made.said;
+  };
+  make("-f lavfi -i color=size=16x16:duration=1 -c:v mpeg4", "silent.mp4");
+  ExpectError(ErrorCode::kInvalidArgument, "audio, and ffmpeg finds no sound in it: ", [&] {
+    DecodeSong(folder / "silent.mp4", INFINITY, 0);
+  });
+}
+
 void Make(const std::string& words, const std::filesystem::path& file) {
   const Outcome made = Shell("ffmpeg -nostdin -v error -y " + words + " " + file.string());
   ASSERT_EQ(made.code, 0) << made.said;
