@@ -33,30 +33,30 @@ std::string Named(const std::string& message, const std::string& path, const std
 
 }  // namespace
 
-std::shared_ptr<const Song> HearSongOf(const House& house, const File& file) {
+std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File& file) {
   const ScratchFolder folder;
   const std::filesystem::path path = PlaceFor(folder, file.name());
   WriteFile(path, file.data());
-  return std::make_shared<const Song>(HearSong(path, file.name(), house.most_seconds()));
+  return std::make_shared<const Song>(HearSong(path, file.name(), context.most_seconds()));
 }
 
-std::vector<Response> MakeTransition(const House& house, const Song* music,
+std::vector<Response> MakeTransition(const StudioContext& context, const Song* music,
                                      const v1::GenerateTransitionRequest& asked) {
-  client::TransitionRequest request = FromProto(asked, house.model().skeleton);
+  client::TransitionRequest request = FromProto(asked, context.model().skeleton);
   const int64_t first =
       request.config.continuation ? request.config.continuation->frame : request.config.first_frame;
   if (music) {
-    client::SetMusic(music->audio, house.model(), first, &request);
+    client::SetMusic(music->audio, context.model(), first, &request);
     cli::TellMusic(music->music, music->heard.seconds(), &request.config);
   }
-  client::TransitionResult made = house.client().GenerateTransition(request);
+  client::TransitionResult made = context.client().GenerateTransition(request);
   if (request.target) {
     const client::KeyPose key{.id = request.target_id,
                               .frame = first + request.frames - 1,
                               .pose = *request.target,
                               .mask = request.target_mask};
     for (client::Warning& fault :
-         cli::KeyFaults(std::vector{key}, house.model().fps, house.model().skeleton))
+         cli::KeyFaults(std::vector{key}, context.model().fps, context.model().skeleton))
       made.warnings.push_back(std::move(fault));
   }
   std::vector<Response> answers;
@@ -65,7 +65,7 @@ std::vector<Response> MakeTransition(const House& house, const Song* music,
   return answers;
 }
 
-Response ComposeKeys(const House& house, const Song* music, const Compose& request) {
+Response ComposeKeys(const StudioContext& context, const Song* music, const Compose& request) {
   cli::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
   composition.named = "compose.seconds";
   composition.beats.assign(request.beats().begin(), request.beats().end());
@@ -74,18 +74,18 @@ Response ComposeKeys(const House& house, const Song* music, const Compose& reque
   if (music) composition.passages = music->music.passages;
   Response response;
   response.mutable_keyframes();
-  const auto library = cli::PosesToDance(house.model().skeleton);
+  const auto library = cli::PosesToDance(context.model().skeleton);
   for (const client::KeyPose& key : cli::ComposeKeys(composition, library))
     *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   return response;
 }
 
-Response WriteClip(const House& house, const Export& request) {
+Response WriteClip(const StudioContext& context, const Export& request) {
   const ScratchFolder folder;
   RequireWrittenMotionFile(request.name());
   const std::filesystem::path path = PlaceFor(folder, request.name());
-  const client::FinishedDance dance = FromProto(request.clip(), house.model().skeleton);
-  WriteMotion(path, house.model().skeleton, dance.motion,
+  const client::FinishedDance dance = FromProto(request.clip(), context.model().skeleton);
+  WriteMotion(path, context.model().skeleton, dance.motion,
               dance.contacts.empty() ? nullptr : &dance.contacts);
   Response response;
   response.mutable_file()->set_name(request.name());
@@ -93,7 +93,7 @@ Response WriteClip(const House& house, const Export& request) {
   return response;
 }
 
-Response ReadClip(const House& house, const File& file) {
+Response ReadClip(const StudioContext& context, const File& file) {
   const ScratchFolder folder;
   RequireMotionFile(file.name());
   const std::filesystem::path path = PlaceFor(folder, file.name());
@@ -102,7 +102,7 @@ Response ReadClip(const House& house, const File& file) {
   std::vector<std::string> notes;
   try {
     dance.motion =
-        ReadMotion(path, house.model().skeleton, OtherSkeleton::kRetarget, {.notes = &notes});
+        ReadMotion(path, context.model().skeleton, OtherSkeleton::kRetarget, {.notes = &notes});
   } catch (const Error& error) {
     throw Error(error.code(), "", Named(error.what(), path.string(), file.name()));
   }
@@ -113,20 +113,20 @@ Response ReadClip(const House& house, const File& file) {
   return response;
 }
 
-Response MakePhotoPose(const House& house, const File& landmarks) {
+Response MakePhotoPose(const StudioContext& context, const File& landmarks) {
   Response response;
   LibraryPose* pose = response.mutable_pose();
   pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
   *pose->mutable_pose() = client::ToProto(
-      cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), house.model().skeleton));
+      cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), context.model().skeleton));
   return response;
 }
 
-Response ReadKeys(const House& house, const File& file) {
+Response ReadKeys(const StudioContext& context, const File& file) {
   Response response;
   response.mutable_keyframes();
   for (const client::KeyPose& key :
-       cli::ParseKeyFile(file.data(), file.name(), house.model().skeleton))
+       cli::ParseKeyFile(file.data(), file.name(), context.model().skeleton))
     *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   return response;
 }

@@ -18,10 +18,13 @@ constexpr size_t kMostDances = 8;  // at once, of one page
 
 }  // namespace
 
-Desk::Desk(const House& house, Send send)
-    : house_(house), send_(std::move(send)), song_(house.song()), worker_([this] { Work(); }) {
+Desk::Desk(const StudioContext& context, Send send)
+    : context_(context),
+      send_(std::move(send)),
+      song_(context.song()),
+      worker_([this] { Work(); }) {
   Response response;
-  *response.mutable_welcome() = house.welcome();
+  *response.mutable_welcome() = context.welcome();
   Answer(0, std::move(response));
 }
 
@@ -63,7 +66,7 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
   client::RemoteDance& dance = *found->second.dance;
   switch (request.request_case()) {
     case v1::StreamDanceRequest::kKeyframe: {
-      const client::KeyPose key = FromProto(request.keyframe(), house_.model().skeleton);
+      const client::KeyPose key = FromProto(request.keyframe(), context_.model().skeleton);
       if (found->second.is_live)
         TellFaults(call, {key});
       else
@@ -90,7 +93,7 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
 
 void Desk::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
   for (const client::Warning& fault :
-       cli::KeyFaults(keys, house_.model().fps, house_.model().skeleton)) {
+       cli::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
     Response response;
     *response.mutable_dance() = ToProto(fault, house_.model().fps);
     Answer(call, std::move(response));
@@ -101,14 +104,14 @@ void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
   if (dances_.size() >= kMostDances)
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMostDances) + " are in progress, the most");
-  client::DanceConfig config = FromProto(request, house_.model().skeleton);
+  client::DanceConfig config = FromProto(request, context_.model().skeleton);
   // Who sends the music as it sounds is not danced to the song.
   const bool is_live = config.audio.kind != client::AudioKind::kNone;
   const std::shared_ptr<const Song> music = is_live ? nullptr : song();
-  const bool hears = music && house_.model().takes_music;
+  const bool hears = music && context_.model().takes_music;
   if (music) cli::TellMusic(music->music, music->heard.seconds(), &config);
   if (hears) config.audio = music->audio.format;
-  auto dance = house_.client().StartDance(config);
+  auto dance = context_.client().StartDance(config);
   if (hears) {
     dance->SendSamples(music->audio.samples);
     dance->EndAudio();
@@ -187,17 +190,17 @@ void Desk::Do(const Request& request) {
     case Request::kSong:
       return TakeSong(call, request.song());
     case Request::kTransition:
-      for (Response& part : MakeTransition(house_, song().get(), request.transition()))
+      for (Response& part : MakeTransition(context_, song().get(), request.transition()))
         Answer(call, std::move(part));
       return;
     case Request::kCompose:
-      return Answer(call, ComposeKeys(house_, song().get(), request.compose()));
+      return Answer(call, ComposeKeys(context_, song().get(), request.compose()));
     case Request::kExport:
-      return Answer(call, WriteClip(house_, request.export_()));
+      return Answer(call, WriteClip(context_, request.export_()));
     case Request::kOpen:
-      return Answer(call, ReadClip(house_, request.open()));
+      return Answer(call, ReadClip(context_, request.open()));
     case Request::kLandmarks:
-      return Answer(call, MakePhotoPose(house_, request.landmarks()));
+      return Answer(call, MakePhotoPose(context_, request.landmarks()));
     case Request::kKeys:
       return Answer(call, ReadKeys(house_, request.keys()));
     case Request::kCompany:
@@ -208,7 +211,7 @@ void Desk::Do(const Request& request) {
 }
 
 void Desk::TakeSong(uint32_t call, const File& file) {
-  std::shared_ptr<const Song> heard = HearSongOf(house_, file);
+  std::shared_ptr<const Song> heard = HearSongOf(context_, file);
   Response response;
   *response.mutable_song() = heard->heard;
   {

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "studio/house.h"
+#include "studio/studio_context.h"
 
 namespace choreo::studio {
 
@@ -20,8 +20,8 @@ class Desk {
   /// Called from any thread, one at a time.
   using Send = std::function<void(const Response&)>;
 
-  /// `house` must outlive it. Sends the Welcome.
-  Desk(const House& house, Send send);
+  /// `context` must outlive it. Sends the Welcome.
+  Desk(const StudioContext& context, Send send);
   /// Ends all calls: waits for a transition in progress, and for nothing else.
   ~Desk();
   Desk(const Desk&) = delete;
@@ -57,7 +57,7 @@ class Desk {
   void Answer(uint32_t call, Response response);
   void Fail(uint32_t call, const std::string& message);
 
-  const House& house_;
+  const StudioContext& context_;
   const Send send_;
   std::map<uint32_t, Dancing> dances_;  // of the thread of Take
 

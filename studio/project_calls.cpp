@@ -95,7 +95,7 @@ unsigned StatusOf(ErrorCode code) {
 
 }  // namespace
 
-ProjectCalls::ProjectCalls(const House& house) : house_(house), threads_(kAtOnce) {}
+ProjectCalls::ProjectCalls(const StudioContext& context) : context_(context), threads_(kAtOnce) {}
 
 ProjectCalls::~ProjectCalls() {
   ends_ = true;
@@ -109,7 +109,7 @@ ProjectCalls::Reply ProjectCalls::Refuse(unsigned status, const std::string& mes
 }
 
 ProjectCalls::Reply ProjectCalls::Model() const {
-  const client::ModelDescription& model = house_.model();
+  const client::ModelDescription& model = context_.model();
   const json out = {{"name", model.name},
                     {"frame_rate", model.fps},
                     {"joints", model.skeleton.joint_names},
@@ -117,7 +117,7 @@ ProjectCalls::Reply ProjectCalls::Model() const {
                     {"offsets", Vectors(model.skeleton.offsets)},
                     {"pelvis_height", Short(model.skeleton.pelvis_height)},
                     {"styles", model.styles},
-                    {"most_seconds", house_.most_seconds()}};
+                    {"most_seconds", context_.most_seconds()}};
   return {.body = out.dump()};
 }
 
@@ -143,21 +143,21 @@ void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
 }
 
 ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) const {
-  const client::ModelDescription& model = house_.model();
+  const client::ModelDescription& model = context_.model();
   json file = cli::ParseJson(text, kName);
   const cli::Project project = cli::ParseProject(file, kName);
-  const std::optional<Song> song = TakeSong(&file, project.song, house_.most_seconds());
+  const std::optional<Song> song = TakeSong(&file, project.song, context_.most_seconds());
   cli::DanceKeys keys;
   keys.poses = cli::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
   // An answer has to fit into memory.
-  if (project.seconds && *project.seconds > house_.most_seconds()) {
+  if (project.seconds && *project.seconds > context_.most_seconds()) {
     throw InvalidArgument(std::string(kName) + ":seconds",
                           Rounded(*project.seconds) + " is beyond " +
-                              Rounded(house_.most_seconds()) + ", the most that is danced");
+                              Rounded(context_.most_seconds()) + ", the most that is danced");
   }
-  double seconds = project.seconds.value_or(house_.most_seconds());
+  double seconds = project.seconds.value_or(context_.most_seconds());
   if (song) seconds = std::min(seconds, song->heard.seconds());
 
   client::DanceConfig config;
@@ -179,7 +179,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   keys = cli::ByTime(std::move(keys), model.fps);
   client::DanceResult dance;
   try {
-    dance = house_.client().Dance(config, keys.poses, audio, [this](const client::Message&) {
+    dance = context_.client().Dance(config, keys.poses, audio, [this](const client::Message&) {
       if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
     });
   } catch (const Error& error) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "studio/house.h"
+#include "studio/studio_context.h"
 
 namespace choreo::studio {
 
@@ -23,8 +23,8 @@ class ProjectCalls {
   };
   using Answer = std::function<void(Reply)>;
 
-  /// `house` must outlive it.
-  explicit ProjectCalls(const House& house);
+  /// `context` must outlive it.
+  explicit ProjectCalls(const StudioContext& context);
   /// Ends the dances in progress.
   ~ProjectCalls();
   ProjectCalls(const ProjectCalls&) = delete;
@@ -40,7 +40,7 @@ class ProjectCalls {
  private:
   Reply Danced(const std::string& project, bool as_bvh) const;
 
-  const House& house_;
+  const StudioContext& context_;
   std::atomic<int> asked_ = 0;
   std::atomic<bool> ends_ = false;
   boost::asio::thread_pool threads_;

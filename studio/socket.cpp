@@ -10,8 +10,9 @@ constexpr size_t kLargestMessage = size_t{256} << 20;  // a song
 
 }  // namespace
 
-Socket::Socket(beast::tcp_stream stream, const House& house, boost::asio::thread_pool* leaving)
-    : stream_(std::move(stream)), house_(house), leaving_(*leaving) {}
+Socket::Socket(beast::tcp_stream stream, const StudioContext& context,
+               boost::asio::thread_pool* leaving)
+    : stream_(std::move(stream)), context_(context), leaving_(*leaving) {}
 
 void Socket::Start(const beast::http::request<beast::http::string_body>& request) {
   beast::get_lowest_layer(stream_).expires_never();
@@ -23,7 +24,7 @@ void Socket::Start(const beast::http::request<beast::http::string_body>& request
     // Weak: what an ended connection is still told is for nobody.
     const std::weak_ptr<Socket> weak = self;
     self->desk_ = std::make_unique<Desk>(
-        self->house_, [weak, executor = self->stream_.get_executor()](const Response& response) {
+        self->context_, [weak, executor = self->stream_.get_executor()](const Response& response) {
           boost::asio::post(executor, [weak, message = response.SerializeAsString()]() mutable {
             if (const auto socket = weak.lock()) socket->Queue(std::move(message));
           });

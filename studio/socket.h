@@ -17,7 +17,8 @@ namespace choreo::studio {
 class Socket : public std::enable_shared_from_this<Socket> {
  public:
   /// Desks end on `leaving`: their last calls may take long, and other pages are served meanwhile.
-  Socket(boost::beast::tcp_stream stream, const House& house, boost::asio::thread_pool* leaving);
+  Socket(boost::beast::tcp_stream stream, const StudioContext& context,
+         boost::asio::thread_pool* leaving);
 
   /// Takes over from HTTP.
   void Start(const boost::beast::http::request<boost::beast::http::string_body>& request);
@@ -31,7 +32,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
   void Write();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
-  const House& house_;
+  const StudioContext& context_;
   boost::asio::thread_pool& leaving_;
   boost::beast::flat_buffer received_;
   std::deque<std::string> unsent_;

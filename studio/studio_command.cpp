@@ -33,8 +33,8 @@ void Run(const StudioOptions& options) {
   server.before_retry = [] { Interruption::Check(); };
   // Beside the program, built or installed, as scripts/photo_model.sh leaves it.
   const std::filesystem::path photo_model = ProgramFolder().parent_path() / "share/choreo/photo";
-  const studio::House house(server, options.song, photo_model);
-  studio::WebServer web(options.listen, house);
+  const studio::StudioContext context(server, options.song, photo_model);
+  studio::WebServer web(options.listen, context);
   std::cout << "The studio is open at " << web.url() << "  (Ctrl-C closes it)" << std::endl;
   web.Run([] { return !Interruption::Came(); });
 }

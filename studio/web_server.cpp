@@ -179,8 +179,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 }  // namespace
 
-WebServer::WebServer(const std::string& listen, const House& house)
-    : house_(house), calls_(house), acceptor_(io_), timer_(io_), leaving_(kLeaveAtOnce) {
+WebServer::WebServer(const std::string& listen, const StudioContext& context)
+    : context_(context), calls_(context), acceptor_(io_), timer_(io_), leaving_(kLeaveAtOnce) {
   const Place place = ParsePlace(listen);
   host_ = place.host;
   try {
@@ -226,9 +226,9 @@ void WebServer::Accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (!error) {
       std::make_shared<Connection>(
-          std::move(socket), host_, house_.photo_model(), &calls_,
+          std::move(socket), host_, context_.photo_model(), &calls_,
           [this](beast::tcp_stream stream, const http::request<http::string_body>& request) {
-            const auto page = std::make_shared<Socket>(std::move(stream), house_, &leaving_);
+            const auto page = std::make_shared<Socket>(std::move(stream), context_, &leaving_);
             sockets_.insert(page);
             page->Start(request);
           })

@@ -21,9 +21,9 @@ class Socket;
 /// request of the page leaves this machine: its headers see to it.
 class WebServer {
  public:
-  /// Listens at HOST:PORT; port 0 takes a free one. `house` must outlive it. Throws
+  /// Listens at HOST:PORT; port 0 takes a free one. `context` must outlive it. Throws
   /// Error(kInvalidArgument) whose field is "--listen".
-  WebServer(const std::string& listen, const House& house);
+  WebServer(const std::string& listen, const StudioContext& context);
   ~WebServer();
 
   /// As a browser takes it: "http://127.0.0.1:8765".
@@ -39,7 +39,7 @@ class WebServer {
   void Accept();
   void Ask(const std::function<bool()>& go_on);
 
-  const House& house_;
+  const StudioContext& context_;
   boost::asio::io_context io_;
   ProjectCalls calls_;
   boost::asio::ip::tcp::acceptor acceptor_;

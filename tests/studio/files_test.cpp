@@ -172,7 +172,8 @@ TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
   const Response seen = page.Ask(request);
   ASSERT_TRUE(seen.has_pose()) << seen.failure().message();
   EXPECT_EQ(seen.pose().id(), "beach");
-  const Pose pose = cli::ParseLandmarkPose(landmarks, "beach.jpg", studio.house().model().skeleton);
+  const Pose pose =
+      cli::ParseLandmarkPose(landmarks, "beach.jpg", studio.context().model().skeleton);
   EXPECT_EQ(seen.pose().pose().SerializeAsString(), client::ToProto(pose).SerializeAsString());
   for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
     request.mutable_landmarks()->set_data(bad);
@@ -183,7 +184,7 @@ TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
 TEST_F(StudioTest, TellsHowJointsTurnAndReadsKeyFiles) {
   const Opened studio(server_.address());
   Page page(studio.port());
-  const Skeleton& skeleton = studio.house().model().skeleton;
+  const Skeleton& skeleton = studio.context().model().skeleton;
   ASSERT_EQ(page.welcome().turns_size(), skeleton.joints());
   const JointTurn& elbow = page.welcome().turns(skeleton.Find("left_elbow"));
   EXPECT_EQ(elbow.part(), v1::BODY_PART_LEFT_ARM);

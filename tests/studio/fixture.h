@@ -20,7 +20,7 @@ class Opened {
  public:
   explicit Opened(const std::string& server, const std::filesystem::path& song = {},
                   const std::filesystem::path& photo_model = {})
-      : house_({.addresses = {server}}, song, photo_model), web_("127.0.0.1:0", house_) {
+      : context_({.addresses = {server}}, song, photo_model), web_("127.0.0.1:0", context_) {
     thread_ = std::thread([this] { web_.Run([] { return true; }); });
   }
   ~Opened() {
@@ -28,10 +28,10 @@ class Opened {
     thread_.join();
   }
   int port() const { return web_.port(); }
-  const House& house() const { return house_; }
+  const StudioContext& context() const { return context_; }
 
  private:
-  House house_;
+  StudioContext context_;
   WebServer web_;
   std::thread thread_;
 };

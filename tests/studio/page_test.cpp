@@ -114,13 +114,13 @@ TEST_F(StudioTest, SaysInWordsWhatCannotBe) {
 
 TEST(WebServerTest, NamesAnAddressThatIsNone) {
   const TestServer server;
-  const House house({.addresses = {server.address()}}, "");
-  ExpectError(ErrorCode::kInvalidArgument, "--listen", [&] { WebServer("nowhere", house); });
+  const StudioContext context({.addresses = {server.address()}}, "");
+  ExpectError(ErrorCode::kInvalidArgument, "--listen", [&] { WebServer("nowhere", context); });
   ExpectError(ErrorCode::kInvalidArgument, "--listen",
-              [&] { WebServer("127.0.0.1:70000", house); });
-  const WebServer first("127.0.0.1:0", house);
+              [&] { WebServer("127.0.0.1:70000", context); });
+  const WebServer first("127.0.0.1:0", context);
   ExpectError(ErrorCode::kInvalidArgument, "--listen",
-              [&] { WebServer("127.0.0.1:" + std::to_string(first.port()), house); });
+              [&] { WebServer("127.0.0.1:" + std::to_string(first.port()), context); });
 }
 
 }  // namespace choreo::studio::page_test

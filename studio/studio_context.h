@@ -13,12 +13,12 @@
 namespace choreo::studio {
 
 /// What all pages share. Thread-safe: nothing changes after construction.
-class House {
+class StudioContext {
  public:
   /// Asks the server what it has. `song` may be empty, and the folder of the photo model. Throws
   /// what the client library, HearSong and the library's retargeting do.
-  House(const client::Options& server, const std::filesystem::path& song,
-        const std::filesystem::path& photo_model = {});
+  StudioContext(const client::Options& server, const std::filesystem::path& song,
+                const std::filesystem::path& photo_model = {});
 
   const client::Client& client() const { return client_; }
   const client::ModelDescription& model() const { return model_; }

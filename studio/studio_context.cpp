@@ -1,4 +1,4 @@
-#include "studio/house.h"
+#include "studio/studio_context.h"
 
 #include "client/cli/pose_library.h"
 #include "client/convert.h"
@@ -37,8 +37,8 @@ JointTurn TurnOf(const Skeleton& skeleton, int joint) {
 
 }  // namespace
 
-House::House(const client::Options& server, const std::filesystem::path& song,
-             const std::filesystem::path& photo_model)
+StudioContext::StudioContext(const client::Options& server, const std::filesystem::path& song,
+                             const std::filesystem::path& photo_model)
     : client_(server), photo_model_(photo_model) {
   const client::ServerDescription description = client_.GetServerInfo();
   model_ = description.models.front();
