@@ -23,7 +23,7 @@ void Socket::Start(const beast::http::request<beast::http::string_body>& request
     if (error) return;
     // Weak: what an ended connection is still told is for nobody.
     const std::weak_ptr<Socket> weak = self;
-    self->desk_ = std::make_unique<Desk>(
+    self->session_ = std::make_unique<PageSession>(
         self->context_, [weak, executor = self->stream_.get_executor()](const Response& response) {
           boost::asio::post(executor, [weak, message = response.SerializeAsString()]() mutable {
             if (const auto socket = weak.lock()) socket->Queue(std::move(message));
@@ -34,7 +34,8 @@ void Socket::Start(const beast::http::request<beast::http::string_body>& request
 }
 
 void Socket::EndCalls() {
-  if (desk_) boost::asio::post(leaving_, [desk = std::move(desk_)]() mutable { desk.reset(); });
+  if (session_)
+    boost::asio::post(leaving_, [session = std::move(session_)]() mutable { session.reset(); });
 }
 
 void Socket::Close() {
@@ -47,13 +48,13 @@ void Socket::Close() {
 
 void Socket::Read() {
   stream_.async_read(received_, [self = shared_from_this()](beast::error_code error, size_t) {
-    if (error || !self->desk_) return self->EndCalls();
+    if (error || !self->session_) return self->EndCalls();
     Request request;
     const auto bytes = self->received_.data();
     const bool good = request.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
     self->received_.consume(bytes.size());
     if (!good) return self->Close();
-    self->desk_->Take(std::move(request));
+    self->session_->Take(std::move(request));
     self->Read();
   });
 }

@@ -8,11 +8,11 @@
 #include <memory>
 #include <string>
 
-#include "studio/desk.h"
+#include "studio/page_session.h"
 
 namespace choreo::studio {
 
-/// One page's WebSocket. Reads and writes on its server's thread; the desk's answers come from
+/// One page's WebSocket. Reads and writes on its server's thread; the session's answers come from
 /// others and wait their turn.
 class Socket : public std::enable_shared_from_this<Socket> {
  public:
@@ -36,7 +36,7 @@ class Socket : public std::enable_shared_from_this<Socket> {
   boost::asio::thread_pool& leaving_;
   boost::beast::flat_buffer received_;
   std::deque<std::string> unsent_;
-  std::unique_ptr<Desk> desk_;
+  std::unique_ptr<PageSession> session_;
 };
 
 }  // namespace choreo::studio

@@ -15,10 +15,10 @@ namespace choreo::studio {
 
 class Socket;
 
-/// Serves the page over HTTP, and a WebSocket at /studio with a Desk behind each; projects of other
-/// programs (project_calls.h), which must run on this machine. Answers only those who came to it by
-/// its own name: a page from elsewhere, or a name of elsewhere that leads here, is refused. No
-/// request of the page leaves this machine: its headers see to it.
+/// Serves the page over HTTP, and a WebSocket at /studio with a PageSession behind each; projects
+/// of other programs (project_calls.h), which must run on this machine. Answers only those who came
+/// to it by its own name: a page from elsewhere, or a name of elsewhere that leads here, is
+/// refused. No request of the page leaves this machine: its headers see to it.
 class WebServer {
  public:
   /// Listens at HOST:PORT; port 0 takes a free one. `context` must outlive it. Throws

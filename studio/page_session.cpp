@@ -1,4 +1,4 @@
-#include "studio/desk.h"
+#include "studio/page_session.h"
 
 #include <type_traits>
 #include <utility>
@@ -18,7 +18,7 @@ constexpr size_t kMostDances = 8;  // at once, of one page
 
 }  // namespace
 
-Desk::Desk(const StudioContext& context, Send send)
+PageSession::PageSession(const StudioContext& context, Send send)
     : context_(context),
       send_(std::move(send)),
       song_(context.song()),
@@ -28,7 +28,7 @@ Desk::Desk(const StudioContext& context, Send send)
   Answer(0, std::move(response));
 }
 
-Desk::~Desk() {
+PageSession::~PageSession() {
   for (auto& [call, dancing] : dances_) dancing.dance->Cancel();
   dances_.clear();
   {
@@ -39,7 +39,7 @@ Desk::~Desk() {
   worker_.join();
 }
 
-void Desk::Take(Request request) {
+void PageSession::Take(Request request) {
   const uint32_t call = request.call();
   Reap();
   try {
@@ -56,7 +56,7 @@ void Desk::Take(Request request) {
   asked_.notify_one();
 }
 
-void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
+void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
   const auto found = dances_.find(call);
   if (request.has_config()) {
     if (found != dances_.end()) throw InvalidArgument("config", "came twice");
@@ -91,7 +91,7 @@ void Desk::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
   }
 }
 
-void Desk::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
+void PageSession::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
   for (const client::Warning& fault :
        cli::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
     Response response;
@@ -100,7 +100,7 @@ void Desk::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
   }
 }
 
-void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
+void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
   if (dances_.size() >= kMostDances)
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMostDances) + " are in progress, the most");
@@ -123,7 +123,7 @@ void Desk::StartDance(uint32_t call, const v1::DanceConfig& request) {
   dancing.reader = std::jthread([this, call, &dancing] { ReadDance(call, &dancing); });
 }
 
-void Desk::ReadDance(uint32_t call, Dancing* dancing) {
+void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
   try {
     while (const std::optional<client::Message> message = dancing->dance->Next()) {
       Response response;
@@ -148,14 +148,14 @@ void Desk::ReadDance(uint32_t call, Dancing* dancing) {
   dancing->over = true;
 }
 
-void Desk::EndDance(uint32_t call) {
+void PageSession::EndDance(uint32_t call) {
   const auto found = dances_.find(call);
   if (found == dances_.end()) return;
   found->second.dance->Cancel();
   dances_.erase(found);
 }
 
-void Desk::Reap() {
+void PageSession::Reap() {
   for (auto dance = dances_.begin(); dance != dances_.end();) {
     bool over = false;
     {
@@ -166,7 +166,7 @@ void Desk::Reap() {
   }
 }
 
-void Desk::Work() {
+void PageSession::Work() {
   for (;;) {
     Request request;
     {
@@ -184,7 +184,7 @@ void Desk::Work() {
   }
 }
 
-void Desk::Do(const Request& request) {
+void PageSession::Do(const Request& request) {
   const uint32_t call = request.call();
   switch (request.request_case()) {
     case Request::kSong:
@@ -210,7 +210,7 @@ void Desk::Do(const Request& request) {
   }
 }
 
-void Desk::TakeSong(uint32_t call, const File& file) {
+void PageSession::TakeSong(uint32_t call, const File& file) {
   std::shared_ptr<const Song> heard = HearSongOf(context_, file);
   Response response;
   *response.mutable_song() = heard->heard;
@@ -221,18 +221,18 @@ void Desk::TakeSong(uint32_t call, const File& file) {
   Answer(call, std::move(response));
 }
 
-std::shared_ptr<const Song> Desk::song() const {
+std::shared_ptr<const Song> PageSession::song() const {
   const std::lock_guard lock(mutex_);
   return song_;
 }
 
-void Desk::Answer(uint32_t call, Response response) {
+void PageSession::Answer(uint32_t call, Response response) {
   response.set_call(call);
   const std::lock_guard lock(sending_);
   send_(response);
 }
 
-void Desk::Fail(uint32_t call, const std::string& message) {
+void PageSession::Fail(uint32_t call, const std::string& message) {
   Response response;
   response.mutable_failure()->set_message(message);
   Answer(call, std::move(response));

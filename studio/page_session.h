@@ -15,17 +15,17 @@ namespace choreo::studio {
 /// Does what one page asks. Dances run beside each other; everything else is done one after
 /// another, in the order in which it was asked. A call that fails is answered by a Failure, and the
 /// others go on.
-class Desk {
+class PageSession {
  public:
   /// Called from any thread, one at a time.
   using Send = std::function<void(const Response&)>;
 
   /// `context` must outlive it. Sends the Welcome.
-  Desk(const StudioContext& context, Send send);
+  PageSession(const StudioContext& context, Send send);
   /// Ends all calls: waits for a transition in progress, and for nothing else.
-  ~Desk();
-  Desk(const Desk&) = delete;
-  Desk& operator=(const Desk&) = delete;
+  ~PageSession();
+  PageSession(const PageSession&) = delete;
+  PageSession& operator=(const PageSession&) = delete;
 
   /// Blocks for no call. From one thread.
   void Take(Request request);
