@@ -6,7 +6,7 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/interruption.h"
-#include "studio/keeper.h"
+#include "studio/server_supervisor.h"
 #include "studio/web_server.h"
 
 namespace choreo::cli {
@@ -25,7 +25,7 @@ std::filesystem::path ProgramFolder() {
 void Run(const StudioOptions& options) {
   const Interruption interruption;
   client::Options server = options.server.ForClient();
-  std::optional<studio::Keeper> own;
+  std::optional<studio::ServerSupervisor> own;
   if (options.server.addresses.empty()) {
     own.emplace(ProgramFolder() / "choreod");
     server.addresses = {own->address()};

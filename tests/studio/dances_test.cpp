@@ -7,7 +7,7 @@
 #include "client/cli/key_file.h"
 #include "client/convert.h"
 #include "model/motion/kinematics.h"
-#include "studio/keeper.h"
+#include "studio/server_supervisor.h"
 #include "tests/studio/fixture.h"
 
 namespace choreo::studio::dances_test {
@@ -229,8 +229,8 @@ TEST_F(StudioTest, RefusesMusicThatIsNone) {
 
 // A choreod of our own that is killed in the middle of a dance comes back, and the dance goes on.
 TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
-  const Keeper keeper{std::filesystem::path(FAKE_CHOREOD)};
-  const Opened studio(keeper.address());
+  const ServerSupervisor supervisor{std::filesystem::path(FAKE_CHOREOD)};
+  const Opened studio(supervisor.address());
   Page page(studio.port());
   page.Say(2, DanceRequest(60, 3));
   page.Say(2, KeyRequest(page.welcome().poses(1), 30));
@@ -241,7 +241,7 @@ TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
     all.mutable_rotations()->MergeFrom(response.dance().frames().rotations());
   };
   while (all.count() < 31) take(page.Read());
-  kill(keeper.process(), SIGKILL);
+  kill(supervisor.process(), SIGKILL);
   page.Say(2, Complete());
   bool has_resumed = false;
   for (;;) {

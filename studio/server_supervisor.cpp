@@ -1,4 +1,4 @@
-#include "studio/keeper.h"
+#include "studio/server_supervisor.h"
 
 #include <chrono>
 #include <iostream>
@@ -15,9 +15,9 @@ constexpr std::chrono::seconds kPause{1};  // a server that cannot start is not 
 
 }  // namespace
 
-Keeper::Keeper(const std::filesystem::path& program) {
+ServerSupervisor::ServerSupervisor(const std::filesystem::path& program) {
   std::exception_ptr failure;
-  thread_ = std::thread([this, &program, &failure] { Keep(program, &failure); });
+  thread_ = std::thread([this, &program, &failure] { Supervise(program, &failure); });
   {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return started_; });
@@ -27,7 +27,7 @@ Keeper::Keeper(const std::filesystem::path& program) {
   std::rethrow_exception(failure);
 }
 
-Keeper::~Keeper() {
+ServerSupervisor::~ServerSupervisor() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -36,7 +36,8 @@ Keeper::~Keeper() {
   thread_.join();
 }
 
-void Keeper::Keep(const std::filesystem::path& program, std::exception_ptr* failure) {
+void ServerSupervisor::Supervise(const std::filesystem::path& program,
+                                 std::exception_ptr* failure) {
   const std::filesystem::path path = program;
   std::unique_ptr<cli::LocalServer> server;
   try {

@@ -13,20 +13,20 @@ namespace choreo::studio {
 
 /// A choreod of our own that is started again, at the same address, when it dies: dances in
 /// progress then go on, bit for bit, by the client library's resume.
-class Keeper {
+class ServerSupervisor {
  public:
   /// Returns when the server listens. Throws what LocalServer does.
-  explicit Keeper(const std::filesystem::path& program);
-  ~Keeper();
-  Keeper(const Keeper&) = delete;
-  Keeper& operator=(const Keeper&) = delete;
+  explicit ServerSupervisor(const std::filesystem::path& program);
+  ~ServerSupervisor();
+  ServerSupervisor(const ServerSupervisor&) = delete;
+  ServerSupervisor& operator=(const ServerSupervisor&) = delete;
 
   const std::string& address() const { return address_; }
   /// That of the server that runs, or of the last one.
   pid_t process() const { return process_; }
 
  private:
-  void Keep(const std::filesystem::path& program, std::exception_ptr* failure);
+  void Supervise(const std::filesystem::path& program, std::exception_ptr* failure);
 
   std::mutex mutex_;
   std::condition_variable changed_;
