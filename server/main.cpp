@@ -18,16 +18,16 @@
 namespace choreo {
 namespace {
 
-// Of settings that change nothing; whoever says them expects something of them.
-void WarnOfUnheeded(const ServerConfig& config, const Sampler& sampler) {
-  const Heeded heeded = HeededBy(sampler);
+// Whoever passes a setting expects an effect.
+void WarnOfUnusedSettings(const ServerConfig& config, const Sampler& sampler) {
+  const UsedSettings used = SettingsUsedBy(sampler);
   const std::string& name = sampler.model().name;
-  if (config.engine != "auto" && !heeded.kind) {
-    spdlog::warn("--engine {}: model \"{}\" does not heed it; LibTorch runs it", config.engine,
+  if (config.engine != "auto" && !used.kind) {
+    spdlog::warn("--engine {}: model \"{}\" ignores it; LibTorch runs the model", config.engine,
                  name);
   }
-  if (!config.kernels.empty() && !heeded.kernels) {
-    spdlog::warn("--kernels {}: model \"{}\" does not heed it; it concerns packed engines",
+  if (!config.kernels.empty() && !used.kernels) {
+    spdlog::warn("--kernels {}: model \"{}\" ignores it; only packed engines use it",
                  config.kernels, name);
   }
 }
@@ -48,7 +48,7 @@ ModelFolder::Loader MakeLoader(const ServerConfig& config) {
     spdlog::info("loaded {}: model \"{}\", fingerprint {}, {} workers ({}, ...)", path.string(),
                  sampler.model().name, sampler.model().fingerprint, workers.size(),
                  sampler.device());
-    WarnOfUnheeded(config, sampler);
+    WarnOfUnusedSettings(config, sampler);
     return samplers;
   };
 }

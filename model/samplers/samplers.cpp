@@ -106,7 +106,7 @@ std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& 
   return samplers;
 }
 
-Heeded HeededBy(const Sampler& sampler) {
+UsedSettings SettingsUsedBy(const Sampler& sampler) {
   // Who draws nothing is no flow.
   return {.kind = !sampler.model().deterministic,
           .kernels = sampler.model().fingerprint.find(kPackedPrefix) != std::string::npos};

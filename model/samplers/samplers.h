@@ -33,12 +33,12 @@ std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& 
                                                    std::span<const Device> devices,
                                                    EngineKind kind = EngineKind::kAuto,
                                                    const std::string& kernels = "");
-/// Which of the two a sampler heeds that was made with them; the others change nothing of it.
-struct Heeded {
-  bool kind = false;     ///< flows do; LibTorch runs paper C's network and the baseline
-  bool kernels = false;  ///< packed flows do
+/// Which of the settings of MakeSamplers this kind of sampler uses; it ignores the others.
+struct UsedSettings {
+  bool kind = false;     ///< by flows; LibTorch runs paper C's network and the baseline
+  bool kernels = false;  ///< by packed flows
 };
-Heeded HeededBy(const Sampler& sampler);
+UsedSettings SettingsUsedBy(const Sampler& sampler);
 
 std::unique_ptr<Sampler> MakeSampler(const std::filesystem::path& checkpoint, const Device& device,
                                      EngineKind kind = EngineKind::kAuto);

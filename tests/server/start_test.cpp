@@ -91,13 +91,13 @@ TEST_F(StartTest, OneThatShipsIsServedAloneByItsName) {
 }
 
 // By the time that it listens it has loaded.
-TEST_F(StartTest, WhatAModelDoesNotHeedIsSaid) {
+TEST_F(StartTest, WarnsOfSettingsThatTheModelIgnores) {
   const std::string log = path_.string() + ".log";
   const Outcome outcome = Shell(
       "'" CHOREOD_PROGRAM "' --listen 127.0.0.1:0 --engine torch --kernels avx2 --checkpoint '" +
       path_.string() + "' > '" + log + "' 2>&1 & until grep -q 'choreod listens on' '" + log +
       "' || ! kill -0 $!; do sleep 0.1; done; kill $!; wait $!; cat '" + log + "'");
-  EXPECT_THAT(outcome.said, testing::HasSubstr("--kernels avx2: model \"default\" does not heed"));
+  EXPECT_THAT(outcome.said, testing::HasSubstr("--kernels avx2: model \"default\" ignores it"));
   EXPECT_THAT(outcome.said, testing::HasSubstr("dances at once take"));
 }
 
