@@ -242,8 +242,11 @@ bool DanceChain::IsOver(const Segment& segment) const {
 }
 
 bool DanceChain::HandOutNext() {
-  if (over()) DropJobs();
-  if (over() || paused_) return false;
+  if (over()) {
+    DropJobs();
+    return false;
+  }
+  if (paused_) return false;
   if (jobs_.empty()) {
     const std::optional<int64_t> end = timeline_.End();
     if (failure_) {
