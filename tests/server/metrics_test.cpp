@@ -1,17 +1,13 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <grpc/support/log.h>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -19,13 +15,12 @@
 
 #include "client/cli/local_server.h"
 #include "server/listener.h"
-#include "server/log.h"
 #include "server/refusal.h"
 #include "tests/server/fixture.h"
 #include "tests/support/sanitizers.h"
 
-/// What others see of a server: figures for Prometheus, and the lines of its log.
-namespace choreo::observability_test {
+/// A server's figures for Prometheus.
+namespace choreo::metrics_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -302,113 +297,4 @@ TEST_F(MetricsTest, ComeFromTheProgramToo) {
   EXPECT_THAT(MetricsAt(port), HasSubstr("choreo_workers{model=\"default\"}"));
 }
 
-class LogTest : public ServerTest {
- protected:
-  // A call with this traceparent; the lines that it leaves.
-  std::vector<std::string> LinesOfCall(bool json, const std::string& traceparent) {
-    const auto before = spdlog::default_logger();
-    testing::internal::CaptureStderr();
-    StartLog("info", json);
-    Start();
-    grpc::ClientContext context;
-    context.AddMetadata("traceparent", traceparent);
-    v1::GetServerInfoResponse info;
-    EXPECT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
-    v1::GenerateTransitionRequest request;
-    *request.mutable_config() = Config();
-    request.mutable_config()->set_model("\"\n");
-    EXPECT_FALSE(Generate(request).status.ok());
-    DanceClient client(stub());
-    client.Send(Config());
-    client.SendKeyframe(Key("a", 20));
-    EXPECT_TRUE(client.Finish().status.ok());
-    const auto& headers = client.context.GetServerInitialMetadata();
-    const auto id = headers.find("choreo-stream-id");
-    if (id != headers.end()) stream_id_.assign(id->second.data(), id->second.size());
-    server.reset();
-    std::istringstream said(testing::internal::GetCapturedStderr());
-    StartLog("info", false);
-    spdlog::set_default_logger(before);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(said, line);) lines.push_back(line);
-    return lines;
-  }
-  std::string stream_id_;  // that the client of the dance was told
-  static constexpr const char* kTraceparent =
-      "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01";
-};
-
-TEST_F(LogTest, ACallLeavesOneLineThatNamesItsTrace) {
-  const auto lines = LinesOfCall(false, kTraceparent);
-  EXPECT_THAT(lines, testing::Contains(HasSubstr("GetServerInfo ipv4:127.0.0.1")).Times(1));
-  EXPECT_THAT(lines, testing::Contains(HasSubstr("trace 4bf92f3577b34da6a3ce929d0e0e4736: OK")));
-  EXPECT_THAT(lines, testing::Contains(HasSubstr("NOT_FOUND")).Times(1));
-  EXPECT_THAT(lines, testing::Contains(testing::AllOf(HasSubstr(" stream " + stream_id_ + ": OK"),
-                                                      HasSubstr(", model \"fake\", seed 7"))));
-}
-
-TEST_F(LogTest, AsJsonEachLineIsAnObject) {
-  std::vector<nlohmann::json> calls;
-  for (const std::string& line : LinesOfCall(true, kTraceparent)) {
-    const auto object = nlohmann::json::parse(line);
-    EXPECT_TRUE(object.contains("time") && object.contains("level")) << line;
-    if (object.at("message") == "call") calls.push_back(object);
-  }
-  ASSERT_EQ(calls.size(), 3U);
-  EXPECT_EQ(calls[0].at("method"), "GetServerInfo");
-  EXPECT_EQ(calls[0].at("trace_id"), "4bf92f3577b34da6a3ce929d0e0e4736");
-  EXPECT_EQ(calls[0].at("span_id"), "00f067aa0ba902b7");
-  EXPECT_EQ(calls[1].at("status"), "NOT_FOUND");
-  EXPECT_FALSE(calls[1].contains("trace_id"));
-  EXPECT_FALSE(calls[1].contains("model"));
-  EXPECT_EQ(calls[2].at("model"), "fake");
-  EXPECT_EQ(calls[2].at("seed"), 7);
-  EXPECT_EQ(stream_id_.size(), 16U);
-  EXPECT_EQ(calls[2].at("stream_id"), stream_id_);
-}
-
-// Linux has file names of any bytes.
-TEST_F(LogTest, AsJsonWhatIsNoUtf8IsReplaced) {
-  const auto before = spdlog::default_logger();
-  testing::internal::CaptureStderr();
-  StartLog("info", true);
-  spdlog::error("models/\xff\xc3(\"\n.safetensors");
-  StartLog("info", false);
-  spdlog::set_default_logger(before);
-  const auto object = nlohmann::json::parse(testing::internal::GetCapturedStderr());
-  EXPECT_EQ(object.at("message"), "models/\uFFFD\uFFFD(\"\n.safetensors");
-}
-
-// Whoever can connect can make gRPC write: it writes ten lines in ten seconds, and how many more
-// there were.
-TEST_F(LogTest, GrpcsLinesAreBounded) {
-  const auto before = spdlog::default_logger();
-  testing::internal::CaptureStderr();
-  gpr_log_verbosity_init();  // which servers do when they start
-  StartLog("info", false);
-  for (int i = 0; i < 1'000; ++i) gpr_log(GPR_ERROR, "handshake %d failed", i);
-  StartLog("info", false);
-  spdlog::set_default_logger(before);
-  const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_LE(std::ranges::count(said, '\n'), 2 * 11) << "at most two periods long";
-  std::cout << std::ranges::count(said, '\n') << " lines of 1000\n";
-  EXPECT_THAT(said, HasSubstr("failed"));
-}
-
-TEST_F(LogTest, TheStartSaysWhoMayCome) {
-  const auto lines = LinesOfCall(false, kTraceparent);
-  EXPECT_THAT(lines, testing::Contains(HasSubstr(
-                         "TLS is off, certificates of clients are not asked for, tokens are not")));
-}
-
-TEST_F(LogTest, WhatIsNoTraceparentIsLeftOut) {
-  for (const char* bad : {"00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7",
-                          "00-4BF92F3577B34DA6A3CE929D0E0E4736-00f067aa0ba902b7-01",
-                          "00-00000000000000000000000000000000-00f067aa0ba902b7-01",
-                          "ff-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01", "x"}) {
-    EXPECT_THAT(LinesOfCall(false, bad), testing::Not(testing::Contains(HasSubstr("trace"))))
-        << bad;
-  }
-}
-
-}  // namespace choreo::observability_test
+}  // namespace choreo::metrics_test

@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/client/edit_fixture.h"
+
+/// Keys of a report that `choreo edit` moves, removes and keeps.
+namespace choreo::edit_keys_test {
+
+using testing::HasSubstr;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+TEST_F(EditTest, AMovedKeyStandsAtItsNewSecondAlone) {
+  const std::string id = ReadJson(folder_ / "report.json")["keyframes"][2]["id"];
+  const std::string with_reports = "--report " + At("report.json") + " --new-report " +
+                                   At("new.json") + " -o " + At("new.npz") + " --move '" + id;
+  const size_t near = keys_[2] + 9;
+  ASSERT_LT(near + 2, keys_[3]);
+  Outcome outcome = Edit(with_reports + "' " + Seconds(near));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  ExpectChanged("new.npz", keys_[1] + 1, keys_[3]);
+  const Motion before = Read("dance.npz");
+  const auto off = [&](size_t frame) {
+    return ComparePoses(Body(), Read("new.npz").frames[frame], before.frames[keys_[2]]).position_m;
+  };
+  EXPECT_LE(off(near), 0.001);
+  EXPECT_GT(off(keys_[2]), 0.01);
+  nlohmann::json keys = ReadJson(folder_ / "new.json")["keyframes"];
+  ASSERT_EQ(keys.size(), keys_.size());
+  EXPECT_EQ(keys[2]["id"], id);
+  EXPECT_EQ(keys[2]["frame"], near);
+
+  // Beyond its neighbour, what it leaves is danced anew, too.
+  outcome = Edit(with_reports + "' " + Seconds(keys_[3] + 9));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_LE(off(keys_[3] + 9), 0.001);
+  EXPECT_GT(off(keys_[2]), 0.01);
+  keys = ReadJson(folder_ / "new.json")["keyframes"];
+  ASSERT_EQ(keys.size(), keys_.size());
+  EXPECT_EQ(keys[2]["frame"], keys_[3]);
+  EXPECT_EQ(keys[3]["id"], id);
+}
+
+TEST_F(EditTest, ARemovedKeyIsDancedPast) {
+  const nlohmann::json keys = ReadJson(folder_ / "report.json")["keyframes"];
+  const auto remove = [&](size_t index) {
+    return Edit("--remove '" + keys[index]["id"].get<std::string>() + "' --report " +
+                At("report.json") + " --new-report " + At("new.json") + " -o " + At("new.npz"));
+  };
+  Outcome outcome = remove(2);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  ExpectChanged("new.npz", keys_[1] + 1, keys_[3]);
+  EXPECT_EQ(ReadJson(folder_ / "new.json")["keyframes"].size(), keys_.size() - 1);
+  const Pose there = Read("new.npz").frames[keys_[2]];
+  EXPECT_GT(ComparePoses(Body(), there, Read("dance.npz").frames[keys_[2]]).position_m, 0.01);
+
+  outcome = Edit("--remove nosuch --report " + At("report.json") + " -o " + At("other.npz"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"nosuch\"; it has \"" +
+                                      keys[0]["id"].get<std::string>()));
+  outcome = Edit("--move nosuch 3 -o " + At("other.npz"));
+  EXPECT_THAT(outcome.said, HasSubstr("--move: needs --report"));
+}
+
+TEST_F(EditTest, AHeldEndStaysBeforeTheWayBack) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},
+                           {"id": "b", "time": 3, "pose": "kick", "place": [0, 0], "hold": 0.5},
+                           {"id": "end", "time": 5, "pose": "bow", "place": [0, 0], "hold": 1}]})";
+  const std::string keys = "-k " + At("keys.json") + " --report " + At("report.json");
+  Outcome outcome = Choreo("dance " + keys + Server() + "-o " + At("dance.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const std::string reports = " --report " + At("report.json") + " --new-report " + At("new.json");
+  outcome = Edit("--loop -o " + At("loop.npz") + reports);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("makes way")));
+  const Motion before = Read("dance.npz");
+  const Motion loop = Read("loop.npz");
+  ASSERT_EQ(loop.frames.size(), before.frames.size() + 60);
+  EXPECT_EQ(loop.frames[180].rotations, before.frames[180].rotations);
+  EXPECT_LE(LargestAcceleration(loop, loop.frames.size() - 2, loop.frames.size()),
+            1.2 * LargestAcceleration(before, 2, before.frames.size() - 3));
+  const nlohmann::json looped = ReadJson(folder_ / "new.json");
+  EXPECT_EQ(looped["frames"], loop.frames.size());
+  EXPECT_EQ(looped["keyframes"].size(), 3U + 5 + 10);
+
+  // What holds a key goes with it.
+  outcome = Edit("--move b 2.5 -o " + At("new.npz") + reports);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion moved = Read("new.npz");
+  for (const size_t frame : {75, 78, 81, 84, 87, 90}) {
+    const Pose& pose = moved.frames[frame];
+    EXPECT_LE(ComparePoses(Body(), pose, before.frames[frame + 15]).position_m, 0.001) << frame;
+  }
+  const nlohmann::json edited = ReadJson(folder_ / "new.json");
+  EXPECT_EQ(edited["keyframes"][1]["frame"], 75);
+  EXPECT_EQ(edited["keyframes"][6]["holds"], "b");
+  EXPECT_EQ(edited["keyframes"][6]["frame"], 90);
+  outcome = Edit("--move b 4.8 -o " + At("no.npz") + reports);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("held over the key \"end\" at 5 s"));
+}
+
+}  // namespace choreo::edit_keys_test
