@@ -9,26 +9,26 @@ namespace choreo {
 /// All bytes of a file. Throws Error(kNotFound) whose field is the path.
 std::string ReadFile(const std::filesystem::path& path);
 
-/// A file that appears when all of it is written, or not at all: what stood in its place stays
-/// until then. It is written beside its place and renamed. A link stays one; what is no plain file
-/// (/dev/stdout) is written where it is. Not thread-safe.
+/// Writes a file completely or not at all: until Commit, the old file stays in place. The new one
+/// is written in the same folder and renamed. Symbolic links stay links; devices (/dev/stdout) are
+/// written directly. Not thread-safe.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
-  ~AtomicFile();  ///< without Commit, what was written is thrown away
+  ~AtomicFile();  ///< discards what was written, unless Commit was called
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Where to write.
+  /// The path to write to.
   const std::filesystem::path& partial() const { return partial_; }
-  /// When all is written and closed. Throws Error(kInternal) whose field is the path.
+  /// Call when everything is written and closed. Throws Error(kInternal) whose field is the path.
   void Commit();
 
  private:
   std::filesystem::path path_, place_, partial_;
 };
 
-/// Writes a whole file so. Throws Error(kInternal) whose field is the path, saying why.
+/// Writes a whole file atomically. Throws Error(kInternal) whose field is the path, saying why.
 void WriteFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace choreo

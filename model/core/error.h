@@ -6,23 +6,23 @@
 
 namespace choreo {
 
-/// Why something failed, in the vocabulary that server/status.cpp maps one to one onto gRPC's.
+/// Why something failed. server/status.cpp maps each code to one gRPC status.
 enum class ErrorCode {
-  kInvalidArgument,     ///< a value that can never be used
-  kOutOfRange,          ///< a value that comes at the wrong moment (a gap in the audio)
+  kInvalidArgument,     ///< a value that is never valid
+  kOutOfRange,          ///< a valid value at the wrong moment (a gap in the audio)
   kNotFound,            ///< a model, device or file that does not exist
   kFailedPrecondition,  ///< a continuation of another model or build
-  kResourceExhausted,   ///< every slot is taken
-  kUnimplemented,       ///< a control that this model does not have
-  kUnavailable,         ///< draining
+  kResourceExhausted,   ///< no capacity is left
+  kUnimplemented,       ///< a control that this model lacks
+  kUnavailable,         ///< the server is draining
   kCancelled,
   kDeadlineExceeded,
   kInternal,
 };
 
-/// The one exception type of this project. `field()` is the path of the offending value as its
-/// sender knows it, as in "keyframes[3].rotations[16]"; empty where there is none. `what()` names
-/// the field, the value and the limit.
+/// The only exception type of this project. `field()` is the path of the offending value as its
+/// sender knows it, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
+/// value and the limit.
 class Error : public std::runtime_error {
  public:
   Error(ErrorCode code, std::string field, const std::string& message)
@@ -32,7 +32,7 @@ class Error : public std::runtime_error {
 
   ErrorCode code() const noexcept { return code_; }
   const std::string& field() const noexcept { return field_; }
-  /// The same of this field, whose name was another one where it was found.
+  /// The same error for `field`, when the code that failed knew it by another name.
   Error Of(const std::string& field) const {
     std::string message = what();
     if (!field_.empty() && message.starts_with(field_ + ": ")) message.erase(0, field_.size() + 2);
@@ -40,7 +40,7 @@ class Error : public std::runtime_error {
   }
 
  private:
-  /// what() would end there.
+  /// what() would end at the first NUL.
   static std::string WithoutNul(std::string text) {
     for (size_t at; (at = text.find('\0')) != std::string::npos;) text.replace(at, 1, "\\x00");
     return text;
@@ -50,7 +50,7 @@ class Error : public std::runtime_error {
   std::string field_;
 };
 
-/// Shorthand for the commonest kind.
+/// Shorthand for the most common code.
 inline Error InvalidArgument(std::string field, const std::string& message) {
   return Error(ErrorCode::kInvalidArgument, std::move(field), message);
 }

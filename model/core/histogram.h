@@ -9,15 +9,16 @@
 
 namespace choreo {
 
-/// Counts of values between bounds, filled by some threads while others look. Lock-free.
+/// Counts values between bounds. Threads may add while others read. Lock-free.
 class Histogram {
  public:
   struct Snapshot {
-    std::vector<double> bounds;    ///< ascending; a value on one counts below it
-    std::vector<uint64_t> counts;  ///< one more than bounds: the last is above all of them
-    double sum = 0;                ///< of the values
+    std::vector<double> bounds;  ///< ascending; a value equal to a bound counts below it
+    std::vector<uint64_t>
+        counts;      ///< one more than bounds: the last counts values above all bounds
+    double sum = 0;  ///< of all values
 
-    /// Takes in what another one of the same bounds has counted.
+    /// Adds the counts of a snapshot with the same bounds.
     Snapshot& operator+=(const Snapshot& other) {
       for (size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
       sum += other.sum;

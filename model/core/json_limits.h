@@ -7,12 +7,12 @@
 
 #include "model/core/error.h"
 
-/// What JSON of others may hold. Both throw Error(kInvalidArgument) whose field is `name`, naming
-/// the limit.
+/// Limits on JSON from others. Both functions throw Error(kInvalidArgument) whose field is `name`,
+/// naming the limit.
 namespace choreo {
 
-/// Refuses JSON that is nested deeper than any file of ours or glTF's: what reads, copies or prints
-/// it calls itself once a level, and would run out of stack. Other faults are the parser's to find.
+/// Refuses JSON nested deeper than any file of ours or glTF's: code that parses, copies or prints
+/// it recurses once per level and would overflow the stack. The parser finds other faults.
 inline void CheckJsonDepth(std::string_view json, const std::string& name) {
   constexpr int kLimit = 64;
   int depth = 0;
@@ -34,11 +34,10 @@ inline void CheckJsonDepth(std::string_view json, const std::string& name) {
   }
 }
 
-inline constexpr int kMostJsonLevels = 16;  ///< of skeletons and configurations
+inline constexpr int kMostJsonLevels = 16;  ///< for skeletons and configurations
 
-/// Refuses numbers beyond those of an int: read as one they would be another, or undefined. For
-/// what holds no larger ones and at most so many levels, such as skeletons and the configurations
-/// of networks.
+/// Refuses numbers that don't fit into an int, which would be truncated or undefined. For JSON
+/// without larger numbers or more levels: skeletons and network configurations.
 inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name,
                              int levels = kMostJsonLevels) {
   constexpr double kLimit = std::numeric_limits<int>::max();

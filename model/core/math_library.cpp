@@ -11,10 +11,10 @@ std::string MathLibrary() {
 #if defined(__GLIBC__)
   std::string name = std::string("glibc ") + gnu_get_libc_version();
 #else
-  std::string name = "a C library without a name";
+  std::string name = "an unknown C library";
 #endif
 #if defined(__x86_64__)
-  // As glibc chooses (sysdeps/x86_64/fpu/multiarch/ifunc-avx-fma4.h).
+  // The choice that glibc makes (sysdeps/x86_64/fpu/multiarch/ifunc-avx-fma4.h).
   const bool avx2 = __builtin_cpu_supports("avx2"), fma = __builtin_cpu_supports("fma");
   if (avx2 && fma) {
     name += " fma";

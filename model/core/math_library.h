@@ -4,8 +4,8 @@
 
 namespace choreo {
 
-/// The C library whose sin, exp, ... this process runs, and which of their variants it takes on
-/// this CPU, as in "glibc 2.36 fma": another one may round another way.
+/// The C library whose sin, exp, ... this process calls, and the variant that it selects on this
+/// CPU, e.g. "glibc 2.36 fma". Other libraries and variants may round differently.
 std::string MathLibrary();
 
 }  // namespace choreo

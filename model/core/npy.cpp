@@ -24,8 +24,8 @@ constexpr size_t kMaxDimensions = 4;
 /// NumPy pads the header so that the values start at a multiple of this.
 constexpr size_t kAlignment = 64;
 
-/// Reads the header's Python literal, as in {'descr': '<f4', 'fortran_order': False, 'shape': (3,
-/// 4), }. Keys come in any order; every key is required.
+/// Parses the header's Python literal, such as {'descr': '<f4', 'fortran_order': False, 'shape':
+/// (3, 4), }. Keys come in any order; all are required.
 class HeaderParser {
  public:
   HeaderParser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -52,7 +52,7 @@ class HeaderParser {
         break;
       }
     }
-    if (keys.size() < 3) Fail("a key of descr, fortran_order, shape is absent");
+    if (keys.size() < 3) Fail("one of descr, fortran_order, shape is missing");
     return header;
   }
 
@@ -128,7 +128,7 @@ std::string ShapeText(const std::vector<int64_t>& shape) {
   return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-/// Values whose first index is fastest, brought into the order whose last index is.
+/// Reorders values from Fortran order (first index fastest) to C order (last index fastest).
 template <typename T>
 std::vector<T> FromFortranOrder(const std::vector<T>& values, const std::vector<int64_t>& shape) {
   std::vector<T> result(values.size());
@@ -143,7 +143,7 @@ std::vector<T> FromFortranOrder(const std::vector<T>& values, const std::vector<
   return result;
 }
 
-/// A number as it lies in a file; `big` has the first byte first.
+/// A number as stored in the file; `big` means big-endian.
 template <typename Stored>
 Stored Load(const char* at, bool big) {
   std::array<char, sizeof(Stored)> bytes{};
@@ -152,7 +152,7 @@ Stored Load(const char* at, bool big) {
   return std::bit_cast<Stored>(bytes);
 }
 
-/// Half a float, IEEE 754's binary16.
+/// IEEE 754 binary16.
 struct Half {
   uint16_t bits;
   operator float() const { return Eigen::numext::bit_cast<Eigen::half>(bits); }
@@ -178,7 +178,8 @@ std::vector<T> ReadValues(const NpyParts& parts, const std::string& name) {
   return parts.fortran_order ? FromFortranOrder(values, parts.shape) : values;
 }
 
-/// The kinds that are read, without the order of their bytes, each as the next that NpyArray holds.
+/// The kinds that are read, without byte order, each with the larger type that NpyArray holds it
+/// as.
 struct NpyKind {
   std::string_view name;
   NpyArray::Values (*read)(const NpyParts& parts, const std::string& name);
@@ -204,7 +205,7 @@ constexpr NpyKind kNpyKinds[] = {
     Kind<int32_t, uint8_t>("b1"),
 };
 
-/// What NumPy calls T, as in "<f4": little-endian, its kind, its bytes.
+/// NumPy's name of T, such as "<f4": byte order, kind, bytes.
 template <typename T>
 std::string Descr() {
   return (std::is_floating_point_v<T> ? "<f" : "<i") + std::to_string(sizeof(T));
@@ -255,7 +256,7 @@ NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name) {
     throw InvalidArgument(name, std::to_string(parts.shape.size()) + " dimensions, at most " +
                                     std::to_string(kMaxDimensions) + " are read");
   }
-  // A kind of one byte has no order: "|u1".
+  // One-byte kinds have no byte order: "|u1".
   const std::string_view order("<>|=");
   const bool ordered = !parts.descr.empty() && order.find(parts.descr[0]) != order.npos;
   const auto* kind = std::ranges::find(

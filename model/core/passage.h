@@ -2,8 +2,7 @@
 
 namespace choreo {
 
-/// Music that comes back: what sounds in [from, to) sounded from `like` on before. Seconds from the
-/// music's start.
+/// Music that repeats: [from, to) sounds like the music from `like` on. Seconds from the start.
 struct Passage {
   double from = 0, to = 0;
   double like = 0;  ///< before `from`

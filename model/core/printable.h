@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// Words of others as a terminal may show them: control characters, which could do more to it than
-/// be read, stand as \x1b and the like, and what is no UTF-8 does, too.
+/// Makes foreign text safe to print on a terminal: escapes control characters and invalid UTF-8 as
+/// \x1b and the like.
 std::string Printable(std::string_view text);
 
 }  // namespace choreo

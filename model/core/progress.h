@@ -8,31 +8,30 @@
 
 namespace choreo {
 
-/// How far a long job is, and when it will be done: a bar that redraws itself on a terminal, a line
-/// every ten seconds elsewhere, so that a log stays readable. Thread-safe.
+/// Shows how far a long job is and when it will end: on a terminal a bar that redraws itself,
+/// elsewhere a line every ten seconds, so that logs stay readable. Thread-safe.
 class ProgressBar {
  public:
-  /// Where the bar goes and how often. `now` stands in for the clock in tests.
+  /// Where and how often the bar is printed. Tests replace `now`.
   struct Output {
     std::ostream* stream;
     bool terminal;
     std::chrono::steady_clock::time_point (*now)();
   };
 
-  /// To stderr. `total` is the number of steps; 0 or less where it is unknown (then no bar and no
-  /// ETA).
+  /// Prints to stderr. `total`: number of steps, or 0 or less if unknown (then no bar and no ETA).
   ProgressBar(std::string title, int64_t total);
   ProgressBar(std::string title, int64_t total, const Output& output);
-  /// Ends the line if the job ended early (an exception).
+  /// Ends the line if the job ended early (by an exception).
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `steps` more are done; `note` stands behind the bar until the next call ("loss 3.21").
+  /// Counts `steps` as done. `note` ("loss 3.21") stands behind the bar until the next call.
   void Advance(int64_t steps = 1, const std::string& note = {});
-  /// Says how long it took. May be called again.
+  /// Prints the total time. May be called again.
   void Finish();
-  /// Prints a line of its own above the bar.
+  /// Prints a line above the bar.
   void Print(const std::string& line);
 
  private:
@@ -43,7 +42,7 @@ class ProgressBar {
   const Output output_;
   const std::chrono::steady_clock::time_point start_;
 
-  std::mutex mutex_;  // guards what follows and the stream
+  std::mutex mutex_;  // guards the members below and the stream
   int64_t done_ = 0;
   std::string note_;
   std::chrono::steady_clock::time_point shown_;

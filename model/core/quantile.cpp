@@ -23,7 +23,7 @@ std::vector<double> SlowQuantile(const std::vector<double>& values, double q,
                                  double window_frames) {
   const auto count = static_cast<int>(values.size());
   const int half = std::max(1, static_cast<int>(std::lround(0.5 * window_frames)));
-  // What `summary` makes of the values around each frame.
+  // Applies `summary` to the values around each frame.
   const auto slide = [&](const std::vector<double>& of, const auto& summary) {
     std::vector<double> result;
     for (int frame = 0; frame < count; ++frame) {

@@ -4,21 +4,20 @@
 #include <cstddef>
 #include <vector>
 
-/// Values of a certain rank. Pure functions.
+/// Quantiles. Pure functions.
 namespace choreo {
 
-/// The value below which `share` (0 to 1) of the values lie: the one of rank
-/// ceil(share * count), counted from 1. 0 for none.
+/// The value of rank ceil(share * count), counted from 1; `share` in [0, 1]. 0 for no values.
 double Percentile(std::vector<float> values, double share);
 
-/// The value of rank floor(q * (count - 1)), counted from 0; at least one value.
+/// The value of rank floor(q * (count - 1)), counted from 0. Needs at least one value.
 double Quantile(std::vector<double> values, double q);
 
-/// A running quantile, and its running mean: what a signal does slowly. As many frames to each side
-/// as half of `window_frames`, where there are so many.
+/// The running mean of a running quantile: how a signal drifts. Windows reach window_frames / 2 to
+/// each side, less at the ends.
 std::vector<double> SlowQuantile(const std::vector<double>& values, double q, double window_frames);
 
-/// The upper one of two in the middle; at least one value.
+/// The median; of an even number of values the upper middle one. Needs at least one value.
 template <typename Value>
 Value Median(std::vector<Value> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

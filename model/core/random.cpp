@@ -11,11 +11,12 @@
 namespace choreo {
 namespace {
 
-// Marks the blocks of Random. FillNormal has the upper half of a frame number there, which no dance
-// makes this large.
+// Separates Random's blocks from FillNormal's, whose counter holds the upper half of a frame number
+// here: no dance reaches this one.
 constexpr uint32_t kSequenceDomain = 0x53455155;
 
-// Two independent normals out of 64 random bits. The half keeps the logarithm's argument off zero.
+// Two independent normals from 64 random bits. Adding a half keeps the logarithm's argument above
+// 0.
 std::array<double, 2> BoxMuller(uint32_t a, uint32_t b) {
   const double radius = std::sqrt(-2.0 * std::log((a + 0.5) * 0x1p-32));
   const double angle = 2 * std::numbers::pi * (b * 0x1p-32);
@@ -106,7 +107,7 @@ int64_t Random::Integer(int64_t low, int64_t high) {
                                   " is not below high " + std::to_string(high));
   }
   const uint64_t range = static_cast<uint64_t>(high) - static_cast<uint64_t>(low);
-  // 2^64 mod range: draws below it would make the small remainders too likely.
+  // 2^64 mod range: accepting draws below it would make small remainders too likely.
   const uint64_t unfair = (uint64_t{0} - range) % range;
   uint64_t draw;
   do {

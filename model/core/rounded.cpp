@@ -8,14 +8,14 @@ namespace choreo {
 
 std::string Rounded(double value) {
   constexpr int kDecimals = 2;
-  constexpr double kTiny = 5e-4;  // of metres, millimetres or degrees: nothing to a person
+  constexpr double kTiny = 5e-4;  // metres, millimetres or degrees: too small to matter to people
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
   if (std::abs(value) < kTiny) value = 0;
   const int zeros = value == 0 || std::abs(value) >= 0.1
                         ? 0
                         : -1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
   const int decimals = kDecimals + zeros;
-  char digits[400];  // 1.8e308 has 309 of them
+  char digits[400];  // 1.8e308 has 309 digits
   const auto end =
       std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::fixed, decimals)
           .ptr;
@@ -31,7 +31,7 @@ std::string RoundedBeyond(double value, double limit) {
 }
 
 std::string InFull(double value) {
-  char text[32];  // the longest double has 24 characters
+  char text[32];  // the longest double takes 24 characters
   const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
   return {text, end};
 }

@@ -4,15 +4,15 @@
 
 namespace choreo {
 
-/// A measured number as messages show it to people: to hundredths or, below a tenth, to two
-/// significant digits; without trailing zeros, and 0 below half a thousandth.
+/// A measured number for messages: two decimals, or two significant digits below 0.1; no trailing
+/// zeros; 0 below half a thousandth.
 std::string Rounded(double value);
 
-/// A measured number beside the limit that it is beyond: as above, or with all its digits where
-/// that would look like the limit itself.
+/// A measured number that exceeds `limit`: rounded as above, or in full if rounding would make it
+/// look like the limit.
 std::string RoundedBeyond(double value, double limit);
 
-/// A number with all its digits: what is refused, and its limit. Rounded it might look allowed.
+/// A number in full: for refused values and limits, which might look allowed when rounded.
 std::string InFull(double value);
 
 }  // namespace choreo

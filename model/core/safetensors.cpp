@@ -20,8 +20,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "safetensors are little-endian");
 
-// The header of a real checkpoint is a few tens of KiB; a larger length is a foreign or damaged
-// file.
+// A real checkpoint's header is a few tens of KiB; a longer one means a foreign or damaged file.
 constexpr uint64_t kMaxHeaderBytes = 16U << 20U;
 
 int64_t ElementCount(const std::vector<int64_t>& shape) {
@@ -33,10 +32,10 @@ int64_t ElementCount(const std::vector<int64_t>& shape) {
   return count;
 }
 
-// Smaller tensors save nothing worth a second form.
+// Halving smaller tensors saves too little.
 constexpr size_t kLeastHalved = 4096;
 
-// Whether nothing is lost in bfloat16, the upper half of a float.
+// Whether every value is exact in bfloat16, the upper half of a float.
 bool IsBfloat16(const NamedTensor& tensor) {
   return tensor.data.size() >= kLeastHalved && std::ranges::all_of(tensor.data, [](float value) {
            return (std::bit_cast<uint32_t>(value) & 0xFFFFU) == 0;
@@ -65,7 +64,7 @@ void RoundToBfloat16(NamedTensor* tensor) {
   for (float& value : tensor->data) {
     const auto bits = std::bit_cast<uint32_t>(value);
     if (std::isnan(value)) continue;
-    // Ties to the even one.
+    // Rounds ties to even.
     value = std::bit_cast<float>((bits + 0x7FFFU + ((bits >> 16U) & 1U)) & 0xFFFF0000U);
   }
 }
@@ -111,8 +110,8 @@ Safetensors ReadSafetensors(const std::filesystem::path& path) {
                    std::to_string(end) + " of " + std::to_string(data_bytes) +
                    " does not fit its shape (truncated?)");
       }
-      // The next tensor by position must start at our end or later, the one before end at our
-      // start.
+      // The next tensor must start at our end or later; the previous one must end at our start or
+      // earlier.
       const auto after = extents.lower_bound(begin);
       const bool overlaps =
           end > begin && ((after != extents.end() && after->first < end) ||

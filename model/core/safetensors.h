@@ -14,17 +14,16 @@ struct NamedTensor {
   std::vector<float> data;
 };
 
-/// A safetensors file: named float32 tensors and a flat string → string metadata table. Nothing in
-/// it is executable.
+/// A safetensors file: named float32 tensors and string metadata. Nothing in it is executable.
 struct Safetensors {
   std::map<std::string, NamedTensor> tensors;
   std::map<std::string, std::string> metadata;
 
-  /// Throws Error(kInvalidArgument, name) where there is no such tensor, or one of another shape.
+  /// Throws Error(kInvalidArgument, name) if the tensor is missing or has another shape.
   const NamedTensor& Get(const std::string& name, const std::vector<int64_t>& shape) const;
 };
 
-/// The nearest values that a file keeps in half the bytes.
+/// Rounds values to bfloat16, which files store in half the bytes.
 void RoundToBfloat16(NamedTensor* tensor);
 
 /// Throws Error(kNotFound) for a missing file and Error(kInvalidArgument) for one that is
@@ -32,10 +31,10 @@ void RoundToBfloat16(NamedTensor* tensor);
 /// the tensor.
 Safetensors ReadSafetensors(const std::filesystem::path& path);
 
-/// Writes beside `path` and renames, so that a kill leaves the old file or the new one.
+/// Writes atomically (AtomicFile): a kill leaves either the old file or the new one.
 void WriteSafetensors(const std::filesystem::path& path, const Safetensors& content);
 
-/// 128-bit XXH3 in hex over names, shapes, bytes and metadata (but for the key `without`): equal
+/// 128-bit XXH3 in hex of names, shapes, bytes and metadata (except the key `without`): equal
 /// content, equal hash.
 std::string ContentHash(const Safetensors& content, const std::string& without = {});
 

@@ -34,7 +34,7 @@ std::string FileOf(void* address) {
   return path.empty() ? info.dli_fname : path.string();
 }
 
-// cgroup v2's "quota period" in microseconds; "max" for no limit.
+// Parses cgroup v2's "quota period" in microseconds; "max" means no limit.
 double CgroupCores() {
   std::ifstream file("/sys/fs/cgroup/cpu.max");
   double quota = 0;
@@ -52,9 +52,8 @@ BlasInfo DetectBlas() {
   using enum BlasInfo::Kind;
   const std::string path = FileOf(gemm);
   const std::string file = std::filesystem::path(path).filename().string();
-  // Debian's libblas.so.3 of OpenBLAS is a thin front of libopenblas.so.0, so the question is not
-  // only whose sgemm_ it is but also what stands behind it. Netlib's never comes together with
-  // these unless its file, too, is Netlib's.
+  // Debian's libblas.so.3 for OpenBLAS only forwards to libopenblas.so.0, so whose sgemm_ was found
+  // does not tell which BLAS runs. Netlib's is loaded beside the others only if sgemm_ is its own.
   if (!path.ends_with("/blas/" + file)) {
     if (auto* config = Find<char*()>("openblas_get_config")) return {kFast, config(), path};
     if (Find<void>("MKL_Get_Version_String")) return {kFast, "Intel MKL", path};
