@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kFramesPerMinute = 60 * kOnsetRate;
 constexpr double kEvenSeconds = 3;
-constexpr double kNothingDb = 0.02;  // mean rise below which nothing happens
+constexpr double kNothingDb = 0.02;  // mean rise below which a band counts as silent
 
-// An onset is heard from a frame before its beat to two behind.
+// An onset counts from a frame before its beat to two after.
 constexpr int kFirstFrame = -1, kFrames = 4;
-constexpr double kBetween = 0.5;  // mean between the places, of all
-// Frames and bands tell the same thing again and again, so each counts for a fifth.
+constexpr double kBetween = 0.5;  // mean rise between the places, in every pattern
+// Neighbouring frames and bands are correlated, so each counts for a fifth.
 constexpr double kWeight = 0.2;
 constexpr double kTempoCost = 100;  // Krebs et al. 2015
 
@@ -58,7 +58,7 @@ BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limit
         states += static_cast<size_t>(period);
         std::vector<bool> taken(static_cast<size_t>(period));
         for (size_t place = 0; place < pattern.places; ++place) {
-          // Places that can't be told apart at this tempo are the first of them.
+          // Where places are too close to tell apart at this tempo, the first one counts.
           const bool is_near = std::any_of(
               pattern.place.begin(), pattern.place.begin() + static_cast<std::ptrdiff_t>(place),
               [&](double other) {
@@ -88,7 +88,7 @@ BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limit
   for (const BarPattern& pattern : patterns_) {
     auto& terms = likelihood_.emplace_back();
     for (const BarPattern::Bands& bands : pattern.rise) {
-      // Log of the exponential density, over that of what lies between.
+      // Log of the exponential density, relative to that between the places.
       for (const double mean : bands)
         terms.push_back({kWeight * std::log(kBetween / mean), kWeight * (1 / kBetween - 1 / mean)});
     }
@@ -127,7 +127,7 @@ void BarPointer::Add(const Onset& onset) {
     leaving_[r] = states_[ring.first_state + static_cast<size_t>(ring.zero)];
   }
   for (const Group& group : groups_) {
-    // The cost of a change of tempo adds up from period to period, so two passes find the best.
+    // The cost of a tempo change adds up from period to period, so two passes find the best.
     const size_t before = groups_[group.before].first_ring, first = group.first_ring;
     float* best = &arriving_[first];
     uint8_t* from = &from_[first];

@@ -10,29 +10,29 @@
 
 namespace choreo {
 
-/// What tends to begin where in a bar: mean onsets, in units of their mean over three seconds.
+/// Where onsets tend to fall in a bar: mean onsets relative to their mean over three seconds.
 struct BarPattern {
   static constexpr size_t kPlaces = 4;
   using Bands = std::array<double, Onset::kBands>;
 
   int beats = 4;
-  /// Where in a beat onsets are counted, first the beat itself; those from `places` on are unused.
+  /// Positions within a beat, starting with the beat itself; those from `places` on are unused.
   std::array<double, kPlaces> place{0, 0.5, 0.25, 0.75};
   size_t places = 4;
   double slowest_bpm = 48, fastest_bpm = 208;
   std::vector<Bands> rise{};  ///< [beat * kPlaces + place]
 };
 
-/// 4/4, 4/4 whose beats are divided by three, 3/4, 6/8. Their rises are means over made songs.
+/// 4/4, 4/4 with triplets, 3/4, 6/8. Their rises are means over made songs.
 std::span<const BarPattern> BarPatterns();
 
-/// Onsets in units of their mean over the last three seconds, band by band: loud and soft passages
-/// become alike. -1: a band in which nothing happens.
+/// Onsets divided by their mean over the last three seconds, per band, so that loud and soft
+/// passages look alike. -1 for a silent band.
 class EvenOnsets {
  public:
-  static constexpr float kLoudest = 8;  ///< a crash counts no more
+  static constexpr float kLoudest = 8;  ///< limits the weight of a crash
 
-  /// What is louder than `loudest` times the mean counts as so much.
+  /// Values are capped at `loudest` times the mean.
   explicit EvenOnsets(float loudest = kLoudest) : loudest_(loudest) {}
 
   std::array<float, Onset::kBands> Even(const Onset& onset);
@@ -43,39 +43,38 @@ class EvenOnsets {
 };
 
 /// The bar pointer model (Whiteley et al. 2006) on the state space of Krebs et al. 2015: a state is
-/// a pattern, a place in its bar, in steps of a frame, and a tempo, a whole number of frames a
-/// beat. Tempo changes at beats alone, and costs the more, the further it goes.
-/// Onsets are exponentially distributed around a pattern's means. Frames come one by one. Not
-/// thread-safe.
+/// a pattern, a position in its bar (in frames) and a tempo (whole frames per beat). Tempo changes
+/// only at beats, and larger changes cost more. Onsets are exponentially distributed around a
+/// pattern's means. Frames are pushed one by one. Not thread-safe.
 class BarPointer {
  public:
   struct Limits {
-    double slowest_bpm = 0, fastest_bpm = 1000;  ///< within the patterns' own
+    double slowest_bpm = 0, fastest_bpm = 1000;  ///< within the patterns' range
   };
-  /// A beat of the best path.
+  /// One beat of the best path.
   struct Step {
     int64_t frame;
     int period;  ///< frames
     int in_bar;  ///< 0: a downbeat
     size_t pattern;
-    int beats;  ///< in its bar
+    int beats;  ///< in this bar
   };
 
   BarPointer(std::span<const BarPattern> patterns, const Limits& limits);
 
   void Add(const Onset& onset);
 
-  /// The beats of the best path that ends with the last frame, ascending; those before the first
-  /// frame are left out. 1 kB a frame is kept for it.
+  /// The beats of the best path to the last frame, ascending, without those before the first frame.
+  /// Costs 1 kB per frame.
   std::vector<Step> Path() const;
 
  private:
   struct Hit {
     int at;        // frame of the beat
-    size_t place;  // of the pattern
+    size_t place;  // in the pattern
   };
-  // One beat of a pattern at one tempo: its states lie in a ring, so that all move on by a frame
-  // where `zero` does.
+  // One beat of a pattern at one tempo. Its states form a ring; moving `zero` advances them all by
+  // a frame.
   struct Ring {
     size_t pattern, first_state;
     int beat, period, zero;
@@ -87,13 +86,13 @@ class BarPointer {
   };
 
   Step StepOf(size_t ring, int64_t frame) const;
-  size_t BestState(int* frames_since) const;  // its ring
+  size_t BestState(int* frames_since) const;  // returns its ring
 
   std::vector<BarPattern> patterns_;
   std::vector<std::vector<std::array<double, 2>>> likelihood_;  // [pattern][place * bands]: a + b x
   std::vector<Ring> rings_;
   std::vector<Group> groups_;
-  std::vector<std::vector<float>> place_score_;  // of a frame, by pattern
+  std::vector<std::vector<float>> place_score_;  // of the current frame, by pattern
   std::vector<float> states_, leaving_, arriving_;
   std::vector<uint8_t> from_, back_;          // back_: [frame][ring]
   std::vector<float> step_cost_, stay_cost_;  // by period

@@ -12,18 +12,18 @@
 namespace choreo {
 namespace {
 
-// What is 60 dB below the loudest of the last 12 s is silence, and so is what 16 bits round to 0.
+// Silence: 60 dB below the loudest of the last 12 s, or below what 16-bit audio can hold.
 constexpr float kSilentBelowDb = 60, kSilentDb = -90;
 constexpr int64_t kLoudFrames = 12 * kModelSampleRate / kOnsetHop;
 constexpr int64_t kPauseFrames = 2 * kModelSampleRate / kOnsetHop;
 constexpr int64_t kShortestFrames = kModelSampleRate / kOnsetHop;  // of music between pauses
 
 constexpr int64_t kConfidenceBeats = 8;  // on either side
-constexpr double kSameTempo = 0.06;      // of the median
+constexpr double kSameTempo = 0.06;      // deviation from the median
 
-// Swung beats that so much less begins on than on straight ones are the offbeats of those.
+// If straight beats begin so much more than swung ones, the swung ones are their offbeats.
 constexpr double kLouder = 2;
-// Faster than this hardly anybody taps what has no finer parts.
+// Listeners rarely tap faster than this unless beats are subdivided.
 constexpr double kFastestTappedBpm = 160;
 
 std::vector<bool> Sounding(std::span<const Onset> onsets) {
@@ -41,10 +41,10 @@ std::vector<bool> Sounding(std::span<const Onset> onsets) {
 }
 
 struct Part {
-  int64_t begin, end;  // frames; both sound
+  int64_t begin, end;  // frames; both have sound
 };
 
-/// What lies between pauses.
+/// The spans between pauses.
 std::vector<Part> PartsOf(const std::vector<bool>& sounding) {
   std::vector<Part> parts;
   for (int64_t f = 0; f < std::ssize(sounding); ++f) {
@@ -56,9 +56,9 @@ std::vector<Part> PartsOf(const std::vector<bool>& sounding) {
   return parts;
 }
 
-/// Whether a frame lies in a pause, more than `period` behind its begin and before its end.
+/// Whether a frame lies in a pause: more than `period` after its start, and before its end.
 bool IsInPause(const std::vector<bool>& sounding, int64_t frame, int period) {
-  constexpr int64_t kEarly = 3;  // a beat may be told so much before it sounds
+  constexpr int64_t kEarly = 3;  // a beat may precede its sound by this much
   const int64_t from = std::max<int64_t>(0, frame - period);
   const int64_t to = std::min<int64_t>(std::ssize(sounding), frame + kEarly + 1);
   for (int64_t f = from; f < to; ++f) {
@@ -67,10 +67,10 @@ bool IsInPause(const std::vector<bool>& sounding, int64_t frame, int period) {
   return true;
 }
 
-/// How much begins, in frames and on beats.
+/// Sums onsets over frames and around beats.
 class OnsetSums {
  public:
-  static constexpr int64_t kBeatFrames = 4;  // a beat's: one before it to two behind
+  static constexpr int64_t kBeatFrames = 4;  // a beat's: from one before it to two after
 
   explicit OnsetSums(std::span<const Onset> onsets) {
     for (const float strength : OnsetStrength(onsets)) sums_.push_back(sums_.back() + strength);

@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-/// What `of` makes of each frame of mono audio: of `size` samples around sample f * `hop`, those
-/// before and after the audio are 0. There are 1 + samples / `hop` frames. Throws
+/// Applies `of` to each frame of mono audio: `size` samples centred at sample f * `hop`,
+/// zero-padded outside the audio. There are 1 + samples / `hop` frames. Throws
 /// Error(kInvalidArgument) for no samples.
 template <typename Of>
 auto OfCentredFrames(std::span<const float> mono, int size, int hop, Of&& of) {

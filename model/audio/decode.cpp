@@ -13,13 +13,13 @@
 namespace choreo {
 namespace {
 
-/// Of each channel, decoded at a time.
+/// Samples per channel decoded at a time.
 constexpr size_t kPieceSamples = 65536;
 
-/// What a pipe may bring: ten minutes in the widest format that is taken.
+/// Limit for pipes: ten minutes in the widest accepted format.
 constexpr int64_t kMostPipeBytes = 4 * kMaxFileSamples;
 
-/// What a file is that is not decoded here, or "".
+/// The name of a format that is not decoded here, or "".
 std::string OtherFormat(const ByteSource& source) {
   if (source.Has(4, "ftyp")) return "MP4 (m4a, mov)";
   if (source.Has(0, "FORM")) return "AIFF";
@@ -51,11 +51,10 @@ std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& n
   if (other.empty() && LooksLikeMpeg(source)) return ReadMpeg(source, name);
   throw Error(ErrorCode::kInvalidArgument, name,
               (other.empty() ? "not " : other + " is not ") + std::string(kSoundFormats) +
-                  " audio: " + kAskFfmpeg +
-                  " makes a file that is taken, of whatever ffmpeg reads");
+                  " audio: " + kAskFfmpeg + " converts anything that ffmpeg reads");
 }
 
-/// A sound file read in pieces, within the limits of format.h.
+/// Reads a sound file in pieces, within the limits of format.h.
 class LimitedReader {
  public:
   /// `name` is the field of errors.
@@ -69,7 +68,7 @@ class LimitedReader {
   int64_t read() const { return read_; }
   const std::vector<std::string>& notes() const { return reader_->notes(); }
 
-  /// As SoundReader; `is_kept`: whether these samples count.
+  /// As SoundReader; `is_kept`: whether these samples count towards the limits.
   int64_t Read(std::span<float> interleaved, bool is_kept) {
     const int64_t got = reader_->Read(interleaved);
     CheckFinite(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_, name_);
@@ -83,10 +82,10 @@ class LimitedReader {
  private:
   void CheckAmount() const {
     if (kept_ > int64_t{kMaxAudioSeconds} * sample_rate()) {
-      throw InvalidArgument(name_, std::to_string(kept_ / sample_rate()) +
-                                       " s or more of audio, at most " +
-                                       std::to_string(kMaxAudioSeconds) +
-                                       " s are taken: take a part of it (--song-start, --seconds)");
+      throw InvalidArgument(
+          name_, std::to_string(kept_ / sample_rate()) + " s or more of audio, at most " +
+                     std::to_string(kMaxAudioSeconds) +
+                     " s are accepted: choose a part of it (--song-start, --seconds)");
     }
     if (kept_ * channels() > kMaxFileSamples) {
       throw InvalidArgument(name_, std::to_string(kept_ * channels()) + " samples or more (" +
@@ -98,10 +97,10 @@ class LimitedReader {
 
   const std::string name_;
   std::unique_ptr<SoundReader> reader_;
-  int64_t read_ = 0, kept_ = 0;  // samples of each channel so far
+  int64_t read_ = 0, kept_ = 0;  // samples per channel so far
 };
 
-/// How loud channels are alone, and together.
+/// Compares the power of the channels with that of their mix.
 class Cancellation {
  public:
   void Hear(std::span<const float> interleaved, int channels) {
@@ -115,7 +114,7 @@ class Cancellation {
       together_ += sum * sum / (channels * channels);
     }
   }
-  /// A thousandth of the power is left.
+  /// The mix has less than a thousandth of the channels' power.
   bool IsNearlyWhole() const { return together_ < 1e-3 * alone_; }
 
  private:
@@ -123,7 +122,7 @@ class Cancellation {
 };
 
 constexpr const char* kCancels =
-    "its channels cancel each other, as one is the other upside down; the first alone is heard";
+    "its channels cancel each other (one is the other inverted); only the first is used";
 
 std::vector<float> FirstChannel(std::span<const float> interleaved, int channels) {
   std::vector<float> first;

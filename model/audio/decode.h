@@ -11,43 +11,43 @@
 
 #include "model/audio/format.h"
 
-/// Sound files: WAV, FLAC, Ogg (Vorbis, Opus, FLAC) and MP3, also joined ones, within the limits of
-/// format.h. They are decoded to the end of their bytes; where a header says something else, that
-/// is noted. Errors are Error(kInvalidArgument), or kNotFound for a file that cannot be opened,
-/// whose field begins with the path, or with "audio" for memory. Refused are what is not such audio
-/// or beyond the limits, no samples, and samples that are NaN or infinite.
+/// Decodes sound files: WAV, FLAC, Ogg (Vorbis, Opus, FLAC) and MP3, also concatenated ones, within
+/// the limits of format.h. Decodes to the end of the data and notes where a header disagrees.
+/// Errors: Error(kInvalidArgument), or kNotFound if a file cannot be opened; the field begins with
+/// the path, or with "audio" for memory. Refuses other formats, files beyond the limits, files
+/// without samples, and NaN or infinite samples.
 namespace choreo {
 
 inline constexpr const char* kSoundFormats = "WAV, FLAC, Ogg or MP3";
-/// What refusals of other formats say.
+/// The advice in refusals of other formats.
 inline constexpr const char* kAskFfmpeg = "`ffmpeg -i FILE song.wav`";
 
 struct DecodedAudio {
   std::vector<float> interleaved{};  ///< full scale is -1 to 1
   int sample_rate = 0;               ///< Hz
   int channels = 0;
-  double end_s = 0;  ///< second of the file up to which it was read
-  /// For people, in the file's order: "its header says 5 samples, 4 are there".
+  double end_s = 0;  ///< second of the file where reading stopped
+  /// Notes for people, in the file's order: "its header says 5 samples, 4 are there".
   std::vector<std::string> notes{};
 
   int64_t samples() const { return static_cast<int64_t>(interleaved.size()) / channels; }
   double seconds() const { return static_cast<double>(samples()) / sample_rate; }
 };
 
-/// A sound file from second `start` on (which may take a gigabyte), or `seconds` of it, rounded up
-/// to whole pieces: what lies behind them is not read. Limits hold for what is kept. Nothing is
-/// left where `start` lies behind the end. `-`: standard input; pipes are read to their end. Where
-/// channels cancel each other, the first alone is given, with a note.
+/// Decodes a sound file from second `start` on (seeking past up to a gigabyte), or `seconds` of it,
+/// rounded up to whole pieces; the rest is not read. Limits apply to what is kept. Returns no
+/// samples if `start` lies beyond the end. `-` reads standard input; pipes are read to their end.
+/// If channels cancel each other, only the first is returned, with a note.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
                              double seconds = std::numeric_limits<double>::infinity(),
                              double start = 0);
 
-/// As mono samples at 22 050 Hz, the whole: what Mfcc, FindOnsets and FindBeats take.
+/// All of it as mono samples at 22 050 Hz: the input of Mfcc, FindOnsets and FindBeats.
 std::vector<float> ToModelRate(const DecodedAudio& audio);
 
-/// The same straight from the bytes of a file, decoded in pieces, so that no more is held than the
-/// result (53 MB at most). The same bits. `between` is called between two pieces, some milliseconds
-/// apart; what it throws ends the work.
+/// The same, bit for bit, straight from a file's bytes. Decodes in pieces, so memory holds only the
+/// result (53 MB at most). Calls `between` between pieces, every few milliseconds; an exception
+/// from it ends the work.
 std::vector<float> DecodeMono(std::span<const std::byte> bytes,
                               const std::function<void()>& between = {});
 

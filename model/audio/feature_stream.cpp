@@ -33,7 +33,7 @@ FeatureStream::FeatureStream(double sample_rate, int channels, int64_t first_sam
 }
 
 void FeatureStream::Push(std::span<const float> interleaved) {
-  // In small pieces, as a stream keeps the memory that its largest one needed.
+  // In small pieces: a stream keeps the memory of its largest one.
   const size_t block = kBlock * static_cast<size_t>(channels_);
   for (size_t at = 0; at < interleaved.size(); at += block) {
     resampler_.Push(interleaved.subspan(at, std::min(block, interleaved.size() - at)));
@@ -48,7 +48,7 @@ void FeatureStream::Finish() {
   finished_ = true;
   resampler_.Finish();
   resampler_.Pull(mono_);
-  // Silence as far as the last window that holds any audio; the rows behind it are all the same.
+  // Silence up to the last window that holds any audio; all rows after it are equal.
   mono_.insert(mono_.end(), kFftSize + kFeatureHop, 0.0f);
   ComputeRows();
   mono_ = {};
@@ -71,7 +71,7 @@ void FeatureStream::ComputeRows() {
 }
 
 FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples, RowOnset* onset) {
-  // Its work space is several times what a stream itself holds.
+  // Shared per thread: its work space is several times the size of a stream.
   thread_local MelSpectrum spectrum;
   const MelBandsDb db = spectrum.Decibels(samples);
   RowValues row{};

@@ -79,7 +79,7 @@ class FlacReader final : public SoundReader {
       self.sample_rate_ = static_cast<int>(header.sample_rate);
       self.channels_ = channels;
     }
-    // A damaged frame may say anything.
+    // The header of a damaged frame may hold anything.
     if (channels != self.channels_ || static_cast<int>(header.sample_rate) != self.sample_rate_) {
       ++self.damaged_;
       return FLAC__STREAM_DECODER_WRITE_STATUS_CONTINUE;

@@ -8,22 +8,23 @@
 
 namespace choreo {
 
-/// Fourier transforms of real signals of one length, in double precision. Holds work space: one a
-/// thread.
+/// Fourier transforms of real signals of one length, in double precision. Holds work space: use one
+/// per thread.
 class RealFourier {
  public:
-  /// An even number of samples.
+  /// `size`: an even number of samples.
   explicit RealFourier(size_t size) : bins_(size) {
     fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
   }
 
-  /// size samples -> the size / 2 + 1 bins from 0 to the Nyquist frequency, unscaled; valid until
-  /// the next call.
+  /// Returns the size / 2 + 1 bins from 0 to the Nyquist frequency of `size` samples, unscaled;
+  /// valid until the next call.
   std::span<std::complex<double>> Forward(std::span<const double> samples) {
     fft_.fwd(bins_.data(), samples.data(), std::ssize(bins_));
     return std::span(bins_).first(bins_.size() / 2 + 1);
   }
-  /// What Forward returned, or the caller made of it -> the samples, scaled by 1 / size.
+  /// Transforms the bins that Forward returned (the caller may have changed them) back to samples,
+  /// scaled by 1 / size.
   void Inverse(std::span<double> samples) {
     fft_.inv(samples.data(), bins_.data(), std::ssize(bins_));
   }

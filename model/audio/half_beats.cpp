@@ -8,24 +8,25 @@
 namespace choreo {
 namespace {
 
-constexpr int64_t kBehind = 3;                                // frames in which one is heard
-constexpr int kRounds = 4;                                    // until the mean stays
+constexpr int64_t kBehind = 3;  // frames after a beat in which it may sound
+constexpr int kRounds = 4;      // until the mean settles
 constexpr size_t kBefore = 3 * kModelSampleRate / kOnsetHop;  // frames
-constexpr double kAlike = 0.9;  // mean of the weaker half over that of the stronger
+constexpr double kAlike = 0.9;  // ratio of the weaker half's mean to the stronger's
 
 }  // namespace
 
 HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<std::array<float, Onset::kBands>> even;
-  // Without a cap, under which all drums are alike: they tell one beat of a bar from another.
+  // Uncapped: under a cap all drums look alike, and only they tell one beat of a bar from another.
   EvenOnsets evened(std::numeric_limits<float>::infinity());
-  // As if the music had gone on before: what begins it would else count for much more.
+  // Starts as if the music had played before; else its beginning would count for much more.
   for (int round = 0; round < kRounds; ++round) {
     for (const Onset& onset : onsets.first(std::min(onsets.size(), kBefore))) evened.Even(onset);
   }
   for (const Onset& onset : onsets) even.push_back(evened.Even(onset));
   for (const BarPointer::Step& step : path) {
-    if (step.frame + step.period / 2 + kBehind > std::ssize(even)) break;  // half of it is to come
+    if (step.frame + step.period / 2 + kBehind > std::ssize(even))
+      break;  // its second half is still to come
     for (const int64_t frame : {step.frame, step.frame + step.period / 2}) {
       auto& half = halves_.emplace_back();
       half.fill(0);

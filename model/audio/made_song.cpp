@@ -17,7 +17,7 @@ namespace {
 constexpr double kRate = kModelSampleRate;
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// One bar of drums, a letter a step: x struck, o softly. All of a groove are equally long.
+/// One bar of drums, a letter per step: x loud, o soft. All strings of a groove have equal length.
 struct Groove {
   std::string_view name, kick, snare, hat;
   double slowest, fastest;  // bpm at which people play it
@@ -140,7 +140,7 @@ class Player {
     mute_ = Pick(3);
   }
 
-  /// The second of a step of a bar that begins with `beat`.
+  /// The time, in seconds, of a step of a bar that begins with `beat`.
   double At(size_t beat, double beats) const {
     const auto whole = static_cast<size_t>(beats);
     const size_t i = std::min(beat + whole, times_.size() - 1);
@@ -168,10 +168,10 @@ class Player {
     const bool drums = !IsIn(plan_.without_drums, begin);
     const size_t steps = groove_->kick.size();
     const double beats_a_step = static_cast<double>(bar) / static_cast<double>(steps);
-    // A fill, and what marks its end.
+    // Every eighth bar is a fill; a crash marks its end.
     const bool fills = drums && number % 8 == 7, crash = drums && number % 8 == 0;
     if (crash) Noise(begin, 0.4 * drums_, 1.2, 3000);
-    const size_t division = steps / bar;  // of a beat
+    const size_t division = steps / bar;  // per beat
     for (size_t step = 0; step < steps; ++step) {
       const double beats = beats_a_step * static_cast<double>(step);
       if (beat + static_cast<size_t>(beats) >= times_.size()) break;
@@ -225,7 +225,7 @@ class Player {
     } else if (chord_style_ == 3 && eighth) {
       String(second, 3 * length, 2 * tones[(step / 2) % 3], 1.2 * chords_, 6);
     } else if (chord_style_ == 4 && (eighth || mute_ > 0)) {
-      // Distorted, palm-muted, in sixteenths, too, or in a gallop; it rings on where chords change.
+      // Distorted and palm-muted, also in sixteenths or a gallop; rings where chords change.
       if (mute_ == 2 && step % 4 == 1) return;
       const bool rings = step == 0 || (on_beat && Chance(0.2));
       Guitar(second, rings ? 6 * length : length, tones[0] / 2, chords_ * Draw(0.7, 1.1));
@@ -252,7 +252,7 @@ class Player {
       return level * std::exp(-decay * t) * std::sin(kTurn * phase);
     });
   }
-  /// Noise above `hz`, roughly.
+  /// Noise roughly above `hz`.
   void Noise(double second, double level, double length, double hz) {
     const double keep = std::exp(-kTurn * hz / kRate);
     double low = 0;
@@ -262,7 +262,7 @@ class Player {
       return level * std::exp(-t / length) * (white - low);
     });
   }
-  /// A few harmonics that fade the faster, the higher they are.
+  /// A few harmonics; higher ones fade faster.
   void String(double second, double length, double hz, double level, double brightness) {
     Add(second, length, [=](double t) {
       double sum = 0;
@@ -272,7 +272,7 @@ class Player {
       return level * std::min(1.0, t / 0.004) * std::min(1.0, (length - t) / 0.02) * sum;
     });
   }
-  /// A fifth through a distorting amplifier, with what the pick does.
+  /// A fifth through a distorting amplifier, with the pick's attack.
   void Guitar(double second, double length, double hz, double level) {
     double low = 0;
     Add(second, length, [&, hz, level, length](double t) {
@@ -295,7 +295,7 @@ class Player {
   }
 
   void Master() {
-    if (echo_ > 0) {  // a room: three combs, as Schroeder's
+    if (echo_ > 0) {  // a room: three combs, like Schroeder's
       const std::vector<float> dry = song_.mono;
       for (const int64_t delay : {617, 787, 1051}) {
         std::vector<float> wet(dry.size());
@@ -320,7 +320,7 @@ class Player {
   const SongPlan& plan_;
   std::mt19937 random_;
   MadeSong song_;
-  std::vector<double> times_;  // of all beats, also silent ones
+  std::vector<double> times_;  // of all beats, silent ones included
   const Groove* groove_ = nullptr;
   double root_ = 0, jitter_ = 0, drums_ = 0, kick_hz_ = 0, snare_hz_ = 0, bass_ = 0, chords_ = 0,
          lead_ = 0, drive_ = 1, echo_ = 0;

@@ -6,8 +6,8 @@
 
 #include "model/audio/meter.h"
 
-/// Songs whose beats are known, without end: grooves, basses and chords of our own, synthesized.
-/// Beat trackers are developed on some seeds and judged on others.
+/// Endless songs with known beats, synthesized from our own grooves, basses and chords. Beat
+/// trackers are developed on some seeds and judged on others.
 namespace choreo {
 
 struct SongPlan {
@@ -18,16 +18,16 @@ struct SongPlan {
     double begin, end;  // seconds
   };
 
-  uint64_t seed = 1;  ///< groove, instruments, harmony, how exactly it is played, how loud
+  uint64_t seed = 1;  ///< decides groove, instruments, harmony, timing accuracy and loudness
   double seconds = 40;
-  /// Ascending in time; linear in between, constant outside. Two at one second: a step, from the
-  /// first beat behind it on.
+  /// Ascending in time; linear in between, constant outside. Two at the same second make a step at
+  /// the next beat.
   std::vector<Tempo> tempo{{0, 120}};
   Meter meter = Meter::kFour;
   bool swing = false;                 ///< beats are divided by three; 4/4 only
-  std::vector<Span> without_drums{};  ///< intros and breaks: bass and chords go on
-  std::vector<Span> silent{};         ///< digital silence; no beats are there
-  bool only_pad = false;              ///< chords that swell, and nothing that strikes
+  std::vector<Span> without_drums{};  ///< intros and breaks: bass and chords continue
+  std::vector<Span> silent{};         ///< digital silence without beats
+  bool only_pad = false;              ///< swelling chords without attacks
 };
 
 struct MadeSong {
@@ -36,7 +36,7 @@ struct MadeSong {
   std::vector<double> beats, downbeats;  ///< seconds, ascending
 };
 
-/// The same bits for the same plan on one machine.
+/// On one machine the same plan gives the same bits.
 MadeSong MakeSong(const SongPlan& plan);
 
 }  // namespace choreo

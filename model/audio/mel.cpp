@@ -22,7 +22,7 @@ double MelToHz(double mel) {
   return kCornerHz * std::exp((mel - kCornerMel) * std::log(6.4) / 27.0);
 }
 
-double HzToMel(double hz) {  // of frequencies above the corner only
+double HzToMel(double hz) {  // for frequencies above the corner
   return 15.0 + std::log(hz / 1000.0) * 27.0 / std::log(6.4);
 }
 
@@ -79,7 +79,7 @@ MelBandsDb MelSpectrum::Decibels(std::span<const float> samples) {
     windowed_[i] = tables.window[i] * static_cast<double>(samples[i]);
   }
   const auto spectrum = fourier_.Forward(windowed_);
-  // From here on windowed_ holds the power of each bin.
+  // From here on windowed_ holds each bin's power.
   for (size_t bin = 0; bin < spectrum.size(); ++bin) windowed_[bin] = std::norm(spectrum[bin]);
   MelBandsDb db;
   for (size_t b = 0; b < db.size(); ++b) {

@@ -9,24 +9,24 @@
 
 namespace choreo {
 
-inline constexpr int kFftSize = 2048;  ///< samples at 22 050 Hz: the length of an analysis window
+inline constexpr int kFftSize = 2048;  ///< samples at 22 050 Hz in an analysis window
 /// Slaney's bands between 0 and 11 025 Hz, each of unit area.
 inline constexpr int kMelBands = 128;
 
-/// By mel band: 10 log10(power), with powers below 1e-10 taken as 1e-10 (-100 dB).
+/// Per mel band: 10 log10(power), floored at 1e-10 (-100 dB).
 using MelBandsDb = std::array<double, kMelBands>;
 
-/// A band's triangle.
+/// The triangle of one band.
 struct MelBand {
   double low_hz = 0, centre_hz = 0, high_hz = 0;
 };
 MelBand MelBandAt(size_t band);
 
 /// The mel spectrum of one window of samples: periodic Hann window, squared magnitude of the
-/// Fourier transform, triangular bands. Holds work space: one a thread.
+/// Fourier transform, triangular bands. Holds work space: use one per thread.
 class MelSpectrum {
  public:
-  /// `samples`: kFftSize of them, or more, which are not looked at.
+  /// `samples`: kFftSize or more; further ones are ignored.
   MelBandsDb Decibels(std::span<const float> samples);
 
  private:
@@ -34,9 +34,9 @@ class MelSpectrum {
   std::vector<double> windowed_ = std::vector<double>(kFftSize);
 };
 
-/// The mel spectra by frame of mono samples at 22 050 Hz; frame f is centred at sample f * hop, and
-/// there are 1 + samples / hop. Audio before and after is silence. Throws Error(kInvalidArgument)
-/// for no samples.
+/// The mel spectra of mono samples at 22 050 Hz. Frame f is centred at sample f * hop; there are 1
+/// + samples / hop. Audio before and after is silence. Throws Error(kInvalidArgument) for no
+/// samples.
 std::vector<MelBandsDb> MelSpectrogram(std::span<const float> mono, int hop);
 
 }  // namespace choreo

@@ -2,7 +2,7 @@
 
 namespace choreo {
 
-/// A bar has four beats, three, or two of three eighths each.
+/// Bars of four beats, of three, or of two with three eighths each.
 enum class Meter { kFour, kThree, kSix };
 
 }  // namespace choreo

@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// Samples from one row to the next: one a frame of motion.
+/// Samples between rows; one row per frame of motion.
 inline constexpr int kFeatureHop = kModelSampleRate / static_cast<int>(kModelFps);
 
 /// One row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
@@ -19,9 +19,9 @@ void MfccOfMelDb(const MelBandsDb& db, std::span<float, kMfccCount> row);
 /// [row, coefficient]
 using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, kMfccCount, Eigen::RowMajor>;
 
-/// MFCC-40 of mono samples at 22 050 Hz as librosa 0.10.2 computes them with n_fft 2048, centred
-/// windows and top_db None, since no stream can know its loudest frame in advance; row r is centred
-/// at sample r * kFeatureHop, and there are 1 + samples / kFeatureHop. Errors as MelSpectrogram.
+/// MFCC-40 of mono samples at 22 050 Hz, as librosa 0.10.2 computes them with n_fft 2048, centred
+/// windows and top_db None (a stream cannot know its loudest frame in advance). Row r is centred at
+/// sample r * kFeatureHop; there are 1 + samples / kFeatureHop. Errors as MelSpectrogram.
 FeatureMatrix Mfcc(std::span<const float> mono);
 
 }  // namespace choreo

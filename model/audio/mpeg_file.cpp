@@ -12,19 +12,18 @@
 namespace choreo {
 namespace {
 
-// Other streams have bytes that look as frames begin.
+// Explains a refusal: bytes of other formats can look like MP3 frames.
 std::string NoMpeg(const std::string& why) {
-  return "not MP3 audio, " + why + ": " + kAskFfmpeg +
-         " makes a file that is taken, of whatever ffmpeg reads";
+  return "not MP3 audio, " + why + ": " + kAskFfmpeg + " converts anything that ffmpeg reads";
 }
 
-constexpr int64_t kSearched = 1 << 17;  // bytes in which the first frame must begin
+constexpr int64_t kSearched = 1 << 17;  // the first frame must begin within this many bytes
 
-/// A frame of MPEG audio, as its four bytes say.
+/// An MPEG audio frame, decoded from its four header bytes.
 struct Frame {
   int version = 0, layer = 0, sample_rate = 0;
   int64_t bytes = 0;
-  int64_t info_at = 0;  // from its begin: where an encoder's tag stands in the first of a file
+  int64_t info_at = 0;  // offset of an encoder's tag in the first frame of a file
 
   bool IsLike(const Frame& other) const {
     return version == other.version && layer == other.layer && sample_rate == other.sample_rate;
@@ -86,8 +85,8 @@ std::optional<int64_t> FindSync(const ByteSource& source, int64_t from, int64_t 
   return std::nullopt;
 }
 
-/// The first sync at or behind `at`; behind the tag that begins there, if its length leads to one:
-/// it may hold sound of its own.
+/// The first sync at or after `at`, past the tag that begins there if its length leads to one: a
+/// tag may contain sound.
 std::optional<int64_t> FindSyncBehindTag(const ByteSource& source, int64_t at) {
   const int64_t end = TagEnd(source, at);
   if (end > at && end < source.size) {
@@ -100,11 +99,11 @@ std::optional<int64_t> FindSyncBehindTag(const ByteSource& source, int64_t at) {
 /// Frames that were encoded together: from one encoder's tag to the next.
 struct Stretch {
   int64_t begin = 0, end = 0;
-  int64_t frames = 0;             // without that of the tag
+  int64_t frames = 0;             // without the tag's own
   std::optional<int64_t> stated;  // by the tag
 };
 
-/// Frames that an encoder's tag in this one says are to come.
+/// The number of frames that an encoder's tag in this one promises.
 std::optional<int64_t> StatedIn(const ByteSource& source, int64_t at, const Frame& frame) {
   const int64_t tag = at + frame.info_at;
   if (!source.Has(tag, "Xing") && !source.Has(tag, "Info")) return std::nullopt;
@@ -114,7 +113,7 @@ std::optional<int64_t> StatedIn(const ByteSource& source, int64_t at, const Fram
 
 struct Walk {
   std::vector<Stretch> stretches;
-  int64_t left_out = 0;  // bytes that are no frames, tags aside
+  int64_t left_out = 0;  // bytes that are neither frames nor tags
 };
 
 Walk WalkFrames(const ByteSource& source) {
@@ -155,8 +154,8 @@ class StretchReader final : public SoundReader {
     if (!decoder_) throw Error(ErrorCode::kInternal, name_, "no MP3 decoder");
     mpg123_param(decoder_.get(), MPG123_ADD_FLAGS, MPG123_FORCE_FLOAT | MPG123_QUIET, 0);
     mpg123_param(decoder_.get(), MPG123_RESYNC_LIMIT, -1, 0);
-    // A tag says how much silence the encoder put at both ends; one that counts too few frames
-    // would end the song there.
+    // A tag says how much silence the encoder added at both ends. A tag that counts too few frames
+    // would cut the song short.
     const bool is_right = stretch.stated && *stretch.stated >= stretch.frames;
     mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS,
                  0);
@@ -186,7 +185,7 @@ class StretchReader final : public SoundReader {
     void operator()(mpg123_handle* handle) const { mpg123_delete(handle); }
   };
 
-  /// Fills decoded_ anew; false at the end.
+  /// Refills decoded_; false at the end.
   bool Decode() {
     decoded_.resize(1 << 14);
     taken_ = 0;
@@ -223,7 +222,7 @@ class StretchReader final : public SoundReader {
       throw InvalidArgument(name_, "changes from " + std::to_string(channels_) + " channels at " +
                                        std::to_string(sample_rate_) + " Hz to " +
                                        std::to_string(channels) + " at " + std::to_string(rate) +
-                                       ": " + kAskFfmpeg + " makes one of them");
+                                       ": " + kAskFfmpeg + " converts it to one format");
     }
     sample_rate_ = static_cast<int>(rate);
     channels_ = channels;
@@ -237,7 +236,7 @@ class StretchReader final : public SoundReader {
   size_t taken_ = 0;
 };
 
-/// What was passed over is told.
+/// Notes how many bytes it skipped.
 class MpegReader final : public SoundReader {
  public:
   MpegReader(std::unique_ptr<SoundReader> reader, int64_t left_out)
@@ -250,7 +249,7 @@ class MpegReader final : public SoundReader {
     if (count == 0) {
       notes_ = reader_->notes();
       if (left_out_ > 0)
-        notes_.push_back(std::to_string(left_out_) + " bytes of it are no MP3, and left out");
+        notes_.push_back(std::to_string(left_out_) + " bytes of it are not MP3 and are skipped");
     }
     return count;
   }

@@ -8,12 +8,12 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kStep = 15;  // rows from one second that is looked at to the next: half of it
+constexpr size_t kStep = 15;  // rows between the seconds examined: half a second
 
 enum Measure : size_t { kLoud, kBusy, kDeep, kMeasures };
 using Second = std::array<double, kMeasures>;
 
-// The last one first; each overlaps the next by half.
+// Starts with the last second; each overlaps the next by half.
 std::vector<Second> SecondsOf(std::span<const RowSound> rows) {
   std::vector<Second> seconds;
   for (size_t end = rows.size(); end >= 2 * kStep; end -= kStep) {
@@ -29,7 +29,7 @@ std::vector<Second> SecondsOf(std::span<const RowSound> rows) {
   return seconds;
 }
 
-// A measure's mean and deviation over what sounded; `usual` is taken for `usual_weight` more.
+// Mean and deviation of a measure over what sounded, with `usual` added at weight `usual_weight`.
 struct Spread {
   double mean = 0, deviation = 0;
 

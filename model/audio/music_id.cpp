@@ -12,7 +12,7 @@
 namespace choreo {
 
 uint64_t MusicId(std::span<const float> mono) {
-  // Whoever dances to a part decodes so much at least.
+  // Dancing to any part decodes at least this much.
   constexpr size_t kHeard = size_t{kTempoWindowSeconds} * kModelSampleRate;
   std::vector<int16_t> rounded;
   for (const float sample : mono.first(std::min(mono.size(), kHeard)))

@@ -13,7 +13,7 @@
 namespace choreo {
 namespace {
 
-/// Bytes as the C libraries read a stream that can't be sought in.
+/// A byte stream without seeking, as the C libraries read it.
 struct Stream {
   ByteSource source;
   int64_t position = 0;
@@ -25,8 +25,8 @@ struct Stream {
   }
 };
 
-/// "OggS", version, flags (1: first page, 2: last page), position 8, serial 4, number 4, checksum
-/// 4, number of segments, their lengths, the segments.
+/// An Ogg page: "OggS", version, flags (1: first page, 2: last page), position 8, serial 4, number
+/// 4, checksum 4, number of segments, their lengths, the segments.
 struct Page {
   static constexpr int64_t kHeader = 27;
   int64_t begin = 0, body = 0, end = 0;
@@ -46,7 +46,7 @@ std::optional<Page> PageAt(const ByteSource& source, int64_t at) {
   return page;
 }
 
-/// Where the next page may begin; the end of the source if nowhere.
+/// Where the next page may begin, or the end of the source.
 int64_t NextCapture(const ByteSource& source, int64_t at) {
   std::string piece(1 << 16, '\0');
   for (; at < source.size; at += std::ssize(piece) - 3) {
@@ -57,10 +57,10 @@ int64_t NextCapture(const ByteSource& source, int64_t at) {
   return source.size;
 }
 
-/// A logical stream of its own, or several side by side; files may be chained of them.
+/// One logical stream or several side by side; files may chain several links.
 struct Link {
   int64_t begin = 0, end = 0;
-  std::string codec;  // vorbis, opus, flac, or what else it says
+  std::string codec;  // vorbis, opus, flac, or the codec's own name
   bool is_whole = false;
 };
 
@@ -126,7 +126,7 @@ class VorbisReader final : public SoundReader {
       const long got = ov_read_float(
           &file_, &pcm, static_cast<int>(std::min<int64_t>(wanted - count, 4096)), &section);
       if (got == OV_HOLE) {
-        if (++holes_ == 1) notes_.push_back("bytes of it are missing or damaged, and left out");
+        if (++holes_ == 1) notes_.push_back("bytes of it are missing or damaged and are skipped");
         continue;
       }
       if (got <= 0) break;
@@ -155,7 +155,7 @@ class OpusReader final : public SoundReader {
         nullptr, nullptr, nullptr};
     file_.reset(op_open_callbacks(&stream_, &callbacks, nullptr, 0, nullptr));
     if (!file_) throw InvalidArgument(name_, "not Ogg Opus audio, or its headers are damaged");
-    sample_rate_ = 48000;  // whatever it was made of
+    sample_rate_ = 48000;  // Opus always decodes to 48 kHz
     channels_ = op_channel_count(file_.get(), -1);
   }
 
@@ -167,7 +167,7 @@ class OpusReader final : public SoundReader {
       const int got =
           op_read_float(file_.get(), rest.data(), static_cast<int>(rest.size()), nullptr);
       if (got == OP_HOLE) {
-        if (++holes_ == 1) notes_.push_back("bytes of it are missing or damaged, and left out");
+        if (++holes_ == 1) notes_.push_back("bytes of it are missing or damaged and are skipped");
         continue;
       }
       if (got <= 0) break;
@@ -186,7 +186,7 @@ class OpusReader final : public SoundReader {
   int64_t holes_ = 0;
 };
 
-/// A reader, and what is to be said of its last page.
+/// A reader, and a note on a missing last page.
 class LinkReader final : public SoundReader {
  public:
   LinkReader(std::unique_ptr<SoundReader> reader, bool is_whole) : reader_(std::move(reader)) {
@@ -233,10 +233,9 @@ std::unique_ptr<SoundReader> ReadOgg(const ByteSource& source, const std::string
         } else if (link.codec == "flac") {
           reader = ReadOggFlac(part, name);
         } else {
-          throw InvalidArgument(name,
-                                (link.codec.empty() ? std::string("another codec") : link.codec) +
-                                    " in Ogg is not Vorbis, Opus or FLAC: " + kAskFfmpeg +
-                                    " makes a file that is taken");
+          throw InvalidArgument(
+              name, (link.codec.empty() ? std::string("another codec") : link.codec) +
+                        " in Ogg is not Vorbis, Opus or FLAC: " + kAskFfmpeg + " converts it");
         }
         return std::make_unique<LinkReader>(std::move(reader), link.is_whole);
       },

@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kRangeDb = 50, kFaintestDb = -80;
 constexpr double kLowestHz = 25, kFirstEdgeHz = 60, kHighestHz = 10500;
-constexpr double kBassHz = 160, kMiddleHz = 1600;  // where a group of bands ends
+constexpr double kBassHz = 160, kMiddleHz = 1600;  // upper edges of the groups
 
-/// The Fourier bins of each band, and its group; bands are equally wide in octaves but the first.
+/// The Fourier bins and the group of each band; all bands but the first have equal width in
+/// octaves.
 template <size_t kBands>
 struct OnsetTables {
   std::array<double, kOnsetWindow> window{};

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kLowestTone_hz = 60, kHighestTone_hz = 4000, kConcertPitch_hz = 440;
 constexpr double kLowestBand_hz = 40, kHighestBand_hz = kModelSampleRate / 2.0;
-constexpr double kSilentPower = 1e-7;  // of a window's mean square: -70 dB
+constexpr double kSilentPower = 1e-7;  // mean square of a window: -70 dB
 constexpr double kFarFromBeat_s = 0.3;
 constexpr double kMoment_s = 0.5;
-constexpr double kShortest_s = 4;  // of a passage
+constexpr double kShortest_s = 4;  // seconds of a passage
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -61,7 +61,7 @@ Eigen::VectorXf PassageListener::LikenessOfLast() const {
   const Eigen::Array<float, kNumbers, 1> mean = sum_.array() / count;
   const Eigen::Array<float, kNumbers, 1> unit =
       1 / (squares_.array() / count - mean.square()).max(1e-6F).sqrt();
-  // Chroma has one unit for all, bands have their own.
+  // Chroma values share one scale; each band has its own.
   const auto of = [&](int64_t moment) -> Moment {
     Moment seen = (heard_.col(moment).array() - mean).matrix();
     seen.tail<kBands>().array() *= unit.tail<kBands>();
@@ -70,7 +70,7 @@ Eigen::VectorXf PassageListener::LikenessOfLast() const {
     return seen;
   };
   Eigen::VectorXf likeness = Eigen::VectorXf::Zero(moments_);
-  if (!sounds_.back()) {  // of two silences nobody can tell whether one is the other
+  if (!sounds_.back()) {  // two silences cannot be told apart
     for (int64_t moment = 0; moment < moments_; ++moment)
       if (!sounds_[static_cast<size_t>(moment)])
         likeness[moment] = static_cast<float>(options_.alike);
@@ -114,7 +114,8 @@ std::optional<int64_t> PassageListener::Lag() const {
   return best_.back();
 }
 
-// What comes later than kLater moves nothing, so the beginning of a song has its passages, too.
+// Whatever comes more than kLater afterwards moves nothing, so a song's beginning has passages,
+// too.
 int64_t PassageListener::LagAt(int64_t moment) const {
   constexpr int64_t kLater = kTempoWindowSeconds * kModelSampleRate / kHop;
   int64_t at = std::min(moment + kLater, moments_ - 1);
@@ -152,7 +153,7 @@ std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const d
     std::ranges::fill(std::ranges::copy(part, window.begin()).out, window.end(), 0.0F);
     listener.Add(window);
   }
-  // To the nearest beat, if there is one.
+  // Moves to the nearest beat, if there is one.
   const auto on_beat = [&](double second) {
     const auto nearest = std::ranges::min_element(
         beats, {}, [second](double beat) { return std::abs(beat - second); });
@@ -166,7 +167,7 @@ std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const d
       passage.like += passages.back().to - passage.from;
       passage.from = passages.back().to;
     }
-    // What begins a moment from where the song or another passage does begins with it.
+    // A passage within a moment of the song's start or of another passage's end begins there.
     const double least = passages.empty() ? 0 : passages.back().to - kMoment_s;
     for (size_t i = 0; i <= passages.size(); ++i) {
       const double ahead = passage.like - (i == 0 ? 0 : passages[i - 1].from);

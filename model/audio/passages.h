@@ -12,40 +12,38 @@
 
 namespace choreo {
 
-/// How music is found to come back.
+/// When music counts as repeating.
 struct PassageOptions {
-  /// Of two moments: the cosine of their harmony and timbre, each against all that was heard. From
-  /// this on they are alike.
+  /// The least similarity of two moments: the cosine of their harmony and timbre, relative to all
+  /// that was heard.
   double alike = 0.5;
-  /// What begins to come back must be alike for so long: the sum, over its seconds, of what it is
-  /// more alike than that.
+  /// The least similarity of a passage: the sum over its seconds of the similarity above `alike`.
   double least = 1.0;
-  /// A dancer does the same again at the soonest so many seconds later.
+  /// The least number of seconds after which a dancer repeats.
   double soonest = 12;
 };
 
-/// Hears whether music comes back, as it sounds: harmony (chroma) and timbre (loudness by band) of
-/// each moment are compared with those of all before it, and the likeliest way through the lags
-/// between both is followed (Viterbi's algorithm over the lags of a self-similarity matrix; Müller,
-/// "Fundamentals of Music Processing", chapter 4). A moment depends on the samples before its end
-/// alone. Not thread-safe.
+/// Hears, as music sounds, whether it repeats. Compares harmony (chroma) and timbre (loudness by
+/// band) of each moment with all before it and follows the likeliest path through the lags between
+/// them (Viterbi's algorithm over the lags of a self-similarity matrix; Müller, "Fundamentals of
+/// Music Processing", chapter 4). A moment depends only on samples before its end. Not thread-safe.
 class PassageListener {
  public:
-  /// Samples at 22 050 Hz from one moment to the next, 0.2 s.
+  /// Samples at 22 050 Hz between moments, 0.2 s.
   static constexpr int kHop = kModelSampleRate / 5;
-  /// Samples that a moment is heard in, from its begin on.
+  /// Samples in a moment's window, from its beginning on.
   static constexpr int kWindow = 4096;
   static constexpr double kMomentSeconds = static_cast<double>(kHop) / kModelSampleRate;
 
   explicit PassageListener(const PassageOptions& options = {});
 
-  /// `window`: kWindow samples from the next moment's first on.
+  /// `window`: kWindow samples starting at the next moment.
   void Add(std::span<const float> window);
 
   int64_t moments() const { return moments_; }
-  /// By how many moments the last one lies behind the one that it is like; none: it is new.
+  /// How many moments before the last one its like is; none if it is new.
   std::optional<int64_t> Lag() const;
-  /// All passages: of each moment what is likeliest kTempoWindowSeconds later.
+  /// All passages, using the likeliest path kTempoWindowSeconds after each moment.
   std::vector<Passage> Passages() const;
 
  private:
@@ -53,34 +51,34 @@ class PassageListener {
   using Moment = Eigen::Matrix<float, kNumbers, 1>;
 
   Moment Hear(std::span<const float> window);
-  // Of the likeliest way; -1: it is new.
+  // Of the likeliest path; -1 if the moment is new.
   int64_t LagAt(int64_t moment) const;
-  // [moments], the last one's likeness to each.
+  // [moments] the last moment's similarity to each.
   Eigen::VectorXf LikenessOfLast() const;
 
   PassageOptions options_;
-  int64_t soonest_;  // moments
+  int64_t soonest_;  // in moments
   RealFourier fourier_{kWindow};
   std::vector<double> windowed_ = std::vector<double>(kWindow);
   std::vector<int> chroma_of_, band_of_;  // by Fourier bin; -1: none
 
   int64_t moments_ = 0;
-  Eigen::Matrix<float, kNumbers, Eigen::Dynamic> heard_;  // room for more than moments_
+  Eigen::Matrix<float, kNumbers, Eigen::Dynamic> heard_;  // has room for more than moments_
   Moment sum_ = Moment::Zero(), squares_ = Moment::Zero();
   std::vector<bool> sounds_;
 
-  // Of the best way that ends with each lag, and with none: what it is worth.
+  // Score of the best path that ends with each lag, and with none.
   std::vector<double> worth_;
   double worth_of_none_ = 0;
-  // By moment, of each lag whether the best way began there, and the best lag to come from to none
-  // (-1: none before).
+  // By moment: for each lag, whether the best path began there; and the lag from which the best
+  // path to "none" comes (-1: from none).
   std::vector<std::vector<bool>> begins_;
   std::vector<int64_t> ended_;
-  std::vector<int64_t> best_;  // by moment, the lag that the best way ends with, or -1
+  std::vector<int64_t> best_;  // by moment, the lag where the best path ends, or -1
 };
 
-/// Where a whole song at 22 050 Hz comes back: ascending, apart, from beat to beat where `beats`,
-/// in seconds, says them.
+/// Where a whole song at 22 050 Hz repeats: ascending, disjoint passages, from beat to beat if
+/// `beats` (seconds) are given.
 std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const double> beats,
                                   const PassageOptions& options = {});
 

@@ -14,36 +14,38 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-// ---- Onsets, evened out.
-constexpr double kMeanSeconds = 1;   // over which steady rustle is taken away
-constexpr double kLevelSeconds = 3;  // over which loud and soft passages become alike
-constexpr double kQuietDb = 0.02;    // mean rise a band and row below which nothing happens
-constexpr double kLoudest = 8;       // times the mean; a crash counts no more
+// ---- Normalised onsets.
+constexpr double kMeanSeconds = 1;   // averaging time of the steady noise that is subtracted
+constexpr double kLevelSeconds = 3;  // averaging time of the level that onsets are divided by
+constexpr double kQuietDb = 0.02;    // mean rise per band and row below which a band is silent
+constexpr double kLoudest = 8;       // times the mean; caps the weight of a crash
 
 // ---- The bank. Tempi are steps of 1/64 octave above kSlowestBpm.
 constexpr double kSlowestBpm = 60;
 constexpr size_t kOctave = 64, kTempi = 7 * kOctave / 4, kResonators = kTempi + 2 * kOctave;
-constexpr double kRingSeconds = 3.5;                // in which a resonator forgets
-constexpr std::array<double, 3> kParts{1, 1, 0.5};  // of a beat, of half and quarter beats
+constexpr double kRingSeconds = 3.5;  // decay time of a resonator
+constexpr std::array<double, 3> kParts{1, 1,
+                                       0.5};  // weights of beats, half beats and quarter beats
 
 // ---- The choice.
-constexpr double kLikelyBpm = 100, kLikelyOctaves = 0.6;  // what people tap, and its deviation
+constexpr double kLikelyBpm = 100,
+                 kLikelyOctaves = 0.6;  // the tempo that people tap, and its deviation
 constexpr size_t kPhases = 96;
-constexpr int kChoiceRows = 3;  // the pulse is looked for so often
+constexpr int kChoiceRows = 3;  // rows between searches for the pulse
 constexpr double kClearlyBetter = 1.15;
-constexpr double kPatienceRows = 30;  // for which another pulse must be better
+constexpr double kPatienceRows = 30;  // rows for which another pulse must be better
 
 // ---- Trust.
-constexpr size_t kAhead = 30;        // rows between saying a beat and hearing it
-constexpr double kTrustSeconds = 5;  // over which that is averaged
-constexpr double kDoubtRows = 30;    // as many average onsets are taken to have been off the beat
+constexpr size_t kAhead = 30;        // rows between predicting a beat and hearing it
+constexpr double kTrustSeconds = 5;  // averaging time
+constexpr double kDoubtRows = 30;    // prior: this many average onsets off the beat
 constexpr double kLeastConfidence = 0.13;
-constexpr int kSilentRows = 75;  // without any onset, and the music has stopped
+constexpr int kSilentRows = 75;  // rows without an onset after which the music has stopped
 
 double Kept(double seconds) { return std::exp(-1 / (kModelFps * seconds)); }
 
-// What of each resonator is left a row later, turned by its tempo; how likely each tempo is; the
-// phases of a beat as phasors.
+// Each resonator's decay and rotation per row; the prior of each tempo; the phases of a beat as
+// phasors.
 struct PulseTables {
   std::array<double, kResonators> turn_re, turn_im;
   std::array<double, kTempi> likely;
@@ -74,7 +76,7 @@ struct PulseTables {
 
 const PulseTables kTables;
 
-// A tempo and where in its beat the last row stands; its strength.
+// A tempo, the last row's phase in the beat, and their strength.
 struct Choice {
   size_t tempo = 0, phase = 0;
   double strength = 0;
@@ -114,8 +116,8 @@ class Listener {
     }
   }
 
-  // How well what was said then is met now: onsets on the beat count for it, those half way between
-  // less than nothing.
+  // Scores the earlier prediction: onsets on the beat count for it, onsets halfway between count
+  // against it.
   void Judge(double onset) {
     if (rows_ < kAhead) return;
     const Pulse& then = said_[rows_ % kAhead];
@@ -139,10 +141,10 @@ class Listener {
     return sum;
   }
 
-  // The best of some tempi and all phases, or those near one.
+  // The best of some tempi and of all phases, or of those near one.
   Choice Best(size_t from, size_t to, size_t phase, size_t phases) const {
-    // What a tempo reaches if all its parts agree. From the most promising one on, few others have
-    // to be looked at.
+    // An upper bound per tempo, reached if all its parts agree. Searched from the highest bound,
+    // few tempi need a full look.
     std::array<double, kTempi> most;
     for (size_t tempo = from; tempo < to; ++tempo) {
       double sum = 0;
@@ -173,7 +175,7 @@ class Listener {
     constexpr size_t kNear = 8;
     Choice choice = Best(0, kTempi, 0, kPhases);
     if (pulse_.period > 0) {
-      // Where the present pulse is by now.
+      // The present pulse, advanced to this row.
       const double turns = (pulse_.period - pulse_.next + 1) / pulse_.period;
       const auto phase = static_cast<size_t>(std::lround(turns * kPhases)) % kPhases;
       const size_t least = tempo_ < 2 ? 0 : tempo_ - 2;
@@ -190,7 +192,7 @@ class Listener {
     Take(choice);
   }
 
-  // Between the steps of tempo and phase a parabola leads over the summit.
+  // The summit of the parabola through neighbouring steps of tempo or phase.
   static double Summit(double left, double middle, double right) {
     const double bend = left - 2 * middle + right;
     return bend < 0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0;

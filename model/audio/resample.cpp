@@ -16,22 +16,21 @@
 namespace choreo {
 namespace {
 
-/// Zero crossings of the sinc on either side, and the window's shape: 100 dB of attenuation, and
-/// with this cutoff the stop band begins at the Nyquist frequency (Kaiser's formulas: transition =
-/// (100 - 8) / (2.285 * length) rad).
+/// Zero crossings of the sinc on either side, and the window's shape: 100 dB of attenuation. With
+/// this cutoff the stop band begins at the Nyquist frequency (Kaiser's formulas: transition = (100
+/// - 8) / (2.285 * length) rad).
 constexpr int kZeroCrossings = 64;
 constexpr double kKaiserBeta = 10.06;
 constexpr double kCutoff = 0.95;  ///< of the lower Nyquist frequency
 
-/// Steps a zero crossing in the table of the prototype; linear interpolation between them errs by
-/// less than 3e-8.
+/// Table steps per zero crossing; linear interpolation between them errs by less than 3e-8.
 constexpr int kTableSteps = 4096;
 
-/// Coefficients kept for all phases of a ratio at most (2 MiB). Ratios with more phases compute
-/// each phase when it comes.
+/// Coefficients cached for all phases of a ratio, at most (2 MiB). Ratios with more phases compute
+/// each phase when needed.
 constexpr int64_t kMaxKeptCoefficients = int64_t{1} << 18;
 
-/// Input samples taken in at a time, so that a long push needs no more memory than a short one.
+/// Input samples consumed at a time, so that long pushes need no more memory than short ones.
 constexpr size_t kBlock = 512;
 
 double BesselI0(double x) {
@@ -43,8 +42,8 @@ double BesselI0(double x) {
   return sum;
 }
 
-/// sinc times the window by distance from the centre, in steps of 1 / kTableSteps of a zero
-/// crossing; 0 at the end. All resamplers share it.
+/// sinc times window by distance from the centre, in steps of 1 / kTableSteps of a zero crossing; 0
+/// at the end. Shared by all resamplers.
 const std::vector<double>& PrototypeTable() {
   static const std::vector<double> table = [] {
     std::vector<double> values(kZeroCrossings * kTableSteps + 2, 0.0);
@@ -62,8 +61,7 @@ const std::vector<double>& PrototypeTable() {
 
 constexpr size_t kLanes = 16;
 
-/// Running sums in a fixed order: the same bits whatever the address of the samples, and on
-/// machines with wider vectors.
+/// Sums in a fixed order: same bits at any sample address and vector width.
 [[gnu::always_inline]] inline double SumOfProducts(const double* a, const double* b, size_t size) {
   double sum[kLanes] = {};
   size_t i = 0;
@@ -81,12 +79,11 @@ double DotBaseline(const double* a, const double* b, size_t size) {
   return SumOfProducts(a, b, size);
 }
 #if defined(__x86_64__)
-// Without fused multiply-add, which would round otherwise (CMakeLists.txt: AVX-512 has it built
-// in).
+// Without fused multiply-add, which rounds differently (CMakeLists.txt: AVX-512 includes it).
 [[gnu::target("avx2")]] double DotAvx2(const double* a, const double* b, size_t size) {
   return SumOfProducts(a, b, size);
 }
-#if defined(__clang__)  // which knows no preferred width
+#if defined(__clang__)  // Clang has no preferred width
 [[gnu::target("avx512f")]]
 #else
 [[gnu::target("avx512f,prefer-vector-width=512")]]
@@ -111,7 +108,7 @@ const DotProduct kDot = FastestDot();
 
 }  // namespace
 
-/// The filter of one ratio of rates, by phase.
+/// The filter for one ratio of rates, by phase.
 class PolyphaseKernel {
  public:
   PolyphaseKernel(int64_t in_per_period, int64_t phases) : phases_(phases) {
@@ -126,7 +123,7 @@ class PolyphaseKernel {
     }
   }
 
-  /// Streams of one ratio share their filter, which may take a third of a MiB.
+  /// Streams with the same ratio share a filter, which may take a third of a MiB.
   static std::shared_ptr<const PolyphaseKernel> Shared(int64_t in_per_period, int64_t phases) {
     static std::mutex mutex;
     static std::map<std::pair<int64_t, int64_t>, std::weak_ptr<const PolyphaseKernel>> filters;
@@ -141,7 +138,7 @@ class PolyphaseKernel {
   int64_t half_length() const { return half_length_; }
   int64_t taps() const { return 2 * half_length_; }
 
-  /// The taps of one phase; `scratch` holds them where they are not kept.
+  /// The taps of one phase; `scratch` holds them if they are not cached.
   const double* Phase(int64_t phase, std::vector<double>& scratch) const {
     if (!kept_.empty()) return kept_.data() + phase * taps();
     scratch.resize(static_cast<size_t>(taps()));
@@ -168,7 +165,7 @@ class PolyphaseKernel {
   }
 
   int64_t phases_;
-  double cutoff_ = 0;  // of the input's Nyquist frequency
+  double cutoff_ = 0;  // relative to the input's Nyquist frequency
   int64_t half_length_ = 0;
   std::vector<double> kept_;
 };

@@ -5,9 +5,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kHeardDb = 40;  // what lies further below the loudest band is not heard
-// Up to 130 Hz, where the low drum is. It says which of two pulses half a beat apart is the beat,
-// so these few bands weigh as much as all.
+constexpr double kHeardDb = 40;  // sound this far below the loudest band is ignored
+// Up to 130 Hz, the bass drum. It decides which of two pulses half a beat apart is the beat, so
+// these few bands weigh as much as all.
 constexpr size_t kBassBands = 4;
 
 }  // namespace

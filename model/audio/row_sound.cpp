@@ -12,10 +12,10 @@ namespace choreo {
 namespace {
 
 constexpr size_t kBassBands = 4;       // up to 130 Hz
-constexpr double kLeastPower = 1e-12;  // of which a logarithm is taken
+constexpr double kLeastPower = 1e-12;  // lower bound of logarithms' arguments
 
-// A filter of second order at 48 kHz, as BS.1770 prints the two of K: its power gain at a
-// frequency.
+// One of BS.1770's two K filters, second order, with its printed coefficients at 48 kHz; gives its
+// power gain at a frequency.
 struct Biquad {
   double b0, b1, b2, a1, a2;
 
@@ -28,16 +28,16 @@ constexpr Biquad kHead{1.53512485958697, -2.69169618940638, 1.19839281085285, -1
                        0.73248077421585};
 constexpr Biquad kHighPass{1, -2, 1, -1.99004745483398, 0.99007225036621};
 
-// What a band's power counts, by band.
+// Weights of each band's power.
 struct Shares {
   std::array<double, kMelBands> plain{}, weighted{};
 
   Shares() {
-    // Of a Hann window's mean square.
+    // Inverse of a Hann window's mean square.
     constexpr double kWindow = 2.0 / (kFftSize * (3.0 / 8 * kFftSize));
     for (size_t band = 0; band < kMelBands; ++band) {
       const MelBand at = MelBandAt(band);
-      // Triangles of height 1 add up to all of the spectrum.
+      // Triangles of height 1 sum to the whole spectrum.
       plain[band] = kWindow * (at.high_hz - at.low_hz) / 2;
       weighted[band] = plain[band] * kHead.GainAt(at.centre_hz) * kHighPass.GainAt(at.centre_hz);
     }

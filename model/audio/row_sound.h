@@ -4,18 +4,18 @@
 
 namespace choreo {
 
-/// What a row of a FeatureStream sounds like, besides its MFCC. Powers are mean squares of its
-/// window; a sine of full scale has 0.5.
+/// The sound of a FeatureStream's row, besides its MFCC. Powers are mean squares over its window; a
+/// full-scale sine has 0.5.
 struct RowSound {
-  float onset = 0;  ///< RowOnset's
-  float power = 0;  ///< weighted as ITU-R BS.1770 does (K), so that it says how loud it is
+  float onset = 0;  ///< from RowOnset
+  float power = 0;  ///< K-weighted as in ITU-R BS.1770: its loudness
   float bass = 0;   ///< the power below 130 Hz, unweighted
 };
 
-/// The powers of a row whose bands are these; its onset is left out.
+/// The powers of a row with these bands, without its onset.
 RowSound PowersOf(const MelBandsDb& db);
 
-/// LUFS of the mean of some rows' power.
+/// LUFS of a mean power of rows.
 double Loudness(double power);
 
 }  // namespace choreo

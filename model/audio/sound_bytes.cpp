@@ -18,7 +18,7 @@ bool ByteSource::Has(int64_t offset, const std::string& text) const {
 }
 
 uint32_t ByteSource::Word(int64_t offset) const {
-  uint32_t word = 0;  // little-endian, as we are
+  uint32_t word = 0;  // files are little-endian, as we are
   if (read_at(offset, std::as_writable_bytes(std::span(&word, 1))) < sizeof word) return 0;
   return word;
 }
@@ -47,8 +47,8 @@ ByteSource FileBytes(const std::filesystem::path& path, int64_t most) {
       file->read(reinterpret_cast<char*>(piece.data()), static_cast<std::streamsize>(piece.size()));
       bytes->insert(bytes->end(), piece.begin(), piece.begin() + file->gcount());
       if (std::ssize(*bytes) > most) {
-        throw InvalidArgument(path.string(), "brings more than " + std::to_string(most) +
-                                                 " bytes, the most that a pipe may");
+        throw InvalidArgument(path.string(), "holds more than " + std::to_string(most) +
+                                                 " bytes, the limit for a pipe");
       }
     }
     const ByteSource memory = MemoryBytes(*bytes);

@@ -9,14 +9,14 @@
 
 namespace choreo {
 
-/// Bytes to decode, wherever they lie. Not thread-safe.
+/// A source of bytes to decode. Not thread-safe.
 struct ByteSource {
   int64_t size = 0;
-  /// Copies the bytes from `offset` on and returns how many there were: fewer than asked at the
-  /// end, 0 beyond it.
+  /// Copies bytes from `offset` on and returns how many: fewer than asked near the end, 0 beyond
+  /// it.
   std::function<size_t(int64_t offset, std::span<std::byte> bytes)> read_at;
 
-  /// Whether `text` stands at `offset`.
+  /// Whether `text` is at `offset`.
   bool Has(int64_t offset, const std::string& text) const;
   /// Little-endian; 0 beyond the end.
   uint32_t Word(int64_t offset) const;
@@ -25,15 +25,15 @@ struct ByteSource {
 /// `memory` must outlive the source.
 ByteSource MemoryBytes(std::span<const std::byte> memory);
 
-/// A file. What cannot be sought in (a pipe, a device) is read to its end, `most` bytes of it.
-/// Throws Error(kNotFound), with the path as field, where it cannot be opened,
-/// Error(kInvalidArgument) where it has more.
+/// A file. Pipes and devices, which cannot seek, are read to their end, at most `most` bytes.
+/// Throws Error(kNotFound), with the path as field, if it cannot be opened, and
+/// Error(kInvalidArgument) if it holds more.
 ByteSource FileBytes(const std::filesystem::path& path, int64_t most);
 
 /// The bytes [begin, end) of another source.
 ByteSource PartOf(const ByteSource& source, int64_t begin, int64_t end);
 
-/// The same bytes, but for those from `offset` on.
+/// The same bytes, overwritten from `offset` on.
 ByteSource Patched(const ByteSource& source, int64_t offset, std::string bytes);
 
 }  // namespace choreo

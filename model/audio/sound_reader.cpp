@@ -34,7 +34,7 @@ class ChainReader final : public SoundReader {
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kInvalidArgument) throw;
       notes_.push_back("part " + std::to_string(part_ + 1) + " of " +
-                       std::to_string(parts_.size()) + " is left out: " + error.Of("").what());
+                       std::to_string(parts_.size()) + " is skipped: " + error.Of("").what());
       return;
     }
     if (reader_->sample_rate() == sample_rate_ && reader_->channels() == channels_) return;
@@ -43,7 +43,7 @@ class ChainReader final : public SoundReader {
                                      std::to_string(part_ + 1) + " " +
                                      std::to_string(reader_->channels()) + " at " +
                                      std::to_string(reader_->sample_rate()) +
-                                     ": they must be alike; encode them alike, or take one");
+                                     ": they must match; re-encode them, or use one");
   }
 
   const std::string name_;

@@ -11,9 +11,8 @@
 
 namespace choreo {
 
-/// A sound file, decoded piece by piece to the end of its bytes, whatever its header says. Errors
-/// are Error(kInvalidArgument), whose field is the name that the reader was made with. Not
-/// thread-safe.
+/// Decodes a sound file piece by piece to the end of its data, whatever its header says. Errors are
+/// Error(kInvalidArgument); the field is the name passed when the reader was made. Not thread-safe.
 class SoundReader {
  public:
   virtual ~SoundReader() = default;
@@ -21,12 +20,11 @@ class SoundReader {
   int sample_rate() const { return sample_rate_; }  ///< Hz
   int channels() const { return channels_; }
 
-  /// Fills `interleaved`, whole frames, from its beginning; full scale is -1 to 1. Returns how many
-  /// samples of each channel were read. 0: the end.
+  /// Fills `interleaved` with whole frames; full scale is -1 to 1. Returns the number of samples
+  /// read per channel, or 0 at the end.
   virtual int64_t Read(std::span<float> interleaved) = 0;
 
-  /// What a listener should know of the bytes, as "its header says 5 samples, 4 are there".
-  /// Complete after the end.
+  /// Notes for listeners, such as "its header says 5 samples, 4 are there". Complete after the end.
   const std::vector<std::string>& notes() const { return notes_; }
 
  protected:
@@ -36,16 +34,16 @@ class SoundReader {
 
 using ReaderOf = std::function<std::unique_ptr<SoundReader>(const ByteSource& part)>;
 
-/// Parts of a file that were joined: one is read after the other. Throws where they differ in
-/// sample rate or channels. A part behind the first that can't be decoded is noted and left out.
+/// Reads the concatenated parts of a file in turn. Throws if their sample rates or channels differ.
+/// Notes and skips later parts that can't be decoded.
 std::unique_ptr<SoundReader> ReadOneAfterAnother(std::vector<ByteSource> parts, ReaderOf open,
                                                  const std::string& name);
 
-// The formats. Each throws where the bytes are not such a file.
+// One reader per format. Each throws if the bytes are not of its format.
 std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string& name);
 std::unique_ptr<SoundReader> ReadFlac(const ByteSource& source, const std::string& name);
 std::unique_ptr<SoundReader> ReadOgg(const ByteSource& source, const std::string& name);
-/// What is no frame of MPEG audio is passed over.
+/// Skips whatever is not an MPEG audio frame.
 std::unique_ptr<SoundReader> ReadMpeg(const ByteSource& source, const std::string& name);
 
 /// FLAC packets in an Ogg stream.

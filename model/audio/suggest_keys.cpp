@@ -15,10 +15,10 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 double Squared(double value) { return value * value; }
 
-constexpr int64_t kOnsetNear = 2;  // frames around a beat in which its onset is
-constexpr int kEight = 8;          // counts, at most
+constexpr int64_t kOnsetNear = 2;  // frames around a beat in which its onset is sought
+constexpr int kEight = 8;          // maximum count
 
-/// The envelope's peak near each beat, in units of the strongest. At least one beat.
+/// The envelope's peak near each beat, relative to the strongest. Needs at least one beat.
 std::vector<double> Strengths(std::span<const int64_t> frames, std::span<const float> envelope) {
   std::vector<double> strengths;
   for (const int64_t frame : frames) {
@@ -36,7 +36,7 @@ std::vector<double> Strengths(std::span<const int64_t> frames, std::span<const f
   return strengths;
 }
 
-/// How many keys fit: each on the first beat that is far enough from the one before.
+/// How many keys fit, each on the first beat that is far enough from the last key.
 int64_t MostKeys(std::span<const double> times) {
   int64_t most = 0;
   double last = kNever;
@@ -66,7 +66,7 @@ double SecondOf(const BeatTrack& track, size_t beat) {
   return static_cast<double>(track.frames[beat]) / kOnsetRate;
 }
 
-/// The beat, or the downbeat, nearest to a second; none where there are none.
+/// The beat (or downbeat) nearest to a second, if any.
 std::optional<size_t> BeatNear(const BeatTrack& track, double second, bool downbeat) {
   std::optional<size_t> best;
   const auto away = [&](size_t beat) { return std::abs(SecondOf(track, beat) - second); };
@@ -77,7 +77,7 @@ std::optional<size_t> BeatNear(const BeatTrack& track, double second, bool downb
   return best;
 }
 
-/// What returns is counted as it was, however its bars are heard now.
+/// Counts a repeated passage like the original, however its bars are tracked now.
 void CountAgain(const BeatTrack& track, const Passage& passage, size_t begin,
                 std::vector<Phrase>* phrases) {
   const double lag = passage.from - passage.like;
@@ -98,7 +98,7 @@ void CountAgain(const BeatTrack& track, const Passage& passage, size_t begin,
 
 std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage> passages) {
   std::vector<Phrase> phrases(track.frames.size(), Phrase::kBeat);
-  std::vector<size_t> begins;  // of what returns
+  std::vector<size_t> begins;  // of repeated passages
   for (const Passage& passage : passages) {
     const auto beat = BeatNear(track, passage.like, true);
     if (!beat) return phrases;
@@ -106,7 +106,7 @@ std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage>
     phrases[*beat] = Phrase::kPassage;
   }
   const int bars = std::max(1, kEight / std::max(1, track.beats_in_bar));
-  int nth = -1;  // bar of its eight
+  int nth = -1;  // index of the bar in its eight
   for (size_t i = 0; i < track.in_bar.size(); ++i) {
     if (track.in_bar[i] != 0) continue;
     const bool follows = nth >= 0 && track.in_bar[i - 1] + 1 == track.beats_in_bar;
@@ -137,15 +137,15 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
   const auto worth = [&](size_t i) { return strengths[i] + static_cast<double>(phrases[i]); };
   const size_t beats = times.size();
   const double even = (times.back() - times.front()) / static_cast<double>(count);
-  // Half an interval of an even spread lies before the first key and behind the last.
+  // Half an interval of an even spread precedes the first key and follows the last.
   const auto off_end = [&](double gap) {
-    return even > 0 ? Squared(gap / (even / 2) - 1) : 0;  // 0: there is but one beat
+    return even > 0 ? Squared(gap / (even / 2) - 1) : 0;  // 0: there is only one beat
   };
 
-  // total[i]: the best choice so far whose last key stands on beat i.
+  // total[i]: the best choice so far whose last key is on beat i.
   std::vector<double> total(beats);
   for (size_t i = 0; i < beats; ++i) total[i] = worth(i) - off_end(times[i] - times.front());
-  std::vector<std::vector<size_t>> previous;  // [key behind the first][beat]
+  std::vector<std::vector<size_t>> previous;  // [key after the first][beat]
   for (int64_t key = 1; key < count; ++key) {
     std::vector<double> best_until(total);  // the largest total up to each beat
     for (size_t i = 1; i < beats; ++i) best_until[i] = std::max(best_until[i], best_until[i - 1]);
@@ -156,7 +156,7 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
         const double gap = times[i] - times[j];
         if (gap < kShortestKeyInterval) continue;
         const double cost = Squared(gap / even - 1);
-        // Wider gaps cost more: no beat before this one can win any more.
+        // Wider gaps cost more, so no earlier beat can win.
         if (gap > even && best_until[j] - cost <= next[i]) break;
         if (total[j] - cost > next[i]) {
           next[i] = total[j] - cost;

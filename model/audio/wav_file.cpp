@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-/// Where libsndfile is in a ByteSource.
+/// libsndfile's position in a ByteSource.
 struct Cursor {
   ByteSource source;
   int64_t position = 0;
@@ -47,13 +47,13 @@ class WavReader final : public SoundReader {
     SF_INFO info{};
     file_.reset(sf_open_virtual(&io, SFM_READ, &info, &cursor_));
     if (!file_) {
-      throw InvalidArgument(name_, std::string("not WAV audio that is known here: ") +
-                                       sf_strerror(nullptr) + " " + kAskFfmpeg + " may know it");
+      throw InvalidArgument(name_, std::string("not a known kind of WAV audio: ") +
+                                       sf_strerror(nullptr) + " " + kAskFfmpeg + " may convert it");
     }
     sample_rate_ = info.samplerate;
     channels_ = info.channels;
   }
-  WavReader(const WavReader&) = delete;  // libsndfile holds on to the cursor
+  WavReader(const WavReader&) = delete;  // libsndfile keeps a pointer to the cursor
   WavReader& operator=(const WavReader&) = delete;
 
   int64_t Read(std::span<float> interleaved) override {
@@ -78,16 +78,16 @@ class WavReader final : public SoundReader {
 
 std::string FourBytes(uint32_t word) { return {reinterpret_cast<const char*>(&word), sizeof word}; }
 
-/// Whether a chunk of a RIFF file may begin here: letters, and a length that the file holds.
+/// Whether a chunk of a RIFF file may begin here: letters, and a length within the file.
 bool IsChunk(const ByteSource& source, int64_t at) {
-  if (at + 8 > source.size) return at >= source.size - 1;  // the end, or a padding byte of it
+  if (at + 8 > source.size) return at >= source.size - 1;  // the end, or its padding byte
   for (const char letter : FourBytes(source.Word(at))) {
     if (letter < ' ' || letter > '~') return false;
   }
   return at + 8 + int64_t{source.Word(at + 4)} <= source.size + 1;
 }
 
-/// Whether what should be samples is a compressed stream for a receiver (IEC 61937), as of AC-3.
+/// Whether the data is a compressed stream for a receiver (IEC 61937), such as AC-3.
 bool IsBurst(const ByteSource& source, int64_t body) {
   constexpr int64_t kSearched = 16384;
   constexpr uint32_t kSync = 0x4e1ff872;
@@ -148,8 +148,9 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     if (format == kMpegLayer3)
       return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
     if (format == kPcm && IsBurst(source, body)) {
-      throw InvalidArgument(name, std::string("no samples but AC-3 or the like, for a receiver: ") +
-                                      kAskFfmpeg + " makes a file that is taken");
+      throw InvalidArgument(name,
+                            std::string("contains AC-3 or the like for a receiver, not samples: ") +
+                                kAskFfmpeg + " converts it");
     }
     if (!is_right && held > 0) {
       notes.push_back("its header says " + std::to_string(size) + " bytes of samples, " +
