@@ -6,13 +6,13 @@
 namespace choreo {
 namespace {
 
-// Percent of the body's mass, and where along the segment its centre lies, from its first end on.
+// Percent of the body's mass, and the position of the centre along the segment from its first end.
 struct Segment {
   double mass, centre;
 };
-// The trunk from the middle between the shoulders to that between the hips. The head's joint stands
-// in the middle between crown and last cervical vertebra, where the head's centre is; ankle and
-// toe joints have the foot's centre between them.
+// The trunk reaches from the middle of the shoulders to the middle of the hips. The head's joint
+// lies midway between crown and last cervical vertebra, as does the head's centre; the foot's
+// centre lies between ankle and toe joints.
 constexpr double kHead = 6.81;
 constexpr Segment kTrunkSegment = {43.015, 0.40465};
 constexpr Segment kUpperArm = {2.63, 0.5763}, kForearm = {1.5, 0.45665}, kHand = {0.585, 0.76870};

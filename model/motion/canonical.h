@@ -6,16 +6,15 @@
 
 namespace choreo {
 
-/// A frame on the floor: origin below a dancer's root, +Z along her heading. The canonical frame of
-/// a transition is that of its last history pose, so that moving or turning the scene moves the
+/// A frame on the floor: origin below a dancer's root, +Z along her heading. A transition's
+/// canonical frame is that of its last history pose, so that moving or turning the scene moves the
 /// dance and changes nothing else.
 struct GroundFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< y = 0
   double heading = 0;                                ///< radians about +Y, 0 = +Z
 
   static GroundFrame Of(const Pose& pose);
-  /// World → this frame. Rotations keep the branch of a continuous motion only up to the root's;
-  /// see NearestBranch.
+  /// World → this frame. Keeps rotations' branches, except the root's; see NearestBranch.
   Pose ToLocal(const Pose& world) const;
   Eigen::Vector3d ToLocal(const Eigen::Vector3d& world) const;
   /// This frame → world.

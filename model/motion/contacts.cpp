@@ -6,8 +6,8 @@
 namespace choreo {
 namespace {
 
-// What a foot joint touches down below, and lifts off above: metres, and metres a second (1 cm a
-// frame at 30 fps).
+// A foot joint touches down below the first and lifts off above the second: metres, and metres a
+// second (1 cm a frame at 30 fps).
 constexpr double kDownSpeed = 0.30, kUpSpeed = 0.50;
 
 }  // namespace
@@ -46,7 +46,7 @@ std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& mot
   JointPlacement earlier = ForwardKinematics(skeleton, motion.frames.front());
   JointPlacement later = earlier;
   if (motion.frames.size() > 1) {
-    // Run backwards, the first step has the same speed; the height must be the first frame's.
+    // Run backwards, the first step has the same speed; only the height must be the first frame's.
     ForwardKinematics(skeleton, motion.frames[1], later);
   }
   contacts.push_back(detector.Next(later.positions, earlier.positions, motion.fps));

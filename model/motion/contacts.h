@@ -9,13 +9,13 @@
 
 namespace choreo {
 
-/// Metres above its height in the rest pose: a joint up to the first is on the floor, one beyond
-/// the second has left it.
+/// Metres above its rest height: up to the first a joint is on the floor; beyond the second it has
+/// left it.
 inline constexpr double kDownHeight = 0.04, kUpHeight = 0.07;
 
-/// Contacts frame by frame. A foot joint touches down when it is both low and slow, and stays down
-/// until it is higher or faster than that by half: a frame's contacts depend on it and the frames
-/// before it. Heights are above the joint's own in the rest pose. Not thread-safe.
+/// Detects contacts frame by frame. A foot joint touches down when it is both low and slow, and
+/// stays down until it is half as high or fast again: contacts depend on their frame and those
+/// before. Heights are relative to the joint's own at rest. Not thread-safe.
 class ContactDetector {
  public:
   /// Throws Error(kInvalidArgument) if the skeleton lacks a foot joint.
@@ -32,8 +32,8 @@ class ContactDetector {
   Contacts contacts_ = {};
 };
 
-/// Contacts of every frame. The first frame takes its speed from the step that follows it; a single
-/// frame counts as standing still.
+/// Contacts of every frame. The first frame takes its speed from the next step; a single frame
+/// counts as standing still.
 std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion);
 
 }  // namespace choreo

@@ -7,11 +7,11 @@
 
 namespace choreo {
 
-/// A pose as paper C has it (Section 3.1): turned to face +Z, so that what a body does is told
-/// apart from where it stands and looks.
+/// A pose in paper C's form (Section 3.1): turned to face +Z, which separates the body's pose from
+/// where it stands and looks.
 struct FacingPose {
   Eigen::Vector3d root = Eigen::Vector3d::Zero();  ///< p^r, metres
-  double heading = 0;       ///< o^r, radians about +Y; 0 faces +Z, as GroundFrame has it
+  double heading = 0;       ///< o^r, radians about +Y; 0 faces +Z, as in GroundFrame
   Eigen::Matrix3Xd joints;  ///< p^b: [3, joints - 1] from the root, turned by -heading, metres
 };
 
@@ -20,7 +20,7 @@ FacingPose FacingOf(const Skeleton& skeleton, const Pose& pose);
 /// Global joint positions, [3, joints].
 Eigen::Matrix3Xd PositionsOf(const FacingPose& pose);
 
-/// `heading` plus whole turns: the one nearest to `near`.
+/// `heading` plus the whole turns that bring it nearest to `near`.
 double NearestTurn(double heading, double near);
 
 }  // namespace choreo

@@ -11,7 +11,7 @@ constexpr double kBodyClearance = 0.05;
 
 Eigen::RowVectorXd FloorClearance(const Skeleton& skeleton) {
   const Eigen::RowVectorXd rest = JointPositions(skeleton, RestPose(skeleton)).row(1);
-  // Some skeletons have more of the foot than its role names, such as heels.
+  // Some skeletons have foot joints beyond the roles, such as heels.
   Eigen::RowVectorXd clearance = rest.cwiseMin(kBodyClearance);
   for (const int foot : skeleton.feet) {
     if (foot >= 0) clearance[foot] = rest[foot];

@@ -7,11 +7,11 @@
 
 namespace choreo {
 
-/// [joints] How much of the body lies below each joint where it touches the floor, metres: below a
-/// foot joint as much as at rest, below any other at most 5 cm.
+/// [joints] How far the body extends below each joint that touches the floor, metres: for a foot
+/// joint its height at rest, for others at most 5 cm.
 Eigen::RowVectorXd FloorClearance(const Skeleton& skeleton);
 
-/// How far the lowest point of the body is above the floor, metres, by that clearance.
+/// Height of the body's lowest point above the floor, metres, by that clearance.
 double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
 }  // namespace choreo

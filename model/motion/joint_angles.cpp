@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-// Degrees either way about each axis, by a part of the joint's name.
+// Degrees either way about each axis, by part of the joint's name.
 constexpr struct {
   std::string_view part;
   double most;
@@ -81,7 +81,7 @@ std::vector<double> DegreesFromRotation(const Skeleton& skeleton, int joint,
   if (const auto hinge = HingeAt(skeleton, joint)) return {kDegrees * hinge->axis.dot(rotation)};
   const Eigen::Matrix3d r = ExpMap(rotation);
   const double cosine = std::hypot(r(0, 0), r(1, 0));  // of the turn about y
-  // Where y is a quarter turn, x and z turn about one axis: x then has all of it.
+  // At a quarter turn about y, x and z turn about the same axis: x takes it all.
   const bool locked = cosine < 1e-9;
   const double x = locked ? std::atan2(-r(1, 2), r(1, 1)) : std::atan2(r(2, 1), r(2, 2));
   const double y = std::atan2(-r(2, 0), cosine);

@@ -7,15 +7,15 @@
 
 #include "model/motion/skeleton.h"
 
-/// Joints as people name and turn them: degrees in place of rotation vectors.
+/// Joint rotations as people name them, in degrees instead of rotation vectors.
 ///
-/// A knee or an elbow takes one number, how far it bends: 0 is straight. Any other joint takes
-/// three: it turns about the x, the y and the z axis, one after the other (Rz Ry Rx, which Blender
-/// calls XYZ). The axes are those of the bone above and stand still meanwhile; at rest x points to
-/// the dancer's left, y up and z forward. Pure functions.
+/// A knee or an elbow has one number, its bend: 0 is straight. Any other joint has three: turns
+/// about the x, then the y, then the z axis (Rz Ry Rx, which Blender calls XYZ). The axes are those
+/// of the bone above and stay fixed; at rest x points to the dancer's left, y up and z forward.
+/// Pure functions.
 namespace choreo {
 
-/// What a joint's numbers may be, degrees: rather more than dancers can.
+/// The allowed range of a joint's numbers, degrees: rather more than dancers reach.
 struct AngleRange {
   double low = 0;
   double high = 0;
@@ -23,16 +23,16 @@ struct AngleRange {
 
 AngleRange RangeOf(const Skeleton& skeleton, int joint);
 
-/// The index of a joint by name. Throws Error(kInvalidArgument) that names those that there are.
+/// The index of a joint by name. Throws Error(kInvalidArgument) that lists the existing names.
 int RequireJoint(const Skeleton& skeleton, const std::string& name, const std::string& field);
 
-/// Degrees → rotation vector. Throws Error(kInvalidArgument) naming the joint, the value and the
-/// limit for another count of numbers and for one outside its range.
+/// Degrees → rotation vector. Throws Error(kInvalidArgument), naming joint, value and limit, for a
+/// wrong count of numbers or one outside its range.
 Eigen::Vector3d RotationFromDegrees(const Skeleton& skeleton, int joint,
                                     std::span<const double> degrees, const std::string& field);
 
-/// Rotation vector → degrees; the second of three lies within -90 to 90. Of a hinge its bend alone,
-/// whatever else it may be turned.
+/// Rotation vector → degrees; the second of three is within -90 to 90. For a hinge returns only its
+/// bend, ignoring other turns.
 std::vector<double> DegreesFromRotation(const Skeleton& skeleton, int joint,
                                         const Eigen::Vector3d& rotation);
 

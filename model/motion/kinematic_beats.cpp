@@ -28,7 +28,7 @@ std::vector<double> SmoothSpeeds(std::span<const float> speed, double fps) {
 std::vector<int64_t> KinematicBeats(std::span<const float> curve, double fps) {
   const std::vector<double> speed = SmoothSpeeds(curve, fps);
   std::vector<int64_t> beats;
-  size_t start = 0;  // of the plateau that position i belongs to
+  size_t start = 0;  // of the plateau that contains i
   for (size_t i = 1; i < speed.size(); ++i) {
     if (speed[i] == speed[i - 1]) continue;
     const bool rose = start > 0 && speed[start - 1] < speed[start];

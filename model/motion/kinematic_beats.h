@@ -6,12 +6,12 @@
 
 namespace choreo {
 
-/// A curve of mean joint speeds (paper F, 4.5.1) under a Gaussian of 1/12 s, as the field's
-/// evaluation of AIST++ has it (Siyao et al. 2022: 5 frames at 60 fps): shaking is not dancing on
-/// beats. `fps` > 0.
+/// A curve of mean joint speeds (paper F, 4.5.1), smoothed by a Gaussian of 1/12 s as in the usual
+/// evaluation of AIST++ (Siyao et al. 2022: 5 frames at 60 fps), so that shaking does not count as
+/// dancing on beats. `fps` > 0.
 std::vector<double> SmoothSpeeds(std::span<const float> speed, double fps);
 
-/// Frames of the kinematic beats: the local maxima of that smooth curve (a plateau counts once, at
+/// Frames of the kinematic beats: the local maxima of the smoothed curve (a plateau counts once, at
 /// its start). `speed[i]` belongs to frame i + 1.
 std::vector<int64_t> KinematicBeats(std::span<const float> speed, double fps);
 

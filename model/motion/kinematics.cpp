@@ -8,7 +8,7 @@
 namespace choreo {
 namespace {
 
-// `local(joint)`: its rotation matrix.
+// `local(joint)`: the joint's rotation matrix.
 template <typename Local>
 void Place(const Skeleton& skeleton, const Eigen::Vector3d& root, const Local& local,
            JointPlacement& placement) {

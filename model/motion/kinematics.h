@@ -22,17 +22,16 @@ JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose);
 /// Positions alone, [3, joints].
 Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
 
-/// The same without allocation where `placement` already has the skeleton's size.
+/// The same without allocation if `placement` already has the skeleton's size.
 void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement);
-/// The same of local rotation matrices, [3, 3 joints], one joint after another.
+/// The same from local rotation matrices, [3, 3 joints], one after another.
 void ForwardKinematics(const Skeleton& skeleton, const Eigen::Vector3d& root,
                        const Eigen::Ref<const Eigen::Matrix3Xd>& local, JointPlacement& placement);
 
-/// How far apart two poses are: the largest joint distance (metres) and the largest angle of a
-/// local joint rotation (degrees). Degrees of freedom outside `mask` do not count: without the
-/// root's position, joint distances are taken with both roots in one place; with any joint masked
-/// out, the distance is the root's alone (0 if that is masked too) and the angles are those of the
-/// other joints.
+/// The distance between two poses: the largest joint distance (metres) and the largest angle of a
+/// local joint rotation (degrees). Ignores degrees of freedom outside `mask`: without the root's
+/// position it measures with both roots in one place; with any joint masked out the distance is the
+/// root's alone (0 if that is masked too) and the angles those of the other joints.
 struct PoseError {
   double position_m = 0;
   double angle_deg = 0;
@@ -40,17 +39,17 @@ struct PoseError {
 PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
                        const PoseMask& mask = {});
 
-/// [joints] Whether `mask` tells where a joint is, seen from the root: it asks for the rotations
-/// of all joints above.
+/// [joints] Whether `mask` determines where a joint is relative to the root: it asks for the
+/// rotations of all joints above.
 std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask);
 
-/// How high the root of a pose is that stands on the floor: no joint is lower than the lowest one
-/// at rest, and no foot joint lower than it is at rest. None where `mask` leaves open how the feet
-/// hang below the root, and for a skeleton without feet.
+/// The root height at which the pose stands on the floor: no joint lower than the lowest at rest,
+/// no foot joint lower than itself at rest. None if `mask` leaves open how the feet hang below the
+/// root, and without feet.
 std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
                                      const PoseMask& mask = {});
 
-/// The neutral stance that a dance without a history begins in: rest pose, feet on the floor, at
+/// The neutral stance that a dance without history starts from: rest pose, feet on the floor, at
 /// the origin, facing +Z.
 Pose RestPose(const Skeleton& skeleton);
 

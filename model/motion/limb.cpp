@@ -9,23 +9,23 @@
 namespace choreo {
 namespace {
 
-// Share of the straight limb's length over which it gives way: a knee that met the last millimetres
-// exactly would snap, as a millimetre of reach is six degrees of it there.
+// The last share of a limb's length, over which it straightens softly: near full length a
+// millimetre of reach is six degrees of bend, and an exact knee would snap.
 constexpr double kSoftShare = 0.04;
-// Sine of the bend below which the knee's own hinge, not the bend, tells the plane.
+// Sine of the bend below which the knee's hinge axis, not its bend, determines the plane.
 constexpr double kHingeWeight = 0.02;
-constexpr double kStraightTurn = 200 / kDegrees;  // radians a second of a straight limb at most,
-constexpr double kFreedom = 30;                   // 1/s: and so much more by what it is bent beyond
+constexpr double kStraightTurn = 200 / kDegrees;  // radians a second for a straight limb,
+constexpr double kFreedom = 30;                   // 1/s: and this much more per radian of bend
 
-/// A knee or elbow that turns about one axis: bones of lengths `a` and `b`, of the lower of which
-/// the share `in_plane` turns.
+/// A knee or elbow that turns about one axis, between bones of lengths `a` and `b`; only the share
+/// `in_plane` of the lower one turns.
 struct Knee {
   double a, b, in_plane;
 
   double Straight() const { return std::sqrt(a * a + b * b + 2 * a * b * in_plane); }
 
-  // How far it is bent, radians, with its ends so far apart: exact up to a soft zone, in which it
-  // straightens ever more slowly, and is straight nowhere.
+  // The bend, radians, at this distance between its ends: exact except in a soft zone, where it
+  // straightens ever more slowly and never fully.
   double SoftBend(double distance) const {
     const double straight = Straight(), zone = kSoftShare * straight;
     const double beyond = distance - (straight - zone);
@@ -33,8 +33,8 @@ struct Knee {
     return std::acos(std::clamp((soft * soft - a * a - b * b) / (2 * a * b * in_plane), -1.0, 1.0));
   }
 
-  // The same, from a knee bent by `bend` at the distance `present`: the further it is from there,
-  // the less it is the knee's present bend, straight or beyond, and the more the soft one.
+  // The bend at `distance` for a knee that is bent by `bend` at `present`: near there its present
+  // bend, even straight or backwards, and further away the soft one.
   double BendFrom(double bend, double present, double distance) const {
     const double fades = 4 * kSoftShare * Straight();
     const double near = std::max(0.0, 1 - std::abs(distance - present) / fades);
@@ -43,12 +43,12 @@ struct Knee {
 };
 
 struct Bend {
-  Eigen::Vector3d thigh, shin, axis;  // about which the ankle swings backwards, across the thigh
+  Eigen::Vector3d thigh, shin, axis;  // that the ankle swings backwards about, across the thigh
   double angle;
 };
 
-// The plane of a bent leg counts by how far it bends as the hinge does: a knee that is bent
-// backwards or sideways bends forward from there.
+// A bent leg's plane counts as far as it bends the way its hinge does: a knee bent backwards or
+// sideways bends forward from there.
 Bend FindBend(const Limb& limb, const Eigen::Vector3d& hinge, const JointPlacement& placement) {
   const auto at = [&](int joint) -> Eigen::Vector3d { return placement.positions.col(joint); };
   const Eigen::Vector3d thigh = at(limb.middle) - at(limb.upper);
@@ -133,7 +133,7 @@ Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
   const double length = from.norm() / Reach(leg, placement, now);
   const double farthest = std::max(most * length, from.norm());
   if ((from + way).norm() <= farthest) return toes;
-  // |from + share way| = farthest; the root that is not behind.
+  // Solves |from + share way| = farthest for the root that is not behind.
   const double a = way.squaredNorm(), b = from.dot(way);
   const double c = from.squaredNorm() - farthest * farthest;
   const double share = (std::sqrt(std::max(0.0, b * b - a * c)) - b) / a;

@@ -29,7 +29,7 @@ Pose Mirror(const std::vector<int>& pairs, const Pose& pose) {
                             pose.root_position.z()};
   mirrored.rotations.resize(3, pose.rotations.cols());
   for (Eigen::Index joint = 0; joint < pose.rotations.cols(); ++joint) {
-    // An axis is a pseudovector: the component across the mirror keeps its sign, the others turn.
+    // An axis is a pseudovector: the component across the mirror keeps its sign, the others flip.
     const Eigen::Vector3d w = pose.rotations.col(pairs[joint]);
     mirrored.rotations.col(joint) << w.x(), -w.y(), -w.z();
   }

@@ -10,7 +10,7 @@ namespace {
 Eigen::Vector3d SameSign(const Eigen::Vector3d& w, const Eigen::Vector3d& previous) {
   const Eigen::Vector3d nearest = NearestBranch(w, previous);
   if (QuaternionFromExp(nearest).dot(QuaternionFromExp(previous)) >= 0) return nearest;
-  // One turn more or less has the other sign; of two that differ one is not zero.
+  // One whole turn flips the sign; of two different vectors at least one is not zero.
   const Eigen::Vector3d& axis = nearest.norm() > 1e-12 ? nearest : previous;
   const Eigen::Vector3d turn = axis.normalized() * (2.0 * std::numbers::pi);
   if (nearest.dot(turn) <= previous.dot(turn)) return nearest + turn;

@@ -17,8 +17,8 @@ struct Pose {
       rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
 };
 
-/// Foot contacts c_t of paper F, Section 3.2.1, of Skeleton::feet in their order: 1 on the floor, 0
-/// off it. A model's may lie in between.
+/// Foot contacts c_t of paper F, Section 3.2.1, in the order of Skeleton::feet: 1 on the floor, 0
+/// off it; a model's may lie between.
 using Contacts = std::array<float, 4>;
 
 /// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.
@@ -27,26 +27,25 @@ struct Motion {
   std::vector<Pose> frames;
 };
 
-/// Puts every rotation on the branch nearest to `previous`'s. The rotations themselves do not
+/// Moves every rotation to the branch nearest to `previous`'s. The rotations themselves do not
 /// change.
 void MakeContinuous(Pose& pose, const Pose& previous);
 
-/// The same from frame to frame; the first frame stays as it is.
+/// The same from frame to frame, starting from an unchanged first frame.
 void MakeContinuous(Motion& motion);
 
-/// The same pose, each rotation written so that its quaternion (QuaternionFromExp) has the sign of
-/// `previous`'s, their product not negative: of those vectors the nearest to `previous`. From frame
-/// to frame quaternions then never jump. The vectors are those of MakeContinuous, but around whole
-/// turns about an axis that tilts, where no choice of vectors is continuous in time. Pure,
-/// thread-safe.
+/// The same pose with each rotation written so that its quaternion (QuaternionFromExp) has the sign
+/// of `previous`'s (their product is not negative), and as near to `previous` as that allows.
+/// Quaternions then never jump between frames. The vectors equal MakeContinuous's except around
+/// whole turns about a tilting axis, where no choice is continuous in time. Pure, thread-safe.
 Pose KeepSigns(Pose pose, const Pose& previous);
 
-/// Which of a pose's degrees of freedom a key asks for. An empty joint mask means every joint.
+/// The degrees of freedom of a pose that a key asks for. An empty joint mask means all joints.
 struct PoseMask {
   bool root_position = true;
   std::vector<bool> joints;  ///< [joints] or empty
 
-  /// Whether it asks for the rotation of this joint of the pose.
+  /// Whether it asks for this joint's rotation.
   bool Asks(Eigen::Index joint) const {
     return joints.empty() || joints[static_cast<size_t>(joint)];
   }
@@ -56,12 +55,12 @@ struct PoseMask {
 struct Target {
   Pose pose;
   PoseMask mask;
-  /// The root's above the floor, metres, of a key that leaves its position open. None: open too.
+  /// The root's height above the floor, metres, if the key leaves its position open. None: height
+  /// is open too.
   std::optional<double> height = {};
 };
 
-/// `key` where `mask` asks for it, and `open` where it leaves the pose open. Both have as many
-/// joints.
+/// `key` where `mask` asks for it, `open` elsewhere. Both have the same joint count.
 Pose Masked(const Pose& key, const PoseMask& mask, Pose open);
 
 }  // namespace choreo

@@ -12,8 +12,8 @@ namespace choreo {
 /// forward, sideways, yaw velocity 3 | contacts 4 (82 for SMPL's 24 joints). Metres, radians, m/s,
 /// rad/s; not standardised.
 ///
-/// Rotations stand on the branch nearest to the previous pose's. Immutable, hence safe to share
-/// between threads; nothing below allocates when its output has the right size.
+/// Rotations use the branch nearest to the previous pose's. Immutable, hence safe to share between
+/// threads; nothing below allocates if its output has the right size.
 class PoseCodec {
  public:
   explicit PoseCodec(const Skeleton& skeleton) : joints_(skeleton.joints()) {}
@@ -25,9 +25,9 @@ class PoseCodec {
   int velocity_at() const { return rotations_at() + 3 * joints_; }
   int contacts_at() const { return velocity_at() + 3; }
 
-  /// `previous` is the frame before, 1 / fps earlier (for the first frame of all, the frame
-  /// itself). Throws Error(kInvalidArgument) for a joint count other than the skeleton's, or `out`
-  /// of another size than width().
+  /// `previous` is the frame before, 1 / fps earlier (for the very first frame, that frame itself).
+  /// Throws Error(kInvalidArgument) for a joint count other than the skeleton's, or if `out` does
+  /// not have size width().
   void Encode(const Pose& pose, const Pose& previous, const Contacts& contacts, double fps,
               Eigen::Ref<Eigen::VectorXf> out) const;
   Eigen::VectorXf Encode(const Pose& pose, const Pose& previous, const Contacts& contacts,
@@ -35,9 +35,9 @@ class PoseCodec {
 
   struct Decoded {
     Pose pose;
-    Contacts contacts = {};  ///< as they stand in the vector: a model's may leave [0, 1]
+    Contacts contacts = {};  ///< as stored in the vector: a model's may leave [0, 1]
   };
-  /// The inverse. The velocity is not used: it follows from the poses.
+  /// The inverse. Ignores the velocity, which follows from the poses.
   void Decode(Eigen::Ref<const Eigen::VectorXf> x, Decoded& out) const;
   Decoded Decode(Eigen::Ref<const Eigen::VectorXf> x) const;
 

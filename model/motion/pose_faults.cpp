@@ -10,9 +10,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kRounding = 0.01;  // degrees: of files that say a limit itself
+constexpr double kRounding = 0.01;  // degrees, for files that state the limit itself
 
-constexpr double kUnderFloor = 0.05;  // metres that a rounded pose may be
+constexpr double kUnderFloor = 0.05;  // metres of tolerance for rounded poses
 constexpr double kInAir = 0.15;       // metres; less may be tiptoe
 constexpr double kLongestJump = 1.0;  // seconds
 constexpr double kLimbSpeed = 7;      // m/s, about the body
@@ -37,7 +37,7 @@ std::string FloorFault(const Skeleton& skeleton, const Pose& pose, const PoseMas
          Rounded(kHighestJump) + " m";
 }
 
-/// The joint that is fastest as seen from the root, on the straight way between two poses.
+/// The joint that moves fastest relative to the root on the straight way between two poses.
 std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const TimedPose& to) {
   const double seconds = to.seconds - from.seconds;
   if (!(seconds > 0)) return "";
@@ -86,7 +86,7 @@ std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
 
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses) {
   std::vector<TimedFault> faults;
-  size_t in_air = 0;  // poses since the floor was left
+  size_t in_air = 0;  // poses since the feet left the floor
   for (size_t i = 0; i < poses.size(); ++i) {
     const TimedPose& one = poses[i];
     for (std::string& fault : PoseFaults(skeleton, one.pose, one.mask))
@@ -102,7 +102,7 @@ std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<
     faults.push_back({i, "the body would be in the air for " + Rounded(one.seconds - left.seconds) +
                              " s, since \"" + left.name + "\"; a jump takes " +
                              Rounded(kLongestJump)});
-    in_air = 0;  // once is enough
+    in_air = 0;  // report once
   }
   return faults;
 }

@@ -6,22 +6,22 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// What no body does, though a pose may say so; in words for people. Pure functions, which throw
+/// Describes poses that no body can do, in words for people. Pure functions; they throw
 /// Error(kInvalidArgument) for a pose or mask of another joint count.
 namespace choreo {
 
-inline constexpr double kHighestJump = 1.2;  ///< metres that feet are above the floor
+inline constexpr double kHighestJump = 1.2;  ///< metres from the floor to the feet
 
-/// Of one pose, as far as `mask` asks for it: "left_foot is 12 cm under the floor", "the body hangs
-/// 1.5 m above the floor", "right_knee bends 40 degrees backwards, further than 15".
+/// The faults of one pose within `mask`: "left_foot is 12 cm under the floor", "the body hangs 1.5
+/// m above the floor", "right_knee bends 40 degrees backwards, further than 15".
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// Those of its knees and elbows alone.
+/// Only the faults of knees and elbows.
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// A pose that is asked for at a moment.
+/// A pose that a key asks for at a time.
 struct TimedPose {
   std::string name;
   double seconds = 0;
@@ -29,15 +29,15 @@ struct TimedPose {
   PoseMask mask = {};
 };
 
-/// What is wrong with one of them.
+/// A fault of one of these poses.
 struct TimedFault {
   size_t pose = 0;  ///< its index
   std::string message;
 };
 
-/// Of poses in time, by time: the faults of each; limbs that would be too fast ("left_hand would go
-/// 9.3 m/s about the body from "a" to "b"; people reach 7"); and a body that is in the air for
-/// longer than a jump takes. Of a body that travels too fast the server tells.
+/// The faults of poses in time: each pose's own; limbs that would be too fast ("left_hand would go
+/// 9.3 m/s about the body from "a" to "b"; people reach 7"); and a body in the air for longer than
+/// a jump takes. The server warns about bodies that travel too fast.
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses);
 
 }  // namespace choreo

@@ -4,23 +4,22 @@
 
 #include "model/motion/motion.h"
 
-/// What poses may hold, whoever states them: a client, a file.
+/// The limits of all poses, from clients and files.
 namespace choreo {
 
 inline constexpr double kMaxPosition = 10'000;  ///< metres from the origin, each axis
-/// Radians, of a key: 2π, rounded up for senders that compute in floats.
+/// Radians, for keys: 2π, rounded up for senders that compute in floats.
 inline constexpr double kMaxRotation = 6.2832;
-/// Radians. A continuous motion may have wound up this far; beyond it nothing is left of a float's
-/// precision.
+/// Radians. Continuous motions may wind up this far; beyond it a float has too little precision.
 inline constexpr double kMaxWoundRotation = 1'000;
 
-/// Throws Error(kInvalidArgument) unless all is finite, the position within kMaxPosition and every
-/// angle at most `max_rotation`, which messages call `limit_name`. `field` is the pose's path:
-/// "keyframes[3].root_position[0]: 1e+30 m is further than 10000 m from the origin".
+/// Throws Error(kInvalidArgument) unless all numbers are finite, the position within kMaxPosition
+/// and every angle at most `max_rotation`, which messages call `limit_name`. `field` is the pose's
+/// path: "keyframes[3].root_position[0]: 1e+30 m is further than 10000 m from the origin".
 void CheckPoseLimits(const Pose& pose, double max_rotation, const std::string& limit_name,
                      const std::string& field);
 
-/// The same for the poses of a motion, "frames[7]", with kMaxWoundRotation.
+/// The same for a motion's poses, "frames[7]", with kMaxWoundRotation.
 void CheckMotionLimits(const Motion& motion);
 
 }  // namespace choreo

@@ -27,7 +27,7 @@ Pose PoseAt(const Motion& motion, double time) {
   if (motion.frames.empty()) throw InvalidArgument("motion.frames", "0 frames, at least 1 needed");
   const auto last = static_cast<double>(motion.frames.size() - 1);
   const double position = std::clamp(time * motion.fps, 0.0, last);
-  // Times that were computed as i / fps must land on frame i exactly.
+  // Times computed as i / fps must land exactly on frame i.
   const double nearest = std::round(position);
   if (std::abs(position - nearest) < 1e-7) return motion.frames[static_cast<size_t>(nearest)];
   const auto frame = static_cast<size_t>(position);
@@ -53,7 +53,7 @@ Motion Resample(const Motion& motion, double fps) {
 
 double WholeRate(double rate) {
   for (const double exact : {std::round(rate), std::round(rate * 1.001) / 1.001}) {
-    // "0.0333" is as short as frame times get.
+    // "0.0333" is the shortest form of frame times in files.
     if (exact > 0 && std::abs(rate / exact - 1) < 2e-4) return exact;
   }
   return rate;

@@ -41,7 +41,7 @@ Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& p
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const double angle = w.norm();
   if (angle < 1e-12) {
-    // Whole turns about any axis are the identity: take the previous vector's axis.
+    // Whole turns about any axis are the identity: use the previous vector's axis.
     const double turns = std::round(previous.norm() / kTurn);
     if (turns == 0) return w;
     return w + previous.normalized() * (turns * kTurn);
@@ -67,7 +67,7 @@ Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d&
 Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
   const double angle = w.norm(), square = angle * angle;
   const Eigen::Matrix3d k = CrossMatrix(w);
-  // Series below the angle where the closed forms cancel.
+  // Uses the series below the angle where the closed forms cancel.
   const bool small = angle < 1e-2;
   const double first = small ? 0.5 - square / 24 : (1 - std::cos(angle)) / square;
   const double second =

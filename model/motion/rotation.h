@@ -11,7 +11,7 @@ namespace choreo {
 
 inline constexpr double kDegrees = 180 / std::numbers::pi;  ///< a radian
 
-/// w x v as a product with v.
+/// The matrix that multiplies v to w x v.
 inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
   return (Eigen::Matrix3d() << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0).finished();
 }
@@ -26,11 +26,11 @@ Eigen::Vector3d LogMap(const Eigen::Matrix3d& r);
 Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w);
 Eigen::Vector3d ExpFromQuaternion(const Eigen::Quaterniond& q);
 
-/// The vector that stands for the same rotation as `w` and lies nearest to `previous` (adds turns
-/// of 2 pi about the axis).
+/// The vector for the same rotation as `w` that is nearest to `previous` (adds turns of 2 pi about
+/// the axis).
 Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& previous);
 
-/// Shortest-arc interpolation, t in [0, 1]; t outside extrapolates.
+/// Shortest-arc interpolation for t in [0, 1]; extrapolates outside.
 Eigen::Vector3d Slerp(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t);
 
 /// log(exp(a)^T exp(b)): the rotation that leads from a to b, in a's local frame; angle in [0, pi].
@@ -42,13 +42,13 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
 /// log(exp(a) exp(delta)), on the branch nearest to a.
 Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta);
 
-/// The other of two turns that end alike, by the rest of a whole turn the other way; `turn` itself
-/// where it is next to none, whose axis is noise.
+/// The turn with the same end the other way round; `turn` itself if it is almost none, as its axis
+/// is noise.
 Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn);
-/// Of the two, the one nearer to `expected`.
+/// Whichever of the two is nearer to `expected`.
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);
 
-/// The rotation that a matrix is nearest to (Kabsch): the chordal mean of a sum of rotations.
+/// The rotation nearest to a matrix (Kabsch): of a sum of rotations, their chordal mean.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& m);
 
 /// First two columns of the matrix, stacked.
@@ -57,7 +57,7 @@ Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r);
 Eigen::Matrix3d MatrixFromSixD(const Eigen::Matrix<double, 6, 1>& d);
 
 /// Angle of the horizontal direction of r's +Z axis: 0 faces +Z, pi/2 faces +X. In (-pi, pi].
-/// Meaningless, though finite, where that axis is vertical.
+/// Finite but meaningless if that axis is vertical.
 double Heading(const Eigen::Matrix3d& r);
 /// The rotation by `heading` about +Y.
 Eigen::Matrix3d HeadingRotation(double heading);

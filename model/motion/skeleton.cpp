@@ -19,7 +19,7 @@ struct RestJoint {
   double x, y, z;
 };
 
-// Names as SMPL's authors use them; offsets of the neutral body.
+// SMPL's original names; offsets of the neutral body.
 constexpr RestJoint kSmplJoints[] = {
     {"pelvis", -1, 0, 0, 0},
     {"left_hip", 0, 0.05858135, -0.08228004, -0.01766408},
@@ -65,7 +65,7 @@ int FindAny(const Skeleton& skeleton, std::initializer_list<const char*> names) 
   return -1;
 }
 
-// Of a skeleton, const or not.
+// Works for const and non-const skeletons.
 auto Roles(auto& s) {
   return std::array{
       std::pair{"left_hip", &s.left_hip},           std::pair{"right_hip", &s.right_hip},

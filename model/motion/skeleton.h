@@ -13,11 +13,11 @@ namespace choreo {
 struct Skeleton {
   std::string name;
   std::vector<std::string> joint_names;
-  std::vector<int> parents;  ///< parents[0] = -1; parents always stand before their children
+  std::vector<int> parents;  ///< parents[0] = -1; parents precede their children
   Eigen::Matrix3Xd offsets;  ///< [3, joints] rest offset from the parent, metres; column 0 is zero
   double pelvis_height = 0;  ///< height of joint 0 above the floor when standing at rest, metres
 
-  /// Joints that the motion mathematics asks for by role.
+  /// Joints with a role in the motion mathematics.
   int left_hip = -1, right_hip = -1, left_knee = -1, right_knee = -1;
   int left_shoulder = -1, right_shoulder = -1, left_elbow = -1, right_elbow = -1;
   /// Left ankle, left toes, right ankle, right toes.
@@ -25,7 +25,7 @@ struct Skeleton {
 
   int joints() const { return static_cast<int>(parents.size()); }
   bool operator==(const Skeleton&) const = default;
-  /// "'smpl24' of 24 joints": how error messages name a skeleton.
+  /// The name of a skeleton in error messages: "'smpl24' of 24 joints".
   std::string Describe() const;
 
   /// Index of a joint by name, or -1.
@@ -35,7 +35,7 @@ struct Skeleton {
   int AddJoint(const std::string& joint_name, int parent, const Eigen::Vector3d& offset);
 
   /// Sets the roles above from the joint names: left_hip, right_hip, left_knee, ..., left_ankle,
-  /// and for the toes left_foot, left_toes or left_toe. A role that no joint plays stays -1.
+  /// and for the toes left_foot, left_toes or left_toe. Unfilled roles stay -1.
   void AssignRoles();
 
   /// Sets pelvis_height so that at rest the lowest joint stands `clearance` metres above the floor;
@@ -45,8 +45,8 @@ struct Skeleton {
   /// Throws Error(kInvalidArgument) naming the first joint that breaks an invariant above, or plays
   /// two roles.
   void Validate() const;
-  /// Throws Error(kInvalidArgument) naming the first role that no joint plays. Dancing needs the
-  /// feet alone; fitting, retargeting and judging limbs need all.
+  /// Throws Error(kInvalidArgument) naming the first role that no joint plays. Dancing needs only
+  /// the feet; fitting, retargeting and judging limbs need all roles.
   void RequireRoles() const;
 
   /// SMPL's 24 joints (neutral body). The only place that knows them. At rest the lower toe joint
@@ -57,28 +57,28 @@ struct Skeleton {
 /// The first of these names, or -1.
 int IndexOf(const std::vector<std::string>& names, std::string_view name);
 
-/// Whether `node` is `ancestor` or hangs from it. `parents`: -1 for none.
+/// Whether `node` is `ancestor` or descends from it. `parents`: -1 for none.
 bool IsBelow(int node, int ancestor, const std::vector<int>& parents);
 
-/// Bones that differ by no more, metres, are the same: files and messages round them.
+/// Bones that differ by at most this, metres, are the same: files and messages round them.
 inline constexpr double kSameBone = 0.001;
 
-/// Whether poses of one are poses of the other: the same joints, tree and bones.
+/// Whether the two can share poses: they have the same joints, tree and bones.
 bool SameBones(const Skeleton& a, const Skeleton& b);
 
-/// A knee or elbow, which bends about one axis. `axis` is in the frame of the bone above at rest;
-/// a positive turn about it bends the limb as a body does (shin backwards, forearm forwards).
+/// A knee or elbow, which bends about one axis. `axis` is in the frame of the bone above at rest; a
+/// positive turn about it bends the natural way (shin backwards, forearm forwards).
 struct Hinge {
   int joint = -1;
   int upper = -1;                                  ///< the hip or shoulder above
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length
 };
 
-inline constexpr double kMostHingeBend = 2.7;   ///< radians that plans and fits bend it at most
-inline constexpr double kFolded = 165;          ///< degrees that any body bends it at most
-inline constexpr double kBrokenBackwards = 15;  ///< degrees: more than real limbs, or recordings
+inline constexpr double kMostHingeBend = 2.7;   ///< radians: the largest bend in plans and fits
+inline constexpr double kFolded = 165;          ///< degrees: the largest bend of any body
+inline constexpr double kBrokenBackwards = 15;  ///< degrees: beyond what limbs, and recordings, do
 
-/// Left knee, right knee, left elbow, right elbow: those that the skeleton has.
+/// Left knee, right knee, left elbow, right elbow, as far as the skeleton has them.
 std::vector<Hinge> Hinges(const Skeleton& skeleton);
 
 }  // namespace choreo

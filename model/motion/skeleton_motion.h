@@ -5,7 +5,7 @@
 
 namespace choreo {
 
-/// A motion and the skeleton that it is of.
+/// A motion and its skeleton.
 struct SkeletonMotion {
   Skeleton skeleton;
   Motion motion;

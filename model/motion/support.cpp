@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSmoothFrames = 1.5;
 
-// Above zero where a, b, c turn left.
+// Positive if a, b, c turn left.
 double Turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const Eigen::Vector2d ab = b - a, ac = c - a;
   return ab.x() * ac.y() - ab.y() * ac.x();
@@ -47,7 +47,7 @@ Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d
   return a + (square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0) * ab;
 }
 
-// The floor that feet stand on in the rest pose: as high as the lower of the toes there.
+// The floor of the rest pose: the height of the lower toes.
 double RestFloor(const Skeleton& skeleton) {
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   return std::min(rest(1, skeleton.feet[1]), rest(1, skeleton.feet[3]));

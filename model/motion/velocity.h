@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// Velocity of the root along the ground (paper F, Section 3.2.1), seen from the earlier pose's
+/// Velocity of the root along the ground (paper F, Section 3.2.1), relative to the earlier pose's
 /// heading.
 struct RootVelocity {
   double forward = 0;   ///< m/s, towards the earlier heading

@@ -66,7 +66,7 @@ BodyPartWeights WeighBodyParts(const Skeleton& skeleton) {
   BodyPartWeights weights = BodyPartWeights::Zero(kBodyParts, skeleton.joints());
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     const std::string& name = skeleton.joint_names[joint];
-    // The root is the trunk's, whatever its name.
+    // The root belongs to the trunk, whatever its name.
     const auto member = joint == 0 ? Membership{BodyPart::kTrunk, 1} : FindMembership(name);
     if (!member) {
       throw InvalidArgument("skeleton", skeleton.Describe() + ": '" + name +
