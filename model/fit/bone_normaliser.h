@@ -11,30 +11,31 @@
 
 namespace choreo {
 
-/// The source's size, measured once per subject.
+/// A subject's size, measured once.
 struct SourceSize {
   double scale = 1;             ///< our leg length over the source's: multiplies the root's travel
   std::vector<double> lengths;  ///< [landmarks] source metres from the parent landmark (median)
 };
 
-/// Turns source positions into the places where our landmarks belong. Immutable after construction.
+/// Turns source positions into targets for our landmarks. Immutable after construction.
 class BoneNormaliser {
  public:
-  /// Throws Error(kInvalidArgument) for a landmark whose joints `joint_names` or the skeleton lack.
+  /// Throws Error(kInvalidArgument) for a landmark whose joints are missing in `joint_names` or the
+  /// skeleton.
   BoneNormaliser(const Skeleton& skeleton, const SourceMapping& mapping,
                  const std::vector<std::string>& joint_names);
 
-  /// Median landmark distances of a clip, and the scale from the legs' lengths (hip, knee, ankle;
-  /// from all bones where a mapping has no knees).
+  /// Median landmark distances of a clip, and the scale from the lengths of legs (hip, knee,
+  /// ankle), or of all bones if the mapping has no knees.
   SourceSize Measure(const PositionClip& clip) const;
 
-  /// Our leg length over the source's in one frame. Recordings are sometimes cut together from
-  /// takes whose hips stand at different places in the body (tang2018: thighs of 46 and of 54 cm in
-  /// one clip): the root's height then needs a scale that changes in time.
+  /// Our leg length over the source's in one frame. Some recordings join takes whose hips lie at
+  /// different places in the body (tang2018: thighs of 46 and of 54 cm in one clip), so that the
+  /// scale of the root's height must change in time.
   double HeightScale(const Eigen::Matrix3Xd& source) const;
 
   /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. `height_scale`,
-  /// HeightScale of about this moment, multiplies the root's height.
+  /// the HeightScale around this time, multiplies the root's height.
   Eigen::Matrix3Xd Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
                          double height_scale) const;
 
@@ -47,7 +48,7 @@ class BoneNormaliser {
     double rest_length = 0;  ///< ours, from the parent
   };
   static Eigen::Vector3d SourcePoint(const Mark& mark, const Eigen::Matrix3Xd& source);
-  /// From the parent, of a mark that has one.
+  /// The bone from the parent, for marks with one.
   Eigen::Vector3d SourceBone(const Mark& mark, const Eigen::Matrix3Xd& source) const;
 
   std::vector<Mark> marks_;

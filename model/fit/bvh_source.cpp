@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-/// The clip's joints by what they are.
+/// The clip's joints by the bone that they are.
 class ClipBones {
  public:
   ClipBones(const PositionClip& clip, HumanBones found)
@@ -44,7 +44,7 @@ JointBlend Sum(JointBlend a, const JointBlend& b) {
   return a;
 }
 
-// The spine from the middle of the hips to the neck, whatever number of joints it has.
+// The spine from the middle of the hips to the neck, with any number of joints.
 class SpineChain {
  public:
   SpineChain(const PositionClip& clip, const ClipBones& bones, const JointBlend& hips,
@@ -52,7 +52,7 @@ class SpineChain {
       : points_{hips}, heights_{0.0} {
     const auto append = [&](const JointBlend& point) {
       const double step = MedianDistance(clip, points_.back(), point);
-      // Some files start the spine with joints that stand in the hips.
+      // Some files start the spine with joints at the hips.
       if (step < 1e-3) return;
       heights_.push_back(heights_.back() + step);
       points_.push_back(point);
@@ -65,7 +65,7 @@ class SpineChain {
   bool has_joints() const { return points_.size() > 2; }
   const JointBlend& first_joint() const { return points_[1]; }
 
-  /// The point at a fraction of the way up.
+  /// The point at this fraction of the way up.
   JointBlend At(double fraction) const {
     size_t above = 1;
     while (above + 1 < points_.size() && heights_[above] < fraction * length()) ++above;
@@ -79,20 +79,19 @@ class SpineChain {
   std::vector<double> heights_;
 };
 
-// Where our joints stand at rest, as fractions of the way from the hips to the neck.
+// Rest positions of our joints, as fractions of the way from hips to neck.
 constexpr double kChestHeight = 0.657;
 constexpr double kCollarHeight = 0.841;
 constexpr double kHalfCollarWidth = 0.1254;
-// A shoulder with the arm held out sideways, seen from the collar.
+// Position of the shoulder relative to the collar, with the arm held out sideways.
 constexpr double kShoulderOut = 0.207;
 constexpr double kShoulderUp = 0.035;
-// How much of the source's movement of the shoulders ours keep.
+// The share of the source's shoulder movement that ours keep.
 constexpr double kShoulderShare = 0.4;
 
-// Source skeletons hang their collarbones higher and nearer to the neck than ours, and swing them
-// much further: seen from where our collarbone turns, an arm that hangs down would draw the
-// shoulder right through it. So the shoulder is taken as a blend of the source's and of a place
-// fixed to the chest.
+// Source skeletons place their collarbones higher and nearer to the neck than ours, and swing them
+// much further: about our collar joint, a hanging arm would pull the shoulder right through it. So
+// the shoulder is a blend of the source's and a point fixed to the chest.
 void AddCollar(const PositionClip& clip, const SpineChain& spine, const ClipBones& bones,
                const std::string& side, MappingBuilder& builder) {
   // Across the chest, outwards on this side.
@@ -117,14 +116,14 @@ void AddTrunk(const PositionClip& clip, const ClipBones& bones, MappingBuilder& 
   const SpineChain spine(clip, bones, {{left_hip, 0.5}, {right_hip, 0.5}}, neck);
   builder.AddHips(left_hip, right_hip);
   if (spine.has_joints()) {
-    // The first spine joint is fixed to the pelvis and stands straight above the hips.
+    // The first spine joint is fixed to the pelvis, straight above the hips.
     builder.Add("lumbar", "hips", spine.first_joint(),
                 {MappingBuilder::At("pelvis", 0, 0.034, -0.012)}, 0.7);
     builder.Add("chest", "hips", spine.At(kChestHeight), {{.joint = "spine3"}}, 0.5, false);
   }
   builder.Add("neck", "hips", {{neck, 1.0}}, {{.joint = "neck"}}, 1, false);
   if (const auto head = bones.Any("head")) {
-    // Straight above the neck, where ours leads forward.
+    // Straight above the neck, where our head leans forward.
     builder.Add("head", "neck", {{*head, 1.0}}, {MappingBuilder::At("neck", 0, 0.09, 0.012)});
     const auto left_eye = bones.Any("left_eye"), right_eye = bones.Any("right_eye");
     if (left_eye && right_eye) {
@@ -138,8 +137,8 @@ void AddTrunk(const PositionClip& clip, const ClipBones& bones, MappingBuilder& 
   AddCollar(clip, spine, bones, "right_", builder);
 }
 
-// Where a toe joint stands on a flat foot, forward of the ankle and up: 33 degrees below it
-// (dancedb's median), where ours lies 26; end sites of feet lie 17 degrees below, iClone's toes 5.
+// Position of a toe joint on a flat foot, forward and up from the ankle: 33 degrees below it
+// (dancedb's median), where ours is 26; end sites of feet are 17 degrees below, iClone's toes 5.
 Eigen::Vector2d ToePoint(const std::string& toes) {
   if (toes.ends_with("_end")) return {0.12, -0.037};
   if (toes.ends_with("L_ToeBase") || toes.ends_with("R_ToeBase")) return {0.12, -0.011};

@@ -11,11 +11,12 @@
 namespace choreo {
 namespace {
 
-constexpr double kHighestAnkle = 0.3;   // of the leg: what stands higher does not stand on y = 0
-constexpr double kSunkenToes = -0.03;   // of the leg: nor what is lower
-constexpr double kToesHeight = 0.025;   // of the leg: of SMPL's toes above the floor
-constexpr double kAnkleHeight = 0.1;    // the same of its ankles
-constexpr double kShortestBone = 1e-4;  // of the leg
+constexpr double kHighestAnkle =
+    0.3;  // share of the leg: an ankle above this does not stand on y = 0
+constexpr double kSunkenToes = -0.03;   // share of the leg: nor do toes below this
+constexpr double kToesHeight = 0.025;   // share of the leg: height of SMPL's toes
+constexpr double kAnkleHeight = 0.1;    // share of the leg: height of SMPL's ankles
+constexpr double kShortestBone = 1e-4;  // share of the leg
 
 class BodyBuilder {
  public:
@@ -39,7 +40,7 @@ class BodyBuilder {
   Eigen::Vector3d Place(const std::string& bone) const { return places_.col(bones_.Find(bone)); }
   Eigen::Vector3d Rest(const std::string& joint) const { return rest_.col(smpl_.Find(joint)); }
 
-  // What turns the rig upright, facing +Z.
+  // Turns the rig upright, facing +Z.
   void Upright() {
     const auto middle = [&](const std::string& joint) -> Eigen::Vector3d {
       return (Place("left_" + joint) + Place("right_" + joint)) / 2;
@@ -100,8 +101,8 @@ class BodyBuilder {
     if (bones_.Find("head") >= 0) AddBone("head", neck, upright_);
   }
 
-  // What leads from the rest pose, turned by `turn`, to where the bone lies as SMPL's does: first
-  // to `straight`, which SMPL's bones lie near, so that no bone rolls on a long way to it.
+  // The turn from the rest pose, already turned by `turn`, to the bone's direction in SMPL: first
+  // to `straight`, which SMPL's bones are near, so that no bone rolls on a long way.
   Eigen::Matrix3d Along(const std::string& from, const std::string& to, const Eigen::Matrix3d& turn,
                         const Eigen::Vector3d& straight) const {
     const Eigen::Vector3d bone = turn * (Place(to) - Place(from));
@@ -121,7 +122,7 @@ class BodyBuilder {
     const Eigen::Matrix3d forearm = Along(side + "elbow", side + "wrist", arm, out);
     above = AddBone(side + "shoulder", above, arm);
     above = AddBone(side + "elbow", above, forearm);
-    AddBone(side + "wrist", above, forearm);  // a hand goes on where the forearm points
+    AddBone(side + "wrist", above, forearm);  // a hand continues along the forearm
   }
 
   void AddLeg(const std::string& side) {
@@ -144,7 +145,7 @@ class BodyBuilder {
     }
   }
 
-  // A foot is flat at rest: it turns about the vertical alone.
+  // A foot is flat at rest, so it turns about the vertical only.
   Eigen::Matrix3d Flat(const Eigen::Vector3d& foot, const Eigen::Vector3d& ours) const {
     if (std::hypot(foot.x(), foot.z()) < 0.5 * std::abs(foot.y())) return upright_;
     const double turn = std::atan2(ours.x(), ours.z()) - std::atan2(foot.x(), foot.z());
@@ -153,7 +154,7 @@ class BodyBuilder {
 
   double Height(const std::string& bone) const { return (upright_ * Place(bone)).y(); }
 
-  // The rig's size over SMPL's.
+  // The rig's size relative to SMPL.
   double Size() const {
     return leg_ / ((Rest("left_knee") - Rest("left_hip")).norm() +
                    (Rest("left_ankle") - Rest("left_knee")).norm());

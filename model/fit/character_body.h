@@ -8,25 +8,24 @@
 
 namespace choreo {
 
-/// A character's rig, whatever its rest pose, its facing and its bones' frames, as a skeleton of
-/// ours that stands at rest as SMPL's does: arms out to the sides, limbs in SMPL's directions, feet
-/// flat, in the character's own unit and proportions.
+/// A character's rig, whatever its rest pose, facing and bone frames, as a skeleton that rests like
+/// SMPL's: arms out to the sides, limbs in SMPL's directions, feet flat, in the character's own
+/// unit and proportions.
 struct CharacterBody {
-  /// Joints are named as HumanBones names them; toes that the rig lacks are added.
+  /// Joints have the names of HumanBones; missing toes are added.
   Skeleton skeleton;
   std::vector<int> nodes;  ///< [joints] index in the rig; -1 for added toes
-  /// [joints] Turns of the world that lead from the rig's rest pose to the skeleton's.
+  /// [joints] World rotations from the rig's rest pose to the skeleton's.
   std::vector<Eigen::Matrix3d> turns;
 };
 
-/// `places` [3, nodes]: where the rig's nodes stand at rest, upright, in any facing. The floor is
-/// y = 0, or just below feet that stand elsewhere. Throws Error(kInvalidArgument) whose field is
-/// `bones`: for one that is needed and missing (pelvis, neck or head, and on both sides hip, knee,
-/// ankle, shoulder, elbow, wrist), two that are one node or stand in one place, and left and right
-/// exchanged.
+/// `places` [3, nodes]: rest positions of the rig's nodes, upright, in any facing. The floor is y =
+/// 0, or just below the feet if they are elsewhere. Throws Error(kInvalidArgument) whose field is
+/// `bones` if a needed bone is missing (pelvis, neck or head, and on both sides hip, knee, ankle,
+/// shoulder, elbow, wrist), two bones are one node or at one place, or left and right are swapped.
 CharacterBody MakeCharacterBody(const HumanBones& bones, const Eigen::Matrix3Xd& places);
 
-/// The first bone that is needed and missing; empty where none is.
+/// The first needed bone that is missing, or "".
 std::string MissingBone(const HumanBones& bones);
 
 }  // namespace choreo

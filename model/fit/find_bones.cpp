@@ -13,14 +13,14 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kMostGroups = 16, kMostRigNodes = 5000;  // a hostile file has any number
+constexpr size_t kMostGroups = 16, kMostRigNodes = 5000;  // limits for hostile files
 constexpr size_t kFewestBones = 12, kMostBodies = 8;
-// Of `Needed`: six of each limb's side, and the head or the neck.
+// Bones counted by `Needed`: six on each side, and the head or the neck.
 constexpr int kAllNeeded = 2 * static_cast<int>(std::size(kNeededLimbBones)) + 1;
 
 std::string Quote(const std::string& name) { return '"' + Printable(name) + '"'; }
 
-/// Nodes that may be one body.
+/// Nodes that may form one body.
 using Group = std::vector<bool>;
 
 Group Below(const RigNodes& rig, int top) {
@@ -30,8 +30,7 @@ Group Below(const RigNodes& rig, int top) {
   return group;
 }
 
-// The nodes from which enough hangs for a body, those near the root first: they are whole
-// skeletons.
+// The nodes with enough descendants for a body, those near the root first: whole skeletons.
 std::vector<int> TopsOf(const RigNodes& rig) {
   std::vector<int> tops;
   if (rig.names.size() > kMostRigNodes) return tops;
@@ -49,7 +48,7 @@ std::vector<int> TopsOf(const RigNodes& rig) {
   return tops;
 }
 
-// The names of a group's nodes; where one is there twice, that of the node that is most of a bone.
+// The names of a group's nodes. Of duplicate names keeps the node that is most like a bone.
 std::vector<std::string> NamesOf(const RigNodes& rig, const Group& group) {
   const auto rank = [&](int node) {
     const bool carries = std::ranges::find(rig.parents, node) != rig.parents.end();
@@ -76,7 +75,7 @@ int Needed(const HumanBones& found) {
   return needed;
 }
 
-// How many bones of a body `nodes` says to be.
+// How many of a body's bones are among `nodes`.
 int Count(const HumanBones& found, const std::vector<bool>& nodes) {
   return static_cast<int>(
       std::ranges::count_if(found.bones, [&](const auto& bone) { return nodes[bone.second]; }));
@@ -104,7 +103,7 @@ int Connected(const RigNodes& rig, const HumanBones& found) {
   return connected;
 }
 
-// Hips hang from the pelvis, whatever it is called.
+// Hips hang from the pelvis, whatever its name.
 void FindPelvis(const RigNodes& rig, HumanBones* found) {
   const int left = found->Find("left_hip"), right = found->Find("right_hip");
   if (found->Find("pelvis") >= 0 || left < 0 || right < 0) return;
@@ -115,7 +114,7 @@ void FindPelvis(const RigNodes& rig, HumanBones* found) {
   if (node >= 0 && !taken) found->bones["pelvis"] = node;
 }
 
-// What carries both arms is the chest, whatever it is called: the last of the spine.
+// The node that carries both arms is the chest, the last of the spine, whatever its name.
 void FindChest(const RigNodes& rig, HumanBones* found) {
   const auto arm = [&](const std::string& side) {
     const int collar = found->Find(side + "collar");
@@ -136,8 +135,8 @@ void FindChest(const RigNodes& rig, HumanBones* found) {
     found->bones[next] = chest;
 }
 
-// Of all nodes together, and of what hangs from one: of several bodies, whatever they are called,
-// the one that moves.
+// Tries all nodes together and the descendants of each: of several bodies, whatever their names,
+// takes the one that moves.
 HumanBones ByNames(const RigNodes& rig) {
   const auto score = [&](const HumanBones& found) {
     return std::tuple(Needed(found), Count(found, rig.moves), Count(found, rig.joints),
@@ -145,7 +144,7 @@ HumanBones ByNames(const RigNodes& rig) {
   };
   HumanBones best = FindHumanBones(NamesOf(rig, Group(rig.names.size(), true)), rig.moves);
   size_t looked_at = 0;
-  std::vector<int> partial;  // no whole body hangs from these, nor from what hangs from them
+  std::vector<int> partial;  // no whole body hangs from these or their descendants
   for (const int top : TopsOf(rig)) {
     const bool below =
         std::ranges::any_of(partial, [&](int node) { return IsBelow(top, node, rig.parents); });
@@ -180,7 +179,7 @@ void Choose(const RigNodes& rig, const BoneChoice& choice, HumanBones* found) {
   for (int node = 0; node < count; ++node) {
     if (rig.names[node] != choice.name) continue;
     nodes.push_back(node);
-    // A mesh is often called as the joint that it hangs on.
+    // Meshes often share the name of the joint that they hang on.
     if (rig.joints[node] && !rig.meshes[node]) joints.push_back(node);
   }
   if (nodes.empty())
@@ -198,7 +197,7 @@ HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen)
   HumanBones found = rig.table;
   if (!MissingBone(found).empty()) {
     found = ByNames(rig);
-    // A table that lacks a bone still knows the others better.
+    // A table without some bones still names the others better.
     for (const auto& [bone, node] : rig.table.bones) {
       std::erase_if(found.bones, [n = node](const auto& other) { return other.second == n; });
       found.bones[bone] = node;
@@ -219,7 +218,7 @@ std::vector<HumanBones> MovingBodies(const RigNodes& rig, const HumanBones& foun
   if (rig.names.size() > kMostRigNodes) return bodies;
   RigNodes rest = rig;
   while (bodies.size() < kMostBodies && !bodies.back().bones.empty()) {
-    // Without the skeleton that is known.
+    // Skip the skeleton already found.
     int top = bodies.back().bones.begin()->second;
     for (const auto& [bone, node] : bodies.back().bones) {
       while (top >= 0 && !IsBelow(node, top, rig.parents)) top = rig.parents[top];

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kRefinementIterations = 2;
 
-// Over which heights are evened out, seconds. Longer than a jump, shorter than a recording's drift.
+// Seconds over which heights are levelled: longer than a jump, shorter than a recording's drift.
 constexpr double kGroundWindow = 4.0;
-// The floor's rank among the heights of the lowest joint in it. Dancers who jump are on the floor
-// for more than that; feet that a recording sinks into it are there for less.
+// The floor's rank among the heights of the lowest joint in that window. Jumping dancers are on the
+// floor for longer; feet that a recording sinks into the floor are there for less.
 constexpr double kGroundShare = 0.3;
 constexpr double kSizeWindow = 1.0;
 
@@ -52,7 +52,7 @@ FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const 
     targets.push_back(normaliser.Apply(clip.frames[frame], size, height_scales[frame]));
     motion.frames.push_back(fitter.Next(targets.back()));
   }
-  // Once more with the frame behind known too, so that nothing lags.
+  // Refines with the next frame known too, so that nothing lags.
   FitProblem problem(skeleton, mapping, options, clip.fps);
   std::vector<double> distances;
   for (size_t frame = 0; frame < count; ++frame) {

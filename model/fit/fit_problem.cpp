@@ -8,11 +8,11 @@
 namespace choreo {
 namespace {
 
-// Damping grows with each step that is refused; beyond the most, steps are too short to matter.
+// Damping grows with each refused step; beyond the maximum, steps are too short to matter.
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMostDamping = 1e2;
 
-// What the parent's rotation weighs beside landmarks, square metres.
+// Weight of the parent's rotation relative to landmarks, square metres.
 constexpr double kStays = 1e-4, kTrunkStays = 0.02;
 
 }  // namespace
@@ -48,7 +48,7 @@ double FitProblem::Cost(const Eigen::Matrix3Xd& targets, const FitNeighbours& ne
   return cost;
 }
 
-// Assumes that Cost ran on this pose.
+// Requires that Cost has run on this pose.
 void FitProblem::Linearise(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
                            const Pose& pose) {
   rows_.jacobian.setZero();
@@ -62,7 +62,7 @@ void FitProblem::Linearise(const Eigen::Matrix3Xd& targets, const FitNeighbours&
 
 double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
                          int iterations, Pose& pose) {
-  // The priors are about angles up to pi.
+  // The priors assume angles up to pi.
   for (int joint = 0; joint < skeleton_.joints(); ++joint) {
     pose.rotations.col(joint) = ExpFromQuaternion(QuaternionFromExp(pose.rotations.col(joint)));
   }
@@ -82,7 +82,7 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& n
     trial_.root_position = pose.root_position + step_.head<3>();
     for (int joint = 0; joint < skeleton_.joints(); ++joint) {
       Eigen::Vector3d turn = step_.segment<3>(3 + 3 * joint);
-      // A linearisation holds for a fraction of a turn.
+      // A linearisation is valid for a fraction of a turn.
       if (const double angle = turn.norm(); angle > 0.7) turn *= 0.7 / angle;
       trial_.rotations.col(joint) =
           ExpFromQuaternion(QuaternionFromExp(turn) * QuaternionFromExp(pose.rotations.col(joint)));
@@ -131,7 +131,8 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
   std::vector<char> below(marks_.size());
   for (int joint = 0; joint < joints; ++joint) {
     const int parent = skeleton_.parents[joint];
-    // The root turns about the root landmark, whose place is known; every other joint about itself.
+    // The root turns about the root landmark, whose position is known; other joints turn about
+    // themselves.
     Eigen::Vector3d pivot_target = targets.col(0), pivot_rest = rest_.marks.col(0);
     if (parent >= 0) {
       places.col(joint) = places.col(parent) + turns[parent] * skeleton_.offsets.col(joint);
@@ -145,9 +146,9 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
                           (point.joint != joint || !point.offset.isZero());
                  });
     }
-    // Where nothing tells, the parent's rotation goes on. The trunk's landmarks stand nearly on one
-    // line and tell nothing of its twist: left to their noise, a start would be wound up by a whole
-    // turn, and stay so, with hips and shoulders in their places.
+    // Without evidence, keep the parent's rotation. The trunk's landmarks are nearly collinear and
+    // don't tell its twist: from their noise a start could be wound up by a whole turn and stay so,
+    // with hips and shoulders in place.
     const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
     Eigen::Matrix3d correlation = (InTrunk(joint) ? kTrunkStays : kStays) * carried;
     bool told = false;
@@ -163,7 +164,7 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
       const Eigen::Vector3d lower =
           (targets.col(hinge.end_mark) - targets.col(hinge.hinge_mark)).normalized();
       const Eigen::Vector3d plane = upper.cross(lower);
-      // A nearly straight limb whose plane says that it bends backwards is noise.
+      // If the plane of a nearly straight limb says that it bends backwards, it is noise.
       const bool plausible = plane.norm() > kSineOfSureBend || plane.dot(carried * hinge.axis) > 0;
       if (plausible) correlation += 0.05 * plane * hinge.axis.transpose();
     }

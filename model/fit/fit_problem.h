@@ -17,19 +17,19 @@ class FitProblem {
   FitProblem(const FitProblem&) = delete;
   FitProblem& operator=(const FitProblem&) = delete;
 
-  /// Improves `pose` by at most `iterations` steps, not counting trials that are refused. Returns
-  /// the landmarks' root mean square distance from the targets, each by its weight, metres.
+  /// Improves `pose` by at most `iterations` accepted steps. Returns the weighted root mean square
+  /// distance of landmarks from targets, metres.
   double Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours, int iterations,
                Pose& pose);
 
-  /// Where to begin without a predecessor: joint by joint from the root, the rotation that best
-  /// turns the rest directions of the landmarks below onto the targets' (Kabsch), with a bent
-  /// limb's plane for the twist of hips and shoulders.
+  /// An initial pose without a predecessor. From the root on, each joint takes the rotation that
+  /// best turns the rest directions of the landmarks below it onto the targets' (Kabsch); a bent
+  /// limb's plane decides the twist of hips and shoulders.
   Pose Start(const Eigen::Matrix3Xd& targets) const;
-  /// How far the trunk is turned from rest, all its joints together, radians.
+  /// The trunk's total rotation from rest over all its joints, radians.
   double TrunkTurn(const Pose& pose) const;
 
-  /// Of the pose that Solve returned last, [3, landmarks].
+  /// The landmarks of the pose that Solve returned last, [3, landmarks].
   const Eigen::Matrix3Xd& landmarks() const { return places_.marks; }
 
  private:

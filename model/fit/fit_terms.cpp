@@ -9,9 +9,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kHingePlane = 0.2;  // radians of a hinge's axis from the plane of a bent limb
+constexpr double kHingePlane =
+    0.2;  // radians between a hinge's axis and the normal of the bent limb's plane
 constexpr double kLeastBend = 0.03;  // radians, of knees and elbows
-// Radians that no hinge is bent backwards.
+// Radians: no hinge bends backwards this far.
 constexpr double kMostShortWay = 2;
 
 // d log(exp(delta) exp(w)) / d delta at delta = 0.
@@ -40,8 +41,8 @@ Eigen::Matrix3d AxisInformation(const Eigen::Vector3d& axis, double along_rad, d
   return along / Square(along_rad) + (Eigen::Matrix3d::Identity() - along) / Square(across_rad);
 }
 
-// What a turn by omega (world) about a joint moves, `turned` x omega, by the joint's own unknown,
-// which is a turn in its parent's frame.
+// Adds the derivative of a point with respect to a joint's rotation: a turn by omega (world) moves
+// it by `turned` x omega; the unknown is a turn in the parent's frame.
 void AddTurn(const Eigen::Matrix3d& turned, int joint, int parent, Eigen::Index row,
              const JointPlacement& joints, Eigen::MatrixXd* jacobian) {
   auto block = jacobian->block<3, 3>(row, 3 + 3 * joint);
@@ -103,7 +104,7 @@ void HingePlaneTerm::Aim(const Eigen::Matrix3Xd& targets) {
     const Eigen::Vector3d lower = targets.col(plane.end_mark) - targets.col(plane.hinge_mark);
     const Eigen::Vector3d normal = upper.cross(lower);
     const double sine = normal.norm() / std::max(1e-9, upper.norm() * lower.norm());
-    // In a limb bent by less than the threshold the plane is noise, and may be that of a limb bent
+    // In a limb that is bent less than the threshold, the plane is noise and may look bent
     // backwards.
     const double sureness = std::max(0.0, sine - kSineOfSureBend) / (1.0 - kSineOfSureBend);
     plane.weight = sureness / kHingePlane;
@@ -154,14 +155,14 @@ JointTerm::JointTerm(const Skeleton& skeleton, const FitOptions& options, double
   }
 }
 
-// A hinge that is bent far and turned about its limb as well is turned by more than half a turn:
-// the shorter way round, on which it would be bent backwards, is not the way that it went.
+// A hinge that is bent far and also turned about its limb is turned by more than half a turn; the
+// shorter way round, which would be a backwards bend, is not the way it went.
 Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
   return w.norm() < kMostShortWay || hinge_axis.dot(w) >= 0 ? w : OtherWayRound(w);
 }
 
-// By how much a hinge is bent less than straight, below zero, or more than a body allows, above it.
-// Of what is no hinge, 0.
+// How far a hinge is below straight (negative) or beyond the largest bend (positive). 0 for other
+// joints.
 double JointTerm::Prior::Beyond(const Eigen::Vector3d& turn) const {
   if (hinge_axis.isZero()) return 0;
   const double bend = hinge_axis.dot(turn);

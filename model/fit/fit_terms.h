@@ -6,13 +6,12 @@
 #include "model/fit/landmarks.h"
 #include "model/motion/kinematics.h"
 
-/// The terms of one frame's least-squares problem: each has its residual, what that costs, and how
-/// it changes, in one place. Unknown are the root's position and a turn of each joint in its
-/// parent's frame: 3 + 3 joints.
+/// The terms of one frame's least-squares problem, each with its residual, cost and Jacobian in one
+/// place. The unknowns are the root's position and a turn of each joint in its parent's frame: 3 +
+/// 3 joints.
 namespace choreo {
 
-/// How hard what pulls: standard deviations of the least-squares terms, beside
-/// SourceMapping::accuracy_m.
+/// Standard deviations of the least-squares terms, besides SourceMapping::accuracy_m.
 struct FitOptions {
   double rest_rad = 1.2;           ///< every joint towards its rest rotation
   double stiff_rad = 0.5;          ///< the same of spine, collars, neck, head, wrists and feet
@@ -22,17 +21,17 @@ struct FitOptions {
   double hinge_limit_rad = 0.006;  ///< knees and elbows beyond straight
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
   int iterations = 3;              ///< per warm-started frame
-  bool recover = true;             ///< begin anew where the fit is lost, even if that jumps
-  bool ground = true;              ///< FitClip alone: bring the body down to the floor
+  bool recover = true;             ///< restart where the fit is lost, even if it jumps
+  bool ground = true;              ///< FitClip only: bring the body down to the floor
 };
 
-/// What a frame is tied to in time; either may be null.
+/// A frame's neighbours in time; either may be null.
 struct FitNeighbours {
   const Pose* before = nullptr;
   const Pose* after = nullptr;
 };
 
-/// Where a pose's joints and landmarks stand.
+/// Positions of a pose's joints and landmarks.
 struct FitPlaces {
   JointPlacement joints;
   Eigen::Matrix3Xd marks;  ///< [3, landmarks]
@@ -44,14 +43,14 @@ struct FitRows {
   Eigen::VectorXd residual;
 };
 
-/// Landmarks on their targets. Skeleton and marks outlive it.
+/// Pulls landmarks to their targets. Skeleton and marks must outlive it.
 class LandmarkTerm {
  public:
   LandmarkTerm(const Skeleton& skeleton, const LandmarkSet& marks, double accuracy_m)
       : skeleton_(skeleton), marks_(marks), accuracy_m_(accuracy_m) {}
 
   void AddCost(const FitPlaces& places, const Eigen::Matrix3Xd& targets, double* cost) const;
-  /// Fills the first rows, a landmark after the other; the Jacobian comes as zeros.
+  /// Fills the first rows, landmark by landmark; expects a zero Jacobian.
   void Linearise(const FitPlaces& places, const Eigen::Matrix3Xd& targets, FitRows* rows) const;
 
  private:
@@ -65,18 +64,18 @@ class LandmarkTerm {
   double accuracy_m_;
 };
 
-inline constexpr double kSineOfSureBend = 0.3;  ///< of a limb that is bent, whatever noise there is
+inline constexpr double kSineOfSureBend = 0.3;  ///< bent for certain, whatever the noise
 
-/// A bent limb's plane tells where its hinge axis points, which fixes the twist of the bone above.
+/// The plane of a bent limb gives its hinge axis, which fixes the twist of the bone above.
 struct HingePlane {
   int upper_joint;
   int upper_mark, hinge_mark, end_mark;
   Eigen::Vector3d axis;                              ///< in the upper joint's frame
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of this frame's targets, unit length
-  double weight = 0;                                 ///< of this frame: 0 for a straight limb
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< from this frame's targets, unit length
+  double weight = 0;                                 ///< in this frame: 0 for a straight limb
 };
 
-/// Hinge axes across the planes of bent limbs. Skeleton and marks outlive it.
+/// Pulls hinge axes to the normals of bent limbs' planes. Skeleton and marks must outlive it.
 class HingePlaneTerm {
  public:
   HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks);
@@ -87,7 +86,7 @@ class HingePlaneTerm {
   /// Takes the planes from a frame's targets.
   void Aim(const Eigen::Matrix3Xd& targets);
   void AddCost(const FitPlaces& places, double* cost) const;
-  /// Fills the last rows; the Jacobian comes as zeros.
+  /// Fills the last rows; expects a zero Jacobian.
   void Linearise(const FitPlaces& places, FitRows* rows) const;
 
  private:
@@ -99,8 +98,8 @@ class HingePlaneTerm {
   std::vector<HingePlane> planes_;
 };
 
-/// Each joint by itself: near its rest rotation, weakly, and knees and elbows on their hinge; no
-/// hinge beyond straight; little change from the neighbours in time.
+/// Per joint: a weak pull to the rest rotation; knees and elbows on their hinge, not beyond
+/// straight; little change from the neighbours in time.
 class JointTerm {
  public:
   JointTerm(const Skeleton& skeleton, const FitOptions& options, double fps);
@@ -113,7 +112,7 @@ class JointTerm {
  private:
   struct Prior {
     Eigen::Matrix3d information;  ///< of log(R) around rest, inverse square radians
-    Eigen::Vector3d hinge_axis;   ///< zero where the joint is no hinge
+    Eigen::Vector3d hinge_axis;   ///< zero if the joint is no hinge
 
     Eigen::Vector3d Turn(const Eigen::Vector3d& w) const;
     double Beyond(const Eigen::Vector3d& turn) const;

@@ -13,11 +13,11 @@
 namespace choreo {
 namespace {
 
-// Of the body's height.
-constexpr double kBeside = 0.02;      // what stands so far beside the middle belongs to a side
-constexpr double kAboveToes = 0.035;  // ankles are higher
-constexpr size_t kFewestNodes = 10, kMostNodes = 5000;  // a hostile file has any number
-constexpr size_t kFingers = 3;                          // a hand carries so many
+// Shares of the body's height.
+constexpr double kBeside = 0.02;      // further than this from the middle, a node belongs to a side
+constexpr double kAboveToes = 0.035;  // ankles are at least this high
+constexpr size_t kFewestNodes = 10, kMostNodes = 5000;  // limits, also for hostile files
+constexpr size_t kFingers = 3;                          // chains that a hand carries at least
 
 class BodyGuess {
  public:
@@ -76,13 +76,13 @@ class BodyGuess {
 
   int Extreme(const auto& value) const { return *std::ranges::max_element(nodes_, {}, value); }
 
-  // The lowest node from which both hang.
+  // The lowest common ancestor of both.
   int Common(int a, int b) const {
     int node = parents_[b];
     while (node >= 0 && (node == a || !IsBelow(a, node, parents_))) node = parents_[node];
     return node;
   }
-  // From below `ancestor` to `node`.
+  // The path from below `ancestor` to `node`.
   std::vector<int> Path(int ancestor, int node) const {
     std::vector<int> path;
     for (; node >= 0 && node != ancestor; node = parents_[node]) path.push_back(node);
@@ -117,7 +117,7 @@ class BodyGuess {
     size_t wrist = hand - path.begin();
     if (hand == path.end()) wrist = std::min<size_t>(path.size() - 1, 3);
     if (wrist < 2) return;
-    // Upper arm and forearm are long, and as long as each other.
+    // Upper arm and forearm are long and about equal.
     double best = kNever;
     size_t shoulder = 0, elbow = 1;
     for (size_t upper = 0; upper + 1 < wrist; ++upper) {
@@ -141,7 +141,7 @@ class BodyGuess {
   HumanBones found_;
 };
 
-// Who looks along -Z has the left side at -X.
+// A body facing -Z has its left side at -X.
 void TurnRound(const Eigen::Matrix3Xd& places, HumanBones* found) {
   double ahead = 0;
   for (const std::string side : {"left_", "right_"}) {

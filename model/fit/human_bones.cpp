@@ -12,7 +12,7 @@ namespace choreo {
 namespace {
 
 constexpr int kMostSpines = 6, kMostNecks = 3;
-constexpr int kMostEnds = 4;  // "_bind_jnt" are two; a hostile file has any number
+constexpr int kMostEnds = 4;  // "_bind_jnt" has two; a limit for hostile files
 
 std::vector<std::string_view> Split(std::string_view names) {
   std::vector<std::string_view> out;
@@ -24,7 +24,7 @@ std::vector<std::string_view> Split(std::string_view names) {
   return out;
 }
 
-// A name of the table on one side; in the middle, as it is.
+// A table name on one side; middle bones as they are.
 std::string OnSide(std::string_view name, const Rig& rig, bool left) {
   std::string out;
   for (const char letter : name) {
@@ -46,7 +46,7 @@ using NameIndex = std::unordered_map<std::string_view, int>;
 
 enum class Spelling { kExact, kPlain };
 
-// As tools spell the same name: without separators, in small letters.
+// Normalises tools' spellings: no separators, lower case.
 std::string Plain(const std::string& name) {
   std::string plain;
   for (const char letter : name) {
@@ -56,7 +56,7 @@ std::string Plain(const std::string& name) {
   return plain;
 }
 
-// Without the number that makes it the only one of its kind, as in "Hips_012" or "Hips.001".
+// Without the number that makes a name unique, such as in "Hips_012" or "Hips.001".
 std::string WithoutNumber(const std::string& name) {
   const size_t last = name.find_last_not_of("0123456789");
   if (last == std::string::npos || last + 1 == name.size() || last == 0) return name;
@@ -93,16 +93,16 @@ HumanBones FindIn(const Rig& rig, const std::string& prefix, const NameIndex& na
   return found;
 }
 
-// What may stand before all names of a rig: nothing, or what a separator ends.
+// Whether this may precede all names of a rig: nothing, or text that ends in a separator.
 bool IsPrefix(std::string_view prefix) {
   return prefix.empty() || prefix.starts_with("mixamorig") ||
          std::string_view(":_-|. ").find(prefix.back()) != std::string_view::npos;
 }
 
-// Prefixes with which the left thigh is there. Of Rigify's three sets of bones DEF- moves the mesh.
+// Prefixes under which the left thigh exists. Of Rigify's three sets of bones, DEF- moves the mesh.
 std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names,
                                     Spelling spelling) {
-  constexpr size_t kMost = 8;  // a hostile file has as many as bones
+  constexpr size_t kMost = 8;  // a limit for hostile files
   const bool plain = spelling == Spelling::kPlain;
   std::vector<std::string> prefixes = {"", plain ? "def" : "DEF-"};
   for (const std::string_view candidate : Split(rig.limbs[0])) {
@@ -118,7 +118,8 @@ std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::strin
   return prefixes;
 }
 
-// Without what ends most of them, as in "LeftArm_jnt" or "l_arm_bind_jnt". No side does.
+// Without the common ending of most names, as in "LeftArm_jnt" or "l_arm_bind_jnt". A side is no
+// ending.
 std::vector<std::string> WithoutCommonEnd(std::vector<std::string> names) {
   const auto end_of = [](const std::string& name) {
     const size_t at = name.find_last_of("_.-:| ");
@@ -138,8 +139,7 @@ std::vector<std::string> WithoutCommonEnd(std::vector<std::string> names) {
   return names;
 }
 
-// How much speaks for a rig: first the bones without which nobody dances, then those that move,
-// then any others.
+// The score of a rig: first the bones that dancing needs, then those that move, then all others.
 std::tuple<int, size_t, size_t> Score(const HumanBones& found,
                                       const std::vector<bool>& moves = {}) {
   int needed = found.Find("head") >= 0 || found.Find("neck") >= 0 ? 1 : 0;
@@ -159,7 +159,7 @@ bool IsWhole(const HumanBones& found) {
 
 HumanBones FindSpelt(const std::vector<std::string>& names, Spelling spelling,
                      const std::vector<bool>& moves) {
-  NameIndex index;  // the first of each
+  NameIndex index;  // the first of each name
   for (size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], static_cast<int>(i));
   HumanBones best{.rig = kHumanIkRig, .bones = {}};
   for (const Rig& rig : kRigs) {
@@ -190,7 +190,7 @@ std::vector<std::string> HumanBones::Neck() const { return Chain(*this, NeckName
 HumanBones FindHumanBones(const std::vector<std::string>& names, const std::vector<bool>& moves) {
   HumanBones best = FindSpelt(names, Spelling::kExact, moves);
   if (IsWhole(best) || names.empty()) return best;
-  // Another spelling counts only where a whole body is found in it.
+  // Another spelling counts only if it gives a whole body.
   const auto each = [](std::vector<std::string> all, auto change) {
     for (std::string& name : all) name = change(name);
     return all;

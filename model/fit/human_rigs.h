@@ -4,16 +4,15 @@
 
 #include "model/fit/human_bones.h"
 
-/// The table of human_bones.h. Private to this folder.
+/// The table behind human_bones.h. Private to this folder.
 namespace choreo {
 
-/// What Rig::limbs names.
+/// The bones in Rig::limbs.
 inline constexpr std::string_view kLimbBones[] = {"hip",      "knee",  "ankle", "foot", "collar",
                                                   "shoulder", "elbow", "wrist", "hand", "eye"};
 
-/// What one maker's rigs call their bones: of each bone the names that it may have, best first,
-/// with '|' between them; spines and necks from below. '*' stands for the side, '@' for it in small
-/// letters.
+/// One maker's names of bones: for each bone its possible names, best first, separated by '|';
+/// spines and necks from below. '*' stands for the side, '@' for the side in lower case.
 struct Rig {
   std::string_view name;
   std::string_view side_names[2];  ///< left, right

@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kPinAccuracy = 0.0005;  // metres, of targets
 constexpr int kIterations = 200;
-// How firmly joints that are no targets keep their places, beside a target: feet stand, a foot that
-// is moved stays as it is turned, the trunk and the other limbs' ends give way by centimetres.
+// How firmly other joints keep their places relative to targets: feet stay, a moved foot keeps its
+// rotation, the trunk and other limbs' ends give way by centimetres.
 constexpr double kFirm = 3;
 constexpr double kAlong = 0.05;
 constexpr double kLoose = 0.01;
 
-/// Where the solver is to have a joint, and how much that weighs.
+/// Where to put a joint, and the weight of that.
 struct Pin {
   Eigen::Vector3d position;
   double weight;
 };
 
-// Only the pose itself says what is near: being far from rest costs next to nothing.
+// Only the pose itself says what is near: distance from rest costs almost nothing.
 constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
                                       .stiff_rad = 3,
                                       .twist_rad = 3,
@@ -33,7 +33,7 @@ constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
                                       .hinge_side_rad = 0.08,
                                       .change_rad = 0.3};
 
-// By joint: the targets, and what stays.
+// Pins by joint: the targets, and whatever stays.
 std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
                           std::span<const JointTarget> targets) {
   std::map<int, Pin> pins = {{0, {now.col(0), kLoose}}};
@@ -47,7 +47,7 @@ std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
   }
   for (const JointTarget& target : targets) {
     const Eigen::Vector3d way = target.position - now.col(target.joint);
-    // What hangs on a target, or a target on it, goes along.
+    // Joints above or below a target move along with it.
     for (auto pin = pins.begin(); pin != pins.end();) {
       const int joint = pin->first;
       const bool along =

@@ -7,7 +7,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Inverse kinematics of the whole body: joints are drawn to places, the rest follows.
+/// Inverse kinematics of the whole body: some joints are drawn to targets, the rest follows.
 namespace choreo {
 
 /// Where a joint should be: world, metres.
@@ -18,15 +18,15 @@ struct JointTarget {
 
 struct DrawnPose {
   Pose pose;
-  std::vector<double> missed_m;  ///< [targets] how far off each joint ended
+  std::vector<double> missed_m;  ///< [targets] final distance of each joint
 };
 
-/// Draws joints to their targets. Feet that are no targets stay where they are; hands, head, pelvis
-/// and chest stay about there, so that an arm reaches first and the trunk leans where the arm is
-/// too short. Knees and elbows bend as they can, the other joints turn as little as need be. A
-/// least squares fit (fit/fit_problem.h): a target within reach is met to a millimetre or two,
-/// another one is neared. About a millisecond. `targets` are finite, of different joints of the
-/// skeleton. Pure; throws Error(kInvalidArgument) for a pose of another joint count.
+/// Draws joints to their targets. Other feet stay in place; hands, head, pelvis and chest stay
+/// nearby, so that an arm reaches first and the trunk leans if the arm is too short. Knees and
+/// elbows bend freely; other joints turn as little as needed. A least-squares fit
+/// (fit/fit_problem.h) meets targets within reach to a millimetre or two and approaches others.
+/// About a millisecond. `targets` are finite and for different joints of the skeleton. Pure; throws
+/// Error(kInvalidArgument) for a pose of another joint count.
 DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
                      std::span<const JointTarget> targets);
 

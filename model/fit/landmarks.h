@@ -24,8 +24,8 @@ class LandmarkSet {
     double weight;
   };
 
-  /// Throws Error(kInvalidArgument) for a joint that the skeleton lacks, a parent that does not
-  /// stand before its child, weights that do not sum to 1, or no landmark at all.
+  /// Throws Error(kInvalidArgument) for a joint that the skeleton lacks, a parent after its child,
+  /// weights that do not sum to 1, or no landmarks.
   LandmarkSet(const Skeleton& skeleton, const SourceMapping& mapping);
 
   int size() const { return static_cast<int>(marks_.size()); }
@@ -37,7 +37,7 @@ class LandmarkSet {
   /// [3, landmarks]
   Eigen::Matrix3Xd Positions(const JointPlacement& placement) const;
 
-  /// The landmark that stands in a joint's place, or -1.
+  /// The landmark at a joint's position, or -1.
   int AtJoint(int joint) const;
 
  private:

@@ -17,7 +17,7 @@ class MappingBuilder {
     mapping_.accuracy_m = accuracy_m;
   }
 
-  /// `parent` is a landmark's name, empty for the first one.
+  /// `parent`: a landmark's name, or "" for the first one.
   void Add(const std::string& name, const std::string& parent, JointBlend source,
            std::vector<OurPoint> ours, double weight = 1, bool rigid = true) {
     const auto above = std::ranges::find(mapping_.landmarks, parent, &Landmark::name);
@@ -36,7 +36,7 @@ class MappingBuilder {
     Add(ours, parent, {{source, 1.0}}, {{.joint = ours}}, weight);
   }
 
-  /// The middle of the hips, from which all hangs, and both of them.
+  /// Adds the middle of the hips, the root of everything, and both hips.
   void AddHips(const std::string& left, const std::string& right) {
     Add("hips", "", {{left, 0.5}, {right, 0.5}}, Between("left_hip", "right_hip"));
     AddJoint("left_hip", "hips", left);
@@ -47,11 +47,11 @@ class MappingBuilder {
 
   SourceMapping Take() { return std::move(mapping_); }
 
-  /// A point beside one of our joints.
+  /// A point at an offset from one of our joints.
   static OurPoint At(const std::string& joint, double x, double y, double z) {
     return {.joint = joint, .offset = {x, y, z}};
   }
-  /// The middle of two of our joints.
+  /// The midpoint of two of our joints.
   static std::vector<OurPoint> Between(const std::string& a, const std::string& b) {
     return {{.joint = a, .weight = 0.5}, {.joint = b, .weight = 0.5}};
   }

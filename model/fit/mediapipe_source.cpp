@@ -8,10 +8,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kPhotoAccuracy = 0.03;  // metres: how far landmarks of photos are off
+constexpr double kPhotoAccuracy = 0.03;  // metres: error of landmarks from photos
 constexpr double kLeastWeight = 0.001;
 
-// How they tell where our joints are.
+// How MediaPipe's landmarks locate our joints.
 SourceMapping MediaPipeSource(std::span<const double> visibilities) {
   const auto seen = [&](const std::string& name) {
     const double visibility = visibilities[IndexOf(MediaPipeJointNames(), name)];
@@ -27,7 +27,7 @@ SourceMapping MediaPipeSource(std::span<const double> visibilities) {
               0.5 * std::min(seen("left_ear"), seen("right_ear")), false);
   builder.Add("nose", "head", {{"nose", 1.0}}, {B::At("head", 0, 0.04, 0.12)}, 0.5 * seen("nose"));
   for (const std::string side : {"left_", "right_"}) {
-    // A bone is seen as well as both of its ends.
+    // A bone is as visible as its less visible end.
     double above = 1;
     const auto add = [&](const std::string& joint, const std::string& parent) {
       const double trust = seen(side + joint);

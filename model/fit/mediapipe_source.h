@@ -15,10 +15,10 @@ const std::vector<std::string>& MediaPipeJointNames();
 
 /// A pose from the landmarks of one picture: `landmarks` [3, 33] are MediaPipe's world landmarks,
 /// metres around the middle of the hips, x to the picture's right, y down, z away from the camera.
-/// `visibilities` [33], 0 to 1, are their weights; what is hardly seen says hardly anything, and
-/// the body's habits fill it in. Our bones, their directions. It stands around the origin with a
-/// foot on the floor, and who looks into the camera faces +Z. Pure; throws Error(kInvalidArgument)
-/// for numbers that are not finite.
+/// `visibilities` [33], 0 to 1, weight them; priors fill in what is hardly visible. The result has
+/// our bones in their directions. It stands near the origin with a foot on the floor; a person who
+/// looks into the camera faces +Z. Pure; throws Error(kInvalidArgument) for numbers that are not
+/// finite.
 Pose FitMediaPipe(const Eigen::Matrix3Xd& landmarks, std::span<const double> visibilities,
                   const Skeleton& skeleton);
 

@@ -15,7 +15,7 @@ struct Biquad {
   double b0, b1, b2, a1, a2;
 
   void Run(std::vector<Eigen::Matrix3Xd>& samples) const {
-    // Start in the steady state of the first sample, so that a constant passes unchanged.
+    // Starts in the steady state of the first sample, so that a constant passes unchanged.
     Eigen::Matrix3Xd x1 = samples[0], x2 = samples[0], y1 = samples[0], y2 = samples[0];
     for (Eigen::Matrix3Xd& sample : samples) {
       const Eigen::Matrix3Xd x = sample;
@@ -54,8 +54,8 @@ void ValidateClip(const PositionClip& clip) {
 
 PositionClip LowPass(const PositionClip& clip, double cutoff_hz) {
   const auto count = static_cast<int>(clip.frames.size());
-  // Two passes halve the power twice at a pass's own cutoff: move it up so that both together have
-  // it at cutoff_hz.
+  // Two passes quarter the power at a pass's own cutoff; raise it so that both together halve it at
+  // cutoff_hz.
   const double pass_cutoff = cutoff_hz / std::pow(std::numbers::sqrt2 - 1.0, 0.25);
   if (pass_cutoff >= 0.49 * clip.fps || count < 3) return clip;
   const int margin = std::min(count - 1, static_cast<int>(std::ceil(2 * clip.fps / cutoff_hz)));
@@ -104,8 +104,8 @@ int RemoveSpikes(double speed_limit, int max_frames, PositionClip& clip) {
     for (int frame = 1; frame < count; ++frame) {
       const Eigen::Vector3d before = clip.frames[frame - 1].col(joint);
       if ((clip.frames[frame].col(joint) - before).norm() <= step_limit) continue;
-      // The first frame from which the joint could have come here at a plausible speed ends the
-      // spike; without one it is a jump.
+      // The spike ends at the first frame that the joint could reach at a plausible speed; without
+      // one it is a jump.
       int good = frame + 1;
       const int end = std::min(count, frame + max_frames + 1);
       while (good < end &&

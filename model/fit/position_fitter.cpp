@@ -8,11 +8,11 @@
 namespace choreo {
 namespace {
 
-constexpr int kFirstIterations = 60;  // of a frame without a predecessor
-// Root mean square distance of the landmarks at which a warm start is taken for lost.
+constexpr int kFirstIterations = 60;  // for a frame without a predecessor
+// Root mean square landmark distance above which a warm start counts as lost.
 constexpr double kLostDistance = 0.04;
-// Radians that no trunk turns. One that does is wound up: hips and shoulders are where they belong,
-// a whole turn apart.
+// Radians that no trunk turns. A trunk beyond them is wound up: hips and shoulders are in place,
+// but a whole turn apart.
 constexpr double kWoundTurn = 2.6;
 
 }  // namespace
@@ -41,8 +41,8 @@ const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets, const Pose* af
   return *pose_;
 }
 
-// Tries again from scratch, and keeps that only where it is much nearer, or as near and unwound: a
-// clip that does not fit at all should at least be smooth.
+// Tries again from scratch, and keeps the result only if it is much nearer, or as near and unwound:
+// even a clip that does not fit should be smooth.
 void PositionFitter::Recover(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
                              double distance) {
   Pose fresh = problem_->Start(targets);

@@ -9,19 +9,19 @@
 
 namespace choreo {
 
-/// Fits frame after frame, causally: a frame's result depends on it and the frames before. Not
-/// thread-safe; one per stream.
+/// Fits frame after frame, causally: a result depends only on its frame and those before. Not
+/// thread-safe; use one per stream.
 class PositionFitter {
  public:
   PositionFitter(const Skeleton& skeleton, const SourceMapping& mapping,
                  const FitOptions& options = {}, double fps = kModelFps);
 
   /// Landmark targets [3, landmarks] → the pose, on the exp-map branch nearest to the frame before.
-  /// What they leave open, such as how a straight arm is turned about itself, changes little from
-  /// the frame before and stays close to `after`'s, where it is given.
+  /// What they leave open, such as a straight arm's twist, changes little from the frame before and
+  /// stays close to `after`'s, if given.
   const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after = nullptr);
 
-  /// Goes on from this pose, as if it had been the frame before.
+  /// Continues as if `previous` had been the frame before.
   void Reset(const Pose& previous) { pose_ = previous; }
 
  private:

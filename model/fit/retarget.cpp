@@ -20,13 +20,13 @@ Side RightOf(const Skeleton& s) {
   return {s.right_hip, s.right_knee, s.feet[2], s.feet[3], s.right_shoulder, s.right_elbow};
 }
 
-/// What two bodies have in common.
+/// The landmarks that two bodies share.
 class CommonMapping {
  public:
   CommonMapping(const Skeleton& from, const Skeleton& to) : from_(from), to_(to) {
     builder_.Add("hips", "", Middle(from, from.left_hip, from.right_hip),
                  MappingBuilder::Between(Name(to, to.left_hip), Name(to, to.right_hip)));
-    // Spines differ: what counts is where the shoulders are.
+    // Spines differ; only the position of the shoulders counts.
     builder_.Add("shoulders", "hips", Middle(from, from.left_shoulder, from.right_shoulder),
                  MappingBuilder::Between(Name(to, to.left_shoulder), Name(to, to.right_shoulder)),
                  1, false);
@@ -50,7 +50,7 @@ class CommonMapping {
   void Bone(const std::string& name, const std::string& parent, int from, int to) {
     builder_.Add(name, parent, {{Name(from_, from), 1.0}}, {{.joint = Name(to_, to)}});
   }
-  // False where only one of them has such a joint.
+  // Returns false if only one of them has such a joint.
   bool Named(const std::string& name, const std::string& parent) {
     const int from = from_.Find(name), to = to_.Find(name);
     if (from < 0 || to < 0) return false;
@@ -64,7 +64,7 @@ class CommonMapping {
     Bone(side + "hip", "hips", from.hip, to.hip);
     Bone(side + "knee", side + "hip", from.knee, to.knee);
     Bone(side + "ankle", side + "knee", from.ankle, to.ankle);
-    // Ankles stand at different heights above their soles: a foot is flat where the other one is.
+    // Ankles have different heights above their soles: a foot is flat where the other's is.
     const Eigen::Vector3d sole = (Rest(from_, from.toes) - Rest(from_, from.ankle)).normalized() *
                                  (Rest(to_, to.toes) - Rest(to_, to.ankle)).norm();
     builder_.Add(side + "toes", side + "ankle", {{Name(from_, from.toes), 1.0}},

@@ -78,7 +78,7 @@ class RigFitter {
     return placement.places.col(bone);
   }
 
-  // As before rotations were looked at.
+  // Fits positions alone.
   Motion FitPositions() const {
     PositionClip clip;
     clip.fps = rig_.fps;
@@ -88,15 +88,14 @@ class RigFitter {
     return FitClip(clip, RigSource(clip, rig_.bones), SmplBody(), {.ground = false}).motion;
   }
 
-  // What leads from SMPL's rest, in the world, to the bone's own frame.
+  // Rotations from SMPL's rest, in the world, to each bone's own frame.
   void TakeRest(const RigReading::Rest& found) {
     const CharacterBody& rest = found.body;
     frames_.assign(rig_.names.size(), Eigen::Matrix3d::Identity());
     for (size_t joint = 0; joint < rest.nodes.size(); ++joint) {
       const int bone = rest.nodes[joint];
       if (bone < 0) continue;
-      // A foot is flat at rest, here and there; toe joints stand more or less aside of where it
-      // points.
+      // A foot is flat at rest in both; toe joints lie more or less beside the foot's direction.
       const std::string& name = rest.skeleton.joint_names[joint];
       const bool foot = name.ends_with("_ankle") || name.ends_with("_foot");
       const Eigen::Matrix3d& turn = rest.turns[foot ? 0 : joint];
@@ -104,7 +103,7 @@ class RigFitter {
     }
   }
 
-  // The same, as constant as it can be, from a fit to positions.
+  // The same rotations, as constant as possible, from a fit to positions.
   void Calibrate(const Motion& fitted) {
     std::vector<Eigen::Matrix3d> sums(rig_.names.size(), Eigen::Matrix3d::Zero());
     for (int64_t frame = 0; frame < rig_.count; ++frame) {
@@ -129,7 +128,7 @@ class RigFitter {
     }
   }
 
-  // Our trunk's turn, `share` of the way from the pelvis to the chest.
+  // Rotation of our trunk, `share` of the way from pelvis to chest.
   static Eigen::Matrix3d OurSpine(const JointPlacement& ours, double share) {
     static const int joints[] = {0, SmplBody().Find("spine1"), SmplBody().Find("spine2"),
                                  SmplBody().Find("spine3")};
@@ -138,7 +137,7 @@ class RigFitter {
     return Blend(ours.rotations[joints[below]], ours.rotations[joints[below + 1]], way - below);
   }
 
-  // The rig's trunk's.
+  // The same for the rig's trunk.
   Eigen::Matrix3d TheirSpine(const RigPlacement& theirs, double share) const {
     const double way = share * static_cast<double>(spine_.size());
     const auto below = std::min(static_cast<size_t>(way), spine_.size());
@@ -147,7 +146,7 @@ class RigFitter {
     return Blend(turn(below), turn(below + 1), way - static_cast<double>(below));
   }
 
-  // How our joint of that bone is turned in the world.
+  // World rotation of our joint for that bone.
   Eigen::Matrix3d Turn(const RigPlacement& theirs, const std::string& bone) const {
     const int index = Find(bone);
     return theirs.turns[index] * frames_[index];

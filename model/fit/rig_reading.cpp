@@ -14,12 +14,13 @@
 namespace choreo {
 namespace {
 
-constexpr int64_t kSamples = 200;  // frames that tell what is constant
-// How far the rest pose's limbs may be from SMPL's, radians: legs hang, arms are anywhere between
-// hanging and held out.
+constexpr int64_t kSamples = 200;  // frames sampled to find what is constant
+// How far a rest pose's limbs may deviate from SMPL's, radians: legs hang; arms are anywhere
+// between hanging and held out.
 constexpr double kLegsAside = 50 / kDegrees, kArmsAside = 115 / kDegrees;
 constexpr double kTrunkAside = 35 / kDegrees;
-// A bone that carries the next one has it in the same place, radians and bones.
+// A bone that carries the next one keeps it in the same place, within these radians and bone
+// lengths.
 constexpr double kLooseBone = 15 / kDegrees;
 constexpr int kMostLoose = 2;
 
@@ -29,14 +30,14 @@ double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Of the six axes.
+// The nearest of the six axes.
 Eigen::Vector3d NearestAxis(const Eigen::Vector3d& way) {
   Eigen::Index axis = 0;
   way.cwiseAbs().maxCoeff(&axis);
   return Eigen::Vector3d::Unit(axis) * (way[axis] < 0 ? -1 : 1);
 }
 
-// A placement as a body of ours, if it is a body's that stands, arms hanging or held out.
+// The placement as one of our bodies, if it is a standing body with arms hanging or held out.
 std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matrix3Xd& places) {
   std::optional<CharacterBody> body;
   try {
@@ -134,14 +135,14 @@ std::vector<std::string> RigReading::Missing() const {
   return missing;
 }
 
-// Where a bone points in its own frame.
+// Direction of a bone in its own frame.
 Eigen::Vector3d RigReading::Inside(const RigPlacement& placement,
                                    const LimbSegment& segment) const {
   const Eigen::Vector3d bone = Bone(placement, segment);
   return (placement.turns[Find(segment.from)].transpose() * bone).normalized();
 }
 
-// Whether nearly all limbs point, each in its own frame, where `expected` says in most frames.
+// Whether, in most frames, nearly all limbs point in their own frames where `expected` says.
 bool RigReading::Point(const std::function<Eigen::Vector3d(const LimbSegment&)>& expected,
                        double share) const {
   int loose = 0;
@@ -165,7 +166,7 @@ bool RigReading::TurnsCarry() const {
       kMostFrames);
 }
 
-// Whether the rest pose is that of the bones which then turn.
+// Whether the rest pose belongs to the bones that move.
 bool RigReading::Agrees(const RigPlacement& rest) const {
   return Point([&](const LimbSegment& segment) { return Inside(rest, segment); }, 0.5);
 }
@@ -184,7 +185,7 @@ bool RigReading::IsHeldOut(const RigPlacement& placement) const {
                       Bone(placement, {"right_elbow", "right_shoulder"})) < 2 * kLooseBone;
 }
 
-// Along which axis of the file's a rest pose stands.
+// The file's axis along which a rest pose stands.
 std::optional<Eigen::Vector3d> RigReading::Up() const {
   for (size_t i = rig_.rests_apart; i < rig_.rests.size(); ++i) {
     if (!Agrees(rig_.rests[i])) continue;
@@ -206,7 +207,7 @@ std::optional<RigReading::Rest> RigReading::FindRest() const {
     if (auto body = RestBody(rig_.bones, rest.places)) return Rest{*std::move(body), &rest};
   }
   if (!IsHeldOut(samples_[0])) return std::nullopt;
-  // Some begin with the pose that others rest in.
+  // Some clips begin with the pose that others rest in.
   auto body = RestBody(rig_.bones, samples_[0].places);
   if (!body) return std::nullopt;
   return Rest{*std::move(body), &samples_[0]};

@@ -9,7 +9,7 @@
 #include "model/fit/character_body.h"
 #include "model/fit/rig_motion.h"
 
-/// What a recording of a rig tells of the rig, before any of it is fitted. Private to this folder.
+/// What a recording says about its rig before fitting. Private to this folder.
 namespace choreo {
 
 /// What so many frames show is a rule.
@@ -19,13 +19,13 @@ inline constexpr double kMostFrames = 0.9;
 struct LimbSegment {
   std::string from, to;
 };
-/// Those of the left side, then as many of the right.
+/// The left side's, then as many of the right.
 const std::vector<LimbSegment>& LimbSegments();
 
-/// Looks at a few of its frames; the recording outlives it.
+/// Samples a few frames; the recording must outlive it.
 class RigReading {
  public:
-  /// Errors as FitRig has them.
+  /// Errors as FitRig.
   explicit RigReading(const RigMotion& rig);
 
   const RigMotion& rig() const { return rig_; }
@@ -36,19 +36,19 @@ class RigReading {
   double Scale() const;
   /// RigFit::missing.
   std::vector<std::string> Missing() const;
-  /// Whether the place of a bone's end turns with the bone, as it does unless somebody has moved
-  /// joints without turning anything.
+  /// Whether the positions of bones' ends turn with the bones: always, unless joints were moved
+  /// without turning anything.
   bool TurnsCarry() const;
 
-  /// A rest pose that is a standing body's.
+  /// A rest pose that is a standing body.
   struct Rest {
     CharacterBody body;
     const RigPlacement* placement = nullptr;
   };
-  /// The best of the file's or, where none is one, the first frame that stands with straight limbs
-  /// and arms held out, as others rest.
+  /// The best of the file's rest poses; without a usable one, the first frame that stands with
+  /// straight limbs and arms held out.
   std::optional<Rest> FindRest() const;
-  /// Whether one of the file's is one.
+  /// Whether one of the file's rest poses stands.
   bool Stands() const;
   /// RigFit::up.
   std::optional<Eigen::Vector3d> Up() const;

@@ -38,7 +38,7 @@ void AddTangLimbs(MappingBuilder& builder, const std::string& side, const JointB
   builder.AddJoint(side + "wrist", side + "elbow", side + "wrist");
   builder.AddJoint(side + "hand", side + "wrist", side + "hand", 0.7);
   builder.AddJoint(side + "knee", side + "hip", side + "knee");
-  // The source's ankle is the outer ankle bone, which is why its heel seems to stand inwards.
+  // The source's ankle is the outer ankle bone, so its heel seems to stand inwards.
   builder.Add(side + "ankle", side + "knee", {{side + "ankle", 1.0}},
               {MappingBuilder::At(side + "ankle", out * 0.03, 0, 0)});
   builder.Add(side + "heel", side + "ankle", heel,

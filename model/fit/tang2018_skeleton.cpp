@@ -38,7 +38,7 @@ class Lengths {
   double Between(const std::string& a, const std::string& b) const {
     return Between(JointBlend{{a, 1.0}}, JointBlend{{b, 1.0}});
   }
-  /// Of a bone that both sides have.
+  /// Of a bone on both sides.
   double OfBothSides(const std::string& a, const std::string& b) const {
     return 0.5 * (Between("left_" + a, "left_" + b) + Between("right_" + a, "right_" + b));
   }
@@ -47,8 +47,8 @@ class Lengths {
   std::span<const PositionClip> clips_;
 };
 
-/// Where the tip of a triangle stands over its base: how far along it from the first end, and how
-/// far off it, given the tip's distances from both ends. A tip out of reach lies on the base.
+/// Position of a triangle's tip over its base: how far along it from the first end and how far off
+/// it, from the tip's distances to both ends. A tip out of reach lies on the base.
 struct Tip {
   double along, off;
 };
@@ -68,7 +68,7 @@ void AddLeg(const Lengths& lengths, const std::string& side, const Eigen::Vector
   AddBone(side + "hip", "waist", hip, skeleton);
   AddBone(side + "knee", side + "hip", {0, -lengths.OfBothSides("hip", "knee"), 0}, skeleton);
   AddBone(side + "ankle", side + "knee", {0, -lengths.OfBothSides("knee", "ankle"), 0}, skeleton);
-  // The ankle above a flat sole.
+  // Height of the ankle above a flat sole.
   const double sole = lengths.OfBothSides("heel", "toes");
   const Tip ankle =
       TipOver(sole, lengths.OfBothSides("heel", "ankle"), lengths.OfBothSides("toes", "ankle"));
@@ -87,7 +87,7 @@ void AddArm(const Lengths& lengths, const std::string& side, double out,
   const double wrist = between("elbow", "wrist");
   AddBone(side + "wrist", side + "elbow", {out * wrist, 0, 0}, skeleton);
   AddBone(side + "hand", side + "wrist", {out * between("wrist", "hand"), 0, 0}, skeleton);
-  // Palms look down, so that thumbs point forward.
+  // Palms face down, so that thumbs point forward.
   const Tip thumb = TipOver(wrist, between("elbow", "thumb"), between("wrist", "thumb"));
   AddBone(side + "thumb", side + "wrist", {out * (thumb.along - wrist), 0, thumb.off}, skeleton);
 }
@@ -104,8 +104,8 @@ NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips) {
   const double half_shoulders = 0.5 * lengths.Between("left_shoulder", "right_shoulder");
   const double half_head = 0.5 * lengths.Between("left_temple", "right_temple");
   const double half_neck = 0.5 * lengths.Between(shoulders, temples);
-  // The chest's joint stands above the hips, and so do the shoulders, as far from the waist as
-  // recorded.
+  // The chest joint is above the hips, as are the shoulders, at their recorded distance from the
+  // waist.
   const double depth = belly * std::sin(kWaistLean);
   const double reach = lengths.Between(waist, shoulders);
   const double trunk = std::sqrt(std::max(0.0, reach * reach - depth * depth));

@@ -16,9 +16,9 @@
 namespace choreo {
 namespace {
 
-// Metres, of SMPL's body: a hand that is nearer touches, one that is farther is free.
+// Metres at SMPL's size: a hand nearer than the first touches, one farther than the second is free.
 constexpr double kTouches = 0.12, kFree = 0.32;
-// Seconds over which a hand is drawn: one that swings past the hips is not to jerk.
+// Seconds of smoothing, so that a hand that swings past the hips does not jerk.
 constexpr double kDraws = 0.08;
 constexpr double kNoWay = 1e-6;
 
@@ -89,7 +89,7 @@ class Takes {
 
 using HandWays = Eigen::Matrix<double, 3, 2>;  // left, right
 
-// Weighed over the frames around, as a Gauss curve does.
+// Smoothed over neighbouring frames by a Gaussian.
 std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
   const double sigma = kDraws * fps;
   const int reach = static_cast<int>(3 * sigma);
@@ -103,7 +103,7 @@ std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
   return smooth;
 }
 
-/// Moves hands to where SMPL's are, seen from what they touch.
+/// Moves hands to where SMPL's are, relative to what they touch.
 class Hands {
  public:
   Hands(const Skeleton& character, double size)
@@ -122,7 +122,7 @@ class Hands {
     }
   }
 
-  /// How far both are to move from where they are, `now`.
+  /// How far each hand must move from `now`.
   HandWays Ways(const Eigen::Matrix3Xd& smpl, const Eigen::Matrix3Xd& now) const {
     return (HandWays() << Way(0, smpl, now), Way(1, smpl, now)).finished();
   }
@@ -158,7 +158,7 @@ class Hands {
       way += weight * (goal - hand);
       weights += weight;
     };
-    // The other hand gives way as far.
+    // The other hand gives way as much.
     const Eigen::Vector3d apart = our_hand - Col(smpl, ours_[1 - side]);
     const Eigen::Vector3d middle = (hand + Col(now, arms_[1 - side].end)) / 2;
     draw(middle + size_ * apart / 2, Nearness(apart.norm()));
@@ -225,7 +225,7 @@ Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied) 
       toes.y() += rest(1, legs[side].toes) - size * our_rest(1, our_legs[side].toes);
       PlaceToes(legs[side], character, placement, toes, &pose);
     }
-    // Hands on knees find these where they are now.
+    // Hands on knees follow the knees' present place.
     ways.push_back(hands.Ways(ours, JointPositions(character, pose)));
   }
   ways = Smooth(ways, smpl.fps);
