@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Where two axes come nearest, as shares of their lengths (Ericson, Real-Time Collision Detection,
-/// 5.1.9).
+/// The nearest points of two axes, as shares of their lengths (Ericson, Real-Time Collision
+/// Detection, 5.1.9).
 std::pair<float, float> NearestPoints(const RoundedCone& p, const RoundedCone& q,
                                       const Vector3f& moved) {
   const Vector3f along_p = p.b - p.a, along_q = q.b - q.a, between = p.a - q.a - moved;

@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// The body of a motion (doll.h), frame by frame, to be measured against another.
+/// A moving body (doll.h), prepared frame by frame for measuring its distance from another.
 class MovingBody {
  public:
   /// Throws as BuildFigure.
@@ -24,21 +24,20 @@ class MovingBody {
   struct Frame {
     std::vector<BoundedCone> parts;
     Eigen::Vector3f middle;
-    float radius;  // of a ball around all of it
+    float radius;  // of a ball around the whole body
   };
   std::vector<Frame> frames_;
 };
 
 /// How near two bodies come.
 struct BodyDistance {
-  double metres = 0;  ///< between their surfaces; below zero: so deep one is in the other
-  int64_t frame = 0;  ///< the first in which that is so
+  double metres = 0;  ///< between their surfaces; negative: the depth of overlap
+  int64_t frame = 0;  ///< the first with that distance
 };
 
-/// The least distance of two bodies while both move, where the second is elsewhere by `moved`,
-/// metres. Between limbs it is that of the nearest points of their axes, which is the surfaces' to
-/// within what a limb tapers there. Throws Error(kInvalidArgument) where one has no frames.
-/// Thread-safe.
+/// The least distance of two moving bodies, the second displaced by `moved`, metres. Between limbs
+/// it is taken at the nearest points of their axes, which errs by at most the limb's taper there.
+/// Throws Error(kInvalidArgument) if either has no frames. Thread-safe.
 BodyDistance LeastDistance(const MovingBody& a, const MovingBody& b,
                            const Eigen::Vector3d& moved = Eigen::Vector3d::Zero());
 

@@ -6,7 +6,7 @@
 namespace choreo {
 namespace {
 
-constexpr float kMinDistance = 1e-4f;  // a ray that starts on the surface does not meet it again
+constexpr float kMinDistance = 1e-4f;  // keeps a ray from hitting the surface that it starts on
 
 }  // namespace
 
@@ -36,10 +36,10 @@ bool MayEnter(const ConeLanes& cones, const Lanes& origins, const Lanes& directi
   return Any(away2 - along * along < cones.bound2 && (along > 0 || away2 < cones.bound2));
 }
 
-// The mantle: points at distance radius from the axis, measured along the slanted normal. With s
-// the axis coordinate (times the axis length) the mantle is a quadric in the ray's distance; it
-// ends where the balls begin, at s = 0 and s = taper. Of a convex hull, the nearest point on any of
-// its parts is where the ray enters.
+// The mantle: points at distance radius from the axis, measured along the slanted normal. In the
+// axis coordinate s (times the axis length) the mantle is a quadric in the ray's distance; it ends
+// where the balls begin, at s = 0 and s = taper. The shape is convex, so the ray enters at the
+// nearest hit of any part.
 Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions) {
   const Lanes from = origins - cones.a;
   const Lane slope = cones.radius_a - cones.radius_b;
@@ -59,7 +59,7 @@ Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions
     nearest = is_there && along > kMinDistance && along < nearest ? along : nearest;
   };
   const Lane root = Sqrt(Max(square, 0));
-  // Where taper is not above zero one ball lies in the other.
+  // If taper is not positive, one ball contains the other.
   for (const Lane along : {(-root - k1) / k2, (root - k1) / k2}) {
     const Lane s = axis_from - cones.radius_a * slope + along * axis_ray;
     meet(along, s > 0 && s < taper);
@@ -70,7 +70,7 @@ Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions
   };
   meet_ball(from, ray_from, cones.radius_a);
   meet_ball(from - cones.axis, ray_from - axis_ray, cones.radius_b);
-  // Beside the mantle's cone there are no balls either.
+  // A ray that misses the mantle's cone misses the balls, too.
   return nearest == kNone || (taper > 0 && square < 0) ? AllLanes(-1) : nearest;
 }
 

@@ -12,11 +12,11 @@
 namespace choreo {
 namespace {
 
-constexpr double kStickRadius = 0.035;  // of a bone that plays no part in a body we know
+constexpr double kStickRadius = 0.035;  // of bones without a known role
 constexpr double kTrunkRadius = 0.085;
 constexpr float kBlend = 0.012f, kBlendReach = 4 * kBlend;  // metres
 
-// A DollBall by its joint's name.
+// A DollBall, by its joint's name.
 struct Ball {
   const char* joint;
   float x, y, z;
@@ -28,7 +28,7 @@ struct NamedPart {
   Colour colour;
 };
 
-// The left half; "left" and x are mirrored for the right one.
+// The left half; the right half mirrors "left" and x.
 const NamedPart kSide[] = {
     // Leg: thigh, shin with calf, foot from ankle and heel to the toes.
     {{"left_hip", 0.012f, -0.02f, 0, 0.088f}, {"left_knee", 0, 0, 0, 0.056f}, kLeftColour},
@@ -71,7 +71,7 @@ const NamedPart kMiddle[] = {
     {{"head", 0, 0.165f, -0.075f, 0.045f}, {"head", 0, 0.170f, -0.090f, 0.042f}, kHairColour},
 };
 
-// With a joint below 0 where the skeleton does not have one that the doll needs.
+// The joint is -1 if the skeleton lacks one that the doll needs.
 std::vector<DollPart> SmplParts(const Skeleton& skeleton) {
   std::vector<DollPart> doll;
   const auto as_it_is = [&](const Ball& ball) {
@@ -91,7 +91,7 @@ std::vector<DollPart> SmplParts(const Skeleton& skeleton) {
   return doll;
 }
 
-// How thick the bone from a joint's parent to it is, by the joints' roles, metres.
+// Radius of the bone from each joint's parent, by the joints' roles, metres.
 std::vector<double> BoneRadii(const Skeleton& skeleton) {
   std::vector<double> radii(skeleton.joints(), kStickRadius);
   const auto set = [&](int joint, double radius) {
@@ -105,7 +105,7 @@ std::vector<double> BoneRadii(const Skeleton& skeleton) {
     set(knee, 0.062);
     set(ankle, 0.044);
     set(elbow, 0.044);
-    // What hips and shoulders hang from is trunk, up to the root.
+    // Whatever carries hips and shoulders, up to the root, is trunk.
     for (const int limb : {hip, shoulder}) {
       for (int joint = limb; joint > 0; joint = skeleton.parents[joint]) set(joint, kTrunkRadius);
     }
@@ -113,8 +113,7 @@ std::vector<double> BoneRadii(const Skeleton& skeleton) {
   return radii;
 }
 
-// A capsule for every bone, bars across hips and shoulders, and a head where there is a joint of
-// that name.
+// A capsule for every bone, bars across hips and shoulders, and a head if a joint has that name.
 std::vector<DollPart> Capsules(const Skeleton& skeleton) {
   std::vector<DollPart> doll;
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();

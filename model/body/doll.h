@@ -9,18 +9,18 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// The body that we show, in pictures and in glTF files: a jointed doll of rounded cones.
+/// The body in our pictures and glTF files: a jointed doll of rounded cones.
 namespace choreo {
 
-/// What tells the two sides of a body apart.
+/// Colours of the two sides of a body.
 inline constexpr Colour kLeftColour = Colour::Hex(0xe8663d);
 inline constexpr Colour kRightColour = Colour::Hex(0x2f7fa8);
 inline constexpr Colour kTrunkColour = Colour::Hex(0xe6ddd0);
 inline constexpr Colour kSkinColour = Colour::Hex(0xdfb08c);
 inline constexpr Colour kHairColour = Colour::Hex(0x4b382e);
 
-/// A ball that moves with a joint: `offset` in the joint's frame (at rest x to the left, y up, z
-/// forward) and radius, metres.
+/// A ball fixed to a joint: `offset` in the joint's frame (at rest x to the left, y up, z forward)
+/// and radius, metres.
 struct DollBall {
   int joint;
   Eigen::Vector3d offset;
@@ -33,18 +33,18 @@ struct DollPart {
   Colour colour;
 };
 
-/// A body for a skeleton: left limbs in kLeftColour, right limbs in kRightColour, and a head with a
-/// nose that shows where it looks. A skeleton that lacks joints of SMPL's gets a capsule for every
-/// bone instead, as thick as its joints' roles say.
+/// The doll for a skeleton: left limbs in kLeftColour, right limbs in kRightColour, and a head
+/// whose nose shows where it looks. A skeleton without all of SMPL's joints gets a capsule for
+/// every bone, with a radius by its joints' roles.
 std::vector<DollPart> MakeDoll(const Skeleton& skeleton);
 
-/// A part of the doll where a pose has it.
+/// A part of the doll, placed by a pose.
 struct PlacedPart {
   RoundedCone shape;  ///< in the world
   Colour colour;
 };
 
-/// Where the doll's parts are when its joints are there, in the doll's order.
+/// Places the doll's parts for these joint placements, in the doll's order.
 std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
                                   const JointPlacement& placement);
 
@@ -52,15 +52,15 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 /// not the skeleton's.
 std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 
-/// How far the doll of a pose is above the floor, metres: 0 where it touches the floor as at rest,
-/// below 0 where a part of it would be under the floor. Errors as BuildFigure.
+/// Height of the doll above the floor, metres: 0 if it touches as at rest, negative if it sinks in.
+/// Errors as BuildFigure.
 double DollAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
-/// Parts of one colour are one piece of skin: those that the part `index` may meet.
+/// Parts of one colour form one piece of skin: those that part `index` may meet.
 std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index);
 
-/// The normal of a part at `point` on its surface, which alone would be `own`, blended with those
-/// of the parts that it meets there, of `around`.
+/// The normal of a part at `point` on its surface, where its `own` normal is blended with those of
+/// the parts in `around` that it meets there.
 Eigen::Vector3f SkinNormal(const std::vector<const PlacedPart*>& around,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own);
 

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <cmath>
 
-/// Values side by side, on which a processor works at once.
+/// Vectors of values that a processor handles at once.
 namespace choreo {
 
 inline constexpr int kLanes = 4;
-/// Operators work lane by lane, also with a single number; comparisons choose by `?:`.
+/// Operators work lane by lane, also with a scalar; `?:` selects by a comparison.
 typedef float Lane __attribute__((vector_size(kLanes * sizeof(float))));
 
 inline Lane AllLanes(float value) { return Lane{} + value; }
@@ -20,12 +20,12 @@ inline Lane Sqrt(Lane values) {
   for (int i = 0; i < kLanes; ++i) roots[i] = std::sqrt(values[i]);
   return roots;
 }
-/// Whether a comparison holds in one of them.
+/// Whether a comparison holds in any lane.
 template <class Comparison>
 bool Any(const Comparison& holds) {
   return (holds[0] | holds[1] | holds[2] | holds[3]) != 0;
 }
-/// `make(lane)` of each.
+/// Sets each lane to `make(lane)`.
 template <class Make>
 Lane MakeLane(const Make& make) {
   Lane made;
@@ -33,7 +33,7 @@ Lane MakeLane(const Make& make) {
   return made;
 }
 
-/// As many vectors.
+/// kLanes 3D vectors.
 struct Lanes {
   Lane x{}, y{}, z{};
 

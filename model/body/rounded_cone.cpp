@@ -8,7 +8,7 @@ namespace choreo {
 using Eigen::Vector3f;
 
 Vector3f NormalAt(const RoundedCone& cone, const Vector3f& point) {
-  // The mantle begins where the balls end: Enter of cone_lanes.h.
+  // The mantle begins where the balls end; see Enter in cone_lanes.h.
   const Vector3f axis = cone.b - cone.a, from = point - cone.a;
   const float slope = cone.radius_a - cone.radius_b;
   const float taper = axis.squaredNorm() - slope * slope;

@@ -12,9 +12,9 @@ using Eigen::Vector3f;
 
 constexpr int kSegments = 24;      // around a capsule
 constexpr int kRings = 6;          // from each tangent circle to its pole
-constexpr double kOnJoint = 0.06;  // metres: an end nearer than this to its joint stands on it
+constexpr double kOnJoint = 0.06;  // metres: an end this near to its joint counts as on it
 
-// The joint that a part's far end moves with.
+// The joint that moves a part's far end.
 int Carrier(const Skeleton& skeleton, const DollPart& part) {
   const DollBall& end = part.b;
   return end.joint != part.a.joint && end.offset.norm() < kOnJoint ? skeleton.parents[end.joint]
@@ -25,22 +25,22 @@ bool IsSame(const DollBall& one, const DollBall& other) {
   return one.joint == other.joint && one.offset == other.offset && one.radius == other.radius;
 }
 
-// Whether another part ends with this ball, too, as thigh and shin both end with the knee.
+// Whether another part also ends with this ball, as thigh and shin both end with the knee.
 bool IsShared(const std::vector<DollPart>& doll, const DollPart& part, const DollBall& ball) {
   return std::ranges::any_of(doll, [&](const DollPart& other) {
     return &other != &part && (IsSame(other.a, ball) || IsSame(other.b, ball));
   });
 }
 
-// One capsule: a pole, rings of latitude over both balls, a pole. On the tangent circles both balls
-// and the cone between them share their normal, so no edge shows.
+// One capsule: a pole, rings of latitude over both balls, a pole. Balls and cone share their
+// normals on the tangent circles, so no edge shows.
 void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int joint_b) {
   const Vector3f along = cone.b - cone.a;
   const float length = along.norm();
   const float slope = length > 0 ? (cone.radius_a - cone.radius_b) / length : 2;
   const bool nested = std::abs(slope) >= 1;  // one ball holds the other
   const Vector3f axis = nested ? Vector3f::UnitY() : (along / length).eval();
-  // Two unit vectors that make a right-handed frame with it.
+  // Two unit vectors that complete a right-handed frame.
   const Vector3f helper = std::abs(axis.y()) < 0.9f ? Vector3f::UnitY() : Vector3f::UnitX();
   const Vector3f u = helper.cross(axis).normalized();
   const Vector3f v = axis.cross(u);
@@ -112,8 +112,8 @@ std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
     const size_t first = patch->positions.size();
     AddCapsule(*patch, parts[i].shape, doll[i].a.joint, Carrier(skeleton, doll[i]));
     const std::vector<const PlacedPart*> around = SkinAround(parts, i);
-    // Two bones that share a ball turn against each other, and both are seen there, in dots: the
-    // ball is round for either, or else the shade that each has at rest shows through the other's.
+    // Two bones that share a ball turn against each other, and both show there in dots. So the ball
+    // is round for either; else the rest shade of each would show through the other's.
     std::vector<const PlacedPart*> of_bone;
     std::ranges::copy_if(around, std::back_inserter(of_bone), [&](const PlacedPart* other) {
       const DollPart& part = doll[other - parts.data()];

@@ -11,19 +11,18 @@
 
 namespace choreo {
 
-/// Triangles of one colour. Every vertex is bound to one joint.
+/// Triangles of one colour. Each vertex is bound to one joint.
 struct SkinPatch {
   Colour colour;
-  std::vector<Eigen::Vector3f> positions;          ///< of the rest pose on the floor, metres
-  std::vector<Eigen::Vector3f> normals;            ///< unit
+  std::vector<Eigen::Vector3f> positions;          ///< in the rest pose on the floor, metres
+  std::vector<Eigen::Vector3f> normals;            ///< unit length
   std::vector<uint16_t> joints;                    ///< [vertices]
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// The doll as a skin for linear blending: tapered capsules, one patch for each colour in the order
-/// in which the doll first has it. An end of a capsule that stands on a joint moves with the bone
-/// that carries the joint, so that limbs keep their shape however far they bend; an end beside a
-/// joint moves with the joint. The same skeleton gives the same bits.
+/// The doll as a skin for linear blending: tapered capsules, one patch per colour in the doll's
+/// order. A capsule's end on a joint moves with the bone that carries the joint, so that limbs keep
+/// their shape however far they bend; an end beside a joint moves with the joint. Deterministic.
 std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton);
 
 }  // namespace choreo
