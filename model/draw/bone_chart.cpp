@@ -11,13 +11,13 @@ namespace choreo {
 namespace {
 
 constexpr int kWidth = 1100, kLeastHeight = 640;
-constexpr double kBody = 460;             // pixels in the middle, for the body
-constexpr double kLine = 15, kEdge = 24;  // of a name, and around all
+constexpr double kBody = 460;             // pixels in the middle for the body
+constexpr double kLine = 15, kEdge = 24;  // height of a line of text, and margin
 constexpr double kText = 11;
 constexpr size_t kLongestName = 36;  // bytes
 constexpr Colour kQuiet = Colour::Hex(0x8f887c), kTaken = Colour::Hex(0xb3402e);
 
-// Cut where a character begins.
+// Cuts at the start of a character.
 std::string Shown(const std::string& name) {
   std::string shown = Printable(name);
   if (shown.size() <= kLongestName) return shown;
@@ -36,7 +36,7 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
   Eigen::AlignedBox3d body;
   for (const ChartBone& bone : bones) body.extend(bone.place);
   const Eigen::Vector3d middle = body.center(), size = body.sizes();
-  // Names stand in a column on their joint's side, the higher joint's higher.
+  // Names stand in a column on their joint's side, in the joints' vertical order.
   std::vector<ChartBone> columns[2], sorted = bones;
   std::ranges::stable_sort(sorted, std::greater<>(),
                            [](const ChartBone& b) { return b.place.y(); });

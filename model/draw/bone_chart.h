@@ -13,14 +13,13 @@ inline constexpr size_t kMostChartBones = 400;
 struct ChartBone {
   std::string name;
   Eigen::Vector3d place;
-  int parent = -1;    ///< among these; -1: none
-  std::string means;  ///< what it is taken for; empty: nothing
+  int parent = -1;    ///< index in the chart; -1: none
+  std::string means;  ///< its assigned bone, or empty
 };
 
-/// Draws a rig from its front (from +Z, Y up) with the names of its joints beside it; those that
-/// are taken for something in colour, with what. Throws Error(kInvalidArgument) for none and for
-/// more than kMostChartBones, which no picture shows; Error(kInternal) where the file cannot be
-/// written.
+/// Draws a rig from its front (from +Z, Y up) with its joints' names beside it; joints with an
+/// assigned bone are coloured and named. Throws Error(kInvalidArgument) for no joints and for more
+/// than kMostChartBones, too many for a picture; Error(kInternal) if the file cannot be written.
 void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::path& png);
 
 }  // namespace choreo

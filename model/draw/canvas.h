@@ -9,7 +9,7 @@
 #include "model/body/colour.h"
 #include "model/draw/picture.h"
 
-/// What the pictures of this folder have in common: a cairo surface that frees itself, and text.
+/// Shared by the pictures of this folder: a cairo surface that frees itself, and text.
 namespace choreo {
 
 inline constexpr Colour kPaper = Colour::Hex(0xffffff), kInk = Colour::Hex(0x24292f);
@@ -27,15 +27,15 @@ class Canvas {
   int width() const { return width_; }
 
   void SetColour(const Colour& colour, double alpha = 1) const;
-  /// Text in the current colour whose vertical middle is y.
+  /// Draws text in the current colour, vertically centred at y.
   void Text(const std::string& text, double x, double y, double size, Align align = Align::kLeft,
             bool bold = false) const;
   double TextWidth(const std::string& text, double size, bool bold = false) const;
 
-  /// Copies a picture whose upper left corner comes to (x, y); what lies outside is cut off.
+  /// Copies a picture with its upper left corner at (x, y), clipped to the canvas.
   void Paste(const Picture& picture, int x, int y) const;
 
-  /// Throws Error(kInternal) where the file cannot be written.
+  /// Throws Error(kInternal) if the file cannot be written.
   void WritePng(const std::filesystem::path& png) const;
 
  private:

@@ -46,7 +46,7 @@ std::string TimeText(double seconds) {
   return text;
 }
 
-// What stands right of the title, from left to right, or below it where that is long.
+// Drawn right of the title, from left to right, or below it if that is long.
 struct Header {
   std::string facts;
   std::vector<std::pair<Colour, std::string>> legend;
@@ -71,7 +71,7 @@ struct Header {
     for (const auto& [colour, text] : legend) width += canvas.TextWidth(text, kFont) + kDot;
     return width;
   }
-  // Whether the title leaves no room beside itself in a sheet of that width.
+  // Whether the title leaves no room beside it on a sheet this wide.
   bool Wraps(const Canvas& canvas, const std::string& title, int width) const {
     return kMargin + canvas.TextWidth(title, kTitleFont, true) + kDot + Width(canvas) + kMargin >
            width;
@@ -86,7 +86,7 @@ struct Header {
     canvas.SetColour(kFaint);
     canvas.Text(facts, x, y, kFont);
     x += canvas.TextWidth(facts, kFont);
-    // Without facts the first dot of a line of its own stands at the margin.
+    // Without facts, the first dot of its own line is at the margin.
     if (wraps && facts.empty()) x -= 22 - 5;
     for (const auto& [colour, text] : legend) {
       x += 22;
@@ -105,7 +105,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
               const std::string& caption, bool numbered) {
   cairo_t* cr = canvas.cr();
   canvas.Paste(picture, x, y);
-  // Rounds the corners by painting over what is outside.
+  // Rounds the corners by painting over the outside.
   cairo_rectangle(cr, x, y, picture.width, picture.height);
   RoundedRectangle(canvas, x, y, picture.width, picture.height, kCorner);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
@@ -129,7 +129,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
     canvas.Text(number, right, text_y, kFont - 2, Align::kRight);
     right -= canvas.TextWidth(number, kFont - 2) + 4;
   }
-  // Beside the caption, where it hides nobody; a narrow tile has its frame alone.
+  // Beside the caption, where it hides nobody; a narrow tile only has its frame.
   const double badge = x + 12 + canvas.TextWidth(caption, kFont, true);
   const double width = canvas.TextWidth("key", kFont - 1, true) + 12;
   if (!shown.key || badge + width > right) return;
@@ -146,7 +146,7 @@ std::vector<SheetFrame> ChooseSheetFrames(int64_t total, const ContactSheetOptio
   CheckWithin("options.frames", options.frames, 1, kMaxSheetFrames);
   const int64_t count = std::min<int64_t>(options.frames, total);
   std::vector<int64_t> places;
-  std::map<int64_t, bool> chosen;  // frame -> whether a key
+  std::map<int64_t, bool> chosen;  // frame -> whether it is a key
   for (int64_t i = 0; i < count; ++i) {
     places.push_back(count == 1 ? 0 : (i * (total - 1) + (count - 1) / 2) / (count - 1));
     chosen.emplace(places.back(), false);

@@ -11,9 +11,9 @@ constexpr float kGridHalfWidth = 0.008f;  // metres
 
 Eigen::Vector2f OnFloor(const Eigen::Vector3f& point) { return {point.x(), point.z()}; }
 
-// How much of stretches of the floor, `width` wide around `at`, the grid's lines leave free.
+// The share that grid lines leave free in stretches of the floor, `width` wide around `at`.
 Lane BetweenLines(Lane at, Lane width) {
-  // Rounds to whole numbers: a float of this size has no other.
+  // Adding it rounds to whole numbers: floats of this size have no fraction.
   constexpr float kWhole = 3 << 22;
   const Lane whole = (at / kFloorGrid + kWhole) - kWhole;
   const Lane covered = (kGridHalfWidth + 0.5f * width - Abs(at - kFloorGrid * whole)) / width;
@@ -71,7 +71,7 @@ Eigen::Vector3f Floor::At(const Eigen::Array2f& pixel, float size) const {
 
 void Floor::DrawRow(int y, uint8_t* rgb) const {
   const Row row = RowAt(static_cast<float>(y) + 0.5f, 1);
-  // Columns [from, to) where the floor is within reach.
+  // Columns [from, to) in which the floor is within reach.
   int from = width_, to = width_;
   const Eigen::Vector2f beside = row.here.middle - middle_;
   const float step2 = row.here.step.squaredNorm(), nearest = -beside.dot(row.here.step) / step2;

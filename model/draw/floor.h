@@ -10,24 +10,24 @@
 
 namespace choreo {
 
-/// The floor y = 0 around what a view shows, as its camera sees it: with a grid that the world
-/// fixes, fading into the background.
+/// The floor y = 0 around what a view shows, as its camera sees it: with a grid fixed in the world,
+/// fading into the background.
 class Floor {
  public:
-  /// Keeps `camera` and `light`. Colours are linear.
+  /// Keeps references to `camera` and `light`. Colours are linear.
   Floor(const View& view, const Camera& camera, const FloorLight& light, int width, int height,
         const Eigen::Vector3f& floor, const Eigen::Vector3f& background);
 
-  /// A row of the picture as rgb bytes, `width` of them.
+  /// Draws a row of the picture as `width` rgb bytes.
   void DrawRow(int y, uint8_t* rgb) const;
-  /// A point of the picture as light falls on `size` pixels around it.
+  /// The linear colour at a point of the picture, averaged over `size` pixels around it.
   Eigen::Vector3f At(const Eigen::Array2f& pixel, float size) const;
 
  private:
-  // Where the points of a row of the picture lie on the floor, x and z: the camera does not lean to
-  // a side, so that they lie on a line, evenly spaced.
+  // The floor positions of a picture row, x and z. The camera does not tilt sideways, so they are
+  // evenly spaced on a line.
   struct Line {
-    Eigen::Vector2f middle, step;  // at the picture's middle, and from pixel to pixel
+    Eigen::Vector2f middle, step;  // at the picture's middle, and per pixel
   };
   struct Row {
     bool is_seen;  // below the horizon
@@ -42,7 +42,7 @@ class Floor {
   Tone tone_;
   int width_;
   float half_width_;
-  Eigen::Vector2f middle_;  // of what is seen
+  Eigen::Vector2f middle_;  // of the visible part
   float reach_;             // of the floor around it, metres
   Eigen::Vector3f floor_, background_;
   uint8_t background_bytes_[3];

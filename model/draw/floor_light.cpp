@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 constexpr float kShadowCell = 0.025f;  // metres
 
 int CellsIn(float length) {
-  constexpr float kMost = 20;  // metres: nobody is larger, whatever the pose says
+  constexpr float kMost = 20;  // metres: limits the grid for any pose
   return static_cast<int>(std::ceil(std::min(length, kMost) / kShadowCell));
 }
 
@@ -41,7 +41,7 @@ FloorLight::FloorLight(const std::vector<BoundedCone>& parts, const Vector3f& la
   low_ = reached.min();
   rows_ = 2 + CellsIn(reached.sizes().y());
   columns_ = kLanes * (1 + (1 + CellsIn(reached.sizes().x())) / kLanes);
-  // Each part darkens the cells around it and around its shadow.
+  // Each part darkens the cells around itself and its shadow.
   const size_t lanes = static_cast<size_t>(rows_) * columns_ / kLanes;
   std::vector<Lane> hidden(lanes, AllLanes(0)), open(lanes, AllLanes(1));
   const Lane steps = MakeLane([](int lane) { return static_cast<float>(lane) * kShadowCell; });

@@ -7,13 +7,13 @@
 
 namespace choreo {
 
-/// Light that reaches the floor around a dancer, worked out on a grid as large as her shadow.
+/// Light on the floor around a dancer, computed on a grid the size of her shadow.
 class FloorLight {
  public:
-  /// `lamp`: unit, towards it. `lamp_spread`: its angular radius, radians.
+  /// `lamp`: unit vector towards it. `lamp_spread`: its angular radius, radians.
   FloorLight(const std::vector<BoundedCone>& parts, const Eigen::Vector3f& lamp, float lamp_spread);
 
-  /// At a point of the floor: of the full light, 0 to 1.
+  /// The share of full light at a point of the floor, 0 to 1.
   float At(float x, float z) const;
 
  private:

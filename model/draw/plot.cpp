@@ -15,7 +15,7 @@ constexpr double kLabelSize = 14;
 constexpr double kTitleFont = 18;
 
 constexpr Colour kGrid = Colour::Hex(0xe1e4e8);
-// Told apart by colour-blind eyes too (Okabe and Ito 2008), without the yellow.
+// Distinct to colour-blind readers (Okabe and Ito 2008), without the yellow.
 constexpr Colour kLines[] = {Colour::Hex(0x0072b2), Colour::Hex(0xd55e00), Colour::Hex(0x009e73),
                              Colour::Hex(0xcc79a7), Colour::Hex(0xe69f00), Colour::Hex(0x56b4e9),
                              Colour::Hex(0x000000)};
@@ -38,7 +38,7 @@ void DrawLine(const Canvas& canvas, double x1, double y1, double x2, double y2) 
   cairo_stroke(canvas.cr());
 }
 
-// Whether half of the points of a line lie on an earlier one, on an axis of `extent`.
+// Whether half of a line's points lie on an earlier line, on an axis of `extent`.
 bool HidesAnother(const Plot& plot, size_t index, double extent) {
   if (!plot.x_names.empty()) return false;  // bars stand side by side
   const PlotSeries& line = plot.series[index];
@@ -68,7 +68,7 @@ std::vector<Stroke> ChooseStrokes(const Plot& plot, double extent) {
     number += !asked;
     Stroke stroke{.dashed = asked};
     if (number > 0) stroke.colour = kLines[(number - 1) % std::size(kLines)];
-    // More series than colours: the second round is dashed.
+    // With more series than colours, the second round is dashed.
     if (!asked)
       stroke.dashed = (number - 1) / std::size(kLines) % 2 == 1 || HidesAnother(plot, i, extent);
     strokes.push_back(stroke);
@@ -83,7 +83,7 @@ void Select(const Canvas& canvas, const Stroke& stroke) {
   cairo_set_dash(canvas.cr(), dashes, stroke.dashed ? 2 : 0, 0);
 }
 
-// The series side by side at each x, standing on 0.
+// Bars of all series side by side at each x, standing on 0.
 void DrawBars(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
               const Axis& x_axis, const Axis& y_axis) {
   const double width = 0.8 / static_cast<double>(plot.series.size());
@@ -134,7 +134,7 @@ void DrawSeries(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
   cairo_set_dash(cr, nullptr, 0, 0);
 }
 
-// Under the title, in as many lines as it takes; `top` is moved below it.
+// Draws below the title in as many lines as needed, and moves `top` below them.
 void DrawLegend(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
                 double left, double right, double& top) {
   constexpr double kSample = 26, kBetween = 22, kPitch = 20;

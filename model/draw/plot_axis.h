@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/// What a plot's axes are: ranges, round numbers along them, and where values lie in the picture.
+/// A plot's axes: ranges, round numbers along them, and positions of values in the picture.
 namespace choreo {
 
-/// What an axis has to hold.
+/// The range of values on an axis.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -19,12 +19,12 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// As long as `extent`, its middle where it was.
+  /// Widens to `extent` about its middle.
   void WidenTo(double extent) {
     const double extra = std::max(0.0, extent - (high - low)) / 2;
     low -= extra, high += extra;
   }
-  /// Never empty, never a single point; `margin` of the extent is added on both sides.
+  /// Makes it neither empty nor a single point, and adds `margin` of the extent on both sides.
   void Settle(double margin) {
     if (!(low <= high)) low = 0, high = 1;
     if (high - low < 1e-9 * std::max(1e-6, std::abs(high))) {
@@ -41,7 +41,7 @@ struct Tick {
   std::string label;
 };
 
-/// A range of values and where it lies in the picture: `from` to `to`, pixels.
+/// A range of values, drawn at `from` to `to`, pixels.
 class Axis {
  public:
   Axis(double low, double high, double from, double to, double tick_distance)
@@ -59,7 +59,7 @@ class Axis {
   double At(double value) const { return from_ + (value - low_) / (high_ - low_) * (to_ - from_); }
   const std::vector<Tick>& ticks() const { return ticks_; }
 
-  /// Names of 0, 1, ... instead of numbers, each so far from the one before that `widest` has room.
+  /// Labels it with names of 0, 1, ... instead of numbers, spaced so that `widest` has room.
   void Name(const std::vector<std::string>& names, double widest) {
     const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
     ticks_.clear();

@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kLampSpread = 0.10f;  // radians
-constexpr int kMostSamples = 8;       // along each side of a pixel
+constexpr int kMostSamples = 8;       // per side of a pixel
 
 std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
   std::vector<BoundedCone> parts;
@@ -38,7 +38,7 @@ Vector3f LampDirection(double azimuth) {
       .cast<float>();
 }
 
-// What rays meet first.
+// The first hits of rays.
 struct Seen {
   static constexpr float kNothing = -1;
 
@@ -80,7 +80,7 @@ class Renderer {
     for (int y = box_.min().y(); y < box_.max().y(); ++y, row.swap(before)) {
       Cast(y, &row);
       for (int column = 0; column < columns; ++column) {
-        // All samples of a pixel lie between its last one and those of its neighbours before it.
+        // A pixel's samples lie between its last one and those of its neighbours before it.
         const float part = part_at(row, column);
         const bool is_one = part == part_at(row, column - 1) && part == part_at(before, column) &&
                             part == part_at(before, column - 1);
@@ -98,14 +98,14 @@ class Renderer {
     return &picture_.rgb[3 * (static_cast<size_t>(y) * picture_.width + x)];
   }
 
-  // The pixels outside of which there is nothing of a shape, [from, to).
+  // The pixels outside which a shape does not show, [from, to).
   Eigen::AlignedBox2i BoxOf(const RoundedCone& shape) const {
     const Eigen::AlignedBox2f box =
         camera_.Bounds(shape.a, shape.radius_a).merged(camera_.Bounds(shape.b, shape.radius_b));
     return {box.min().cast<int>(), box.max().cast<int>() + Eigen::Vector2i::Ones()};
   }
 
-  // Where sample i of a pixel lies in the picture.
+  // Position of sample i of a pixel in the picture.
   Eigen::Array2f SampleAt(int x, int y, int i) const {
     const Eigen::Array2f sample = Eigen::Array2i(i % samples_, i / samples_).cast<float>() + 0.5f;
     return Eigen::Array2i(x, y).cast<float>() + sample / static_cast<float>(samples_);
@@ -124,7 +124,7 @@ class Renderer {
     seen->part = is_nearer ? AllLanes(static_cast<float>(part)) : seen->part;
   }
 
-  // The last sample of each pixel of a row, from the box's left on.
+  // Casts the last sample of each pixel of a row, from the box's left on.
   void Cast(int y, SeenRow* row) {
     row->assign(row->size(), {});
     row_parts_.clear();
@@ -141,8 +141,8 @@ class Renderer {
     }
   }
 
-  // A pixel of the row that was cast last, which may show more than one part. Floor and parts are
-  // smooth, so that one that shows a single part needs no more than one sample.
+  // A pixel of the last cast row that may show several parts. Floor and parts are smooth, so a
+  // pixel of a single part needs only one sample.
   Vector3f Mixed(int x, int y) const {
     const int count = samples_ * samples_;
     std::array<Seen, kMostSamples * kMostSamples / kLanes> seen;
@@ -183,9 +183,9 @@ class Renderer {
   Floor floor_;
   FigureLight figure_light_;
   Tone tone_;
-  std::vector<Eigen::AlignedBox2i> boxes_;  // of the parts, pixels
+  std::vector<Eigen::AlignedBox2i> boxes_;  // per part, pixels
   Eigen::AlignedBox2i box_;                 // of all of them
-  std::vector<size_t> row_parts_;           // in the row that was cast last
+  std::vector<size_t> row_parts_;           // in the last cast row
 };
 
 }  // namespace

@@ -11,24 +11,23 @@
 
 namespace choreo {
 
-/// How a frame is drawn.
+/// How to draw a frame.
 struct FrameStyle {
   Colour background = Colour::Hex(0xfbf9f6);
   Colour floor = Colour::Hex(0xece6dc);
-  int samples = 3;  ///< rays a pixel along each side of the body, 1 to 8
+  int samples = 3;  ///< rays per pixel on each side of the body, 1 to 8
 };
 
-/// What frames a key pose.
+/// The colour of the frame around a key pose.
 inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 
 /// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
-/// picture whose width and height are set (1 to kMostPicturePixels); `picture.rgb` is resized. The
-/// same input gives the same bytes. Throws Error(kInvalidArgument) for sizes, a view or a style
-/// outside their limits, or a pose of another joint count or with values that are not finite.
-/// Thread-safe.
+/// picture whose width and height are set (1 to kMostPicturePixels); resizes `picture.rgb`.
+/// Deterministic. Throws Error(kInvalidArgument) for sizes, a view or a style outside their limits,
+/// or a pose with another joint count or values that are not finite. Thread-safe.
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture);
-/// The same of all bodies on a stage (BuildFigure), one behind the other.
+/// The same for all bodies on a stage (BuildFigure).
 void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
                Picture& picture);
 

@@ -7,12 +7,12 @@
 namespace choreo {
 namespace {
 
-constexpr double kWidest = 100;     // metres: what a View can show
-constexpr double kWidening = 1.02;  // from one extent to the next that is tried
+constexpr double kWidest = 100;     // metres: the limit of a View
+constexpr double kWidening = 1.02;  // ratio of one tried extent to the next
 constexpr float kFreeEdge = 0.02f;
-constexpr int kTriedHeight = 1000;  // pixels: of any picture
+constexpr int kTriedHeight = 1000;  // pixels: for any picture
 
-// A wide stage is no high one.
+// A wide stage is not a high one.
 View StageView(const FramedStage& framed, double extent) {
   View view{.target = {framed.middle.x(), View().target.y(), framed.middle.y()}, .extent = extent};
   view.target.y() = std::min(view.target.y(), StandingView({}, 0, extent).target.y());
@@ -31,7 +31,7 @@ bool IsSeen(const PlacedPart& part, const Camera& camera, const Eigen::Array2f& 
   return true;
 }
 
-// The least extent in which everybody is seen; whoever is nearer is larger.
+// The least extent that shows everybody; nearer dancers look larger.
 double FitStage(const Stage& stage, const std::vector<FramedStage>& frames, double aspect) {
   const int width = std::max(1, static_cast<int>(kTriedHeight * aspect));
   const Eigen::Array2f size(width, kTriedHeight);

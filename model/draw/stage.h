@@ -8,27 +8,27 @@
 #include "model/draw/view.h"
 #include "model/motion/skeleton_motion.h"
 
-/// All who are seen in one picture. One dancer is followed by the camera and seen three quarters
-/// from her front; several are seen from the front of the stage, +Z, from the middle between them.
+/// Everybody in one picture. The camera follows a single dancer, seen three quarters from her
+/// front; it sees several from the front of the stage, +Z, around their middle.
 namespace choreo {
 
 using Stage = std::vector<SkeletonMotion>;
 
-/// Throws Error(kInvalidArgument) for nobody, a dancer without frames, and rates that differ.
+/// Throws Error(kInvalidArgument) for no dancers, a dancer without frames, or different rates.
 void CheckStage(const Stage& stage);
 
-/// The frames of the longest motion. Whoever is done holds her last pose.
+/// The frames of the longest motion. Shorter ones hold their last pose.
 int64_t CountFrames(const Stage& stage);
 const Pose& PoseOf(const SkeletonMotion& dancer, int64_t frame);
 
-/// The mean of the roots' places over the floor, x and z.
+/// The mean position of the roots on the floor, x and z.
 Eigen::Vector2d MiddleOf(const Stage& stage, int64_t frame);
 
 /// The bodies at a frame.
 std::vector<PlacedPart> FiguresAt(const Stage& stage, int64_t frame);
 
-/// The views of these frames, each with its place on the floor in the middle, in pictures of this
-/// aspect (width over height) in which everybody fits.
+/// The views of these frames, each centred on its floor position, for pictures of this aspect
+/// (width over height), wide enough for everybody.
 struct FramedStage {
   int64_t frame = 0;
   Eigen::Vector2d middle;

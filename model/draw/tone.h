@@ -21,10 +21,10 @@ inline float SmoothStep(float from, float to, float value) {
   return t * t * (3 - 2 * t);
 }
 
-/// Linear light as bytes of sRGB.
+/// Converts linear light to sRGB bytes.
 class Tone {
  public:
-  /// 0 to 1; what is outside is cut off.
+  /// Clips to 0 to 1.
   void Put(const Lanes& linear, uint8_t* rgb) const {
     typedef int Whole __attribute__((vector_size(sizeof(Lane))));
     int channel = 0;
@@ -40,7 +40,7 @@ class Tone {
   }
 
  private:
-  // Fine enough for the steep dark end: a step of the table is less than one of the byte.
+  // Fine enough for the steep dark end: a table step is less than one byte step.
   static constexpr int kSteps = 1 << 15;
   static std::vector<uint8_t> Bytes() {
     std::vector<uint8_t> made;

@@ -14,13 +14,13 @@
 namespace choreo {
 namespace {
 
-constexpr double kCameraLag = 0.6;  // seconds: what the camera follows is blurred by so much
+constexpr double kCameraLag = 0.6;  // seconds: smoothing of the camera's path
 constexpr double kKeyGlow = 0.15;   // seconds
-constexpr int kFrameShare = 90;     // of the picture's height a key's frame is this part wide
-constexpr int kSamples = 2;         // what the encoder keeps of more does not show
+constexpr int kFrameShare = 90;     // a key's frame is this part of the picture's height wide
+constexpr int kSamples = 2;         // the encoder blurs any more
 
-// The camera's way follows the dancers' over the floor, low-passed by a Gaussian, which looks ahead
-// as far as back.
+// The camera follows the dancers over the floor, low-passed by a Gaussian, which looks as far ahead
+// as back.
 std::vector<FramedStage> Follow(const Stage& stage) {
   const double sigma = kCameraLag * stage.front().motion.fps;
   const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
@@ -45,7 +45,7 @@ double Glow(double seconds, const std::vector<double>& keys) {
   return glow;
 }
 
-// The picture itself stays as it is: a key is no change of light.
+// The picture itself does not change: a key is not a change of light.
 void DrawKeyFrame(double amount, Picture* picture) {
   const int border = std::max(1, picture->height / kFrameShare);
   const double key[] = {kKeyColour.r, kKeyColour.g, kKeyColour.b};
@@ -88,7 +88,7 @@ void DrawVideo(const Stage& source, const VideoOptions& options, const std::file
     if (glow > 0.01) DrawKeyFrame(glow, &picture);
     return picture;
   };
-  // A few frames are drawn ahead, and written in order.
+  // Draws a few frames ahead and writes them in order.
   std::deque<std::future<Picture>> ahead;
   const auto width = static_cast<size_t>(UsableCores());
   int64_t next = 0;

@@ -27,14 +27,14 @@ void CheckFormat(const VideoFormat& format) {
   CheckWithin("video.fps", format.fps, kMinVideoFps, kMaxVideoFps);
 }
 
-// "file:" keeps ffmpeg from taking a name for a protocol or an option.
+// "file:" keeps ffmpeg from reading a name as a protocol or an option.
 std::string FileUrl(const std::filesystem::path& path) { return "file:" + path.string(); }
 
 std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
                                    const std::filesystem::path& out) {
   std::vector<std::string> arguments = {
       "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
-      // One frame after the other, as they come out of DrawFrame.
+      // Frames in order, as DrawFrame makes them.
       "-f", "rawvideo", "-pixel_format", "rgb24", "-framerate", std::to_string(format.fps),
       "-video_size", std::to_string(format.width) + "x" + std::to_string(format.height), "-i",
       "pipe:0"};
@@ -42,12 +42,12 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
     arguments.insert(arguments.end(), more);
   };
   if (!format.song.empty()) {
-    // A song may hold its cover, which would be a second picture.
+    // A song may contain cover art, which would be a second picture.
     add({"-ss", std::to_string(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0",
          "-map", "1:a:0", "-c:a", "aac", "-b:a", "192k"});
   }
   add({"-c:v", "libx264", "-preset", "veryfast", "-crf", "18",
-       // Players take what is not marked for BT.709 and would shift our colours.
+       // Players assume BT.709 for unmarked files, which would shift our colours.
        "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
        "-color_primaries", "bt709", "-color_trc", "bt709", "-t",
        std::to_string(static_cast<double>(frames) / format.fps), "-fflags", "+bitexact", "-flags",
@@ -61,12 +61,12 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& 
                            int64_t frames)
     : mp4_(mp4), file_(mp4) {
   CheckFormat(format);
-  // A socket instead of a pipe: writing to an ffmpeg that is gone is then an error, not a signal.
+  // A socket instead of a pipe: writing to an ffmpeg that has died is then an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Error(ErrorCode::kInternal, "", std::string("socketpair: ") + std::strerror(errno));
   input_ = ends[0];
-  // What it prints goes into memory, where it never waits for a reader.
+  // ffmpeg's messages go to memory, so that it never waits for a reader.
   said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
 
   posix_spawn_file_actions_t actions;
@@ -130,7 +130,7 @@ void VideoEncoder::Fail() {
   const ssize_t count = pread(said_, said.data(), said.size(), 0);
   said.resize(count > 0 ? static_cast<size_t>(count) : 0);
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  // Errors are lines of one; the first names the cause.
+  // Errors are one line; the first names the cause.
   throw Error(ErrorCode::kInternal, mp4_.string(),
               "ffmpeg: " + (said.empty() ? "ended early" : said.substr(0, said.find('\n'))));
 }

@@ -11,27 +11,25 @@
 
 namespace choreo {
 
-inline constexpr double kMinVideoFps = 1, kMaxVideoFps = 120;  ///< frames a second
+inline constexpr double kMinVideoFps = 1, kMaxVideoFps = 120;  ///< frames per second
 
 struct VideoFormat {
   int width = 1280, height = 720;  ///< pixels, even, 16 to 8192
   double fps = kModelFps;          ///< kMinVideoFps to kMaxVideoFps
-  /// A file with music, which is heard from the first frame on and ends with the last; none if
-  /// empty.
+  /// A file with music, from the first frame to the last; empty: none.
   std::filesystem::path song;
-  double song_start_s = 0;  ///< second of the song that is heard with the first frame
+  double song_start_s = 0;  ///< second of the song at the first frame
 };
 
-/// Writes an MP4 (H.264, AAC) by the program `ffmpeg`. The file appears when it is complete, or not
-/// at all. Equal frames and songs give equal bytes for one version of ffmpeg. Not thread-safe.
-/// Members throw Error(kNotFound) if there is no ffmpeg, Error(kInvalidArgument) for sizes and
-/// rates outside their limits, Error(kInternal) whose field is the file and whose message is
-/// ffmpeg's own where it fails.
+/// Writes an MP4 (H.264, AAC) with the program `ffmpeg`. The file appears when complete, or not at
+/// all. Deterministic for one version of ffmpeg. Not thread-safe. Members throw Error(kNotFound) if
+/// there is no ffmpeg, Error(kInvalidArgument) for sizes and rates outside their limits, and
+/// Error(kInternal), whose field is the file and whose message is ffmpeg's, if ffmpeg fails.
 class VideoEncoder {
  public:
   /// `frames`: how many will be written; the music ends with them.
   VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& format, int64_t frames);
-  /// Without Finish, what was written is thrown away.
+  /// Discards the video unless Finish was called.
   ~VideoEncoder();
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;
@@ -41,7 +39,7 @@ class VideoEncoder {
   void Finish();
 
  private:
-  /// Lets ffmpeg see the end of its input and waits for it; whether it succeeded.
+  /// Ends ffmpeg's input and waits for it; whether it succeeded.
   bool Wait();
   [[noreturn]] void Fail();
 
@@ -49,7 +47,7 @@ class VideoEncoder {
   AtomicFile file_;
   pid_t process_ = -1;
   int input_ = -1;  // our end of its standard input
-  int said_ = -1;   // what it prints
+  int said_ = -1;   // its messages
 };
 
 }  // namespace choreo

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kCameraHeight = 1.6;   // metres above the floor
 constexpr double kFieldOfView = 0.45;   // vertical, radians
-constexpr double kThreeQuarters = 0.6;  // radians beside the dancer's own heading
+constexpr double kThreeQuarters = 0.6;  // radians from the dancer's heading
 constexpr float kNear = 0.05f;
-constexpr double kBelow = 0.22;  // metres of floor under the dancer's feet
+constexpr double kBelow = 0.22;  // metres of floor below the dancer's feet
 constexpr double kAir = 1.08;
 
 }  // namespace
@@ -73,7 +73,7 @@ Eigen::AlignedBox2f Camera::Bounds(const Eigen::Vector3f& centre, float radius) 
   const Eigen::Array2f corner = Eigen::Array2f::Zero();
   if (depth + radius < kNear) return {corner, corner};
   if (depth - radius < kNear) return {corner, size_};
-  // The cube around the ball, seen from the front: its outermost corners bound the ball.
+  // The cube around the ball from the front: its outermost corners bound the ball.
   const auto low = [&](float side) { return side / (depth + (side < 0 ? -radius : radius)); };
   const auto high = [&](float side) { return side / (depth + (side > 0 ? -radius : radius)); };
   const float x = right_.dot(from), y = -up_.dot(from);
