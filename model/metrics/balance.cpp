@@ -14,7 +14,7 @@ constexpr double kLeastHover = 0.15;         // m, of the lowest joint
 constexpr double kCentreOutside = 0.10;      // m
 constexpr double kZeroMomentOutside = 0.15;  // m
 
-// The longest run of frames above `least` that is no flight, in frames.
+// The longest run, in frames, above `least` that is not a flight.
 int LongestHover(const JointTrack& track, const std::vector<Balance>& balance, double least) {
   int longest = 0;
   for (size_t from = 0; from < track.size();) {
@@ -29,7 +29,7 @@ int LongestHover(const JointTrack& track, const std::vector<Balance>& balance, d
   return longest;
 }
 
-// Frames that each foot stays down, each time.
+// Lengths of all ground contacts of each foot, frames.
 std::vector<double> ContactLengths(const std::vector<Balance>& balance) {
   std::vector<double> lengths;
   for (const size_t foot : {0, 2}) {

@@ -6,7 +6,7 @@
 namespace choreo {
 namespace {
 
-// One pass in place, begun as if the first value had always been.
+// One pass in place, starting in the steady state of the first value.
 void RunForwards(double fps, double hz, Eigen::VectorXd& x) {
   const double warped = std::tan(M_PI * hz / fps);
   const double scale = 1 / (1 + std::sqrt(2.0) * warped + warped * warped);
@@ -28,7 +28,7 @@ void RunForwards(double fps, double hz, Eigen::VectorXd& x) {
 Eigen::VectorXd LowPass(const Eigen::VectorXd& values, double fps, double hz) {
   const Eigen::Index count = values.size();
   if (count < 4) return values;
-  // Three periods of the edge, in which a start that was wrong is forgotten.
+  // Three periods of the edge, which forget a wrong start.
   const auto pad = std::min<Eigen::Index>(count - 1, std::lround(std::ceil(3 * fps / hz)));
   Eigen::VectorXd padded(count + 2 * pad);
   padded.segment(pad, count) = values;

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kStandstill = 1e-3;  // m/s, whose logarithm is that of less
+constexpr double kStandstill = 1e-3;  // m/s: lower bound of the logarithm's argument
 
 std::ptrdiff_t WindowFrames(double fps) { return std::lround(kContrastSeconds * fps); }
 

@@ -14,8 +14,8 @@ constexpr size_t kFolds = 5, kDeals = 5;
 constexpr double kStill = 0.005;  // m/s
 constexpr uint64_t kSeed = 24;
 
-// The features as they are and through fixed random rectifiers, so that "too slow or too fast" can
-// be said; [features, windows].
+// The features plus fixed random rectifiers of them, which can express "too slow or too fast";
+// [features, windows].
 class Lift {
  public:
   Lift(Eigen::Index features, int projections)
@@ -38,7 +38,7 @@ class Lift {
   Eigen::VectorXd biases_;
 };
 
-// Rows to mean 0 and deviation 1 of what it was made of.
+// Scales rows to mean 0 and deviation 1 over the windows that it was made from.
 struct Scale {
   Eigen::VectorXd mean, over_deviation;
 
@@ -52,7 +52,7 @@ struct Scale {
   }
 };
 
-// Each kind's windows; those whose clip is of the fold, or all others.
+// Windows of each kind whose clip is in the fold, or of all other clips.
 Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) {
   std::vector<Eigen::VectorXd> chosen;
   for (size_t i = 0; i < windows.clips.size(); ++i) {
@@ -61,7 +61,7 @@ Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) 
   return SideBySide(chosen);
 }
 
-// The direction in which danced windows lie beyond real ones; both kinds weigh alike.
+// The direction from real to danced windows; both kinds have equal weight.
 Eigen::VectorXd Learn(const Eigen::MatrixXd& features, Eigen::Index real) {
   const auto count = static_cast<double>(features.cols());
   const Eigen::Index danced = features.cols() - real;
@@ -72,12 +72,12 @@ Eigen::VectorXd Learn(const Eigen::MatrixXd& features, Eigen::Index real) {
   return SolveRidge(covariance, apart);
 }
 
-// What the critic sees of a window: logarithms of SpeedSpectrum, and of each joint's least and
-// greatest speed. What is slower than kStill is still, as to the eye.
+// The critic's features of a window: logarithms of SpeedSpectrum and of each joint's least and
+// greatest speed. Speeds below kStill look still to the eye and count as such.
 Eigen::VectorXd CriticFeatures(const JointTrack& track, double fps) {
   const Eigen::MatrixXd power = SpeedSpectrum(track, fps);
   const Eigen::Index joints = track[0].cols();
-  Eigen::ArrayXXd speeds(track.size() - 1, joints);  // a step a row
+  Eigen::ArrayXXd speeds(track.size() - 1, joints);  // one step per row
   for (size_t t = 1; t < track.size(); ++t)
     speeds.row(t - 1) = (track[t] - track[t - 1]).colwise().norm().array() * fps;
   Eigen::Array2Xd extremes(2, joints);
@@ -143,7 +143,7 @@ double RealAgainstReal(const CriticWindows& real) {
   Random random(kSeed, /*stream=*/1);
   for (size_t deal = 0; deal < kDeals; ++deal) {
     CriticWindows sides[2];
-    // Windows come clip by clip: of each pair of neighbours one goes to either side.
+    // Windows come clip by clip; each pair of neighbours is split between the sides.
     for (size_t i = 0; i + 1 < real.clips.size(); i += 2) {
       const size_t first = random.Next() % 2;
       for (size_t which = 0; which < 2; ++which) {

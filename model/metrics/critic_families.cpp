@@ -14,7 +14,7 @@ namespace choreo {
 namespace {
 
 constexpr double kWindowSeconds = 2;
-constexpr double kFinest = 0.01;  // m, or m/s: what is smaller, the eye does not see
+constexpr double kFinest = 0.01;  // m, or m/s: smaller differences are invisible
 
 using Values = std::vector<double>;
 
@@ -131,7 +131,7 @@ Values ContactFeatures(const Window& window, const Limbs& limbs) {
   return features;
 }
 
-// Left and right together, as a dance and its mirror image are one.
+// Left and right together, as a dance and its mirror image are equivalent.
 Values SpectrumFeatures(const Window& window, const Limbs& limbs) {
   const Eigen::MatrixXd power =
       SpeedSpectrum({window.track.begin(), window.track.end()}, window.fps);

@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 
-/// How alike two sets of motions are, and how unlike the motions of one set, in some feature space.
-/// A set is [features, motions].
+/// How similar two sets of motions are, and how diverse one set is, in some feature space. A set is
+/// [features, motions].
 namespace choreo {
 
-/// Mean and standard deviation of a set of real motions; features that do not vary keep their unit.
+/// Mean and standard deviation of a set of real motions; constant features keep their unit.
 struct FeatureScale {
   Eigen::VectorXd mean, deviation;
 
@@ -15,13 +15,13 @@ struct FeatureScale {
 };
 
 /// Frechet distance of the Gaussians fitted to two sets (Heusel et al. 2017; paper F's reference
-/// [52]): |m1 - m2|^2 + tr(C1 + C2 - 2 (C1 C2)^(1/2)). No unit. Sets with fewer motions than
-/// features have singular covariances: the distance stays defined, and is biased upwards, so only
-/// sets of like size compare. Throws Error(kInvalidArgument) for fewer than two motions.
+/// [52]): |m1 - m2|^2 + tr(C1 + C2 - 2 (C1 C2)^(1/2)). No unit. With fewer motions than features
+/// covariances are singular; the distance is then biased upwards, so compare only sets of similar
+/// size. Throws Error(kInvalidArgument) for fewer than two motions.
 double FrechetDistance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// Mean distance of all pairs of a set: Div_k and Div_g of the field (Li et al. 2021). 0 for fewer
-/// than two.
+/// Mean distance over all pairs of a set: Div_k and Div_g of the literature (Li et al. 2021). 0 for
+/// fewer than two.
 double MeanPairDistance(const Eigen::MatrixXd& features);
 
 }  // namespace choreo

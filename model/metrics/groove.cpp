@@ -25,7 +25,7 @@ std::vector<Eigen::Index> LimbEnds(const Skeleton& skeleton) {
   return ends;
 }
 
-constexpr double kSpeed = 240 / kDegrees;  // a second
+constexpr double kSpeed = 240 / kDegrees;  // per second
 
 // The angle between the bones above and below a hinge.
 double Flexion(const Hinge& hinge, int lower, const Eigen::Matrix3Xd& joints) {

@@ -10,22 +10,22 @@
 
 namespace choreo {
 
-/// Joint positions in the world, frame by frame: [frames] of [3, joints], metres. Most metrics need
-/// no more.
+/// Joint positions in the world, frame by frame: [frames] of [3, joints], metres: all that most
+/// metrics need.
 using JointTrack = std::vector<Eigen::Matrix3Xd>;
 
-/// Throws Error(kInvalidArgument) where a dance has no frames, or not as many as the other one.
+/// Throws Error(kInvalidArgument) if there are no frames, or the two counts differ.
 void CheckSameFrames(Eigen::Index danced, Eigen::Index other);
 
 JointTrack TrackJoints(const Skeleton& skeleton, std::span<const Pose> poses);
 
-/// Mean joint speed of each step (frame i to i + 1), m/s: one shorter than the track. Paper F's
+/// Mean joint speed of each step (frame i to i + 1), m/s; one shorter than the track. Paper F's
 /// "kinematic velocity curve" (4.5.1).
 std::vector<float> MeanSpeeds(const JointTrack& track, double fps);
 
-/// How fast and how jerky a dance is, over all its joints and frames. Jerk, the third derivative of
-/// position, is the measure of smooth movement since Flash and Hogan (1985). Medians, since both
-/// have long tails.
+/// How fast and how jerky a dance is, over all joints and frames. Jerk, the third derivative of
+/// position, has measured smoothness since Flash and Hogan (1985). Use medians: both have long
+/// tails.
 struct Pace {
   std::vector<float> speeds;  ///< m/s, of each joint and step
   std::vector<float> jerks;   ///< m/s^3, third difference of each joint and four frames

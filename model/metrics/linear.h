@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-/// Linear algebra that several metrics share.
+/// Linear algebra shared by several metrics.
 namespace choreo {
 
-/// Vectors, or matrices of as many rows, one beside the other; nothing of nothing.
+/// Vectors, or matrices with equal row counts, side by side; empty for no parts.
 template <typename Part>
 Eigen::MatrixXd SideBySide(const std::vector<Part>& parts) {
   Eigen::Index columns = 0;
@@ -21,11 +21,11 @@ Eigen::MatrixXd SideBySide(const std::vector<Part>& parts) {
   return all;
 }
 
-/// Ridge regression on features of mean 0 and variance 1, of whose covariance the lower triangle
-/// counts: the weights that `right`, their covariance with what is wanted, leads to.
+/// Ridge regression on features of mean 0 and variance 1: the weights from their covariance (lower
+/// triangle) and `right`, their covariance with the target.
 template <typename Right>
 Right SolveRidge(Eigen::MatrixXd covariance, const Right& right) {
-  constexpr double kRidge = 0.1;  // of a feature's variance
+  constexpr double kRidge = 0.1;  // relative to a feature's variance
   covariance.diagonal().array() += kRidge;
   return covariance.llt().solve(right);
 }

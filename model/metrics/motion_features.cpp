@@ -35,7 +35,7 @@ JointTrack Differences(const JointTrack& track, double fps) {
 
 using Eigen::Vector3d;
 
-// The joints that the statements name.
+// The joints that statements use.
 struct Body {
   int root = 0, chest, neck, belly;
   int left_shoulder, right_shoulder, left_elbow, right_elbow, left_wrist, right_wrist;
@@ -68,7 +68,7 @@ struct Body {
   }
 };
 
-// Two frames and what can be said of them.
+// Two frames, and the statements about them.
 class Statements {
  public:
   Statements(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now, double fps)
@@ -82,7 +82,7 @@ class Statements {
   bool BeyondPlane(int a, int b, int c, int joint, double limit) const {
     return Unit(Way(a, b).cross(Way(a, c))).dot(Way(a, joint)) > limit;
   }
-  // The same of the plane through joint `point` with a normal from `a` to `b`.
+  // The same for the plane through joint `point` with a normal from `a` to `b`.
   bool Beyond(int a, int b, int point, int joint, double limit) const {
     return Unit(Way(a, b)).dot(Way(point, joint)) > limit;
   }
@@ -103,7 +103,7 @@ class Statements {
   bool Bent(int upper, int hinge, int lower, double high) const {
     return Angle(hinge, upper, hinge, lower, 0, high);
   }
-  // Between the way from a to b and the way from c to d.
+  // The same for the angle between a-b and c-d.
   bool Angle(int a, int b, int c, int d, double low, double high) const {
     return Angle(Way(a, b), Way(c, d), low, high);
   }

@@ -5,33 +5,34 @@
 
 #include "model/metrics/joint_track.h"
 
-/// How far a dance is from the one that was really danced, frame by frame. Both have the same
-/// frames; throw Error(kInvalidArgument) where they do not.
+/// The distance of a generated dance from the real one, frame by frame. All throw
+/// Error(kInvalidArgument) if the frame counts differ.
 namespace choreo {
 
 /// L2P: distance of global joint positions, mean over joints and frames, metres. Paper F, Eq. 10
-/// (after Harvey et al. 2020) takes the norm over all joints at once; the mean per joint has a unit
-/// that one can picture, and ratios to a baseline are alike.
+/// (after Harvey et al. 2020) takes the norm over all joints together; a mean per joint has a
+/// tangible unit, and ratios to a baseline are similar.
 double L2P(const JointTrack& danced, const JointTrack& real);
 
 /// Key pose distance, paper F, 4.5.3: the mean *squared* distance of joint positions, m^2, of two
 /// poses [3, joints].
 double KeyPoseDistance(const Eigen::Matrix3Xd& danced, const Eigen::Matrix3Xd& real);
 
-/// Global joint rotations as unit quaternions, [4 * joints, frames]. Signs go on from frame to
-/// frame, and the first frame's scalar parts are not negative.
+/// Global joint rotations as unit quaternions, [4 * joints, frames]. Signs are continuous from
+/// frame to frame, and the first frame's scalar parts are not negative.
 Eigen::MatrixXd GlobalQuaternions(const Skeleton& skeleton, std::span<const Pose> poses);
 
 /// L2Q, Harvey et al. 2020, Section 5: the norm of the difference of all global joint quaternions,
-/// mean over frames; no unit. A quaternion and its negative are one rotation: the nearer counts.
+/// mean over frames; no unit. A quaternion and its negative are the same rotation: the nearer
+/// counts.
 double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
 
 /// Normalized power spectrum similarity (Gopalakrishnan et al. 2019, Section 4.1; of transitions:
-/// Harvey et al. 2020): the earth mover's distance between the shares of power at each frequency of
-/// a feature (GlobalQuaternions), mean over windows and features, weighted by the real motion's
-/// power. 0 is equal; no unit.
-/// The sum over features and their weights are told apart, for means over windows. Both [features,
-/// frames]; a feature without power in either motion does not count.
+/// Harvey et al. 2020): the earth mover's distance between two features' (GlobalQuaternions)
+/// distributions of power over frequencies, averaged over windows and features, weighted by the
+/// real motion's power. 0 means equal; no unit. The weighted sum and the weights are separate, for
+/// means over windows. Both inputs are [features, frames]; features without power in either motion
+/// do not count.
 struct Npss {
   double sum = 0, weight = 0;
 };

@@ -12,13 +12,14 @@
 namespace choreo {
 namespace {
 
-constexpr double kSigma = 3.0 / 60;    // seconds
-constexpr double kTolerance = 0.07;    // seconds that a beat may be off
-constexpr double kAround = 10.0 / 60;  // seconds on each side of which a motion beat is the slowest
-// A rise is heard when a sound enters the window, half of its length before the centre.
+constexpr double kSigma = 3.0 / 60;  // seconds
+constexpr double kTolerance = 0.07;  // seconds of tolerance for a beat
+constexpr double kAround =
+    10.0 / 60;  // seconds on each side within which a motion beat is the slowest
+// A rise shows when a sound enters the window, half its length before the centre.
 constexpr double kOnsetDelay = kFftSize / 2.0 / kModelSampleRate;  // seconds
 
-// Onsets row by row: mean rises of the mel bands, dB; none in the first.
+// Onsets row by row: mean rises of the mel bands, dB; none in the first row.
 std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
   const Eigen::Index coefficients = rows.rows();
   Eigen::MatrixXd inverse(kMelBands, coefficients);  // of the orthonormal DCT-II
@@ -28,8 +29,8 @@ std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
                          std::cos(M_PI * c * (static_cast<double>(band) + 0.5) / kMelBands);
     }
   }
-  constexpr double kRange = 80;  // dB below the loudest, as librosa's onset strength has it
-  // Slaney's bands up to 160 Hz, to 1600 Hz, and above, as Onset has them.
+  constexpr double kRange = 80;  // dB below the loudest, as in librosa's onset strength
+  // Slaney's bands up to 160 Hz, to 1600 Hz, and above, as in Onset.
   constexpr std::array<Eigen::Index, 4> kEnds{0, 6, 56, kMelBands};
   Eigen::MatrixXd mel = inverse * rows.cast<double>();
   mel = mel.cwiseMax(mel.maxCoeff() - kRange);
@@ -46,8 +47,8 @@ std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
   return onsets;
 }
 
-// Frames of the strict minima among the steps within kAround. The published code has a standstill
-// ahead of the first step, so none is found within kAround of it; nor is the last step one.
+// Frames of the strict minima among the steps within kAround. The published code puts a standstill
+// ahead of the first step, so finds none within kAround of it; nor is the last step one.
 std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
   const auto count = static_cast<int64_t>(speeds.size());
   const int64_t order = std::max(int64_t{1}, static_cast<int64_t>(std::lround(kAround * fps)));

@@ -7,22 +7,22 @@
 
 namespace choreo {
 
-/// The beats of a prepared clip's music, in frames of its motion (fractions allowed), ascending.
-/// Clips keep MFCC rows, not samples: their inverse cosine transform is a mel spectrum, whose
-/// rises are the onsets that audio/beats.h tracks. `rows`: [coefficients, frames], 30 a second.
-/// Empty for silence.
+/// The beats of a prepared clip's music, in (fractional) frames of its motion, ascending. Clips
+/// keep MFCC rows, not samples; their inverse cosine transform is a mel spectrum, whose rises are
+/// the onsets that audio/beats.h tracks. `rows`: [coefficients, frames], 30 a second. Empty for
+/// silence.
 std::vector<double> SongBeats(const Eigen::MatrixXf& rows, double fps);
 
-/// Beat alignment score of AIST++ (Li et al. 2021, Section 5), as its published evaluation has it:
-/// mean over motion beats of exp(-d^2 / 2 sigma^2), d seconds to the nearest music beat, sigma 0.05
-/// s. A motion beat is a frame whose mean joint speed is *below* that of all others within 1/6 s on
-/// each side; KinematicBeats are maxima, and smoothed. 1 is perfect, 0 without beats of either
-/// kind. `speeds[i]` belongs to frame i + 1, music beats are in frames.
+/// Beat alignment score of AIST++ (Li et al. 2021, Section 5), as in its published evaluation: mean
+/// over motion beats of exp(-d^2 / 2 sigma^2), with d seconds to the nearest music beat and sigma
+/// 0.05 s. A motion beat is a frame whose mean joint speed is *below* all others within 1/6 s on
+/// each side (KinematicBeats are maxima, and smoothed). 1 is perfect, 0 without beats of either
+/// kind. `speeds[i]` belongs to frame i + 1; music beats are in frames.
 double BeatAlignmentScore(std::span<const float> speeds, std::span<const double> music_beats,
                           double fps);
 
-/// F measure of beats, both in seconds and ascending: a found beat hits one that is known within 70
-/// ms (Davies et al. 2009). Only those in [from, to) count. 1 where both are empty.
+/// F measure of beats, both in seconds, ascending: a found beat within 70 ms of a known one is a
+/// hit (Davies et al. 2009). Counts only those in [from, to). 1 if both are empty.
 double BeatFMeasure(std::vector<double> found, std::vector<double> known, double from = 0,
                     double to = 1e9);
 

@@ -38,7 +38,7 @@ Eigen::MatrixXd SpeedSpectrum(const JointTrack& track, double fps) {
     if (band >= kBands) break;
     const Eigen::VectorXd angles = Eigen::VectorXd::LinSpaced(
         steps, 0, 2 * M_PI * static_cast<double>(bin * (steps - 1)) / steps);
-    // Parseval: both halves of the spectrum, but for the bins that are their own mirror image.
+    // Parseval: both halves of the spectrum, except for bins that mirror themselves.
     const double mirrored = bin == 0 || 2 * bin == steps ? 1 : 2;
     const Eigen::RowVectorXd squares =
         ((angles.array().cos().matrix().transpose() * velocities).array().square() +

@@ -10,7 +10,7 @@ StyleClassifier::StyleClassifier(const CriticWindows& windows, int styles) {
   for (const size_t style : windows.clips) ++count[style];
   if (count.minCoeff() == 0) throw InvalidArgument("styles", "one has no window to learn it from");
   Eigen::MatrixXd seen = SideBySide(windows.features);
-  Eigen::VectorXd weight(seen.cols());  // so that each style has the same sum
+  Eigen::VectorXd weight(seen.cols());  // gives each style the same total
   for (Eigen::Index i = 0; i < seen.cols(); ++i) weight[i] = 1 / (styles * count[windows.clips[i]]);
   mean_ = seen * weight;
   seen.colwise() -= mean_;

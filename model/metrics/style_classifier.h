@@ -6,15 +6,15 @@
 
 namespace choreo {
 
-/// Tells styles of dance apart by how joints move in a second: a ridge regression of the critic's
-/// features on each style against the others. For measuring alone. Immutable; thread-safe.
+/// Classifies dance styles by how joints move within a second: one-against-all ridge regression on
+/// the critic's features. Only for measuring. Immutable; thread-safe.
 class StyleClassifier {
  public:
-  /// `windows.clips` numbers the style of each window, from 0 to `styles` - 1; each style weighs
-  /// alike. Throws Error(kInvalidArgument) for a style without a window.
+  /// `windows.clips` holds the style of each window, from 0 to `styles` - 1; styles have equal
+  /// weight. Throws Error(kInvalidArgument) for a style without a window.
   StyleClassifier(const CriticWindows& windows, int styles);
 
-  /// The style that a window is most like.
+  /// The most likely style of a window.
   int Classify(const Eigen::VectorXd& features) const;
 
  private:
