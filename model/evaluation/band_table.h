@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// How fast joints move in each band of SpeedSpectrum: the root of the danced power over the real
-/// one, left and right as one. A row a joint. Neither may be empty.
+/// How fast joints move in each band of SpeedSpectrum: the root of danced over real power, left and
+/// right together, one row per joint. Neither may be empty.
 Table BandTable(const Evaluation& evaluation, const Method& method, const LivelyDances& real,
                 const LivelyDances& danced);
 

@@ -18,7 +18,7 @@ BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>&
   if (kinematic.empty() || beats.empty()) return figures;
   const auto hits = std::ranges::count_if(kinematic, [&](int64_t frame) {
     return std::ranges::any_of(beats, [&](double beat) {
-      // A beat is a frame, too, as in the paper.
+      // A beat is a whole frame, as in the paper.
       return std::abs(std::round(beat) - static_cast<double>(frame)) <= kBeatGap;
     });
   });
@@ -39,7 +39,7 @@ void BeatTable::Add(const std::string& name, size_t clip, int start,
   int others = 0;
   for (size_t other = 0; other < set_.beats.size(); ++other) {
     if (other == clip || set_.beats[other].empty()) continue;
-    // As much of the dance as the other song lasts.
+    // As much of the dance as the other song covers.
     const auto length =
         std::min(speeds.size(), static_cast<size_t>(set_.clips[other].audio.cols()) - 1);
     const BeatFigures figures = ScoreBeats(std::span(speeds).first(length), set_.beats[other], fps);

@@ -38,15 +38,15 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
   return others;
 }
 
-// What computes a model, from the kernels at the end of its fingerprint. Of float32 the
-// instructions don't matter.
+// What computes a model, from the kernels at the end of its fingerprint. For float32 the
+// instruction set does not matter.
 std::string EngineOf(const ModelInfo& model, EngineKind kind) {
   const size_t packed = model.fingerprint.find("/packed ");
   if (packed == std::string::npos) return "torch";
   return kind == EngineKind::kPacked ? "packed float32" : model.fingerprint.substr(packed + 1);
 }
 
-// Whether a network was told of keys in training: all but paper F's --no-keys.
+// Whether a network was trained with keys: all but paper F's --no-keys.
 bool LearntKeys(const std::filesystem::path& checkpoint) {
   const auto metadata = ReadSafetensors(checkpoint).metadata;
   const auto config = metadata.find("config");

@@ -10,16 +10,16 @@
 
 namespace choreo {
 
-/// Who is measured against whom, as people ask for it.
+/// Who is compared with whom, as requested.
 struct ContestOptions {
   std::filesystem::path model;  ///< checkpoint
   std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
   std::vector<std::string> others;  ///< NAME=CHECKPOINT
   std::string engine = "auto";      ///< ParseEngineKind
-  std::string name = "model";       ///< what the judged model is shown as
+  std::string name = "model";       ///< the judged model's name in tables
 };
 
-/// The engines of one evaluation, and the methods that use them: the judged one is last.
+/// The engines of an evaluation and the methods that use them, the judged one last.
 struct Contest {
   std::vector<std::unique_ptr<Sampler>> samplers;
   std::vector<Method> methods;
@@ -28,18 +28,18 @@ struct Contest {
   Sampler& judged() const { return *samplers.front(); }
 };
 
-/// Throws Error(kInvalidArgument, "--other") for what is not NAME=CHECKPOINT, a name that another
-/// row has (--name, if it is that one's), or a model on another skeleton; otherwise as MakeSampler
-/// does. Names are looked at before anything is loaded.
+/// Throws Error(kInvalidArgument, "--other") for text that is not NAME=CHECKPOINT, a name that
+/// another row has (--name, if it is that one's), or a model on another skeleton; otherwise as
+/// MakeSampler. Checks names before loading anything.
 Contest MakeContest(const ContestOptions& options);
 
-/// The clips of each folder that belong to the group `split`, with their beats: a set that is named
+/// The clips in each folder that belong to the group `split`, with their beats, as a set named
 /// after the folder. Throws Error(kInvalidArgument, "--data") for two folders of one name, or
-/// another skeleton than `skeleton`; otherwise as LoadClips does.
+/// another skeleton than `skeleton`; otherwise as LoadClips.
 std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
                               const std::filesystem::path& splits, const std::string& split,
                               const Skeleton& skeleton);
-/// The names of those sets, checked alike, without a look at the folders.
+/// The names of those sets, with the same checks, without reading the folders.
 std::vector<std::string> SetNames(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace choreo

@@ -12,10 +12,10 @@
 namespace choreo {
 
 /// Who answers requests with controls: real motion, interpolation along the path, and each engine
-/// of `methods`: the network alone, if there is one, and as served; without keys, as served.
+/// of `methods`: the network alone, if any, and as served; without keys, as served.
 std::vector<Method> WaysOf(const std::vector<Method>& methods);
 
-/// Factors of each of `danced`, which follows on `before`.
+/// Velocity factors of each of `danced`, which follows `before`.
 FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
                           const std::vector<Pose>& danced);
 
@@ -23,30 +23,30 @@ FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
 double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
                     const std::vector<Pose>& danced);
 
-/// A real transition, and what is asked of those who dance it again.
+/// A real transition, and the controls for dancing it again.
 struct ControlledWindow : EvalWindow {
   Pose before = {};  ///< the last history pose
   std::vector<Pose> real = {};
   Pose key = {};  ///< the last of `real`, unless it was moved
   Eigen::Matrix3Xd path = {};
-  FactorTrack factors = {};  ///< no columns: none are asked for
+  FactorTrack factors = {};  ///< no columns: none requested
 };
 
-/// The windows of one length, danced by anyone. The evaluation must outlive it.
+/// The windows of one length, for any method to dance. The evaluation must outlive it.
 class ControlCourse {
  public:
   ControlCourse(const Evaluation& evaluation, int frames);
 
-  /// Asks for a path that nobody danced, as the service leads over it, and for no factors. `draw`
-  /// may move the key, and gives points of frames counted from the transition's first.
+  /// Requests a path that nobody danced, as the service follows it, and no factors. `draw` may move
+  /// the key, and returns points with frames counted from the transition's first.
   using Draw = std::function<RootPath(ControlledWindow*)>;
   void Redraw(const Draw& draw);
 
-  /// Asks for the same speeds in every frame, metres a frame, instead of the real dance's.
+  /// Requests constant speeds, metres a frame, instead of the real dance's.
   void AskConstant(const std::array<float, kBodyParts>& speeds);
 
-  /// One dance a window, with what is asked: real path and factors unless they were drawn anew;
-  /// `scale` times the factors where the way takes any. None of a way that can't dance as long.
+  /// One dance per window with its controls: the real path and factors, unless replaced above;
+  /// factors times `scale` if the method takes any. None if the method can't dance that long.
   Dances Dance(const Method& way, double scale = 1) const;
 
   /// A figure of each window.

@@ -12,10 +12,10 @@ namespace {
 constexpr int kLongLengths[] = {100, 150, 200, 250};
 constexpr int kFactorFrames = 90;
 constexpr std::pair<double, const char*> kScales[] = {{0.5, "0.5"}, {1.0, "1.0"}, {1.5, "1.5"}};
-constexpr double kEnding = 0.2;       // share of a dance that is its ending
-constexpr size_t kInterpolation = 1;  // of WaysOf
+constexpr double kEnding = 0.2;       // the last share of a dance
+constexpr size_t kInterpolation = 1;  // index in WaysOf
 
-// Postures that face +Z, as paper C's p^b (Section 3.1).
+// Postures that face +Z, like paper C's p^b (Section 3.1).
 JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses) {
   JointTrack track;
   for (const Pose& pose : poses) {
@@ -26,7 +26,7 @@ JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses)
   return track;
 }
 
-// Who is not told what is asked.
+// The methods that take no controls, as text.
 std::string WithoutControls(const std::vector<Method>& ways) {
   std::string names;
   for (const Method& way : ways) {
@@ -35,7 +35,7 @@ std::string WithoutControls(const std::vector<Method>& ways) {
   return names.empty() ? names : names + " takes neither";
 }
 
-// What the dances of one way came to, length by length.
+// The figures of one method's dances, length by length.
 using Lengths = std::vector<std::vector<ClipFigure>>;
 
 Table FactorTable(Table table, const std::string& note, const Evaluation& evaluation,
@@ -77,7 +77,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
     for (size_t w = 0; w < ways.size(); ++w) dances[w].push_back(courses.back().Dance(ways[w]));
   }
   std::vector<Table> tables;
-  // Returns the figures of all ways.
+  // Adds a table and returns the figures of all methods.
   const auto add = [&](const char* name, const char* title, const std::string& note, int digits,
                        bool averaged, const ControlCourse::Figure& figure) {
     Table& table = tables.emplace_back(evaluation.NewTable(name, title, {"method"}));

@@ -11,7 +11,7 @@ namespace choreo {
 namespace {
 
 constexpr int kFrames = 90;
-constexpr int kAside = 1;  // metres beside the straight way, in its middle
+constexpr int kAside = 1;  // metres beside the straight path, in its middle
 
 enum class Drawing { kDanced, kStraight, kOnTheSpot, kBow };
 

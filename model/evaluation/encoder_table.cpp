@@ -12,11 +12,11 @@ namespace choreo {
 namespace {
 
 constexpr int kBlock = 150;       // frames
-constexpr int kInputs = 8;        // of variability and diversity
-constexpr int kSamples = 15;      // of an input, as in the paper
-constexpr int kMostFrames = 300;  // of each dance, at most
+constexpr int kInputs = 8;        // for variability and diversity
+constexpr int kSamples = 15;      // per input, as in the paper
+constexpr int kMostFrames = 300;  // per dance, at most
 
-// Inputs one after another, the samples of each together.
+// Inputs one after another, with the samples of each together.
 std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
   EvalOptions brief = evaluation.options;
@@ -34,7 +34,7 @@ std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) 
   return plans;
 }
 
-// Blocks of real motion, every other one.
+// Blocks of real motion, split into even and odd ones.
 struct RealCodes {
   std::vector<Eigen::MatrixXd> even, odd;
 };

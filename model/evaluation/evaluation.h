@@ -14,23 +14,23 @@ namespace choreo {
 
 class MotionEncoder;
 
-/// A row of a table: who makes the transitions.
+/// A row of a table: who dances.
 struct Method {
   enum class Kind {
-    kReal,           ///< what was really danced
-    kInterpolation,  ///< lerp and slerp between last pose and key, as they are
-    kModel,          ///< a sampler, through model/dance as the server has it
+    kReal,           ///< the real dance
+    kInterpolation,  ///< lerp and slerp between last pose and key, unprocessed
+    kModel,          ///< a sampler, through model/dance as in the server
   };
   std::string name;
   Kind kind = Kind::kModel;
-  Sampler* sampler = nullptr;  ///< of kModel; not owned
-  bool keys = true;            ///< kModel: false for a dance to the music alone
-  bool network = true;         ///< kModel: false for one that nobody trained
+  Sampler* sampler = nullptr;  ///< for kModel; not owned
+  bool keys = true;            ///< kModel: false for dances to the music alone
+  bool network = true;         ///< kModel: false for one that was not trained
   bool finished = true;        ///< kModel: as served, with arrival and footwork
 
-  /// A network that gets tables of its own, beside its rows.
+  /// A network that gets tables of its own besides its rows.
   bool Judged() const { return kind == Kind::kModel && network && keys; }
-  /// Whether it can dance that many frames at all.
+  /// Whether it can dance that many frames.
   bool Lasts(int frames) const {
     return kind != Kind::kModel || frames <= sampler->model().max_transition_frames;
   }
@@ -38,7 +38,7 @@ struct Method {
   bool TakesVelocityFactors() const {
     return kind == Kind::kModel && sampler->model().Takes(kVelocityFactors);
   }
-  /// Takes from a request what this method is not told, and what it does without.
+  /// Removes from a request what this method is not told.
   void Restrict(TransitionRequest* request) const {
     if (!keys) request->target.reset();
     if (finished) return;
@@ -47,38 +47,38 @@ struct Method {
   }
 };
 
-/// What one evaluation does alike in all its rows.
+/// Options shared by all rows of an evaluation.
 struct EvalOptions {
   std::vector<int> lengths{kComparedFrames.begin(),
                            kComparedFrames.end()};  ///< frames of the transitions
   int windows_per_clip = 8;
-  int best_of = 10;  ///< samples a window, of which the nearest counts
+  int best_of = 10;  ///< samples per window, of which the nearest counts
   float temperature = 0;
-  bool own_temperatures = false;  ///< each method's own instead, where a table says so
+  bool own_temperatures = false;  ///< each method's own instead, in tables that say so
   int long_seeds = 50;            ///< long dances of each kind; 0: none
   int long_frames = kMaxTransitionFrames;
-  int free_dances = 20;  ///< without keys, of the table of liveliness; 0: none
+  int free_dances = 20;  ///< without keys, in the liveliness table; 0: none
 };
 
-/// One set, and who dances beside it. Nothing is owned.
+/// One data set, and who dances on it. Owns nothing.
 struct Evaluation {
   const ClipSet& set;
-  const std::vector<Method>& methods;  ///< the judged one, a model, is last
+  const std::vector<Method>& methods;  ///< the judged model is last
   const EvalOptions& options;
   const Runner& runner;
-  const MotionEncoder* encoder = nullptr;  ///< of EvaluateEncoded
-  const ClipSet* training = nullptr;       ///< the set's clips that train, or null
+  const MotionEncoder* encoder = nullptr;  ///< for EvaluateEncoded
+  const ClipSet* training = nullptr;       ///< the set's training clips, or null
 
   const Method& judged() const { return methods.back(); }
   const ModelInfo& model() const { return judged().sampler->model(); }
-  /// What a method is danced at where tables compare models as they are served.
+  /// A method's temperature in tables that compare models as served.
   float TemperatureOf(const Method& method) const {
     return options.own_temperatures && method.kind == Method::Kind::kModel
                ? static_cast<float>(method.sampler->model().default_temperature)
                : options.temperature;
   }
 
-  /// An empty table of this set; one of a method's own is called after it, but for the judged one.
+  /// An empty table for this set; a table of one method has its name, except the judged one's.
   Table NewTable(const std::string& name, const std::string& title, std::vector<std::string> labels,
                  const Method* of = nullptr) const {
     const bool named = of != nullptr && of != &judged();
@@ -90,75 +90,82 @@ struct Evaluation {
   }
 };
 
-// Each of these plans inputs, has the runner dance them, and returns tables of what came of it:
-// none where there is nothing to say of this set or model. All are deterministic.
+// Each plans inputs, has the runner dance them, and returns tables of the results: none if there is
+// nothing to say of this set or model. All are deterministic.
 
-/// Transitions between real poses (paper F, Table 2 and the key columns of Table 1). Methods have
-/// one temperature, the same windows, music, seeds and post-processing.
-///   transitions_SET  every method: distances to the real dance and the field's metrics
+/// Transitions between real poses (paper F, Table 2 and the key columns of Table 1). All methods
+/// have the same temperature, windows, music, seeds and post-processing.
+///
+///   transitions_SET  every method: distances to the real dance and the usual metrics
 ///   keys_SET         every method: how far it misses keys, raw and as served
 std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
 
-/// liveliness_l2p_SET of every judged method: L2P over interpolation's at temperature 0, at the
+/// liveliness_l2p_SET for every judged method: L2P over interpolation's at temperature 0, at the
 /// served one, and of the best of EvalOptions::best_of samples there.
 std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
 
-/// Whether a dance lives, beside real motion, of every judged method:
-///   liveliness_SET      a figure a row. Through the clips' own poses each 2 s: lively_figures.h,
-///                       how far seeds and songs part, hits on beats that it was told of, Frechet
-///                       distances, the critic. Without keys: long_figures.h.
+/// The liveliness of every judged method beside real motion, as served:
+///
+///   liveliness_SET      one figure per row. Through the clips' own poses every 2 s:
+///                       lively_figures.h, spread over seeds and songs, hits on requested
+///                       beats, Frechet distances, the critic. Without keys: long_figures.h.
 ///   weight_SET          weight_table.h, with keys and without
-///   liveliness_bands_SET  how fast joints go in each band of frequency
-/// Everything is danced as it is served. Figures named "÷ real" are the sum over dances over the
-/// same of the clips. No rows of keyed dances where no clip has 20 s.
+///   liveliness_bands_SET  how fast joints move in each frequency band
+///
+/// Figures named "÷ real" are the sum over dances divided by that over clips. No rows of keyed
+/// dances if no clip has 20 s.
 std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation);
 
-/// liveliness_styles_SET: how often a classifier that learnt the styles of the set's training clips
-/// (metrics/style_classifier.h) tells the style that dances without keys were asked for.
+/// liveliness_styles_SET: how often a classifier, trained on the styles of the set's training clips
+/// (metrics/style_classifier.h), recognises the style requested of dances without keys.
 std::vector<Table> EvaluateStyles(const Evaluation& evaluation);
 
 /// Long dances of the judged method beside the clips:
-///   long_SET       with keys each 2 s and without: drift, freezing, explosion, limbs, keys
-///   beats_SET      kinematic beats on music beats, against the same dances scored on the set's
+///
+///   long_SET       with keys every 2 s and without: drift, freezing, explosion, limbs, keys
+///   beats_SET      kinematic beats on music beats, compared with the same dances on the set's
 ///                  other songs (chance); keys at equal intervals and on beats (paper F, Table 4).
-///                  Sets with music alone
+///                  Only for sets with music
 std::vector<Table> EvaluateLongDances(const Evaluation& evaluation);
 
 /// encoder_SET: paper F's Table 1 (Sections 4.5.2 and 4.5.4) in the codes of Evaluation::encoder,
-/// of dances of 10 s: FID, variability (MeanApart of 15 seeds of one input, mean over inputs) and
+/// for dances of 10 s: FID, variability (MeanApart of 15 seeds of one input, mean over inputs) and
 /// diversity (MeanApart over inputs). Codes are in units of their standard deviation in training:
-/// two windows of it, drawn at random, are 64 apart. Of blocks of 5 s of real motion all rows are
-/// compared with the even ones; the odd ones are its own row.
+/// two random windows of it are 64 apart. All rows are compared with the even 5-second blocks of
+/// real motion; the odd ones form a row.
 std::vector<Table> EvaluateEncoded(const Evaluation& evaluation);
 
-/// stress_SET: paper F, Section 5.2, where its model failed: onto a lying pose in 30 frames and
-/// fewer, and onto a key that is almost the pose that the dancer has. Would the stream warn
-/// (RequiredSpeed::TooFast), does the dancer freeze, how hard is the way.
+/// stress_SET: paper F, Section 5.2, where its model failed: to a lying pose in 30 frames and
+/// fewer, and to a key that almost equals the present pose. Whether the stream would warn
+/// (RequiredSpeed::TooFast), whether the dancer freezes, how hard the way is.
 std::vector<Table> EvaluateStress(const Evaluation& evaluation);
 
-/// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4);
-/// of models that take them, as all that follow. Methods that take none stand beside it without.
+/// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4),
+/// for models with these controls, like all below. Other methods appear without them.
+///
 ///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
 ///                              interpolation along the path, each network alone and as served
 ///                              (arrival, footwork), and without keys
 ///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET, tremor_SET  of the same dances
 std::vector<Table> EvaluateControls(const Evaluation& evaluation);
 
-/// How the speed of each part follows its velocity factors, on the real path between real poses:
+/// How the speed of each part follows its velocity factor, on the real path between real poses:
+///
 ///   multipliers_SET  the real dance's factors times 0.5, 1 and 1.5, over that dance's speeds
 ///   constant_SET     the model's first reference times 0.5, 1 and 1.5 in every frame, over that
 ///                    reference
-/// Means over windows and frames. Who takes no factors has one row in each.
+///
+/// Means over windows and frames. Methods without velocity factors have one row in each.
 std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation);
 
-/// repetition_SET, at 100 to 250 frames: how much of a dance repeats itself, how much of its ending
-/// holds still.
+/// repetition_SET, at 100 to 250 frames: how much of a dance repeats itself, and how much of its
+/// ending holds still.
 std::vector<Table> EvaluateRepetition(const Evaluation& evaluation);
 
-/// drawn_SET: root paths that nobody danced, between real poses: straight on at constant speed, on
-/// the spot (the key is moved there), and a bow; beside the real ones. No velocity factors are
-/// asked for. Of the ways with keys that take a path: how much feet skate, how well key and path
-/// are met.
+/// drawn_SET: root paths that nobody danced, between real poses: straight at constant speed, on the
+/// spot (the key is moved there), and a bow; compared with the real ones. Requests no velocity
+/// factors. For methods with keys that take a path: how much feet skate, how well key and path are
+/// met.
 std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation);
 
 }  // namespace choreo

@@ -9,16 +9,16 @@
 
 namespace choreo {
 
-/// A dance to mono samples at 22 050 Hz as it is served: a stream that is sent all of them, and
-/// ends with them. `config` says neither which music it is nor its format. Throws as DanceStream
-/// does, and what it ends in.
+/// A dance to mono samples at 22 050 Hz as served: streams all of them and ends with them. `config`
+/// must not describe the music or its format. Throws as DanceStream, and the error that the stream
+/// ends in.
 std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config,
                           std::span<const Key> keys = {}, const ControlRequest& controls = {});
 
-/// Keys for another dance: the poses of this one each two seconds, wherever she stands then.
+/// Keys for another dance: this one's poses every two seconds, in place.
 std::vector<Key> KeysOf(std::span<const Pose> dance);
 
-/// A path once around each 24 s, a metre and a half wide.
+/// A path once around every 24 s, a metre and a half wide.
 ControlRequest Circle(size_t frames);
 
 }  // namespace choreo

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kHeardSeconds = 4;
 constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
-// Frames of a part that its dance is not judged by: the music is heard up to a transition's begin.
+// Frames of a part that don't count: the music is heard up to a transition's beginning.
 constexpr size_t kSettles = 2 * kUsualFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 
@@ -67,14 +67,14 @@ std::vector<double> LoudnessOf(std::span<const float> mono) {
   return loudness;
 }
 
-/// A song of parts, one behind the other.
+/// Concatenates parts to a song.
 std::vector<float> Join(std::initializer_list<const std::vector<float>*> parts) {
   std::vector<float> song;
   for (const std::vector<float>* part : parts) song.insert(song.end(), part->begin(), part->end());
   return song;
 }
 
-/// Mean distance of joints, metres, both dancers standing at one place, facing one way.
+/// Mean distance of joints, metres, with both dancers moved to one place and facing.
 double Apart(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
   const auto joints = [&](const Pose& pose) {
     return JointPositions(skeleton, GroundFrame::Of(pose).ToLocal(pose));
@@ -96,7 +96,7 @@ class Judge {
   void Hits();
 
  private:
-  /// A figure at usual settings and at those of which `matters` is another; a dash beside others.
+  /// A figure at usual settings and at those that change `matters`; a dash for others.
   template <typename Figure>
   void Row(const std::string& label, int digits, double Setting::*matters, Figure of) {
     table_.Begin({label});
@@ -124,7 +124,7 @@ class Judge {
         .mono;
   }
   size_t part_frames() const { return static_cast<size_t>(options_.part_seconds) * 30; }
-  /// What is judged of the nth part.
+  /// The values judged in the nth part.
   template <typename Values>
   auto Part(const Values& of_frames, size_t nth) const {
     const size_t from = nth * part_frames() + kSettles;

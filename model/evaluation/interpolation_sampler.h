@@ -5,11 +5,11 @@
 namespace choreo {
 
 /// The baseline of paper F's Table 2 as a model, so that it passes the same pipeline (arrival,
-/// footwork): linear for the root, spherical for the joints, from the last history pose to the key,
-/// or on the path that was asked for. Without a target its posture stands still.
+/// footwork): linear for the root, spherical for joints, from the last history pose to the key, or
+/// on the requested path. Without a target it holds its posture.
 class InterpolationSampler : public Sampler {
  public:
-  /// Looks like `model` in all that a request depends on.
+  /// Resembles `model` in everything that a request depends on.
   explicit InterpolationSampler(ModelInfo model);
 
  protected:

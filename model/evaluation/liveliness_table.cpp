@@ -18,19 +18,19 @@ namespace {
 
 constexpr int kSeeds = 3;
 constexpr int kFrechetFrames = 60;
-constexpr double kSlowest = 0.7, kFastest = 1.4;  // of real motion's median speed
+constexpr double kSlowest = 0.7, kFastest = 1.4;  // relative to real motion's median speed
 
-// What a dance is told of its music.
+// What a dance is told about its music.
 struct Song {
   double bpm = 0;
   double phase = 0;
   bool shuffled = false;
 };
-// The first three for their tempi, the next for its phase, then a control; the last for the range.
+// The first three vary the tempo, the next the phase, then a control; the last is for the range.
 constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true},
                            {60, 0}, {75, 0},  {150, 0}, {180, 0}};
 
-// All that is danced through keys, and what was really danced there.
+// All dances through keys, and the real ones.
 struct KeyedDances {
   LivelyDances real, locked;
   std::vector<LivelyDances> seeds = std::vector<LivelyDances>(kSeeds);
@@ -83,7 +83,7 @@ KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
   return dances;
 }
 
-// Of each seed one after the other; what stands beside them is repeated as often.
+// Flattens seed after seed, repeating the real dances beside them.
 LivelyDances Flat(const std::vector<LivelyDances>& seeds) {
   LivelyDances all;
   for (const LivelyDances& dances : seeds) all.insert(all.end(), dances.begin(), dances.end());
@@ -122,7 +122,7 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
 }
 
-// Mean distance of all joints between the same frames of two dances of each plan, cm.
+// Mean distance of all joints between equal frames of two dances of each plan, cm.
 std::vector<ClipFigure> DistancesCm(const LivelyDances& a, const LivelyDances& b) {
   std::vector<ClipFigure> figures;
   for (size_t i = 0; i < a.size(); ++i)
@@ -195,7 +195,7 @@ void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double f
           table);
 }
 
-// What is danced without keys.
+// The dances without keys.
 struct FreeDances {
   std::vector<LongFigures> whole;
   LivelyDances lively;

@@ -8,9 +8,9 @@
 
 namespace choreo {
 
-/// A dance through keys judged for how alive it is.
+/// The liveliness of a dance through keys.
 struct LivelyFigures {
-  size_t clip = 0;          ///< within its set
+  size_t clip = 0;          ///< index in its set
   double median_speed = 0;  ///< over frames, of the mean joint speed, m/s
   LimbTravel limbs;
   double bounce = 0;                       ///< PelvisBounce, m
@@ -23,14 +23,14 @@ struct LivelyFigures {
   std::vector<double> turns;               ///< WindowTurns, from that pose on
 };
 
-/// `poses`: the dance of this plan, or what stands in for it.
+/// `poses`: the dance of this plan, or a replacement.
 LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
                                 const std::vector<Pose>& poses);
 
 using LivelyDances = std::vector<LivelyFigures>;
 
-/// Hit rate (ScoreBeats) less what the same dance hits by chance: the mean over these beats moved
-/// by each part of their distance, a frame apart. Percentage points.
+/// Hit rate (ScoreBeats) minus what the same dance hits by chance: the mean over these beats moved
+/// by each fraction of their distance, a frame apart. Percentage points.
 Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps);
 
 }  // namespace choreo

@@ -33,7 +33,7 @@ double Slope(const std::vector<double>& values) {
   return variance > 0 ? covariance / variance : 0;
 }
 
-// Means of the first and the last `length` values, or of both halves where there are fewer.
+// Means of the first and the last `length` values, or of the two halves if there are fewer.
 template <typename Value>
 std::pair<double, double> MeansOfEnds(const std::vector<Value>& values, size_t length) {
   length = std::min(length, values.size() / 2);
@@ -43,7 +43,7 @@ std::pair<double, double> MeansOfEnds(const std::vector<Value>& values, size_t l
   return {mean(values.begin(), values.begin() + part), mean(values.end() - part, values.end())};
 }
 
-// The least median of `length` values in a row; 0 for none.
+// The least median of `length` consecutive values; 0 for none.
 double LeastMedian(const std::vector<float>& values, size_t length) {
   if (length == 0) return 0;
   double least = INFINITY;
@@ -56,7 +56,7 @@ double LeastMedian(const std::vector<float>& values, size_t length) {
   return least;
 }
 
-// How many times as fast, or as slow.
+// The change of pace as a factor of at least 1, faster or slower.
 double PaceFactor(const LongFigures& dance) {
   return std::max(dance.pace_change, 1 / dance.pace_change);
 }

@@ -10,56 +10,54 @@
 
 namespace choreo {
 
-/// A long dance judged for drift (our own bounds), freezing, explosion, broken limbs and jolts at
+/// Measures a long dance for drift (our own bounds), freezing, explosion, broken limbs and jolts at
 /// its keys.
 struct LongFigures {
   double seconds = 0;
   double median_speed = 0;  ///< of the mean joint speed, m/s
-  double late_speed = 0;    ///< the same over its last fifth: freezing shows here
-  double stillest = 0;   ///< the least that it is over any fifth, tried each fiftieth of the dance
-  double top_speed = 0;  ///< of any frame: explosion shows here
-  double reach_m = 0;    ///< furthest that the root goes from its start, on the floor
-  /// Slope of the least-squares line through the root's distance from its start on the floor,
-  /// metres a minute: above zero for who walks away, near it for who comes back or stays.
+  double late_speed = 0;    ///< the same over its last fifth: shows freezing
+  double stillest = 0;      ///< its least value over any fifth, tried every fiftieth of the dance
+  double top_speed = 0;     ///< of any frame: shows explosion
+  double reach_m = 0;       ///< largest distance of the root from its start, on the floor
+  /// Slope of the least-squares line through the root's floor distance from its start, metres a
+  /// minute: positive if it walks away, near 0 if it comes back or stays.
   double away_m_per_min = 0;
-  /// Mean height of the root over the last 10 s less that over the first (halves of what is shorter
-  /// than 20 s), m.
+  /// Mean height of the root over the last 10 s minus that over the first (halves below 20 s), m.
   double rise_m = 0;
-  double pace_change = 1;  ///< mean joint speed over the last 10 s over that over the first
+  double pace_change = 1;              ///< ratio of mean joint speeds: the last 10 s over the first
   double lowest_m = 0, highest_m = 0;  ///< heights of the root
-  /// Share of (frame, hinge) pairs in which a knee or elbow is bent more than 15 degrees beyond
-  /// straight.
+  /// Share of (frame, hinge) pairs with a knee or elbow bent more than 15 degrees beyond straight.
   double bent_backwards = 0;
   Snaps snaps;
   std::vector<double> joint_speeds;              ///< [joints] medians, m/s
   std::vector<float> speeds;                     ///< mean joint speed step by step, m/s
   double skate_ratio = 0, p95_acceleration = 0;  ///< quality_report.h
-  std::vector<float> key_accelerations;          ///< m/s^2, each key's within two frames
+  std::vector<float> key_accelerations;  ///< m/s^2, the largest within two frames of each key
 };
 
 /// `key_frames`: ascending.
 LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Pose> poses,
                         const std::vector<int>& key_frames);
 
-/// What real motion of a set allows.
+/// The range of a set's real motion.
 struct RealRange {
   std::vector<double> low, high;  ///< [joints] 5th and 95th percentile of its speeds, m/s
   double median_speed = 0;        ///< of the mean joint speed, over all frames
   double top_speed = 0;
   double p95_acceleration = 0;  ///< mean over clips
-  /// The most that any of its clips goes away, rises or sinks, and gains or loses pace (as a factor
-  /// above 1); at least 3 m/min (five centimetres a second), 0.15 m and 2, for sets of few calm
-  /// clips.
+  /// The most that any clip moves away, rises or sinks, and changes pace (as a factor of at least
+  /// 1); at least 3 m/min (five centimetres a second), 0.15 m and 2, for sets of a few calm clips.
   double away_m_per_min = 3, rise_m = 0.15, pace_change = 2;
 
-  /// A dance whose last fifth is slower than a quarter of real motion has frozen. One that stands
-  /// in its middle and moves again at its end has not: that shows in LongFigures::stillest alone.
+  /// Whether a dance whose last fifth has this speed has frozen: it is slower than a quarter of
+  /// real motion. A dance that stands in its middle but moves at its end has not; only
+  /// LongFigures::stillest shows that.
   bool Frozen(double speed) const { return speed < 0.25 * median_speed; }
   bool Frozen(const LongFigures& dance) const { return Frozen(dance.late_speed); }
   bool Exploded(const LongFigures& dance) const { return dance.top_speed > top_speed; }
-  /// It leaves its place, its height or its pace by more than real motion does.
+  /// Whether it leaves its place, height or pace by more than real motion does.
   bool Drifted(const LongFigures& dance) const;
-  /// Share of the joints whose median speed lies within low and high.
+  /// Share of the joints whose median speed is within low and high.
   double JointsWithin(const LongFigures& dance) const;
 };
 
@@ -67,7 +65,7 @@ struct RealRange {
 RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointTrack>& tracks,
                   double fps);
 
-/// The clips of a set as dances whose keys are their frames each 2 s, and what they allow.
+/// A set's clips as dances with keys at their own frames every 2 s, and the range of those.
 struct RealDances {
   std::vector<LongFigures> clips;
   RealRange range;

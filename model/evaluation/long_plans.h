@@ -7,38 +7,37 @@
 
 namespace choreo {
 
-/// Which keys a long dance has: poses of its own clip.
+/// When a long dance has keys (poses of its own clip).
 enum class KeyTimes {
   kNone,
   kEachTwoSeconds,
-  kEqual,    ///< each 100 frames, as in paper F's Table 4
-  kOnBeats,  ///< as many, each on the beat nearest to the equal one
+  kEqual,    ///< every 100 frames, as in paper F's Table 4
+  kOnBeats,  ///< as many, each on the beat nearest to the equal interval
 };
 
-/// `count` dances of EvalOptions::long_frames, spread evenly over the clips of a set and the places
-/// within each. Beside music a dance ends with it; else a clip that is shorter than the dance
-/// offers its keys forwards, backwards, forwards.
+/// `count` dances of EvalOptions::long_frames, spread evenly over the clips of a set and the
+/// positions within each. A dance with music ends with it; without music, a clip shorter than the
+/// dance gives its keys forwards, backwards, forwards.
 std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set, KeyTimes times,
                                      int count, const EvalOptions& options);
 
-/// The real motion beside a long dance, of which its keys are frames: [plan.frames] poses.
+/// The real motion that a long dance takes its keys from: [plan.frames] poses.
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set);
 
-/// One dance a clip through the clip's own poses each 2 s, for as long as the clip has them, a
-/// minute at most, from its middle where there is more; no music, no beats, seed 0. Clips below
-/// 20 s offer none. Dances end on a key.
+/// One dance per clip through the clip's own poses every 2 s, as long as the clip but at most a
+/// minute from its middle; no music, no beats, seed 0. Skips clips below 20 s. Dances end on a key.
 std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set,
                                       float temperature);
 
-/// Beats of one tempo, in frames, from before a dance of `frames` to behind it; `phase`: where the
-/// first stands after frame 0, as a part of their distance.
+/// Beats of one tempo, in frames, from before a dance of `frames` to after it; `phase`: position of
+/// the first after frame 0, as a part of their distance.
 std::vector<double> RegularBeats(double bpm, double phase, double fps, int frames);
-/// As many on average, at distances of a half to one and a half of that, others for each `seed`:
-/// what is danced to them meets the regular ones by chance alone.
+/// As many beats on average, at distances of half to one and a half of the regular, different for
+/// each `seed`: a dance to them meets the regular ones only by chance.
 std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int frames);
 
-/// Real motion as if a model had danced it between the keys of a plan: put on its feet, rounded as
-/// sent. [plan.frames] poses.
+/// Real motion as if a model had danced it between a plan's keys: with footwork, rounded as sent.
+/// [plan.frames] poses.
 std::vector<Pose> RealThroughFootwork(const ModelInfo& model, const LongPlan& plan,
                                       const ClipSet& set);
 

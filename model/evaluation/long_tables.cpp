@@ -76,7 +76,7 @@ void AddRow(const std::string& name, const std::vector<LongFigures>& dances, con
   table->Put("worst key mm", 4, of_keys([&] { return 1000 * worst_key_m; }));
 }
 
-// The mean joint speed second by second, mean over dances that last as long.
+// The mean joint speed second by second, averaged over dances of equal length.
 PlotSeries SpeedCurve(const std::string& label, const std::vector<LongFigures>& dances, double fps,
                       int frames) {
   PlotSeries curve{.label = label, .x = {}, .y = {}};

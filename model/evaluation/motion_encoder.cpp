@@ -12,11 +12,11 @@ namespace choreo {
 namespace {
 
 constexpr int kWindow = 30;  // frames
-constexpr int kStride = 10;  // frames from one window to the next
-constexpr int kStep = 3;     // every third frame of a window is looked at
+constexpr int kStride = 10;  // frames between windows
+constexpr int kStep = 3;     // uses every third frame of a window
 constexpr int kCodes = 32;   // at most
 
-// Windows of a dance as the encoder sees them, [inputs, windows].
+// Windows of a dance as the encoder's input, [inputs, windows].
 Eigen::MatrixXd Windows(const Skeleton& skeleton, std::span<const Pose> poses) {
   const auto length = static_cast<int>(poses.size());
   const int count = length < kWindow ? 0 : 1 + (length - kWindow) / kStride;
@@ -37,7 +37,7 @@ Eigen::MatrixXd Windows(const Skeleton& skeleton, std::span<const Pose> poses) {
 }  // namespace
 
 MotionEncoder::MotionEncoder(const std::vector<ClipSet>& training) {
-  // Sums clip by clip, so that not all windows are kept at once.
+  // Sums clip by clip to save memory.
   Eigen::VectorXd sum;
   Eigen::MatrixXd squares;
   int64_t count = 0;

@@ -9,15 +9,15 @@
 
 namespace choreo {
 
-/// The motion encoder of FID, variability and diversity (paper F, 4.5.2 and 4.5.4): the principal
-/// components of training motion, learnt at each evaluation. A window of 30 frames, seen from its
-/// middle frame's place and heading, becomes 32 numbers, or fewer where there are fewer training
-/// windows, of variance 1 over those; the next begins 10 frames later. Figures of different
-/// version()s, the hash of settings and training clips, don't compare. Immutable; thread-safe.
+/// The motion encoder for FID, variability and diversity (paper F, 4.5.2 and 4.5.4): the principal
+/// components of training motion, recomputed in each evaluation. A window of 30 frames, relative to
+/// its middle frame's position and heading, becomes 32 numbers (fewer with fewer training windows)
+/// with variance 1 over training; windows begin every 10 frames. Figures only compare under equal
+/// version()s, the hash of settings and training clips. Immutable; thread-safe.
 class MotionEncoder {
  public:
-  /// Learns from every window of the sets, the same for all clips. Throws Error(kInvalidArgument)
-  /// for fewer than two windows.
+  /// Learns from every window of the sets, all clips alike. Throws Error(kInvalidArgument) for
+  /// fewer than two windows.
   explicit MotionEncoder(const std::vector<ClipSet>& training);
 
   /// Codes of all windows of a dance, [codes, windows].
@@ -33,8 +33,8 @@ class MotionEncoder {
   double explained_ = 0;
 };
 
-/// Mean over all pairs of dances of the mean squared distance of their corresponding windows, over
-/// their common length. `dances`: codes [codes, windows] each. 0 for fewer than two.
+/// The mean squared distance of corresponding windows over their common length, averaged over all
+/// pairs of dances. `dances`: codes [codes, windows] each. 0 for fewer than two.
 double MeanApart(const std::vector<Eigen::MatrixXd>& dances);
 
 }  // namespace choreo

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint64_t kSeed = 12;
 constexpr int kPairedSeconds = 8;
-constexpr int kPairedFrames = 12;  // a second
+constexpr int kPairedFrames = 12;  // per second
 
 }  // namespace
 

@@ -6,11 +6,10 @@
 
 namespace choreo {
 
-/// Pictures for the eye to guess by: of each clip that has keyed dances (long_plans.h) the first
-/// 8 s as they were really danced and as `method` dances them through the same keys, 12 frames a
-/// second, a row a second: A, B, A, B, ... Which of the two is real is drawn for each clip by its
-/// number, and not on the picture, but in a text file, a line each: "CLIP A". All files stand
-/// beside the report `json` (PictureBeside).
+/// Pictures for a blind comparison: for each clip with keyed dances (long_plans.h), the first 8 s
+/// of the real dance and of `method`'s through the same keys, 12 frames a second, one second per
+/// row: A, B, A, B, ... The clip's number decides which is real; a text file, not the picture, says
+/// so in one line each: "CLIP A". All files are beside the report `json` (PictureBeside).
 void DrawPairedSheets(const ClipSet& set, const Method& method, float temperature,
                       const std::filesystem::path& json);
 

@@ -7,7 +7,7 @@
 namespace choreo {
 namespace {
 
-/// The next transition of a long dance, and how many of its frames are danced.
+/// The next transition of a long dance, and how many of its frames are used.
 struct Next {
   TransitionRequest request;
   int danced;
@@ -40,7 +40,7 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
     const int history = model.history_frames;
     request.has_audio = true;
     request.audio_history = plan.audio.middleCols(at, history);
-    // Behind the plan's end nothing is danced, whatever is heard there.
+    // Nothing is danced after the plan's end, whatever its audio.
     request.audio_rows = Eigen::MatrixXf::Zero(plan.audio.rows(), request.frames);
     request.audio_rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
   }

@@ -14,42 +14,42 @@
 
 namespace choreo {
 
-/// A long dance to be danced beside a clip, a chain of transitions as a stream has them: its frame
-/// f goes with the clip's frame start + f.
+/// A long dance beside a clip, as a chain of transitions like a stream's: its frame f goes with the
+/// clip's frame start + f.
 struct LongPlan {
-  size_t clip = 0;  ///< within its set
+  size_t clip = 0;  ///< index in its set
   int start = 0;
   int frames = 0;
   std::vector<Pose> history;
   std::map<int, Pose> keys;  ///< by frame of the dance, each below `frames`
-  /// [audio_features, history frames + frames], or no columns: dances without music.
+  /// [audio_features, history frames + frames], or no columns for dances without music.
   Eigen::MatrixXf audio;
   std::vector<double> beats;  ///< of the music, in frames of the dance
   uint64_t seed = 0;
   float temperature = 0;
-  std::string style = {};  ///< as TransitionRequest has it
+  std::string style = {};  ///< as in TransitionRequest
   bool finished = true;    ///< as served; false: without arrival and footwork
 };
 
 struct LongDance {
   std::vector<Pose> poses;                    ///< [frames]
   std::map<int, double> keys;                 ///< final error at each key, m
-  std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, once a key said it
+  std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, once a key has set it
 };
 
 using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]
 
-/// Dances what tables ask for, as the server does. Not thread-safe.
+/// Dances what tables request, like the server. Not thread-safe.
 class Runner {
  public:
-  /// `danced` is told how many frames each transition has.
+  /// `danced` is called with each transition's number of frames.
   explicit Runner(std::function<void(int)> danced = {}) : danced_(std::move(danced)) {}
 
-  /// The poses of each. Throws as TransitionRun does.
+  /// The poses of each request. Throws as TransitionRun.
   Dances Dance(Sampler& sampler, std::span<const TransitionRequest> requests) const;
 
-  /// Of each plan a transition at a time (TransitionEnd). No dance depends on the others. Throws
-  /// Error(kInternal) as soon as a model gives a value that is not finite.
+  /// Dances each plan transition by transition (TransitionEnd). No dance depends on the others.
+  /// Throws Error(kInternal) at the first value that is not finite.
   std::vector<LongDance> DanceLong(Sampler& sampler, std::span<const LongPlan> plans) const;
 
  private:

@@ -22,7 +22,7 @@ struct Case {
   const char* name;
   int frames;
   Way way;
-  double shift_m = 0;  // of the key's root, forwards
+  double shift_m = 0;  // metres that the key's root moves forwards
 };
 
 constexpr Case kCases[] = {
@@ -40,7 +40,7 @@ constexpr Case kCases[] = {
     {"almost the same pose", 90, Way::kAlmostTheSame, 0.02},
 };
 
-// On her back where she stood, her head where she came from.
+// On her back where she stood, with her head where she came from.
 Pose Lying(const Skeleton& skeleton, const Pose& standing) {
   Pose pose;
   pose.rotations = Eigen::Matrix3Xd::Zero(3, skeleton.joints());
@@ -52,7 +52,7 @@ Pose Lying(const Skeleton& skeleton, const Pose& standing) {
   return pose;
 }
 
-// The key of a case, from the real one; none without.
+// A case's key, derived from the real one; none if it has none.
 std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
                             const TransitionRequest& request) {
   if (one.way == Way::kReal) return request.target;
@@ -64,7 +64,7 @@ std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
   return Target{key, {}};
 }
 
-// What became of one window: two frames of its history, then the way.
+// The result of one window: two frames of its history, then the transition.
 struct Danced {
   Motion motion;
   std::optional<Target> key;

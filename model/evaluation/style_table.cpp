@@ -21,7 +21,7 @@ int StyleIn(const std::vector<std::string>& styles, const std::string& style) {
 std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (evaluation.training == nullptr || model.styles.empty()) return {};
-  std::vector<std::string> styles;  // that are both asked for and danced in the recordings
+  std::vector<std::string> styles;  // both requested and present in the recordings
   for (const std::string& style : model.styles) {
     if (std::ranges::any_of(evaluation.training->clips,
                             [&](const auto& clip) { return StyleOf(clip.name) == style; }))

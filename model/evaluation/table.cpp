@@ -17,7 +17,7 @@ std::string Fixed(double value, int digits) {
 
 std::string Show(const Cell& cell, int digits) {
   std::string text = Fixed(cell.value, digits);
-  // Without width there is nothing to say.
+  // Omits intervals without width.
   if (cell.interval && cell.interval->low < cell.interval->high) {
     text +=
         " (" + Fixed(cell.interval->low, digits) + "–" + Fixed(cell.interval->high, digits) + ")";
@@ -25,7 +25,7 @@ std::string Show(const Cell& cell, int digits) {
   return text;
 }
 
-// Characters, not bytes: an en dash is one.
+// Counts characters, not bytes: an en dash is one.
 size_t Width(const std::string& text) {
   return static_cast<size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -62,7 +62,7 @@ Cell Mean(const std::vector<ClipFigure>& figures) { return MeanOfMeans({figures}
 Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups) {
   std::vector<ClipFigure> above, below;
   for (const std::vector<ClipFigure>& group : groups) {
-    // All groups weigh alike, however many windows they have.
+    // All groups have equal weight, whatever their number of windows.
     const double weight = groups.size() == 1 ? 1 : 1 / static_cast<double>(group.size());
     for (const ClipFigure& figure : group) {
       above.push_back({figure.clip, weight * figure.value});

@@ -13,21 +13,21 @@
 
 namespace choreo {
 
-/// A figure; NaN where there is none (a dash in Markdown, null in JSON).
+/// A figure, or NaN for none (a dash in Markdown, null in JSON).
 struct Cell {
   Cell(double v = NAN, std::optional<Interval> i = {}) : value(v), interval(i) {}
   double value;
   std::optional<Interval> interval;  ///< 95 %
 };
 
-/// What one window of a clip came to.
+/// A figure of one window of a clip.
 struct ClipFigure {
-  size_t clip = 0;  ///< within its set
+  size_t clip = 0;  ///< index in its set
   double value = 0;
 };
 
-/// One figure of each of `some`, which know their clip, times `unit`. `figure`: a member or a
-/// function of one.
+/// One figure for each of `some`, times `unit`, with its clip. `figure`: a member or a function of
+/// one.
 template <typename Figures, typename Figure>
 std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, Figure figure,
                                   double unit = 1) {
@@ -36,17 +36,16 @@ std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, Figure figur
   return figures;
 }
 
-/// Sum over windows of `above` over that of `below`, with its interval over clips; NaN where that
-/// is nothing.
+/// The sum of `above` over the sum of `below`, with its interval over clips; NaN if that is 0.
 Cell Ratio(const std::vector<ClipFigure>& above, const std::vector<ClipFigure>& below);
-/// Mean over windows with its interval over clips; NaN of none.
+/// The mean over windows, with its interval over clips; NaN for none.
 Cell Mean(const std::vector<ClipFigure>& figures);
 template <typename Figures, typename Figure>
 Cell Mean(const std::vector<Figures>& some, Figure figure, double unit = 1) {
   return Mean(FiguresOf(some, figure, unit));
 }
-/// Mean of the means of several groups of windows (lengths, say), with its interval over the clips
-/// of all.
+/// The mean of the means of several groups of windows (such as lengths), with its interval over all
+/// clips.
 Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups);
 
 struct Column {
@@ -55,15 +54,15 @@ struct Column {
 };
 
 struct TableRow {
-  std::vector<std::string> labels;  ///< as many as Table::label_headings
-  std::vector<Cell> cells;          ///< as many as Table::columns
+  std::vector<std::string> labels;  ///< one per Table::label_headings
+  std::vector<Cell> cells;          ///< one per Table::columns
 };
 
-/// A table of results: what the evaluation prints, writes as JSON and as Markdown ready to paste.
+/// A table of results, for printing, JSON, and Markdown that can be pasted.
 struct Table {
-  std::string name;  ///< of its JSON entry and its plot's file: "transitions_dancedb"
+  std::string name;  ///< names its JSON entry and its plot's file: "transitions_dancedb"
   std::string title;
-  std::string note;  ///< one paragraph: what was measured, on how much
+  std::string note;  ///< one paragraph: what was measured, on how much data
   std::vector<std::string> label_headings;
   std::vector<Column> columns;
   std::vector<TableRow> rows;
@@ -71,11 +70,11 @@ struct Table {
 
   /// Begins a row.
   void Begin(std::vector<std::string> labels) { rows.push_back({std::move(labels), {}}); }
-  /// The next cell of the last row; the first row makes the columns.
+  /// Adds a cell to the last row; the first row defines the columns.
   void Put(const std::string& heading, int digits, Cell cell);
 };
 
-/// A heading, the note, the table, its columns padded so that plain text reads well too.
+/// A heading, the note, and the table, padded to read well as plain text.
 std::string ToMarkdown(const Table& table);
 nlohmann::json ToJson(const Table& table);
 

@@ -13,8 +13,8 @@
 namespace choreo {
 namespace {
 
-// Both begin with kFramesBefore frames of the history, so that a jolt at the start counts in
-// accelerations and skating; all else counts from there on.
+// Both begin with kFramesBefore frames of history, so that accelerations and skating include a jolt
+// at the start; other figures start after them.
 WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vector<Pose>& danced,
                             const std::vector<Pose>& real) {
   WindowFigures figures;

@@ -11,13 +11,13 @@
 
 namespace choreo {
 
-inline constexpr int kFramesBefore = 2;  ///< of the history, in front of what is measured
+inline constexpr int kFramesBefore = 2;  ///< frames of history before what is measured
 
-/// What one transition of one method is worth.
+/// The figures of one transition by one method.
 struct WindowFigures {
   size_t clip = 0;
   double l2p = 0;       ///< m
-  double l2p_norm = 0;  ///< m, of all joints at once (paper F, Eq. 10)
+  double l2p_norm = 0;  ///< m, all joints together (paper F, Eq. 10)
   double l2q = 0;
   Npss npss;
   double pfc = 0;
@@ -26,18 +26,18 @@ struct WindowFigures {
   double final_key_m = 0, final_key_deg = 0;   ///< ComparePoses there: the worst joint
   double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival, footwork
   Pace pace;
-  Eigen::VectorXd kinetic, geometric;  ///< geometric: empty where the skeleton has none
+  Eigen::VectorXd kinetic, geometric;  ///< geometric: empty if the skeleton has none
 };
-using Figures = std::vector<WindowFigures>;  ///< one a window, in their order
+using Figures = std::vector<WindowFigures>;  ///< one per window, in order
 
-/// Real motion in feature space: windows of `frames` frames, half of them apart, over all clips.
+/// Real motion in feature space: half-overlapping windows of `frames` frames over all clips.
 struct RealFeatures {
   Eigen::MatrixXd kinetic, geometric;  ///< [features, windows]
 };
 RealFeatures GatherRealFeatures(const ClipSet& set, int frames);
 
-/// Frechet distance to real motion and mean distance of pairs, both in units of the real features'
-/// spread (Li et al. 2021); NaN where there are fewer than two windows or no features.
+/// Frechet distance to real motion, and mean distance of pairs, in units of the real features'
+/// spread (Li et al. 2021); NaN for fewer than two windows or no features.
 struct FeatureFigures {
   double distance = NAN, diversity = NAN;
 };
@@ -45,8 +45,8 @@ FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixX
 FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Figures& windows,
                                Eigen::VectorXd WindowFigures::*features);
 
-/// Lets methods dance the windows of a set at one length, and measures them. What it is made of
-/// must outlive it.
+/// Has methods dance a set's windows at one length and measures them. Its arguments must outlive
+/// it.
 class TransitionJudge {
  public:
   TransitionJudge(const Evaluation& evaluation, const ModelInfo& model, int frames);
@@ -58,7 +58,7 @@ class TransitionJudge {
   /// Linear for the root, spherical for the joints.
   Figures Interpolation() const { return Run({"", Method::Kind::kInterpolation}, 0); }
 
-  /// Fills in the raw key figures of an engine: the same noise, no arrival, no footwork.
+  /// Fills in an engine's raw key figures: the same noise, without arrival and footwork.
   void AddRawKeys(Method method, float temperature, Figures* figures) const;
 
  private:

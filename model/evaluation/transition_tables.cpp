@@ -117,7 +117,7 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
       AddCells(figures, line, real, &table);
       keys.Begin({std::to_string(frames), method.name});
       AddKeyCells(figures, &keys);
-      // Without keys all are far away, and would press the others together.
+      // Methods without keys are far away and would squeeze the others together.
       if (method.kind != Method::Kind::kReal && method.keys)
         AddPoint(&plot, method.name, frames, table.rows.back().cells[1].value);
       const double raw = Largest(figures, &WindowFigures::raw_key_m);

@@ -6,8 +6,8 @@ class App;
 
 namespace choreo {
 
-/// `choreo-lab weigh DATA...`: prints how prepared clips stand on their floor, clip by clip and the
-/// means of each set: whoever hovers there teaches it.
+/// `choreo-lab weigh DATA...`: prints how prepared clips stand on their floor, clip by clip and
+/// averaged over each set: clips that hover teach hovering.
 void AddWeighCommand(CLI::App& app);
 
 }  // namespace choreo

@@ -9,16 +9,16 @@
 
 namespace choreo {
 
-/// Whether a dance, or a recording, has weight.
+/// Figures of a dance's (or recording's) weight.
 struct WeighedDance {
-  size_t clip = 0;  ///< within its set
+  size_t clip = 0;  ///< index in its set
   WeightFigures weight;
   double floor = 0;  ///< DancedFloor, m
   double half_turns = 0,
-         whole_turns = 0;  ///< share of windows of 2 s that turn > 150, > 270 degrees
+         whole_turns = 0;  ///< share of windows of 2 s that turn > 150 and > 270 degrees
   double at_rest = 0;      ///< HandsAtRest
   double spread = 0;       ///< PaceSpread
-  FamilyWindows windows;   ///< what critics see of it
+  FamilyWindows windows;   ///< features for the critics
 };
 using WeighedDances = std::vector<WeighedDance>;
 
@@ -27,16 +27,16 @@ using WeighedDances = std::vector<WeighedDance>;
 WeighedDance Weigh(const Skeleton& skeleton, double fps, size_t clip, const JointTrack& track,
                    const std::vector<double>& turns);
 
-/// A figure that tables tell of weighed dances, with its unit.
+/// A figure of weighed dances in tables, with its unit.
 struct WeightRow {
   const char* name;
   double (*figure)(const WeighedDance&);
-  double unit;  ///< figures are told times this
+  double unit;  ///< tables multiply figures by this
 };
-/// Those of how bodies stand and fall, and those of what they do by turns.
+/// The rows about standing and falling, and those about variation.
 std::span<const WeightRow> WeightRows();
 
-/// Mean over the dances of which the figure is a number.
+/// Mean over the dances in which the figure is a number.
 Cell MeanOfKnown(const WeighedDances& dances, double (*figure)(const WeighedDance&), double unit);
 
 }  // namespace choreo

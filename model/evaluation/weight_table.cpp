@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kTurn = 60;  // degrees
 
-// Of the windows in which the real dancer turns, those that turn the same way and as often round.
+// Of the windows in which the real dancer turns, those that turn the same way by as many half
+// turns.
 Cell SameWayRound(const LivelyDances& real, const std::vector<LivelyDances>& keyed) {
   std::vector<ClipFigure> windows;
   for (const LivelyDances& seed : keyed) {
@@ -41,7 +42,7 @@ FamilyWindows WindowsOf(const WeighedDances& dances) {
   return all;
 }
 
-// The kinds of motion that stand beside each other.
+// The kinds of motion compared.
 struct Weighed {
   WeighedDances real, others, keyed, free;
 };

@@ -7,10 +7,9 @@
 
 namespace choreo {
 
-/// weight_SET: whether she has weight (metrics/balance.h, contrast.h), beside real motion and that
-/// of the training clips' dancers, which says what can be reached. `keyed`: the same dances as
-/// `real`, one after the other, by seed. No table where there is no real motion, or for a skeleton
-/// whose mass is unknown.
+/// weight_SET: whether dancers have weight (metrics/balance.h, contrast.h), beside real motion and
+/// the training clips' dancers, who show what is attainable. `keyed`: the dances of `real`, seed
+/// after seed. No table without real motion or for a skeleton of unknown mass.
 std::vector<Table> WeightTable(const Evaluation& evaluation, const Method& method,
                                const LivelyDances& real, const std::vector<LivelyDances>& keyed,
                                const LivelyDances& free);
