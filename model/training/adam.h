@@ -10,19 +10,19 @@
 
 namespace choreo {
 
-/// Euclidean norm of all of them together; those that are undefined are zero.
+/// Their Euclidean norm together; undefined ones count as zero.
 double NormOf(const std::vector<torch::Tensor>& gradients);
 
-/// Adam (Kingma & Ba 2015) over named parameters. Our own because its moments go into the run's
-/// safetensors by name and come back to the bit, which torch's optimiser state (keyed by address,
-/// another format in each release) does not offer.
+/// Adam (Kingma & Ba 2015) over named parameters. Ours, because its moments are saved in the run's
+/// safetensors by name and restored to the bit, which torch's optimiser state (keyed by address, in
+/// a format that changes between releases) does not offer.
 class Adam {
  public:
   /// All parameters of `module`.
   explicit Adam(const torch::nn::Module& module);
 
-  /// Clips the gradient's norm to `max_norm` (0: leaves it), then updates. A gradient that is not
-  /// finite changes nothing.
+  /// Clips the gradient's norm to `max_norm` (0: no clipping), then updates. Skips gradients that
+  /// are not finite.
   void Step(double learning_rate, double max_norm);
   void ZeroGrad();
 

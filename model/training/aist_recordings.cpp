@@ -23,7 +23,7 @@ std::vector<std::string> ReadNames(const fs::path& path) {
   return std::vector<std::string>(std::istream_iterator<std::string>(file), {});
 }
 
-/// The motions by name, without the ignored ones.
+/// The motions by name, except ignored ones.
 std::map<std::string, fs::path> FindMotions(const fs::path& input) {
   const fs::path folder = input / "motions";
   if (!fs::is_directory(folder))
@@ -46,13 +46,13 @@ std::map<std::string, fs::path> FindSongs(const fs::path& input) {
   for (const auto& entry : fs::recursive_directory_iterator(input)) {
     if (!kMusicExtensions.contains(entry.path().extension().string())) continue;
     fs::path& song = songs[entry.path().stem().string()];
-    // Whatever the order of the folder: of several, the first by path.
+    // Independent of the folder's order: of several, the first by path.
     if (song.empty() || entry.path() < song) song = entry.path();
   }
   return songs;
 }
 
-/// gBR_sBM_cAll_d04_mBR0_ch01: mBR0.
+/// gBR_sBM_cAll_d04_mBR0_ch01 → mBR0.
 std::string SongOf(const std::string& name) {
   const size_t end = name.rfind('_');
   const size_t begin = end == std::string::npos || end == 0 ? end : name.rfind('_', end - 1);
@@ -65,7 +65,7 @@ std::string SongOf(const std::string& name) {
 
 Recording ReadAistRecording(const std::string& name, const fs::path& path, const fs::path& song) {
   const NpzArchive arrays = ParsePickledArrays(ReadFile(path), path.string());
-  // Without its scaling the motion would pass for one of another layout.
+  // Without its scaling the motion would be read as another layout.
   for (const char* key : {"smpl_poses", "smpl_trans", "smpl_scaling"}) {
     if (!arrays.Has(key)) throw InvalidArgument(path.string(), std::string("has no ") + key);
   }

@@ -23,7 +23,7 @@ double SpeedPowerAt(const PositionClip& clip, double period_s) {
   Eigen::ArrayXd speed(steps);
   for (Eigen::Index k = 0; k < steps; ++k)
     speed[k] = (clip.frames[k + 1] - clip.frames[k]).colwise().norm().mean();
-  // The window keeps slow changes out of the other periods.
+  // The window keeps slow changes from leaking into other periods.
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(steps, 0.5, steps - 0.5);
   const Eigen::ArrayXd window = 0.5 - 0.5 * (2 * std::numbers::pi / steps * time).cos();
   const Eigen::ArrayXd change = (speed - speed.mean()) * window;

@@ -4,20 +4,20 @@
 
 namespace choreo {
 
-/// Beats that motion was made on. Beat k, k >= 0, is at offset_s + k x period_s; beat 0 begins a
-/// bar.
+/// The beats that motion was made for. Beat k, k >= 0, is at offset_s + k x period_s; beat 0 begins
+/// a bar.
 struct BeatGrid {
   double period_s = 0.5;
   double offset_s = 0;
   int per_bar = 4;
 };
 
-/// The same beats for a clip that begins `skipped_s` later: its beat 0 is the first that still
-/// begins a bar.
+/// The same beats for a clip that begins `skipped_s` later. Its beat 0 is the first one that begins
+/// a bar.
 BeatGrid Skip(BeatGrid grid, double skipped_s);
 
-/// How much of all change of the joints' mean speed is at this period: 0 to 1. Throws
-/// Error(kInvalidArgument) for a clip of less than three frames.
+/// The share of changes of the joints' mean speed at this period: 0 to 1. Throws
+/// Error(kInvalidArgument) for a clip with fewer than three frames.
 double SpeedPowerAt(const PositionClip& clip, double period_s);
 
 }  // namespace choreo

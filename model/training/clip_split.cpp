@@ -14,8 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Set by set, clip by clip, the group that the file has it in. A clip in two groups could train and
-// test.
+// Set by set, the group of each clip. A clip in two groups could be both trained and tested on.
 using Groups = std::map<std::string, std::map<std::string, std::string>>;
 
 Groups ReadGroups(const std::filesystem::path& splits_file) {
@@ -38,7 +37,7 @@ Groups ReadGroups(const std::filesystem::path& splits_file) {
   return groups;
 }
 
-// Two sets may name their clips alike; a folder that is called as one of them holds that one's.
+// Two sets may share clip names; a folder named like one of them holds that one's clips.
 std::string GroupOf(const Groups& groups, const std::filesystem::path& folder,
                     const std::string& clip, const std::filesystem::path& splits_file) {
   std::optional<std::string> found;

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kCovarianceSigma = 30;  // frames, of the taper that keeps covariances definite
+constexpr double kCovarianceSigma = 30;  // frames of the taper that keeps covariances definite
 constexpr double kLeastSpeed = 1e-4;     // radians a frame
 
 Eigen::VectorXd Velocity(const Pose& before, const Pose& now) {
@@ -60,7 +60,8 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
   sum /= frames;
   for (int lag = 0; lag < lags; ++lag)
     sum.col(lag) *= std::exp(-0.5 * std::pow(lag / kCovarianceSigma, 2));
-  // Sideways is as forwards: positions stand in no frame of the dancer's. And sides are alike.
+  // Positions are not in the dancer's frame, so sideways and forwards are alike; left and right
+  // are, too.
   const Eigen::RowVectorXd floor = 0.5 * (sum.row(0) + sum.row(2));
   sum.row(0) = sum.row(2) = floor;
   Eigen::MatrixXd covariance = sum;
@@ -76,7 +77,7 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
 UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> tracks) {
   const std::vector<int> pairs = MirrorPairs(skeleton);
   const int joints = skeleton.joints();
-  // Each frame and its mirror image, over the stage's middle.
+  // Visits each frame and its mirror image about the stage's middle.
   const auto visit = [&](auto what) {
     for (const ClipTrack& track : tracks) {
       for (const Pose& pose : track.poses) {
@@ -100,7 +101,7 @@ UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> 
   for (int j = 0; j < joints; ++j) usual.pose.rotations.col(j) = LogMap(NearestRotation(turns[j]));
   visit([&](const Pose& pose) {
     const Eigen::Vector3d off = usual.pose.root_position - pose.root_position;
-    const double floor = 0.5 * (off.x() * off.x() + off.z() * off.z());  // facing anywhere
+    const double floor = 0.5 * (off.x() * off.x() + off.z() * off.z());  // any facing
     usual.variance.head<3>() += Eigen::Vector3d(floor, off.y() * off.y(), floor) / poses;
     for (int j = 0; j < joints; ++j) {
       usual.variance.segment<3>(3 + 3 * j) +=

@@ -10,14 +10,14 @@
 
 namespace choreo {
 
-/// Of all frames, metres a frame.
+/// Medians over all frames, metres a frame.
 std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks);
 
-/// [dimensions, lags] of velocities, both sides alike, as MotionPrior has it.
+/// [dimensions, lags] Covariance of velocities, symmetrised over sides, for MotionPrior.
 Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const ClipTrack> tracks,
                                    int lags);
 
-/// What dancers come back to: the mean pose, of both sides alike, and how they vary about it.
+/// The pose that dancers return to: the mean, symmetrised over sides, and the spread about it.
 UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> tracks);
 
 }  // namespace choreo

@@ -12,9 +12,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kEnergySigma = 6;                // frames: energy is asked for, not every swing
-constexpr double kFastBeat = 11, kSlowBeat = 24;  // frames, of beats that are read into a dance
-constexpr double kUneven = 0.3;                   // that such beats may be apart from even ones
+constexpr double kEnergySigma = 6;  // frames: energy is an average, not every swing
+constexpr double kFastBeat = 11,
+                 kSlowBeat = 24;  // frames between beats that are derived from a dance
+constexpr double kUneven = 0.3;   // tolerated unevenness of such beats
 constexpr int kBeatTries = 12;
 
 double Note(const PreparedClip& clip, const std::string& key) {
@@ -73,8 +74,8 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
   const double period = Note(clip, "beat_period_s"), fps = clip.motion.fps;
   if (period > 0) {
     const double last = static_cast<double>(track.poses.size()) + fps;
-    // A grid's beats are where steps land; a kinematic beat (paper F, Section 4.2), which is what
-    // dances are judged by, is where they are fastest: half way between.
+    // Steps land on a grid's beats; kinematic beats (paper F, Section 4.2), by which dances are
+    // judged, are where they are fastest: halfway between.
     for (double at = Note(clip, "beat_offset_s") + period / 2; at * fps / tempo < last;
          at += period)
       track.beats.push_back(at * fps / tempo);

@@ -11,24 +11,24 @@
 
 namespace choreo {
 
-/// A prepared clip with what it says of itself.
+/// A prepared clip with what its notes say.
 struct ClipTrack {
   std::vector<Pose> poses = {};
-  Eigen::MatrixXd energy = {};         ///< [kBodyParts, frames], smoothed, metres a frame
-  std::vector<double> beats = {};      ///< frames; of the grid that its notes tell
-  std::vector<double> kinematic = {};  ///< frames in which it pauses
-  int style = -1;                      ///< index into the styles, or -1
-  Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< mean place of the root
+  Eigen::MatrixXd energy = {};  ///< [kBodyParts, frames] smoothed velocity factors, metres a frame
+  std::vector<double> beats = {};                   ///< frames; of the grid in its notes
+  std::vector<double> kinematic = {};               ///< frames where it pauses
+  int style = -1;                                   ///< index into the styles, or -1
+  Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< mean position of the root
 };
 
-/// `tempo` times as fast as it was danced. `styles`: ascending (StyleOf).
+/// Plays the clip at `tempo` times its speed. `styles`: ascending (StyleOf).
 ClipTrack MakeTrack(const PreparedClip& clip, double tempo, const std::vector<std::string>& styles);
 
-/// Beats of a song that the frames from `from` to `to` would be danced to, in frames behind `from`;
-/// none where the dance's pauses are too uneven for one.
+/// Beats of a song that would suit frames `from` to `to`, in frames after `from`; none if the
+/// dance's pauses are too uneven.
 std::vector<double> BeatsFor(const ClipTrack& track, int64_t from, int64_t to, Random* random);
 
-/// Each row under a Gaussian of `sigma` columns; the ends are held.
+/// Smooths each row by a Gaussian of `sigma` columns, holding the end values.
 Eigen::MatrixXd SmoothRows(const Eigen::MatrixXd& rows, double sigma);
 
 }  // namespace choreo

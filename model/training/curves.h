@@ -9,30 +9,30 @@
 
 namespace choreo {
 
-/// One term of a training loss: its running mean and its last gradient's norm, weighted as it is
-/// trained with; 0 where it was not computed yet.
+/// One term of a training loss: its running mean and its last gradient's norm, weighted as in
+/// training; 0 until computed.
 struct LossFigure {
   double value = 0, gradient = 0;
 };
 
 using LossFigures = std::map<std::string, LossFigure>;  ///< by the term's name (loss_terms.h)
 
-/// What else a run reports, in the order of its columns.
+/// Other figures of a run, in column order.
 using NamedFigures = std::vector<std::pair<std::string, double>>;
 
-/// A run's history: one line a report, as CSV and as a plot.
+/// A run's history: one line per report, as CSV and as plots.
 class Curves {
  public:
   void Append(int64_t step, double seconds, const LossFigures& losses, const NamedFigures& figures);
   /// Writes curves.csv, curves.png, gradients.png and validation.png into `folder`.
   void Write(const std::filesystem::path& folder) const;
-  /// The CSV text, kept inside a run's state; and back.
+  /// The CSV text, stored in a run's state, and its inverse.
   std::string Serialise() const;
   void Restore(const std::string& csv);
 
  private:
   std::vector<std::string> names_;
-  std::vector<std::vector<double>> rows_;  // a report each
+  std::vector<std::vector<double>> rows_;  // one per report
 };
 
 }  // namespace choreo

@@ -11,12 +11,12 @@ using torch::Tensor;
 namespace {
 
 constexpr double kAtNoise = 0.2;  // share of samples at t = 0, half of them without noise
-constexpr double kStands = 1e-3;  // metres: what strays less stands
-// Weights of how far joints, and standing feet from one frame to the next, are from where they
-// should be, in squares of how far a window's joints stray; white coordinates have 1. They stay
-// small: where they pull as hard, the pelvis makes up for what limbs can't know, and stands still.
+constexpr double kStands = 1e-3;  // metres: points that move less stand
+// Weights of errors in joint positions, and in the travel of standing feet per frame, in squares of
+// a window's joint spread; white coordinates have 1. They stay small: at equal weight the pelvis
+// would compensate for what limbs can't know, and stand still.
 constexpr double kPlaces = 0.06, kSlips = 12;
-constexpr double kStandingStep = 0.01;  // metres that a standing foot goes in a frame, at most
+constexpr double kStandingStep = 0.01;  // metres that a standing foot may move in a frame
 
 Tensor SpreadsOf(const std::vector<MotionPrior::Bridge>& bridges) {
   std::vector<Tensor> spreads;
@@ -24,7 +24,7 @@ Tensor SpreadsOf(const std::vector<MotionPrior::Bridge>& bridges) {
   return torch::stack(spreads);
 }
 
-// Square metres that the joints move on average when the joint turns by a radian about any axis.
+// Square metres that the joints move on average when this joint turns by a radian about any axis.
 Tensor ReachOf(const Skeleton& skeleton) {
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   const int joints = skeleton.joints();
@@ -91,17 +91,17 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor miss =
       model->forward(z, poses, joints, batch.mean, batch.features, batch.whole, t.flatten()) -
       wanted;
-  // Of a window's displacements, by dimension: how far real ones are spread.
+  // Variance of real windows' displacements by dimension.
   const Tensor variance =
       torch::where(batch.keyed > 0, spreads.to_key.square().sum(torch::IntArrayRef{1, 2}),
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
-  // Metres that a coordinate of the window is expected to move joints by: half of a coordinate's
-  // weight, so that the body's turn counts more than a wrist's.
+  // Metres that a coordinate of the window is expected to move joints: half of its weight, so that
+  // the body's turn counts more than a wrist's.
   const Tensor importance = (variance * batch.scales.square().mean(1) * reach_).sqrt();
   const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
   const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
-  // Of the motion that F says the flow ends in, not of F itself: near the end little is left to
-  // say.
+  // Of the motion where F says that the flow ends, not of F itself, which has little left to say
+  // near the end.
   const Tensor moved = ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, motion(miss));
   const auto squares = [&](const Tensor& metres) { return metres.square().sum(-1) / strays; };
   const auto feet_steps = [&](const Tensor& places) {

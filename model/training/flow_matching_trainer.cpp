@@ -23,10 +23,10 @@ namespace {
 constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120,
               kResponseBatches = 4;
 constexpr int kMatchingValidationWindows = 24;
-constexpr double kAverage = 0.999;                                  // of the weights, a step
+constexpr double kAverage = 0.999;                                  // of the weights, per step
 constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
-constexpr double kEnergy = 0.9;  // share of windows whose energy is told, as it is when served
-// Frames of training windows: few, so that what belongs to a length is made once.
+constexpr double kEnergy = 0.9;  // share of windows whose energy is given, as when serving
+// Lengths of training windows in frames: few, so that data per length is made once.
 constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
 
 // Mean joint distance between two sequences of poses, metres.
@@ -52,13 +52,13 @@ struct Liveness {
   }
 };
 
-// Gives another model's weights the styles of `model`: what both know by name stays, what is new
-// begins at zero.
+// Adapts another model's weights to the styles of `model`: styles known by name keep theirs, new
+// ones begin at zero.
 void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl& model,
                 Safetensors* weights) {
   const std::vector<std::string>& styles = model.config().styles;
   if (styles == before) return;
-  // Is measured anew.
+  // Measured again for this data.
   ExportTensor("energy_prior", model.named_buffers()["energy_prior"], weights);
   const std::string name = "condition_in.weight";  // its inputs end with style, then time
   const torch::Tensor to = torch::zeros_like(model.named_parameters()[name]);
@@ -109,7 +109,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
  protected:
-  // What a run that is resumed has in its state.
+  // A resumed run has this in its state.
   void Prepare() override {
     if (!options().keep_statistics) Measure();
     const FlowModelParts parts = model_->Parts();
@@ -121,7 +121,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
   void TrainStep() override {
-    // Bits do not depend on how many are drawn ahead: each has random numbers of its own.
+    // Results do not depend on how many are drawn ahead: each has its own random numbers.
     const size_t ahead = std::max(2U, std::thread::hardware_concurrency()) - 1;
     while (drawn_.size() < ahead) {
       const int64_t at = step() + std::ssize(drawn_);
@@ -223,7 +223,7 @@ class FlowMatchingRun : public TrainingRun {
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
-      // Half the bytes, and dances have the same figures. The prior stays exact.
+      // Half the bytes for the same figures. The prior stays exact.
       if (name.ends_with(".weight")) RoundToBfloat16(&tensor);
     }
     return SaveContinuousFlow(path, average_, weights, card);
@@ -236,7 +236,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
  private:
-  // The average goes `share` of the way to the weights.
+  // Moves the average by `share` of the way to the weights.
   void Copy(double share) {
     const torch::NoGradGuard no_grad;
     const auto from = model_->parameters(), to = average_->parameters();
@@ -245,8 +245,7 @@ class FlowMatchingRun : public TrainingRun {
       average_->buffers()[i].copy_(model_->buffers()[i]);
   }
 
-  // The prior first; white coordinates are of a model that has it, their mixing of one whose
-  // powers have scaled them.
+  // Measures the prior first: white coordinates need it, and their mixing needs its scaled powers.
   void Measure() {
     const int dimensions = 3 + 3 * train_.skeleton().joints();
     const Eigen::MatrixXd covariance =
@@ -291,7 +290,7 @@ class FlowMatchingRun : public TrainingRun {
     return MeasureResponse(parts, *MakeTorchFlowNetwork(average_, device_), requests);
   }
 
-  // How dancers turn is told by many, as few turn far.
+  // Many windows, as few dancers turn far.
   std::vector<WindowRequest> KeyedRequests() const {
     std::vector<WindowRequest> requests;
     for (uint32_t i = 0; i < kTurnBatches; ++i) {
@@ -322,7 +321,7 @@ class FlowMatchingRun : public TrainingRun {
   WindowClips train_, validation_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
   std::unique_ptr<FlowMatching> matching_;
-  std::deque<std::future<WindowBatch>> drawn_;  // of this step and those after it; ends first
+  std::deque<std::future<WindowBatch>> drawn_;  // for this step and later ones; ends first
 };
 
 }  // namespace

@@ -14,16 +14,16 @@ using torch::Tensor;
 
 namespace {
 
-constexpr double kShrinkage = 0.02;     // of correlations over dimensions towards none
-constexpr double kRare = 0.025;         // share of windows at either end that count as those before
-constexpr size_t kLeastWindows = 16;    // that tell how energy counts
-constexpr double kUsualStyle = 20;      // windows without difference that each style begins with
-constexpr size_t kLeastEnergies = 100;  // windows that tell how lively the next are
-constexpr size_t kLeastTurns = 100;     // windows that tell which way round dancers turn
+constexpr double kShrinkage = 0.02;     // shrinkage of correlations between dimensions towards zero
+constexpr double kRare = 0.025;         // share of windows at either end that are clipped as rare
+constexpr size_t kLeastWindows = 16;    // needed to learn how energy counts
+constexpr double kUsualStyle = 20;      // windows without difference that each style starts with
+constexpr size_t kLeastEnergies = 100;  // windows needed to learn the energy of the next
+constexpr size_t kLeastTurns = 100;     // windows needed to learn which way round dancers turn
 constexpr int kNewtonRounds = 12;
-constexpr double kStill = 1e-3;  // metres or radians: what spreads less is not in the recordings
+constexpr double kStill = 1e-3;  // metres or radians: less spread means absent from the recordings
 
-// A window whose energy is told.
+// A window with known energy.
 struct LivelyWindow {
   EnergyPrior::Known known;
   EnergyPrior::Levels levels;
@@ -44,7 +44,7 @@ std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
   return windows;
 }
 
-// What training saw of each input, but for what is rare.
+// The range of each input in training, except rare values.
 void MeasureRange(const std::vector<LivelyWindow>& windows, EnergyPrior* measured) {
   for (int input = 0; input < EnergyPrior::kInputs; ++input) {
     std::vector<double> values;
@@ -56,13 +56,14 @@ void MeasureRange(const std::vector<LivelyWindow>& windows, EnergyPrior* measure
   }
 }
 
-// A frame of a body part whose energy is told: 1, log surprise, level; and its mean square.
+// A frame of a body part with known energy: 1, log surprise, level; and its mean square.
 struct LivelyFrame {
   Eigen::Vector3d inputs;
   double square;
 };
 
-// What the logarithm of the variance is of its inputs: the likeliest of Gaussians, by Newton.
+// Fits the logarithm of the variance to its inputs by maximum likelihood of Gaussians, with
+// Newton's method.
 Eigen::Vector3d FitLogVariance(const std::vector<LivelyFrame>& frames) {
   double mean = 0;
   for (const LivelyFrame& frame : frames) mean += frame.square / static_cast<double>(frames.size());
@@ -147,8 +148,8 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
         energy = EnergyLevel(energy, medians[static_cast<size_t>(part)]);
     }
   }
-  // Of each clip about its own mean: dancers differ. Logarithms of stillness have no bound, so how
-  // far levels go is that of the livelier frames.
+  // Each clip relative to its own mean, as dancers differ. Logarithms of stillness are unbounded,
+  // so the range of levels is that of the livelier frames.
   Square all = Square::Zero();
   EnergyPrior::Levels above = EnergyPrior::Levels::Zero(), lively = above;
   Eigen::Index frames = 0;
@@ -162,7 +163,8 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
   all /= static_cast<double>(std::max<Eigen::Index>(1, frames));
   EnergyCurve curve;
   for (int lag = 0; lag < EnergyCurve::kLags; ++lag) {
-    double squares = 0;  // of differences over so many frames, half of whose mean is what is lost
+    double squares =
+        0;  // squared differences over this many frames; half their mean is what is lost
     Eigen::Index count = 0;
     for (const Eigen::MatrixXd& clip : levels) {
       const Eigen::Index pairs = std::max<Eigen::Index>(0, clip.cols() - lag);
@@ -173,7 +175,7 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
     const double kept = 1 - 0.5 * squares / static_cast<double>(count) / all.trace();
     curve.correlation[lag] = std::clamp(kept, -1.0, 1.0);
   }
-  // Both sides alike.
+  // Averages both sides.
   const Eigen::PermutationMatrix<kBodyParts> mirror(Eigen::Vector<int, kBodyParts>(0, 2, 1, 4, 3));
   const EnergyPrior::Levels scale =
       (above.array() / lively.array().max(1) / all.diagonal().array().max(1e-9)).sqrt();
@@ -198,7 +200,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
     }
     for (LivelyWindow& window : windows) window.inputs = measured.Describe(window.known);
     using Square = Eigen::Matrix<double, EnergyPrior::kInputs, EnergyPrior::kInputs>;
-    Square normal = Square::Identity();  // a little towards zero
+    Square normal = Square::Identity();  // slight shrinkage towards zero
     EnergyPrior::Weights right = EnergyPrior::Weights::Zero();
     for (const LivelyWindow& window : windows) {
       normal += window.inputs * window.inputs.transpose();
@@ -216,8 +218,8 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
       ++of_style[style];
     }
     if (keyed) measured.spread = left.llt().matrixL();
-    // So that factors, not their logarithms, are right on average: who stands still for a while has
-    // a logarithm without bound.
+    // So that factors, not their logarithms, are right on average: a still dancer's logarithm is
+    // unbounded.
     const EnergyPrior::Levels spread = measured.Variance();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
     for (const LivelyWindow& window : windows) {
@@ -273,7 +275,7 @@ TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest
     const Eigen::Vector3d shorter = TurnPrior::ShorterTurn(request);
     turns.push_back({*inputs, NearerWayRound(shorter, *request.turning) != shorter});
   }
-  // Logistic regression by Newton's method, a little towards zero.
+  // Logistic regression by Newton's method, with slight shrinkage towards zero.
   TurnPrior prior;
   for (int round = 0; round < kNewtonRounds && turns.size() >= kLeastTurns; ++round) {
     Square curvature = Square::Identity();

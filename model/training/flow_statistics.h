@@ -9,33 +9,33 @@
 #include "model/training/clip_track.h"
 #include "model/training/window_batch.h"
 
-/// What the continuous flow knows of its data before it trains, measured on batches of real
-/// windows.
+/// What the continuous flow measures on batches of real windows before training.
 namespace choreo {
 
-/// How far real windows stray from the mean of `prior`, whose powers are all zero.
+/// How far real windows deviate from the mean of `prior`, whose powers are all zero.
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches);
 
-/// How lively real windows are, of which all body parts' energy is told, by what is known of them.
+/// The distribution of real windows' energy, which all body parts must give, by what is known of
+/// the windows.
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests);
 
-/// How the energy of body parts goes up and down in real dances; unknown if no clip is longer than
+/// How the energy of body parts rises and falls in real dances; unknown if no clip is longer than
 /// its correlation.
 EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
                          const std::array<double, kBodyParts>& medians);
 
-/// How lively windows come out that are told how lively real ones were: of `requests`, which tell
-/// the energy of all body parts. `model` knows no response. Unknown where they are few.
+/// The liveliness of sampled windows that were given real windows' energy, over `requests`, which
+/// give all body parts'. `model` has no response yet. Unknown for too few windows.
 EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
                                const std::vector<WindowRequest>& requests);
 
-/// Which way round real dancers turn to a key, by what is known of the windows: `turning` is
+/// Which way round real dancers turn to a key, by what is known of the windows; `turning` is
 /// theirs.
 TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests);
 
-/// Of real windows: the correlation of white coordinates over dimensions, its Cholesky factor; and
-/// the spread of displacements [dimensions].
+/// Statistics of real windows: the correlation of white coordinates over dimensions, as a Cholesky
+/// factor, and the spread of displacements [dimensions].
 struct WindowStatistics {
   Eigen::MatrixXd mixing;
   Eigen::VectorXd spread;

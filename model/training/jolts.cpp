@@ -12,16 +12,15 @@
 namespace choreo {
 namespace {
 
-constexpr double kSpeed = 11;    // m/s of a joint from one frame to the next
-constexpr int kLongest = 3;      // steps in a row that may be that fast; more is a real swing
+constexpr double kSpeed = 11;    // m/s of a joint between frames
+constexpr int kLongest = 3;      // consecutive steps that may be that fast; more is a real swing
 constexpr double kContrast = 2;  // a jolt is this many times faster than the steps around it
-constexpr double kBridge = 0.1;  // s, re-made before and behind a jolt
-constexpr double kLongestBridge = 0.8;  // s; jolts so dense are left alone
+constexpr double kBridge = 0.1;  // s interpolated before and after a jolt
+constexpr double kLongestBridge = 0.8;  // s; denser jolts are left alone
 
-using Span = std::pair<int, int>;  // first, last frame to make anew
+using Span = std::pair<int, int>;  // first, last frame to interpolate
 
-// The joint at which the limb of each joint begins; -1 for the trunk between the places that
-// branch.
+// The joint at which each joint's limb begins; -1 for the trunk between branching joints.
 std::vector<int> LimbOfJoint(const Skeleton& skeleton) {
   std::vector<int> children(skeleton.joints(), 0);
   std::vector<bool> trunk(skeleton.joints(), false);
@@ -39,7 +38,7 @@ std::vector<int> LimbOfJoint(const Skeleton& skeleton) {
   return limb;
 }
 
-// Steps f - 1 → f of a limb in which it snaps, as spans of steps.
+// Steps f - 1 → f in which a limb snaps, as spans of steps.
 std::vector<Span> FindJolts(const std::vector<double>& speeds) {
   std::vector<Span> jolts;
   const auto count = static_cast<int>(speeds.size());
@@ -58,7 +57,7 @@ std::vector<Span> FindJolts(const std::vector<double>& speeds) {
   return jolts;
 }
 
-// Jolts as spans of frames to make anew, each with a margin, in one where they touch.
+// Jolts as spans of frames to interpolate, each with a margin, merged if they touch.
 std::vector<Span> MergeWithMargin(const std::vector<Span>& jolts, int margin) {
   std::vector<Span> spans;
   for (const auto& [first, last] : jolts) {
@@ -72,7 +71,7 @@ std::vector<Span> MergeWithMargin(const std::vector<Span>& jolts, int margin) {
   return spans;
 }
 
-// What snaps where.
+// Jolts by limb and of the body.
 struct Jolts {
   std::vector<int> limb_of;                // [joints]
   std::vector<std::vector<Span>> of_limb;  // [joints] steps, at the limbs' first joints

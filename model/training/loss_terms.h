@@ -4,11 +4,11 @@
 
 #include <vector>
 
-/// What training losses are made of. Units and reductions are part of a loss's definition: metres
-/// summed beside nats would vanish.
+/// Terms of training losses. Units and reductions belong to a loss's definition: a sum of metres
+/// would vanish beside nats.
 namespace choreo {
 
-/// Losses of lengths are in decimetres, in which those of paper F and C are about 1.
+/// Losses of lengths are in decimetres, which makes those of papers F and C about 1.
 inline constexpr double kDecimetresPerMetre = 10;
 
 /// One term of a loss.

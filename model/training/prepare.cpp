@@ -28,12 +28,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kTopSpeed = 15;  // m/s of any joint; faster is a defect of the recording
+constexpr double kTopSpeed = 15;  // m/s of any joint; faster means a defective recording
 constexpr int kShortestFrames = 60;
 constexpr int kLongestCalibration = 6;  // frames
 constexpr double kMusicSlack = 0.5;     // s by which music may be shorter than its dance
 
-// The frames, but for the first, to which a joint jumps from the one before.
+// The frames, except the first, to which a joint jumps from the one before.
 std::vector<int> FindJumps(const PositionClip& clip) {
   std::vector<int> jumps;
   for (int f = 1; f < std::ssize(clip.frames); ++f) {
@@ -43,7 +43,7 @@ std::vector<int> FindJumps(const PositionClip& clip) {
   return jumps;
 }
 
-// The longest run of so many frames that are cut at `ends`: its first, and the one behind its last.
+// The longest run of `frames` frames cut at `ends`: its first frame, and the one after its last.
 std::pair<int, int> LongestRun(std::vector<int> ends, int frames) {
   ends.push_back(frames);
   std::pair<int, int> longest;
@@ -55,8 +55,8 @@ std::pair<int, int> LongestRun(std::vector<int> ends, int frames) {
   return longest;
 }
 
-// Many recordings begin with a calibration pose, a frame or two from which the dancer jumps into
-// the dance: the first frame that is dance.
+// The first frame of dance. Many recordings begin with a frame or two of a calibration pose, from
+// which the dancer jumps into the dance.
 int SkipCalibration(const PositionClip& clip) {
   int begin = 0;
   for (const int jump : FindJumps(clip)) {
@@ -65,7 +65,8 @@ int SkipCalibration(const PositionClip& clip) {
   return begin;
 }
 
-// Cuts a fitted motion at the frames where the body snaps; returns how many frames that cost.
+// Cuts a fitted motion where the body snaps and keeps the longest run; returns the number of frames
+// lost.
 int KeepLongestRun(const Skeleton& skeleton, Motion& motion, double& skipped_s, json& warnings) {
   const std::vector<int> breaks = FindBreaks(skeleton, motion);
   if (breaks.empty()) return 0;
@@ -78,7 +79,7 @@ int KeepLongestRun(const Skeleton& skeleton, Motion& motion, double& skipped_s, 
   return all - (end - begin);
 }
 
-// MFCC rows of the motion's frames; the recording's first frame plays at music_start_s.
+// MFCC rows for the motion's frames; the recording's first frame is at music_start_s.
 Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skipped_s,
                           json& warnings) {
   const DecodedAudio audio = DecodeAudioFile(recording.music);
@@ -99,7 +100,7 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
   return rows;
 }
 
-// The clip and what is reported of it.
+// The clip and its report.
 std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
                                          const PrepareOptions& options) {
   const Recording recording = source.read();
@@ -118,7 +119,7 @@ std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
     const int calibration = SkipCalibration(clip);
     clip.frames.erase(clip.frames.begin(), clip.frames.begin() + calibration);
     const int replaced = RemoveSpikes(kTopSpeed, 6, clip);
-    // What lies outside of the longest run in which no joint jumps is cut.
+    // Keeps the longest run in which no joint jumps.
     const auto all = static_cast<int>(clip.frames.size());
     const auto [begin, end] = LongestRun(FindJumps(clip), all);
     int cut = calibration + all - (end - begin);

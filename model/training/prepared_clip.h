@@ -14,36 +14,36 @@
 
 namespace choreo {
 
-/// A clip as training and evaluation read it. On disk: one safetensors file NAME.clip with
+/// A clip for training and evaluation. On disk: one safetensors file NAME.clip with
 ///   root_positions [frames, 3] metres, Y up, floor y = 0; rotations [frames, joints, 3]
 ///   axis-angle, local, radians; contacts [frames, 4]; audio [frames, 40] MFCC rows
-///   (FeatureStream's), absent for a dance without music;
-/// and in the metadata: name, source, fps, skeleton (motion/skeleton_json.h), terms, what
-/// preparation did ("corrections", "fit_error_m", ...), and for motion that stands on beats of its
-/// own beat_period_s, beat_offset_s and beats_per_bar (training/beat_grid.h).
+///   (FeatureStream's), absent for a dance without music; and in the metadata: name, source,
+///   fps, skeleton (motion/skeleton_json.h), terms, what preparation did ("corrections",
+///   "fit_error_m", ...), and for motion on beats of its own beat_period_s, beat_offset_s and
+///   beats_per_bar (training/beat_grid.h).
 struct PreparedClip {
   std::string name;
-  std::string source;  ///< "tang2018", "bvh", ... : the layout that it came from
+  std::string source;  ///< its original layout: "tang2018", "bvh", ...
   Skeleton skeleton;
   Motion motion;                             ///< on that skeleton
   Eigen::MatrixXf contacts;                  ///< [4, frames]
   Eigen::MatrixXf audio;                     ///< [40, frames], or no columns
-  std::map<std::string, std::string> notes;  ///< the rest of the metadata
+  std::map<std::string, std::string> notes;  ///< all other metadata
 };
 
 /// Throws Error(kNotFound) or Error(kInvalidArgument) naming the file.
 PreparedClip ReadPreparedClip(const std::filesystem::path& path);
 /// Throws Error(kInvalidArgument) for poses of another joint count than the skeleton's.
 void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& clip);
-/// Every .clip of a folder, sorted by name. Throws Error where there is none, or no folder.
+/// Every .clip in a folder, sorted by name. Throws Error if there is none, or no folder.
 std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder);
 
-/// XXH3 of every clip's name and motion, in order, 16 hex digits: which data made a checkpoint or a
-/// motion encoder. `before` is hashed in front: settings, or the hash of other clips.
+/// XXH3 of all clips' names and motions, in order, 16 hex digits: identifies the data behind a
+/// checkpoint or a motion encoder. `before` is hashed first: settings, or the hash of other clips.
 std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view before = {});
 
-/// What a clip's name says of how it is danced, as in Sophie_Afraid_v2 (afraid) or DANCE_W_12
-/// (waltz): the mood or genre as requests name it; "" where it says nothing.
+/// The style in a clip's name, such as Sophie_Afraid_v2 (afraid) or DANCE_W_12 (waltz): the mood or
+/// genre, as requests name it; "" if there is none.
 std::string StyleOf(const std::string& clip_name);
 
 }  // namespace choreo

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sources that are fitted to the skeleton of them all. Recordings that can't be read are left out
-// here, and named when it is their turn.
+// Sources fitted to a skeleton made from all of them. Unreadable recordings are skipped here and
+// named in their turn.
 std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>& sources) {
   std::vector<PositionClip> clips;
   for (const RecordingSource& source : sources) {
@@ -48,7 +48,7 @@ Recording ReadBvhRecording(const std::filesystem::path& path, const std::string&
   recording.positions = BvhToPositions(bvh, 1.0);
   recording.positions.fps = ForClip(options.frame_rates, name, bvh.fps());
   recording.mapping = BvhSource(recording.positions);
-  // Units are not stated anywhere in a BVH: the dancer's legs tell centimetres from inches.
+  // A BVH does not state its unit: the dancer's legs tell centimetres from inches.
   const BoneNormaliser normaliser(recording.skeleton, recording.mapping,
                                   recording.positions.joint_names);
   const double scale = normaliser.Measure(recording.positions).scale;
@@ -89,7 +89,7 @@ std::vector<RecordingSource> ListRecordings(const PrepareOptions& options) {
     } else if (options.layout == "tang61" && path.extension() == ".npy") {
       sources.push_back({path.stem().string(), [=] { return ReadTang61(path, options); }});
     } else if (options.layout == "bvh" && path.extension() == ".bvh") {
-      // Files of sub-folders are told apart by the folder: salsa/01.bvh is salsa_01.
+      // Sub-folders become part of the name: salsa/01.bvh is salsa_01.
       const fs::path relative = fs::relative(path, options.input);
       std::string name = path.stem().string();
       if (name.size() > 4 && name.ends_with("-BVH")) name.resize(name.size() - 4);

@@ -13,20 +13,20 @@ using nlohmann::json;
 
 constexpr double kFps = 25;
 constexpr double kMetresPerUnit = 0.01;
-constexpr double kCutoffHz = 8;        // interpolated frames and jitter; dance steps stay below
-constexpr double kTimeScale = 1.0125;  // waltz and rumba lock to their music here
-// Cha-chas, rumbas and waltzes have 0.04 to 0.34 of the power there, tangos less than 0.01.
+constexpr double kCutoffHz = 8;        // removes interpolated frames and jitter, keeps dance steps
+constexpr double kTimeScale = 1.0125;  // with this, waltz and rumba lock to their music
+// Cha-chas, rumbas and waltzes have 0.04 to 0.34 of the power at the beat, tangos less than 0.01.
 constexpr double kLeastBeatPower = 0.02;
 
 struct Metre {
   double beat_frames;
   int per_bar;
-  double pulse_frames;  // the period at which dancers of this metre are fast and slow
+  double pulse_frames;  // the period of fast and slow in this metre
 };
 constexpr Metre kFourFour = {12.5, 4, 25};
 constexpr Metre kWaltz = {48.4 / 3, 3, 48.4};
 
-// The music of this name, of whatever format; empty: none.
+// The music with this name in any format; empty: none.
 fs::path MusicOf(fs::path path) {
   for (const char* extension : {".ogg", ".wav", ".mp3"}) {
     if (fs::exists(path.replace_extension(extension))) return path;
@@ -43,7 +43,7 @@ PositionClip InMetres(const std::vector<std::string>& names, Frames frames) {
   return {.fps = kFps, .joint_names = names, .frames = std::move(frames)};
 }
 
-// Of a file of shape [frames, rows, 3]: each [3, rows].
+// Frames of [3, rows] from a file of shape [frames, rows, 3].
 Frames ReadRows(const fs::path& path, int rows) {
   const NpyArray array = ReadNpy(path);
   if (array.shape.size() != 3 || array.shape[1] != rows || array.shape[2] != 3) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int64_t kWarmUpSteps = 200;
 constexpr double kLastRate = 0.05;  // share of the peak learning rate at the end
-constexpr double kForget = 0.02;    // of a loss's running mean, a step
+constexpr double kForget = 0.02;    // decay of a loss's running mean, per step
 
 // Warm-up, then a cosine to a twentieth of the peak.
 double RateAt(double peak, int64_t step, int64_t steps) {
@@ -27,7 +27,7 @@ double RateAt(double peak, int64_t step, int64_t steps) {
   return peak * warm * (kLastRate + (1 - kLastRate) * 0.5 * (1 + std::cos(M_PI * progress)));
 }
 
-// Options by name, of a text as TrainOptions::Fixed; those of flags are empty.
+// Options by name, parsed from the text of TrainOptions::Fixed; flags have empty values.
 std::map<std::string, std::string> OptionsOf(const std::string& text) {
   std::map<std::string, std::string> options;
   std::istringstream words(text);
@@ -42,8 +42,8 @@ std::map<std::string, std::string> OptionsOf(const std::string& text) {
   return options;
 }
 
-// Whether a run that was started as `before` goes on as `now`. Earlier versions also wrote down
-// what the preset has no use for, at its default.
+// Whether a run started as `before` may continue as `now`. Earlier versions also wrote unused
+// options at their defaults.
 bool IsSameRun(const std::string& before, const std::string& now) {
   const auto started = OptionsOf(before), asked = OptionsOf(now);
   for (const auto& [option, value] : asked) {
@@ -111,7 +111,7 @@ void TrainingRun::Go() {
     }
   }
   if (last < total) return;
-  if (figures_.empty()) figures_ = Validate();  // all steps were done before
+  if (figures_.empty()) figures_ = Validate();  // all steps were already done
   const std::string hash = WriteCheckpoint();
   std::printf("checkpoint %s, content hash %s\n",
               (options_.run / "checkpoint.safetensors").string().c_str(), hash.c_str());
@@ -159,7 +159,7 @@ nlohmann::json TrainingRun::Card() const {
     const auto stated = clip.notes.find("terms");
     ++terms[stated == clip.notes.end() ? "not stated" : stated->second];
   }
-  // What a model went on from binds it, too.
+  // The terms of the base model apply, too.
   std::map<std::string, int> all_terms = terms;
   for (nlohmann::json base = base_; base.is_object() && base.contains("card");
        base = base.at("card").value("from", nlohmann::json())) {
@@ -218,7 +218,7 @@ void TrainingRun::Load() {
     throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                 "the run was started on other data (hash " + state.metadata.at("data") + ")");
   }
-  // Not by its name: most checkpoints have the same.
+  // Not by name: most checkpoints share it.
   const auto from = state.metadata.find("from");
   const std::string base = from == state.metadata.end() ? "" : from->second;
   if (base != BaseHash()) {

@@ -20,29 +20,29 @@
 
 namespace choreo {
 
-/// At least one of each, all of one skeleton.
+/// At least one clip each, all on one skeleton.
 struct TrainingClips {
   std::vector<PreparedClip> train, validation;
 };
 
-/// What every training run does, whatever it trains: steps one after another, reports, saves its
-/// state and goes on from it exactly as if it had not been left. For that, each step draws from
-/// generators of its own, keyed by its number: RandomOf(step()), and torch's.
+/// The common part of all training: takes steps, reports, saves its state and resumes exactly as if
+/// never interrupted. For that, each step draws from its own generators, keyed by its number:
+/// RandomOf(step()), and torch's.
 class TrainingRun {
  public:
   virtual ~TrainingRun() = default;
-  /// All steps that are left, then the last checkpoint; or as far as --stop-after.
+  /// Takes all remaining steps and writes the last checkpoint, or stops at --stop-after.
   void Go();
 
  protected:
-  /// Options and clips outlive the run.
+  /// Options and clips must outlive the run.
   TrainingRun(const TrainOptions& options, const TrainingClips& clips);
-  /// Has `network` trained, which is complete and outlives the run. Makes the run's folder and
-  /// takes up what it holds. Throws Error(kFailedPrecondition) for a run that was started on other
-  /// data or otherwise, or that is not to be resumed.
+  /// Trains `network`, which must be complete and outlive the run. Creates the run's folder and
+  /// loads any state in it. Throws Error(kFailedPrecondition) if the run was started with other
+  /// data or options, or must not be resumed.
   void Open(torch::nn::Module* network);
-  /// Notes what --from holds. Throws Error(kInvalidArgument, "--from") where its skeleton is not
-  /// that of the clips.
+  /// Records the checkpoint of --from. Throws Error(kInvalidArgument, "--from") if its skeleton is
+  /// not the clips'.
   template <typename Checkpoint>
   void StartFrom(const Checkpoint& base) {
     if (!(base.model->skeleton() == train_.front().skeleton)) {
@@ -52,24 +52,24 @@ class TrainingRun {
     base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
   }
 
-  /// Before the first step of all.
+  /// Runs before the very first step.
   virtual void Prepare() {}
-  /// Descends once or more; the optimiser's step follows.
+  /// Calls Descend at least once; the optimiser's step follows.
   virtual void TrainStep() = 0;
-  /// The optimiser has moved the network.
+  /// Runs after the optimiser has changed the network.
   virtual void AfterStep() {}
-  /// On validation clips, by name.
+  /// Figures on validation clips, by name.
   virtual NamedFigures Validate() = 0;
-  /// The network and its optimiser, by name; and back.
+  /// Saves network and optimiser by name; Import restores them.
   virtual void Export(Safetensors* state) const;
   virtual void Import(const Safetensors& state);
   /// Writes the checkpoint; returns its content hash.
   virtual std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) = 0;
-  /// What its card says that it can't do.
+  /// The model's limits, for its card.
   virtual std::string Limits() const = 0;
 
-  /// Adds the gradient of the weighted sum; before a report, also each term's own, so that one that
-  /// vanishes or takes over is seen.
+  /// Adds the gradient of the weighted sum; before a report also measures each term's own, to show
+  /// terms that vanish or dominate.
   void Descend(const LossTerms& terms);
 
   const TrainOptions& options() const { return options_; }
@@ -80,12 +80,12 @@ class TrainingRun {
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
-  /// With a checkpoint, so that a run can be judged and used before it ends.
+  /// Also writes a checkpoint, so that a run can be judged and used before it ends.
   void Report(ProgressBar* progress);
-  /// What a checkpoint says of itself: data and their terms, the command, figures on validation
-  /// clips, limits, and what it went on from, whose terms bind it, too.
+  /// A checkpoint's card: data and their terms, the command, validation figures, limits, and the
+  /// base model, whose terms apply, too.
   nlohmann::json Card() const;
-  /// Of what the run went on from; empty: from scratch.
+  /// Hash of the base checkpoint; empty: from scratch.
   std::string BaseHash() const;
   std::string WriteCheckpoint();
   void Save();
@@ -94,17 +94,17 @@ class TrainingRun {
   const TrainOptions& options_;
   const std::vector<PreparedClip>& train_;
   std::string data_hash_;
-  nlohmann::json base_;  // what the run went on from: its hash and card
+  nlohmann::json base_;  // the base checkpoint's hash and card
   torch::nn::Module* network_ = nullptr;
   std::unique_ptr<Adam> adam_;
   int64_t step_ = 0;
   double seconds_ = 0;
   LossFigures losses_;
-  NamedFigures figures_;  // of the last report
+  NamedFigures figures_;  // from the last report
   Curves curves_;
 };
 
-/// A run of the class `Run`, which is made of options and clips.
+/// Makes a run of class `Run` from options and clips.
 template <typename Run, typename Options>
 void TrainBy(const Options& options) {
   options.Validate();
@@ -113,11 +113,11 @@ void TrainBy(const Options& options) {
   Run(options, clips).Go();
 }
 
-/// Of what is drawn for validation: the same at every run.
+/// The seed of validation, the same in every run.
 inline constexpr uint64_t kValidationSeed = 20240607;
 
-/// How many windows of so many frames make up a step: `batch` of 60 frames or as many frames of
-/// longer ones, at most three times as many short ones, at least 8.
+/// Windows of this length per step: `batch` at 60 frames; fewer longer ones with as many frames in
+/// total; at most three times as many short ones; at least 8.
 int WindowsOf(int batch, int frames);
 
 }  // namespace choreo

@@ -16,7 +16,7 @@ constexpr torch::Tensor WindowBatch::*kTensors[] = {
     &WindowBatch::whole,      &WindowBatch::history_joints, &WindowBatch::base_root,
     &WindowBatch::base_turns, &WindowBatch::axes,           &WindowBatch::bones};
 
-using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  // as torch has matrices
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;  // torch's matrix layout
 
 // Local rotations, [9 joints, frames].
 Eigen::MatrixXd TurnsOf(std::span<const Pose> poses) {
@@ -31,8 +31,8 @@ Eigen::MatrixXd TurnsOf(std::span<const Pose> poses) {
   return turns;
 }
 
-// How the joints of real motion move with the flow's coordinates, which are rotation vectors `x`
-// behind those of the mean: as WindowBatch has axes and bones.
+// How real motion's joints move with the flow's coordinates, which are rotation vectors `x` after
+// those of the mean; see WindowBatch's axes and bones.
 struct Lever {
   Eigen::MatrixXd axes, bones;
 

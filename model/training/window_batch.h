@@ -10,27 +10,27 @@
 
 namespace choreo {
 
-/// A batch of windows of equal shape as the continuous flow sees them; see FlowNetwork for what
-/// the tensors are. Time stands before features, float32.
+/// A batch of equally long windows, as the continuous flow sees them; FlowNetwork explains the
+/// tensors. Time precedes features, float32.
 struct WindowBatch {
   int frames = 0, to_key = 0;
   torch::Tensor z = {};                     ///< [batch, w, dimensions] real motion, white
-  torch::Tensor scales = {};                ///< [batch, w, dimensions] as FlowWindow has them
-  std::vector<double> surprise = {};        ///< [batch], the same
+  torch::Tensor scales = {};                ///< [batch, w, dimensions] as in FlowWindow
+  std::vector<double> surprise = {};        ///< [batch] as in FlowWindow
   torch::Tensor keyed = {};                 ///< [batch, dimensions] in {0, 1}
   torch::Tensor staged = {};                ///< [batch] in {0, 1}: FlowWindow::staged
   torch::Tensor mean = {};                  ///< [batch, tau + w, dimensions], history in front
-  torch::Tensor features = {}, whole = {};  ///< of WindowFeatures
+  torch::Tensor features = {}, whole = {};  ///< from WindowFeatures
   torch::Tensor history_joints = {};        ///< [batch, tau, 3 joints] metres
   /// The mean as poses: root positions [batch, w, 3] and local rotations [batch, w, joints, 3, 3].
   torch::Tensor base_root = {}, base_turns = {};
-  /// Of the real motion: the turn in the world that a unit of each of a joint's coordinates makes
-  /// [batch, w, joints, 3, 3], and the way from its parent to it [batch, w, joints, 3] in metres.
+  /// For the real motion: the world rotation by one unit of each coordinate of a joint [batch, w,
+  /// joints, 3, 3], and the offset from its parent [batch, w, joints, 3] in metres.
   torch::Tensor axes = {}, bones = {};
-  std::vector<WindowRequest> requests = {};   ///< what each was asked for
+  std::vector<WindowRequest> requests = {};   ///< the request of each window
   std::vector<std::vector<Pose>> truth = {};  ///< [batch][w] canonical frame
 
-  /// Its tensors there, without requests and truth.
+  /// Its tensors on that device, without requests and truth.
   WindowBatch To(torch::Device device) const;
 };
 
@@ -42,11 +42,11 @@ torch::Tensor Columns(const Matrix& matrix) {
       .clone();
 }
 
-/// A batch of one window whose tensors lack the dimension [batch]. `truth` [frames]: what was
-/// danced there, in the request's frame. None where it strays from any line to the key.
+/// A single window whose tensors lack the dimension [batch]. `truth` [frames]: the real dance, in
+/// the request's frame. None if it deviates too far from any line to the key.
 std::optional<WindowBatch> MakeWindow(const FlowModelParts& model, WindowRequest request,
                                       std::span<const Pose> truth);
-/// Of such windows, at least one, all of one shape.
+/// Batches at least one such window, all of one shape.
 WindowBatch Stack(std::vector<WindowBatch> windows);
 
 }  // namespace choreo

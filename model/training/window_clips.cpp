@@ -16,19 +16,19 @@ namespace choreo {
 namespace {
 
 constexpr double kTempi[] = {1.0, 0.8, 0.9, 1.12, 1.25};
-constexpr double kDrawnSigma = 6;  // frames: what a path drawn by hand leaves out
-constexpr double kConstant = 0.3;  // share of the energies that are told as their mean
+constexpr double kDrawnSigma = 6;  // frames: smooths a path as if drawn by hand
+constexpr double kConstant = 0.3;  // share of energies that are given as their mean
 constexpr double kFarAstray = 3;   // times a velocity's spread
 
-// Moves the first `tau` poses to where no dancer stands, all alike, and leads the others back to
-// where they are, within a second or so and before the last. `spread`: of velocities.
+// Displaces the first `tau` poses, all alike, to where no dancer stands, and leads the following
+// ones back within about a second and before the last. `spread`: of velocities.
 void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vector<Pose>* poses) {
   const int64_t most = static_cast<int64_t>(poses->size()) - tau;
   const auto back = static_cast<double>(std::min(most, random->Integer(12, 40)));
   const double far = random->Uniform(0, kFarAstray);
   Eigen::VectorXd offset(spread.size());
   for (Eigen::Index d = 0; d < offset.size(); ++d) offset[d] = far * spread[d] * random->Normal();
-  offset[0] = offset[2] = 0;  // any place on the floor is as good
+  offset[0] = offset[2] = 0;  // floor positions are equivalent
   for (size_t i = 0; i < poses->size(); ++i) {
     const double way = std::clamp((static_cast<double>(i) - tau + 1) / back, 0.0, 1.0);
     const double left = 1 - SmoothStep(way);
@@ -40,8 +40,8 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
   }
 }
 
-// Puts a history of another style in front, out of which the dance turns into its own: of a
-// dancer's own history alone the network would know the style, and not listen to the label.
+// Puts a history in another style first, from which the dance turns into its own: from a dancer's
+// own history alone the network would know the style and ignore the label.
 void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
                     std::vector<Pose>* poses) {
   const int64_t turn = std::min<int64_t>(random->Integer(12, 25), std::ssize(*poses) - tau);
@@ -58,8 +58,8 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
   }
 }
 
-// What is asked of a window of `frames` frames, the track's from `first` on. `history`, `way`,
-// which ends in the key, and `stage` stand in the canonical frame.
+// The request for a window of `frames` frames, the track's from `first` on. `history`, `way`, which
+// ends in the key, and `stage` are in the canonical frame.
 WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
                   const Eigen::Vector3d& stage, const ClipTrack& track, int64_t first,
                   const WindowClips::Variation& variation, int frames, Random* random) {

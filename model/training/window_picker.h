@@ -11,11 +11,11 @@
 
 namespace choreo {
 
-/// Draws places of windows in clips, each place alike.
+/// Draws windows from clips, all places equally likely.
 class WindowPicker {
  public:
-  /// `clips`: frames of each. Before a window there is a frame more, of which its first velocity
-  /// is. Throws Error(kInvalidArgument, "frames") where no clip is long enough.
+  /// `clips`: frames of each. One more frame precedes a window, for its first velocity. Throws
+  /// Error(kInvalidArgument, "frames") if no clip is long enough.
   WindowPicker(std::span<const int64_t> clips, int64_t window) {
     int64_t windows = 0;
     for (const int64_t frames : clips) {
@@ -30,7 +30,7 @@ class WindowPicker {
 
   struct Place {
     size_t clip;
-    int64_t start;  ///< from 1 on
+    int64_t start;  ///< at least 1
   };
   Place Draw(Random* random) const {
     const int64_t pick = random->Integer(0, ends_.back());
@@ -39,7 +39,7 @@ class WindowPicker {
   }
 
  private:
-  std::vector<int64_t> ends_;  // running count of the windows that each clip offers
+  std::vector<int64_t> ends_;  // running count of the windows in each clip
 };
 
 }  // namespace choreo
