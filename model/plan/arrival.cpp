@@ -8,10 +8,10 @@
 namespace choreo {
 namespace {
 
-// Share of the window after which the path alone leads. Reached earlier, the rest of the way is
-// spread over more frames: with 2/3 the peak acceleration of a 15 cm miss is a quarter below that
-// of a weight which is full only at the key, with 1/2 a third, but then the model is silent for
-// half of the window.
+// Share of the window after which the path alone leads. Reaching it early spreads the rest of the
+// way over more frames: for a 15 cm miss, 2/3 lowers the peak acceleration by a quarter compared
+// with a weight that is full only at the key, 1/2 by a third, but then the model is silent for half
+// of the window.
 constexpr double kFull = 2.0 / 3;
 
 // Weight of the newest frame in the model's velocity.
@@ -41,9 +41,9 @@ Arrival::Velocity Arrival::Between(const Pose& a, const Pose& b) {
   return velocity;
 }
 
-// With accelerations a_i (i = 0..m-1) added before the steps 1..m, the place after m steps is m v +
-// sum (m - i) a_i and the velocity there v + sum a_i. The least sum of squares that reaches both
-// has a_i = alpha (m - i) + beta.
+// With accelerations a_i (i = 0..m-1) added before steps 1..m, the position after m steps is m v +
+// sum (m - i) a_i, and the velocity v + sum a_i. The least sum of squares that reaches both has a_i
+// = alpha (m - i) + beta.
 Eigen::Vector3d Arrival::Step(const Eigen::Vector3d& way, const Eigen::Vector3d& velocity,
                               const Eigen::Vector3d& end_velocity, int frames_left) {
   if (frames_left == 1) return way;

@@ -8,32 +8,31 @@
 
 namespace choreo {
 
-/// Leads a model's frames onto a key, frame by frame, without look-ahead. In its window, the last
+/// Leads a model's frames to a key, frame by frame, without look-ahead. In its window, the last
 /// frames of a transition, the emitted pose is y_t = x_t (+) w (h_t (-) x_t): x_t is the model's
-/// frame, w rises smoothly from 0 to 1 over the first two thirds of the window, and h_t is the next
+/// frame; w rises smoothly from 0 to 1 over the first two thirds of the window; h_t is the next
 /// frame of the path from y_{t-1} to the key that has the least sum of squared second differences
 /// and passes the key with the velocity of the model's own frames (docs/decisions.md). Root and
-/// joints (on the tangent space at y_{t-1}) are treated alike; what the key's mask leaves free
-/// passes through. All poses stand in one frame (the canonical one). Not thread-safe.
+/// joints (on the tangent space at y_{t-1}) are treated alike; degrees of freedom outside the key's
+/// mask pass through. All poses are in one frame (the canonical one). Not thread-safe.
 class Arrival {
  public:
-  /// `window`: frames; a shorter transition has as many as it is long. `before`: the poses
-  /// before frame 0, at least one, oldest first. `after`: the pose one frame after the key, where
-  /// the motion that follows is known (the edit of one interval, loops): the path then also arrives
-  /// with the velocity towards it.
+  /// `window`: frames, at most those of the transition. `before`: the poses before frame 0, at
+  /// least one, oldest first. `after`: the pose one frame after the key, if the following motion is
+  /// known (edits of one interval, loops); the path then also arrives with the velocity towards it.
   Arrival(int window, int transition_frames, const Target& target, const std::vector<Pose>& before,
           const std::optional<Pose>& after = std::nullopt);
 
-  /// The emitted pose of the next frame; call once for each of the transition's frames, in order.
+  /// The emitted pose of the next frame; call once per frame of the transition, in order.
   Pose Apply(const Pose& raw);
 
   int window() const { return window_; }
 
  private:
-  /// A step from one frame to the next.
+  /// A step between frames.
   struct Velocity {
     Eigen::Vector3d root;
-    // [3, joints] radians, each on the tangent space at the joint's former rotation.
+    // [3, joints] radians, each on the tangent space at the joint's earlier rotation.
     Eigen::Matrix3Xd joints;
   };
   static Velocity Between(const Pose& a, const Pose& b);
@@ -42,15 +41,15 @@ class Arrival {
                               const Eigen::Vector3d& end_velocity, int frames_left);
   Pose Steered(const Pose& raw);
 
-  int left_;  // frames to the key, the next one included
+  int left_;  // frames to the key, including the next one
   int window_;
   Target target_;
-  std::optional<Velocity> after_;  // from the key on, where it is known
+  std::optional<Velocity> after_;  // from the key on, if known
   Pose previous_;                  // emitted last
-  Velocity velocity_;              // to it, from the one before
+  Velocity velocity_;              // the step to it
   Pose last_raw_;
   Velocity model_velocity_;        // of the model's own frames, smoothed
-  Eigen::Matrix3Xd expected_way_;  // [3, joints] what is left to turn if all goes to plan: keeps
+  Eigen::Matrix3Xd expected_way_;  // [3, joints] the remaining turn if all goes to plan: fixes
                                    // its sense near pi
   bool has_expected_way_ = false;
 };

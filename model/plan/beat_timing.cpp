@@ -9,14 +9,14 @@
 namespace choreo {
 namespace {
 
-// How much of an accent beats have that are so many frames apart.
+// The share of the accent that beats at this distance (frames) get.
 double Share(const PlanContext& context, double period) {
   return period > kPauseSeconds * context.fps
              ? 0
              : std::min(1.0, period / (context.options.fastest * context.fps));
 }
 
-// The shift of time at t, of which BeatTime takes away what the ends have.
+// The shift of time at t, before BeatTime removes its values at the ends.
 double Shift(const PlanContext& context, double t) {
   const auto after = std::ranges::upper_bound(context.beats, t);
   if (after == context.beats.begin() || after == context.beats.end()) return 0;
@@ -25,7 +25,7 @@ double Shift(const PlanContext& context, double t) {
          std::sin(2 * M_PI * (t - before) / period);
 }
 
-// What a key on a beat adds to that within a beat before it (`step` -1) or behind it (1).
+// What a key on a beat adds within a beat before it (`step` -1) or after it (1).
 double KeyShift(const PlanContext& context, double key, int step, double t) {
   const auto& beats = context.beats;
   const auto beat =
@@ -46,8 +46,8 @@ std::array<double, 4> CubicWeights(double u) {
           0.5 * (u3 - u2)};
 }
 
-// Poses in a row as quaternions, and what leads from each to the next: each is needed by four
-// frames, and a logarithm costs more than all else.
+// Poses as quaternions, with the steps between them cached: four frames need each, and its
+// logarithm dominates the cost.
 struct Curve {
   using Rotations = std::vector<Eigen::Quaterniond>;  // by joint
 
@@ -65,7 +65,7 @@ struct Curve {
     for (const auto turn : pose.rotations.colwise()) rotation.push_back(QuaternionFromExp(turn));
     Append(pose.root_position, std::move(rotation));
   }
-  /// A pose as far behind the last one as that is behind the one before it.
+  /// Extrapolates by a pose that repeats the last step.
   void GoOn() {
     const size_t last = positions.size() - 1;
     Rotations rotation = rotations[last];
@@ -79,7 +79,7 @@ struct Curve {
 
   std::vector<Eigen::Vector3d> positions;
   std::vector<Rotations> rotations;
-  std::vector<std::vector<Eigen::Vector3d>> steps;  // from each pose to the next, by joint
+  std::vector<std::vector<Eigen::Vector3d>> steps;  // between poses, by joint
 };
 
 }  // namespace
@@ -97,12 +97,12 @@ double BeatTime(const PlanContext& context, int frames, double t) {
   return t + std::min(1.0, frames / (options.whole_accent * context.fps)) * shift;
 }
 
-// Between poses a cubic (Catmull-Rom, rotations in the tangent space of the pose before) keeps what
-// is smooth smooth.
+// A cubic between poses (Catmull-Rom, rotations in the tangent space of the pose before) keeps
+// smooth motion smooth.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
   if (context.beats.empty()) return;
   const auto& history = context.history;
-  // Two poses in front, and one behind that goes on as the last two go.
+  // Two poses in front, and an extrapolated one at the end.
   Curve curve;
   curve.Append(history[history.size() > 1 ? history.size() - 2 : 0]);
   curve.Append(history.back());
@@ -118,7 +118,7 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
     Pose& pose = (*plan)[static_cast<size_t>(frame)];
     pose.root_position.setZero();
     for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
-    // Where a path says when to be where, time is not the beats' to bend.
+    // A path fixes where to be when; beats must not bend its time.
     const Eigen::Vector3d& planned = curve.positions[static_cast<size_t>(frame) + 2];
     if (context.has_path) {
       pose.root_position.x() = planned.x();
@@ -126,7 +126,7 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
     }
     if (context.has_heights) pose.root_position.y() = planned.y();
     for (size_t joint = 0; joint < curve.rotations[at].size(); ++joint) {
-      // In the tangent space of the pose before; back from it leads the step before, turned round.
+      // In the tangent space of the pose before, from which the previous step leads back.
       const Eigen::Vector3d turn = -weights[0] * curve.steps[at - 1][joint] +
                                    weights[2] * curve.steps[at][joint] +
                                    weights[3] * curve.Between(at, at + 2, joint);

@@ -8,18 +8,18 @@
 namespace choreo {
 namespace {
 
-constexpr double kNever = 1e6;       // square metres: what must not be
-constexpr int kTurns = 2;            // in which each foot looks at the other
+constexpr double kNever = 1e6;       // square metres: the cost of the forbidden
+constexpr int kTurns = 2;            // rounds in which each foot adapts to the other
 constexpr int kAttempts = 3;         // to shorten flights
-constexpr int kLongestStance = 150;  // frames; who stands for longer, steps on the spot
+constexpr int kLongestStance = 150;  // frames; after that a foot steps on the spot
 
-using Standing = std::vector<bool>;  // of each frame
+using Standing = std::vector<bool>;  // per frame
 
-// Sums of four numbers a frame over any stretch of frames.
+// Prefix sums of four numbers per frame.
 class Sums {
  public:
   explicit Sums(size_t frames) : sums_(frames + 1, Eigen::Vector4d::Zero()) {}
-  /// Frame by frame.
+  /// Call frame by frame.
   void Set(size_t frame, const Eigen::Vector4d& value) { sums_[frame + 1] = sums_[frame] + value; }
   Eigen::Vector4d Of(int from, int to) const {
     return sums_[static_cast<size_t>(to) + 1] - sums_[static_cast<size_t>(from)];
@@ -34,10 +34,10 @@ int FallFrames(double height, double fps) {
   return std::max(1, static_cast<int>(std::ceil(seconds * fps)));
 }
 
-// The best stances of one foot beside the other, which stands where `other` says.
+// Finds the best stances of one foot when the other stands as in `other`.
 class FootPlanner {
  public:
-  /// `grounded`: in which frames nobody may fly.
+  /// `grounded`: frames in which flying is forbidden.
   FootPlanner(const FootTrack& foot, const FootTrack& beside, const Standing& other,
               const Standing& grounded, double fps, const FootworkOptions& options)
       : foot_(foot),
@@ -62,7 +62,7 @@ class FootPlanner {
   }
 
   std::vector<Stance> Plan() {
-    // Of the frames before each: the least cost where the foot stands last, or is in the air.
+    // The least cost of the frames before, if the foot stands last or is in the air.
     const auto frames = static_cast<size_t>(frames_);
     down_.assign(frames + 1, {kNever * frames_, 0});
     up_ = down_;
@@ -108,7 +108,7 @@ class FootPlanner {
     const double count = to - from + 1, x = place.x(), z = place.z();
     double cost = sum[2] - 2 * (x * sum[0] + z * sum[1]) + count * (x * x + z * z) + sum[3] +
                   support_.Of(from, to)[0];
-    // From where it stands to where the key has it leads a step.
+    // Moving from where it stood to the key's place takes a step.
     if (from == 0 && foot_.stood) cost += count * (place - foot_.before).squaredNorm();
     return cost;
   }
@@ -137,9 +137,9 @@ class FootPlanner {
   const int frames_;
   const double step_cost_;
   const int shortest_step_, first_step_, last_step_;
-  Sums places_;  // x, z, their squares, the height's
-  // What the body's support costs while this foot stands, and while it does not; and what it costs
-  // to lift the foot off the floor where the plan does not.
+  Sums places_;  // x, z, their squares, the height's square
+  // Cost of the body's support while this foot stands and while it does not, and of lifting the
+  // foot where the plan does not.
   Sums support_;
   std::vector<Best> down_, up_;
 };
@@ -151,7 +151,7 @@ Standing StandingIn(const std::vector<Stance>& stances, size_t frames) {
   return standing;
 }
 
-// Marks the frames of flights that last longer; whether there are any.
+// Marks the frames of flights longer than the limit; returns whether there are any.
 bool MarkLongFlights(const std::array<Standing, 2>& standing, double longest, Standing* grounded) {
   bool any = false;
   for (size_t from = 0, to = 0; from < grounded->size(); from = to + 1) {
@@ -183,7 +183,7 @@ std::array<std::vector<Stance>, 2> PlanContacts(const std::array<FootTrack, 2>& 
   std::array<std::vector<Stance>, 2> stances;
   std::array<Standing, 2> standing = {Standing(frames, true), Standing(frames, true)};
   Standing grounded(frames, false);
-  // The foot that the plan lifts more begins: the other one carries it.
+  // Starts with the foot that the plan lifts more; the other one supports it.
   const size_t first = Lifted(feet[0]) > Lifted(feet[1]) ? 0 : 1;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     for (int turn = 0; turn < 2 * kTurns; ++turn) {

@@ -18,10 +18,11 @@
 namespace choreo {
 namespace {
 
-constexpr double kHalfToes = 0.75;     // of a foot's length: its ankle above the toes, standing
-constexpr double kStillSpeed = 0.3;    // m/s: a low foot that is slower stands
-constexpr int kPasses = 2;             // legs that are moved move the centre of mass, too
-constexpr double kSmoothFrames = 1.5;  // of the centre of mass
+constexpr double kHalfToes =
+    0.75;  // share of a foot's length: the height of its ankle on half toes
+constexpr double kStillSpeed = 0.3;    // m/s: a low foot slower than this stands
+constexpr int kPasses = 2;             // moved legs move the centre of mass, too
+constexpr double kSmoothFrames = 1.5;  // smoothing of the centre of mass
 constexpr int kSmoothReach = 4;
 
 class PlanStander {
@@ -73,8 +74,7 @@ class PlanStander {
   bool Stands(size_t side, int frame) const { return StanceAt(stances_[side], frame) != nullptr; }
   bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
 
-  // The smoothed centre of mass in the frame before the first and in each behind it, as the plan
-  // stands now.
+  // The smoothed centre of mass, from the frame before the first on, as the plan is now.
   std::vector<Eigen::Vector3d> Centres() const {
     std::vector<Eigen::Vector3d> exact, smooth;
     const auto add = [&](const Pose& pose) {
@@ -134,8 +134,8 @@ class PlanStander {
     return track;
   }
 
-  // How much a foot bears in a frame, from 0 to 1: it comes to that, and from there, within
-  // kSettleSeconds; what it bore before goes on.
+  // How much a foot supports in a frame, 0 to 1: it changes within kSettleSeconds, starting from
+  // the support before.
   double Bears(size_t side, int frame) const {
     const Stance* stance = StanceAt(stances_[side], frame);
     if (stance == nullptr) return 0;
@@ -145,9 +145,9 @@ class PlanStander {
     return SmoothStep(std::clamp(std::min(since, until) / settle, 0.0, 1.0));
   }
 
-  // Feet lie on the floor: an ankle that would be lower than it stands at rest is lifted about the
-  // toes, and of a foot that bears the body it is no higher than on half toes. From where it was,
-  // and to where the key has it, within kSettleSeconds.
+  // Feet rest on the floor: an ankle lower than at rest is lifted about the toes, and an ankle of a
+  // supporting foot is at most as high as on half toes. Fades in from the previous state and out
+  // towards the key's within kSettleSeconds.
   void LayDown(size_t side) {
     const Leg& leg = legs_[side];
     const double settle = kSettleSeconds * context_.fps;
@@ -220,7 +220,7 @@ class PlanStander {
     }
   }
 
-  // The foot keeps its turn, so its ankle moves with its toes.
+  // The foot keeps its rotation, so its ankle moves with its toes.
   std::vector<Contacts> TellContacts() const {
     std::vector<Contacts> contacts(plan_.size());
     for (int frame = 0; frame < frames_; ++frame) {
@@ -244,7 +244,7 @@ class PlanStander {
   std::vector<Pose>& plan_;
   const int frames_;
   std::array<double, 2> toes_rest_, ankle_rest_;  // heights at rest
-  std::vector<JointPlacement> planned_;           // as the plan was proposed
+  std::vector<JointPlacement> planned_;           // the plan as proposed
   std::vector<Eigen::Vector3d> centres_;
   std::array<std::vector<Stance>, 2> stances_;
   std::array<std::vector<Eigen::Vector3d>, 2> toes_;

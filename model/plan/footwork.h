@@ -10,30 +10,29 @@
 
 namespace choreo {
 
-/// A plan that is to stand on its feet. All poses stand in one frame, whose floor is y = 0.
+/// A plan that needs footwork. All poses are in one frame with the floor at y = 0.
 struct FootworkContext {
   const Skeleton& skeleton;
   std::span<const Pose> history;  ///< before the first frame, oldest first, at least one
-  bool keyed = false;             ///< the last pose is a key, which nothing may touch
-  bool has_path = false;          ///< a path says where the root is on the floor
-  /// Footwork::offset of the frames before, if they were put on their feet before.
+  bool keyed = false;             ///< the last pose is a key, which must not change
+  bool has_path = false;          ///< a path fixes the root on the floor
+  /// Footwork::offset of the preceding frames, if they had footwork.
   Eigen::Matrix<double, 3, 2> offset_before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;
   FootworkOptions options = {};
 };
 
-/// What a plan has come to.
+/// The result of footwork.
 struct Footwork {
-  std::vector<Contacts> contacts;  ///< of each frame; none: it was left as it is
-  /// By how much the pelvis left the plan in the last two frames, oldest first, metres.
+  std::vector<Contacts> contacts;  ///< per frame; empty: the plan is unchanged
+  /// How far the pelvis moved from the plan in the last two frames, oldest first, metres.
   Eigen::Matrix<double, 3, 2> offset = Eigen::Matrix<double, 3, 2>::Zero();
 };
 
-/// Puts a plan on its feet. Which foot stands where is planned
-/// for all frames at once (contact_plan.h); toes go from place to place (toes_path.h); the pelvis
-/// follows, so that legs reach and the body is balanced (pelvis_offset.h); legs do the rest by
-/// inverse kinematics. A skeleton without legs, or whose masses nobody knows (motion/body_mass.h),
-/// is left as it is. Pure, thread-safe.
+/// Puts a plan on its feet. Plans for all frames at once which foot stands where (contact_plan.h);
+/// moves toes between stances (toes_path.h); moves the pelvis so that legs reach and the body is
+/// balanced (pelvis_offset.h); legs follow by inverse kinematics. Leaves skeletons without legs or
+/// with unknown masses (motion/body_mass.h) unchanged. Pure, thread-safe.
 Footwork StandOnFeet(const FootworkContext& context, std::vector<Pose>* plan);
 
 }  // namespace choreo

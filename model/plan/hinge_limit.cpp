@@ -7,7 +7,7 @@
 namespace choreo {
 namespace {
 
-// As max(0, bend), but smooth.
+// A smooth max(0, bend).
 double SoftBend(double bend, double softness) {
   const double share = bend / softness;
   return share > 30 ? bend : softness * std::log1p(std::exp(share));

@@ -11,11 +11,11 @@ namespace choreo {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr double kLightest = 0.25;  // of its weight that a sinking body keeps at least
+constexpr double kLightest = 0.25;  // share of its weight that a sinking body keeps at least
 constexpr double kPushSeconds =
-    0.27;  // before and after a flight the legs may push as gravity does
+    0.27;  // s before and after a flight in which legs may push as hard as gravity
 constexpr double kFirm =
-    30;  // of falling and of standing in the end, beside what counts frame by frame
+    30;  // weights of falling and of standing at the end, relative to per-frame terms
 
 double Square(double value) { return value * value; }
 
@@ -25,7 +25,7 @@ class LeastSquares {
   explicit LeastSquares(int unknowns)
       : normal_(unknowns, unknowns), right_(Eigen::VectorXd::Zero(unknowns)) {}
 
-  /// A factor of an unknown; one whose number is below 0 has its value already.
+  /// A factor of an unknown; a negative index marks a known value.
   struct Term {
     int unknown;
     double factor, value = 0;
@@ -103,7 +103,8 @@ class PelvisSolver {
  private:
   const SupportFrame& At(int frame) const { return frames_[static_cast<size_t>(frame)]; }
   bool Flies(int frame) const { return At(frame).support.empty(); }
-  // In a flight that begins and ends within the plan, and is as long as it is high.
+  // Whether the frame is in a flight that begins and ends within the plan and is as long as it is
+  // high.
   bool Leaps(int frame) const {
     return Flies(frame) && frame > first_borne_ && frame < last_borne_;
   }
@@ -115,14 +116,14 @@ class PelvisSolver {
     if (frame < 0) return rules_.before(axis, 2 + frame);
     return frame >= count_ ? 0 : offset_(axis, frame);
   }
-  // The centre of mass as the plan has it; behind the end it goes on.
+  // The plan's centre of mass, extrapolated beyond the end.
   Eigen::Vector3d Planned(int frame) const { return frame < 0 ? centre_before_ : At(frame).centre; }
   Eigen::Vector3d PlannedStep(int frame) const {
     return Planned(frame + 1) - 2 * Planned(frame) + Planned(frame - 1);
   }
 
   void AddSmoothness(int frame, LeastSquares* problem) const {
-    // Behind a last frame that is no key it goes on as it likes.
+    // After a last frame that is no key, anything goes.
     if (!rules_.returns && frame + 1 >= count_) return;
     for (int axis = 0; axis < 3; ++axis) {
       const bool pushes = axis == 1 && frame >= 0 && pushes_[static_cast<size_t>(frame)];
@@ -132,7 +133,7 @@ class PelvisSolver {
     }
   }
 
-  // The way to an ankle shortens by what the pelvis goes along it.
+  // Moving the pelvis along the way to an ankle shortens it.
   void AddReach(int frame, LeastSquares* problem) const {
     for (const SupportFrame::Leg& leg : At(frame).legs) {
       const Eigen::Vector3d now = offset_.col(frame), way = leg.to_ankle - now;
@@ -151,8 +152,8 @@ class PelvisSolver {
                  kFirm / Square(rules_.options.acceleration * step_));
   }
 
-  // The zero moment point c - h c'' / (c''_y + g) moves as the body does, and against its
-  // acceleration; where it should be is the nearest point at the feet.
+  // The zero moment point c - h c'' / (c''_y + g) moves with the body and against its acceleration;
+  // its target is the nearest point at the feet.
   void AddBalance(int frame, LeastSquares* problem) const {
     if (rules_.heights_alone) return;
     const auto step = [&](int axis) {
@@ -177,8 +178,8 @@ class PelvisSolver {
     }
   }
 
-  // Who is to stand behind an open end, too, has the capture point c + c' sqrt(h / g) at the feet
-  // there (Pratt 2006): else the cheapest way is to topple.
+  // To stand after an open end, too, the capture point c + c' sqrt(h / g) must be at the feet there
+  // (Pratt 2006); otherwise toppling would be cheapest.
   void AddCapture(LeastSquares* problem) const {
     if (rules_.heights_alone) return;
     const int frame = count_ - 1;
@@ -205,10 +206,10 @@ class PelvisSolver {
   const Eigen::Vector3d& centre_before_;
   const PelvisRules& rules_;
   const int count_, moved_;
-  const double step_;  // seconds squared from frame to frame
+  const double step_;  // squared seconds between frames
   Eigen::Matrix3Xd offset_;
-  int first_borne_, last_borne_;  // frames in which a foot stands
-  std::vector<bool> pushes_;      // whether a leap is near
+  int first_borne_, last_borne_;  // frames with a standing foot
+  std::vector<bool> pushes_;      // per frame: whether a leap is near
 };
 
 }  // namespace

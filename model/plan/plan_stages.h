@@ -7,46 +7,46 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// What is done to a plan, between the model and arrival: what no network can know, or what a rule
-/// does better. Stages are pure functions, thread-safe. One more is listed in plan_stages.cpp.
+/// Stages of a plan between model and arrival: what no network can know, or a rule does better.
+/// Pure functions, thread-safe. plan_stages.cpp lists them.
 namespace choreo {
 
-inline constexpr double kPauseSeconds = 1.5;  ///< from beat to beat, and the music pauses
+inline constexpr double kPauseSeconds = 1.5;  ///< between beats that count as a pause of the music
 
-/// What is known of a plan: the poses that a model proposes for a whole transition, in the
-/// transition's canonical frame.
+/// The context of a plan, which is the poses that a model proposes for a whole transition in its
+/// canonical frame.
 struct PlanContext {
   const Skeleton& skeleton;
   std::span<const Pose> history;       ///< before the first frame, oldest first, at least one
   std::span<const double> beats = {};  ///< frames from the first, ascending
   bool keyed = false;                  ///< it ends on a key
-  bool has_path = false, has_heights = false;  ///< the root's place, and its height, were asked for
-  double fps;                                  ///< the model's
-  PlanOptions options = {};                    ///< the model's, of its checkpoint
+  bool has_path = false,
+       has_heights = false;  ///< controls give the root's position, and its height
+  double fps;                ///< of the model
+  PlanOptions options = {};  ///< from the model's checkpoint
 };
 
-/// Knees and elbows bend one way, until the limb is folded: the bend of each about its hinge is led
-/// softly to a stop at both ends, and from frame to frame not beyond NextBend (motion/limb.h).
+/// Knees and elbows bend only one way, until folded: leads each hinge's bend softly to a stop at
+/// both ends, and limits its change per frame to NextBend (motion/limb.h).
 void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 
-/// Whoever dances for seconds touches the floor: by the last pose of a plan without key or path
-/// heights the root is as much lower, or higher, as the lowest foot of all poses was above the
-/// floor, or below it. The first poses stay.
+/// Dancers touch the floor at least every few seconds: lowers or raises a plan without key or path
+/// heights so that its lowest foot is on the floor; the correction grows from 0 at the first poses
+/// to the whole at the last.
 void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
 
-/// The dancer of a plan goes fastest on the music's beats, which is what a kinematic beat is (paper
-/// F, Section 4.2). Where a path says where the root is, and how high, the root keeps to it.
+/// Times a plan so that the dancer is fastest on the music's beats, as kinematic beats are (paper
+/// F, Section 4.2). A root path keeps its positions and heights.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 
-/// Where on a plan of so many frames it takes the pose of frame `t` from, in frames; t in [-1,
-/// frames - 1], where -1 is the history's last pose. Between two beats time runs as t + A P / 2 pi
-/// sin(2 pi (t - beat) / P): at 1 + A on each beat, at 1 - A half way between, A being the accent.
-/// A way to a key has a larger A at either end that stands on a beat, as dancers are slow at key
-/// poses. The ends stay where they are; before the first beat, behind the last and where the music
-/// pauses time runs evenly.
+/// The time, in frames, whose pose a plan of `frames` frames takes at frame t, for t in [-1, frames
+/// - 1]; -1 is the history's last pose. Between two beats time is t + A P / 2 pi sin(2 pi (t -
+/// beat) / P): its speed is 1 + A on each beat and 1 - A halfway between; A is the accent. A is
+/// larger beside a key on a beat, as dancers are slow at key poses. The ends stay in place; time is
+/// even before the first beat, after the last, and where the music pauses.
 double BeatTime(const PlanContext& context, int frames, double t);
 
-/// All stages, in the order of plan_stages.cpp.
+/// Runs all stages, in the order of plan_stages.cpp.
 void FinishPlan(const PlanContext& context, std::vector<Pose>* plan);
 
 }  // namespace choreo

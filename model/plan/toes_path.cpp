@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // of steps, metres
 
-// From 0 to 1 with neither speed nor acceleration at either end.
+// From 0 to 1, with zero speed and acceleration at both ends.
 double Smootherstep(double u) { return u * u * u * (10 + u * (6 * u - 15)); }
 
 class PathMaker {
@@ -66,7 +66,7 @@ class PathMaker {
     const Eigen::Vector3d goal = next != nullptr ? Standing(*next, behind) : Planned(to);
     const Eigen::Vector3d far = goal - start;
     const double arc = std::min(kHighestArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
-    // Beside the straight way the plan counts freely, but near an end that stands.
+    // Beside the straight way the plan is free, except near a standing end.
     const auto free = [](double u) { return SmoothStep(std::min(1.0, 3 * u)); };
     for (int frame = from; frame <= to; ++frame) {
       const double u = static_cast<double>(frame - before) / (behind - before);
