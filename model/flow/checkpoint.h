@@ -8,9 +8,9 @@
 #include "model/core/safetensors.h"
 #include "model/flow/checkpoint_file.h"
 
-/// Checkpoints: safetensors with everything inside that is needed to dance - weights,
-/// configuration, skeleton, normalisation - and the model card (data, terms, training command,
-/// figures). A content hash guards the whole. Here is what those of all networks share.
+/// Checkpoints: safetensors with everything that dancing needs (weights, configuration, skeleton,
+/// normalisation) and the model card (data, terms, training command, figures), guarded by a content
+/// hash. This is the part that all networks share.
 namespace choreo {
 
 template <typename Model>
@@ -20,17 +20,18 @@ struct CheckpointOf {
   std::string hash;      ///< 128-bit content hash, hex
 };
 
-/// One tensor by name, and back into one of its shape.
+/// Saves one tensor by name, and loads it into one of its shape.
 void ExportTensor(const std::string& name, const torch::Tensor& value, Safetensors* content);
 void ImportTensor(const Safetensors& content, const std::string& name, torch::Tensor value);
-/// Parameters and buffers by name, and back. `prefix` keeps several modules apart in one file.
+/// Saves parameters and buffers by name, and loads them. `prefix` separates several modules in one
+/// file.
 void ExportTensors(const torch::nn::Module& module, const std::string& prefix,
                    Safetensors* content);
 void ImportTensors(const Safetensors& content, const std::string& prefix,
                    torch::nn::Module* module);
 
-/// What `file` holds, whose tensors are in `content`. Throws Error(kInvalidArgument) for tensors
-/// that do not fit the configuration; the message says which.
+/// The checkpoint `file`, whose tensors are in `content`. Throws Error(kInvalidArgument) naming a
+/// tensor that does not fit the configuration.
 template <typename Model, typename Config>
 CheckpointOf<Model> TakeUp(const CheckpointFile& file, const Safetensors& content) {
   CheckpointOf<Model> checkpoint{.model = Model(file.Get<Config>("config"), file.skeleton()),

@@ -34,7 +34,7 @@ const std::string& CheckpointFile::Text(const std::string& key) const {
 Skeleton CheckpointFile::skeleton() const {
   try {
     return SkeletonFromJson(Text("skeleton"));
-  } catch (const std::exception& error) {  // of the JSON or of the skeleton in it
+  } catch (const std::exception& error) {  // in the JSON or its skeleton
     throw InvalidArgument(name_, std::string("its skeleton can't be read: ") + error.what());
   }
 }

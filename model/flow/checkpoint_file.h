@@ -9,23 +9,22 @@
 #include "model/core/safetensors.h"
 #include "model/motion/skeleton.h"
 
-/// What every checkpoint has around its tensors: a format's name, configuration, skeleton, model
-/// card, and a content hash that guards the whole.
+/// What surrounds every checkpoint's tensors: a format name, configuration, skeleton, model card,
+/// and a content hash over everything.
 namespace choreo {
 
-/// Takes up a file that has been read. Throws Error(kInvalidArgument) that names the file: another
-/// format, something missing or unreadable, a wrong hash.
+/// Checks a file that has been read. Throws Error(kInvalidArgument) naming the file for another
+/// format, missing or unreadable parts, or a wrong hash.
 class CheckpointFile {
  public:
-  /// `name` is what errors call the file; `format` is the one that is expected. Keeps a reference
-  /// to `content`.
+  /// `name`: what errors call the file; `format`: the expected one. Keeps a reference to `content`.
   CheckpointFile(const Safetensors& content, const std::string& name, const std::string& format);
 
   const std::string& card() const { return Text("card"); }  ///< JSON text
   const std::string& hash() const { return Text("hash"); }  ///< 128-bit content hash, hex
   Skeleton skeleton() const;
 
-  /// Another field, which is JSON.
+  /// Another field with JSON.
   template <typename Value>
   Value Get(const std::string& key) const {
     try {
@@ -44,8 +43,7 @@ class CheckpointFile {
   std::string name_;
 };
 
-/// Writes atomically what `content` holds, tensors and fields of its own, as such a file; returns
-/// the content hash.
+/// Writes the tensors and fields of `content` atomically as such a file; returns the content hash.
 std::string WriteCheckpointFile(const std::filesystem::path& path, Safetensors content,
                                 const std::string& format, const nlohmann::json& config,
                                 const Skeleton& skeleton, const nlohmann::json& card);

@@ -16,8 +16,8 @@ using torch::Tensor;
 
 namespace {
 
-// A transformer block whose norms are scaled and shifted, and whose two halves are weighed, by what
-// is known of the whole window (adaptive layer norm, Peebles & Xie 2023).
+// A transformer block; conditioning on the whole window scales and shifts its norms and weights its
+// two halves (adaptive layer norm, Peebles & Xie 2023).
 class FlowBlockImpl : public torch::nn::Module {
  public:
   FlowBlockImpl(int width, int heads, int condition) {
@@ -64,7 +64,7 @@ Tensor EmbedTime(const Tensor& t) {
   return embedded.to(t.device());
 }
 
-// Whether the CPU multiplies bfloat16. One that doesn't takes thirty times as long as with float32.
+// Whether the CPU multiplies bfloat16. Others take thirty times as long as with float32.
 bool MultipliesBfloat16() {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx512bf16") != 0;
@@ -73,7 +73,7 @@ bool MultipliesBfloat16() {
 #endif
 }
 
-// While it lives, products of matrices are made in bfloat16 where `on`: training is twice as fast.
+// While it exists and `on`, matrix products use bfloat16, which makes training twice as fast.
 class Bfloat16Products {
  public:
   explicit Bfloat16Products(bool on) : before_(at::autocast::is_cpu_enabled()) {
@@ -92,7 +92,7 @@ class Bfloat16Products {
   bool before_;
 };
 
-// One window's, of [batch, w, features] → [features, w].
+// One window of [batch, w, features] → [features, w].
 Eigen::MatrixXf RowOf(const Tensor& batch, int64_t row) {
   const Tensor one = batch[row].detach().cpu().contiguous();
   return Eigen::Map<const Eigen::MatrixXf>(one.data_ptr<float>(), one.size(-1),
@@ -105,7 +105,7 @@ Eigen::MatrixXd ToEigen(const Tensor& tensor) {
       dense.data_ptr<double>(), dense.size(0), dense.numel() / dense.size(0));
 }
 
-// [rows, columns] of any storage → [columns, rows]: time first, as networks have it.
+// [rows, columns] in any layout → [columns, rows]: time first, as in networks.
 template <typename Matrix>
 Tensor TimeFirst(const Matrix& matrix) {
   return torch::from_blob(const_cast<float*>(matrix.data()), {1, matrix.cols(), matrix.rows()});
@@ -196,7 +196,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
   const Eigen::VectorXf spread = RowOf(spread_.unsqueeze(0), 0),
                         velocity = RowOf(velocity_.unsqueeze(0), 0);
-  // Data all, so nothing is learnt through them.
+  // These are data: no gradient flows through them.
   const Tensor here[] = {z.cpu(), poses.cpu(), joints.cpu(), mean.cpu(), frames.cpu()};
   std::vector<Tensor> windows;
   for (int64_t row = 0; row < batch; ++row) {
@@ -221,7 +221,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
                                     .reshape({batch, tokens * kFramesAToken, 2 * dimensions})
                                     .narrow(1, tokens * kFramesAToken - window, window)
                                     .chunk(2, -1);
-  // What is calmer or livelier than most is, first of all, z by another factor.
+  // Calmer or livelier than usual means, first of all, z times another factor.
   return f[0] + f[1] * z;
 }
 
@@ -318,7 +318,7 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 }
 
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
-  // One of before does not know how dancers turn, nor how they linger.
+  // Older checkpoints don't know how dancers turn, nor how they linger.
   Safetensors whole = content;
   whole.tensors.try_emplace(
       kTurns, NamedTensor{{TurnPrior::kInputs}, std::vector<float>(TurnPrior::kInputs)});

@@ -15,24 +15,23 @@
 
 namespace choreo {
 
-/// The continuous flow's network: a transformer over the frames of a window, two a token. It says
-/// of a point z between noise and motion what of it noise can't tell (F; model/flow/flow_sampler.h
-/// has the equations), from history, key, and what is asked. Its buffers are the motion prior.
+/// The continuous flow's network: a transformer over a window's frames, two per token. For a point
+/// z between noise and motion it predicts F, the part that noise can't tell (equations in
+/// model/flow/flow_sampler.h), from history, key and controls. Its buffers are the motion prior.
 class ContinuousFlowImpl : public torch::nn::Module {
  public:
-  /// The prior is at first that of a random walk.
+  /// The prior starts as that of a random walk.
   ContinuousFlowImpl(const ContinuousFlowConfig& config, const Skeleton& skeleton);
 
-  /// Shapes as FlowNetwork::Evaluate has them, time before features: z [batch, w, dimensions],
-  /// poses and mean [batch, tau + w, dimensions], joints [batch, tau + w, 3 joints], frames [batch,
-  /// tau + w, FrameFeatures()], whole [batch, WholeFeatures()], t [batch] → F [batch, w,
-  /// dimensions].
+  /// Shapes as in FlowNetwork::Evaluate, time before features: z [batch, w, dimensions], poses and
+  /// mean [batch, tau + w, dimensions], joints [batch, tau + w, 3 joints], frames [batch, tau + w,
+  /// FrameFeatures()], whole [batch, WholeFeatures()], t [batch] → F [batch, w, dimensions].
   torch::Tensor forward(const torch::Tensor& z, const torch::Tensor& poses,
                         const torch::Tensor& joints, const torch::Tensor& mean,
                         const torch::Tensor& frames, const torch::Tensor& whole,
                         const torch::Tensor& t);
 
-  /// `covariance` and `usual` as MotionPrior has them; `mixing` as FlowModelParts; `spread`
+  /// `covariance` and `usual` as in MotionPrior; `mixing` as in FlowModelParts; `spread`
   /// [dimensions]: of displacements over a window.
   void SetPrior(const Eigen::MatrixXd& covariance, const VariancePowers& powers,
                 const Eigen::MatrixXd& mixing, const Eigen::VectorXd& spread,
@@ -41,7 +40,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
   void SetTurns(const TurnPrior& turns);
   void SetCurve(const EnergyCurve& curve);
   void SetResponse(const EnergyResponse& response);
-  /// What sampling needs besides the network.
+  /// Everything that sampling needs besides the network.
   FlowModelParts Parts() const;
 
   const ContinuousFlowConfig& config() const { return config_; }
@@ -65,11 +64,11 @@ TORCH_MODULE(ContinuousFlow);
 std::unique_ptr<FlowNetwork> MakeTorchFlowNetwork(ContinuousFlow model,
                                                   torch::Device device = torch::kCPU);
 
-/// Checkpoints of it, as those of the other networks (model/flow/checkpoint.h).
+/// Checkpoints of this network (model/flow/checkpoint.h).
 using ContinuousFlowCheckpoint = CheckpointOf<ContinuousFlow>;
 bool HoldsContinuousFlow(const Safetensors& content);
-/// `name` is what errors call it. Throws Error(kInvalidArgument) for another format version, a
-/// wrong hash, or tensors that do not fit the configuration; the message says which.
+/// `name`: what errors call it. Throws Error(kInvalidArgument), saying which, for another format
+/// version, a wrong hash, or tensors that do not fit the configuration.
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name);
 /// Writes atomically; returns the content hash. `weights` holds the tensors by name.
 std::string SaveContinuousFlow(const std::filesystem::path& path, const ContinuousFlow& model,

@@ -12,28 +12,28 @@
 
 namespace choreo {
 
-/// Shape of the continuous flow and how it is sampled. Stored in every checkpoint.
+/// The continuous flow's shape and sampling. Stored in every checkpoint.
 struct ContinuousFlowConfig {
-  std::string name = "default";         ///< as servers list the model
+  std::string name = "default";         ///< the model's name in servers' lists
   int history_frames = kHistoryFrames;  ///< tau
-  int window_frames = 96;  ///< most frames of a window; longer transitions are cut into several
+  int window_frames = 96;               ///< most frames in a window; longer transitions are split
   int max_transition_frames = kMaxTransitionFrames;
 
-  /// The transformer: two frames a token.
+  /// The transformer: two frames per token.
   int width = 224, layers = 6, heads = 7;
-  int condition = 128;  ///< of what each block is modulated by: time, history, key, style
+  int condition = 128;  ///< width of each block's conditioning: time, history, key, style
 
-  int steps = 3;           ///< K, evaluations of the network from noise to motion
-  double temperature = 1;  ///< served by default, as FlowNoise has it
-  /// What beats and style change in F is done so many times (classifier-free guidance, Ho &
-  /// Salimans 2022); other than 1 it takes twice the evaluations where one of them is told.
+  int steps = 3;           ///< K, network evaluations from noise to motion
+  double temperature = 1;  ///< the served default, as in FlowNoise
+  /// Multiplies the effect of beats and style on F (classifier-free guidance, Ho & Salimans 2022);
+  /// values other than 1 take twice the evaluations if either is given.
   double guidance = 2;
-  std::vector<std::string> styles = {};  ///< that it was told of in training
-  /// Medians of the velocity factors of the training clips, metres a frame.
+  std::vector<std::string> styles = {};  ///< labels known from training
+  /// Medians of the training clips' velocity factors, metres a frame.
   std::array<double, kBodyParts> median_factors = {};
   PlanOptions plan = {};
 
-  /// Throws Error(kInvalidArgument) below `field` for steps out of range, and as plan does.
+  /// Throws Error(kInvalidArgument) below `field` for steps out of range, and as plan.
   void Validate(const std::string& field) const;
 };
 

@@ -9,7 +9,7 @@ namespace choreo {
 namespace {
 
 constexpr double kDoubt = 1e-3;  // share of the variance that keeps it invertible
-// Where the history's level, a mean over its frames, stands: so many frames before the window.
+// The history's level, a mean over its frames, counts as this many frames before the window.
 constexpr int kHistoryAt = kHistoryFrames / 2;
 
 }  // namespace
@@ -26,8 +26,8 @@ Eigen::MatrixXd EnergyCurve::Sample(const EnergyPrior::Levels& history,
   for (Eigen::Index i = 0; i < frames; ++i) {
     for (Eigen::Index j = 0; j < frames; ++j) covariance(i, j) += at(std::abs(i - j));
   }
-  // What few clips were measured by may be no process's correlation: the more doubt. A hundred is
-  // enough for all that are at most 1.
+  // An estimate from few clips may not be a valid correlation: add doubt until it is. A doubt of a
+  // hundred makes any correlation of at most 1 valid.
   for (double doubt = kDoubt;; doubt *= 10) {
     covariance.diagonal().array() += doubt;
     const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);

@@ -8,29 +8,29 @@
 
 namespace choreo {
 
-/// How a dancer lingers and bursts: the EnergyLevel of a body part, frame by frame, is a stationary
-/// Gaussian process. Noise of one energy all along never rests, so hands did not. Training measures
-/// it. Thread-safe.
+/// How a dancer's energy rises and falls: the EnergyLevel of a body part over frames is a
+/// stationary Gaussian process. Without it energy would be constant, and hands never rest. Measured
+/// in training. Thread-safe.
 struct EnergyCurve {
   static constexpr int kLags = 97;
   static constexpr int kNumbers = kLags + kBodyParts * kBodyParts;
 
-  /// Of a level with itself so many frames later, [kLags], 1 first, in [-1, 1]. All zero: levels
-  /// are constant.
+  /// Correlation of a level with itself that many frames later, [kLags], 1 first, in [-1, 1]. All
+  /// zero: levels are constant.
   Eigen::VectorXd correlation = Eigen::VectorXd::Zero(kLags);
-  /// The lower Cholesky factor of the covariance of the parts in one frame.
+  /// The lower Cholesky factor of the parts' covariance in one frame.
   Eigen::Matrix<double, kBodyParts, kBodyParts> spread = decltype(spread)::Zero();
 
   bool known() const { return correlation[0] > 0; }
-  /// Whether it may be sampled.
+  /// Whether it can be sampled.
   bool IsValid() const {
     return spread.allFinite() && correlation.allFinite() && correlation.cwiseAbs().maxCoeff() <= 1;
   }
-  /// Levels less their mean, [kBodyParts, frames]; `history`: of the poses before, less the same.
-  /// `normal` [kBodyParts, frames]: standard normal numbers.
+  /// Samples levels minus their mean, [kBodyParts, frames]; `history`: the same for the poses
+  /// before. `normal` [kBodyParts, frames]: standard normal numbers.
   Eigen::MatrixXd Sample(const EnergyPrior::Levels& history, const Eigen::MatrixXd& normal) const;
 
-  /// All numbers in a row, as checkpoints hold them.
+  /// All numbers in a row, as stored in checkpoints.
   std::vector<double> ToNumbers() const;
   static EnergyCurve FromNumbers(std::span<const double> numbers);
 };

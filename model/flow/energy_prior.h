@@ -10,9 +10,9 @@
 
 namespace choreo {
 
-/// How lively dancers go on where nobody says it: the EnergyLevel of each body part in a window is
-/// Gaussian, given what is known of the window. Without it a dance has one liveliness, the mean
-/// one. Training measures it. Thread-safe.
+/// The energy of a window where no control gives it: the EnergyLevel of each body part is Gaussian,
+/// given what is known of the window. Without this prior every dance has the mean energy. Measured
+/// in training. Thread-safe.
 class EnergyPrior {
   static constexpr double kEverything = 1e3;
 
@@ -23,49 +23,49 @@ class EnergyPrior {
   struct Known {
     bool key = false;
     double surprise = 1;              ///< FlowWindow::surprise
-    Levels history = Levels::Zero();  ///< of the poses before it; of a held pose zero
-    /// Of the straight way to the key, the least that a dancer can do: of the joints as the root
-    /// sees them, the root's own as the trunk's; and of all joints in the world. None: the key
-    /// leaves it open.
+    Levels history = Levels::Zero();  ///< of the poses before it; zero for a held pose
+    /// Levels of the straight way to the key, the least that a dancer can do: of joints relative to
+    /// the root, with the root's own as the trunk's; and of all joints in the world. None if the
+    /// key leaves them open.
     std::optional<Levels> way = {}, way_in_world = {};
     int frames = kUsualFrames;
-    int style = -1;  ///< that is asked for, or -1
+    int style = -1;  ///< requested style, or -1
   };
   /// One, the logarithm of the surprise, the history's levels and those of both ways; then the same
-  /// times how much longer than two seconds the window is, a logarithm.
+  /// times the logarithm of the window's length over two seconds.
   static constexpr int kInputs = 2 * (2 + 3 * kBodyParts);
   using Inputs = Eigen::Matrix<double, kInputs, 1>;
   Inputs Describe(const Known& known) const;
-  /// What of that training saw: what is less or more counts as so much, and so do levels, whose
-  /// range is that of the history's. At first that is everything.
+  /// The range of each input in training; inputs, and levels (with the history's range), are
+  /// clipped to it. Initially unbounded.
   Inputs least = Inputs::Constant(-kEverything), most = Inputs::Constant(kEverything);
-  /// The ways that stand for those that a key leaves open: training's mean.
+  /// Replacements for ways that a key leaves open: training's means.
   Levels usual_way = Levels::Zero(), usual_way_in_world = Levels::Zero();
 
-  static constexpr int kHistoryInput = 2;  ///< where its levels stand
+  static constexpr int kHistoryInput = 2;  ///< index of the history's levels
   using Weights = Eigen::Matrix<double, kBodyParts, kInputs>;
 
-  /// Of the inputs in the mean, with a key and without. All zero: everybody is as lively as the
-  /// median.
+  /// Weights of the inputs in the mean, with a key and without. All zero: the median energy for
+  /// all.
   Weights keyed = Weights::Zero(), free = Weights::Zero();
-  /// The lower Cholesky factor of what is left where there is a key. It holds without one, too:
-  /// that dancers differ from each other is no reason for one to change at each window.
+  /// The lower Cholesky factor of the remaining covariance with a key. Used without one, too:
+  /// differences between dancers are no reason for one to change at each window.
   Eigen::Matrix<double, kBodyParts, kBodyParts> spread = decltype(spread)::Zero();
-  Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> styles;  ///< how much livelier each style is
+  Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> styles;  ///< the levels that each style adds
 
   explicit EnergyPrior(size_t style_count = 0) { styles.setZero(kBodyParts, style_count); }
 
-  /// `normal`: standard normal numbers; zero for the mean.
+  /// `normal`: standard normal numbers, or zero for the mean.
   Levels Sample(const Known& known, const Levels& normal) const;
 
-  /// Levels, a column each, within what training saw.
+  /// Levels, one per column, clipped to their range in training.
   Eigen::MatrixXd Bound(const Eigen::MatrixXd& levels) const;
-  /// What is left where there is a key, by part.
+  /// The remaining variance with a key, by part.
   Levels Variance() const { return spread.rowwise().squaredNorm(); }
 
-  /// All numbers in a row, as checkpoints hold them.
+  /// All numbers in a row, as stored in checkpoints.
   std::vector<double> ToNumbers() const;
-  /// Of a prior that has as many styles.
+  /// Restores them, for a prior with equally many styles.
   void SetNumbers(std::span<const double> numbers);
 };
 

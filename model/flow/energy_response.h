@@ -4,17 +4,17 @@
 
 namespace choreo {
 
-/// How lively windows come out by what the network is told: it makes calm ones too lively and
-/// lively ones too calm. What is wanted is told by the inverse. Training measures it, on validation
-/// clips.
+/// The liveliness of sampled windows as a function of the energy given to the network, which makes
+/// calm windows too lively and lively ones too calm. Its inverse gives the energy for a wanted
+/// liveliness. Measured in training on validation clips.
 struct EnergyResponse {
   using Levels = EnergyPrior::Levels;
 
-  /// Of each part's EnergyLevel: danced = offset + slope told. All zero: unknown.
+  /// For each part's EnergyLevel: danced = offset + slope told. All zero: unknown.
   Levels offset = Levels::Zero(), slope = Levels::Zero();
 
   bool known() const { return slope.minCoeff() > 0; }
-  /// What to tell a network of which that level is wanted.
+  /// The level to give to the network for a wanted one.
   double Told(int part, double wanted) const { return (wanted - offset[part]) / slope[part]; }
 };
 

@@ -15,7 +15,7 @@
 namespace choreo {
 namespace {
 
-// [dimensions, w], standard normal, correlated over dimensions as motion is.
+// [dimensions, w] Standard normal noise, correlated over dimensions like motion.
 Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int frames) {
   Eigen::MatrixXd z(model.prior.dimensions(), frames);
   std::vector<float> normal(static_cast<size_t>(z.rows()));
@@ -26,7 +26,7 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
   return model.mixing.triangularView<Eigen::Lower>() * z;
 }
 
-// Says how lively the parts are that nobody asks for: as dancers may be there.
+// Samples the energy of parts without velocity factors.
 void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
                   WindowRequest* request) {
   ControlCurve& asked = request->controls[kVelocityFactors];
@@ -34,8 +34,8 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
     asked.values = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
     asked.asked.assign(kBodyParts, false);
   }
-  // Behind the numbers that each frame is made of: of the first the window's level, of all the
-  // curve's.
+  // Uses random numbers beyond those of frames: the window's level from the first frame's, the
+  // curve from all.
   const double temperature = std::min(noise.temperature, 1.0);
   const auto first = static_cast<size_t>(model.prior.dimensions());
   std::vector<float> normal(first + 2 * kBodyParts);
@@ -47,7 +47,7 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
     levels = temperature * own.head<kBodyParts>().cast<double>();
     ways.col(i) = temperature * own.tail<kBodyParts>().cast<double>();
   }
-  // What is added now was added before, so that it is not added again and again.
+  // The history already contains the shift; do not add it again.
   EnergyPrior::Known known = KnownOfEnergy(model, *request, window);
   known.history.array() -= request->energy_shift.before;
   levels = model.energy.Sample(known, levels);
@@ -70,8 +70,8 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   }
 }
 
-// What is wanted becomes what the network has to be told for it; the mean way is not lively, so it
-// needs no such thing.
+// Turns wanted levels into those to give to the network. The mean way is not lively and needs no
+// correction.
 void Tell(const FlowModelParts& model, double temperature, WindowRequest* request) {
   if (!model.response.known()) return;
   Eigen::MatrixXd& factors = request->controls[kVelocityFactors].values;
@@ -81,14 +81,14 @@ void Tell(const FlowModelParts& model, double temperature, WindowRequest* reques
     if (wanted <= 0) continue;
     const double level = EnergyLevel(wanted, median);
     const double told = level + temperature * (model.response.Told(part, level) - level);
-    // Not beyond what training saw, where that is not asked for.
+    // Not beyond training's range, unless requested.
     const double most = EnergyFactor(model.energy.most[EnergyPrior::kHistoryInput + part], median);
     for (double& energy : factors.row(part))
       energy = std::min(energy * (EnergyFactor(told, median) / wanted), std::max(energy, most));
   }
 }
 
-// Where the root is asked to be: of which axes, [3, w] as residuals x, and those white.
+// Where controls fix the root: the axes, [3, w] as residuals x, and as white coordinates.
 struct KnownPath {
   KnownPath(const WindowRequest& request, const FlowWindow& window) {
     const ControlCurve& path = request.controls[kRootPath];
@@ -134,7 +134,7 @@ class Field {
   int steps() const { return model_.config.steps; }
   double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
 
-  // Where the flow stands at w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
+  // Moves the flow to w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
   void Stand(const Eigen::MatrixXd& w, int step) {
     z_ = SizeAt(step) * w;
     const Eigen::MatrixXd x = window_.Colour(z_);
@@ -144,7 +144,7 @@ class Field {
     seen_ = 0;
     f_ = Eigen::MatrixXd::Zero(z_.rows(), z_.cols());
   }
-  // F there, as the next view has it; true while more have to be heard.
+  // Evaluates F for the next view; true while more views are left.
   bool Look() {
     const View& view = views_[seen_];
     f_ += view.weight * network_
@@ -156,7 +156,7 @@ class Field {
   const Eigen::MatrixXd& f() const { return f_; }
 
  private:
-  // What the network is told, and what its answer counts.
+  // One input for the network, and the weight of its answer.
   struct View {
     Eigen::MatrixXf frames, conditions;
     double weight;
@@ -171,15 +171,15 @@ class Field {
   const FlowModelParts& model_;
   const FlowNetwork& network_;
   const FlowWindow& window_;
-  std::vector<float> times_;  // of each step
+  std::vector<float> times_;  // per step
   Eigen::MatrixXf mean_, poses_, joints_;
   std::vector<View> views_;
   Eigen::MatrixXd z_, f_;
   int step_ = 0;
-  size_t seen_ = 0;  // views of f_
+  size_t seen_ = 0;  // evaluated views
 };
 
-// Whether a key says where limbs are: all but hands and feet, whose joints carry one other at most.
+// Whether a key fixes limbs: all joints except hands and feet, which carry at most one other joint.
 bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
   std::vector<int> carried(static_cast<size_t>(skeleton.joints()));
   for (int joint = skeleton.joints() - 1; joint >= 0; --joint) {
@@ -229,7 +229,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   return known;
 }
 
-/// A way through the window, as the network sees it from one side.
+/// One pass through the window, from one side of the mirror.
 class WindowSampler::Way {
  public:
   Way(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
@@ -278,7 +278,7 @@ class WindowSampler::Way {
   }
 
  private:
-  // From noise to motion; what is known fades into its noise.
+  // From noise to motion; known coordinates fade out of their noise.
   void BeginStep() {
     const double angle = field_->Angle(step_);
     for (const int axis : known_->axes)
@@ -311,8 +311,8 @@ WindowSampler::WindowSampler(WindowSampler&&) noexcept = default;
 WindowSampler& WindowSampler::operator=(WindowSampler&&) noexcept = default;
 
 bool WindowSampler::Continue() {
-  // The mean way is the mirror image of the mirrored request's. A network is not quite as
-  // symmetric: both of its answers are nearer together to the truth than each alone.
+  // The mean way is the mirror image of the mirrored request's. The network is not fully symmetric,
+  // and the average of both answers is nearer to the truth than either.
   const bool is_mirrored = noise_.temperature <= 0 && mirrored_.empty();
   if (!way_) {
     way_ = std::make_unique<Way>(

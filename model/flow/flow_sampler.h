@@ -15,18 +15,18 @@
 
 namespace choreo {
 
-/// The network of a continuous flow, whatever computes it. Thread-safe.
+/// The network of a continuous flow, on any engine. Thread-safe.
 class FlowNetwork {
  public:
   virtual ~FlowNetwork() = default;
-  /// What is known of the whole window (WindowFeatures::whole) at each of `times`, in [0, 1]: as
-  /// Evaluate takes it, a column each.
+  /// The conditioning of a window (WindowFeatures::whole) at each of `times`, in [0, 1], one per
+  /// column, for Evaluate.
   virtual Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
                                     std::span<const float> times) const = 0;
-  /// F of one window at the time of `condition`, [dimensions, w]. `z` [dimensions, w]: where the
-  /// flow is, white; `poses` [dimensions, tau + w]: the same as displacements from the last history
-  /// pose, behind the history's; `joints` [3 joints, tau + w]: where that puts the body, metres in
-  /// the canonical frame; `mean`: the prior's mean in the shape of `poses`; `frames`:
+  /// F of one window at the time of `condition`, [dimensions, w]. `z` [dimensions, w]: the flow's
+  /// white coordinates; `poses` [dimensions, tau + w]: the history's displacements from its last
+  /// pose, then the same of z; `joints` [3 joints, tau + w]: the body's joints there, metres in the
+  /// canonical frame; `mean`: the prior's mean in the shape of `poses`; `frames`:
   /// WindowFeatures::frames.
   virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
                                    const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
@@ -34,7 +34,7 @@ class FlowNetwork {
                                    const Eigen::VectorXf& condition) const = 0;
 };
 
-/// Everything that a window is sampled with besides the request.
+/// Everything that sampling a window needs besides the request.
 struct FlowModelParts {
   Skeleton skeleton;
   ContinuousFlowConfig config;
@@ -47,41 +47,39 @@ struct FlowModelParts {
   EnergyResponse response = {};
 };
 
-/// Farther beyond the sampled way nobody dances.
+/// Nobody dances farther beyond the sampled way.
 inline constexpr double kMaxFlowTemperature = 1.25;
 
 struct FlowNoise {
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of the window's first frame
-  /// Of each frame from the first on, absolute: the one whose numbers it has again, and so much
+  /// For each frame from the first on, the absolute frame whose numbers it repeats, with this much
   /// `variation` (FillNormalLike). Empty: all have their own.
   std::vector<int64_t> like = {};
   double variation = 0;
-  /// How far from the mean way (0, in one step) to a sampled one (1) and a little beyond, at most
-  /// kMaxFlowTemperature. Noise itself is never scaled: the network would take a calm one for a
-  /// calm dancer.
+  /// Interpolates from the mean way (0, in one step) to a sampled one (1) and slightly beyond, at
+  /// most kMaxFlowTemperature. Noise itself is never scaled: the network would see a calm dancer.
   double temperature = 0;
 
   /// The numbers of a frame, counted from the first.
   void Fill(int frame, std::span<float> out) const;
 };
 
-/// What of a window, which is the request's, says how lively it may be.
+/// What a window and its request say about its energy.
 EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
                                  const FlowWindow& window);
 
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
 /// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) and the
-/// angle tan = t/(1 - t) that is dw = F, solved by Adams and Bashforth's steps of second order:
-/// what is as lively as the prior expects stays so, however few steps are taken. The poses [w]
-/// stand in the request's frame. A path that is asked for is met exactly. Of body parts whose
-/// energy is not asked for the energy prior and curve say it: their mean at temperature 0, else a
-/// sample.
+/// angle tan = t/(1 - t) that is dw = F, solved by second-order Adams-Bashforth steps: motion keeps
+/// the energy that the prior expects, however few steps are taken. The poses [w] are in the
+/// request's frame. Meets a requested path exactly. Parts without velocity factors take their
+/// energy from the energy prior and curve: the mean at temperature 0, else a sample.
 std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
                                WindowRequest request, const FlowNoise& noise);
 
-/// The same on its way, an evaluation of the network at a time. Model and network must outlive it.
+/// The same in steps of one network evaluation. Model and network must outlive it.
 class WindowSampler {
  public:
   WindowSampler(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
@@ -92,7 +90,7 @@ class WindowSampler {
 
   /// Makes the next evaluation; true while more are left.
   bool Continue();
-  /// SampleWindow's, once none is left.
+  /// The result of SampleWindow, once none is left.
   std::vector<Pose> TakePoses();
 
  private:
@@ -101,8 +99,8 @@ class WindowSampler {
   const FlowNetwork* network_;
   FlowNoise noise_;
   WindowRequest request_;
-  std::unique_ptr<Way> way_;              // under way; null: not begun
-  std::vector<Pose> mirrored_, sampled_;  // what ways came to
+  std::unique_ptr<Way> way_;              // running; null: not begun
+  std::vector<Pose> mirrored_, sampled_;  // results
 };
 
 }  // namespace choreo

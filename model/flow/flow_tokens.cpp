@@ -5,7 +5,7 @@
 namespace choreo {
 
 void EmbedFlowTime(float t, std::span<float> embedding) {
-  constexpr float kScale = 100;      // so that the embedding tells small steps
+  constexpr float kScale = 100;      // so that the embedding resolves small steps
   constexpr double kSlowest = 1000;  // ratio of the fastest to the slowest
   const size_t half = embedding.size() / 2;
   for (size_t i = 0; i < half; ++i) {
@@ -17,7 +17,7 @@ void EmbedFlowTime(float t, std::span<float> embedding) {
 }
 
 int TokenFrameWidth(int dimensions, int frame_features) {
-  return 6 * dimensions - 3 + frame_features;  // joints are no root
+  return 6 * dimensions - 3 + frame_features;  // joints exclude the root
 }
 
 Eigen::MatrixXf FlowTokens(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,

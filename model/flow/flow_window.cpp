@@ -10,16 +10,16 @@
 namespace choreo {
 namespace {
 
-// Radians from the mean that coordinates reach: with a key, less than the half turn at which the
-// other way round is nearer; without one, less than the whole turn at which they are singular.
+// Radians that coordinates may be from the mean: with a key less than half a turn, where the other
+// way round becomes nearer; without one less than a whole turn, where they are singular.
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
-// Times a velocity's spread: a history that is faster was forced by a key, and does not go on so.
+// Times a velocity's spread: a faster history was forced by a key and does not continue so.
 constexpr double kFastest = 8;
-// Frames that a dancer goes on turning as she does.
+// Frames for which a dancer keeps turning.
 constexpr double kTurnHorizon = 12;
 
-// The way from one pose to another, [dimensions]: of the root, and of each joint as the first's
-// tangent space has it.
+// The way between two poses, [dimensions]: of the root, and of each joint in the first one's
+// tangent space.
 Eigen::VectorXd Way(const Pose& from, const Pose& to) {
   Eigen::VectorXd way(3 + 3 * from.rotations.cols());
   way.head<3>() = to.root_position - from.root_position;
@@ -38,7 +38,7 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
   for (const Pose& pose : poses) part.history.push_back(ground.ToLocal(pose));
   if (key) part.key = ground.ToLocal(*key);
   part.to_key = to_key - from;
-  if (from > 0) {  // what goes before it was made with it
+  if (from > 0) {  // what precedes it was made with it
     part.turning.reset();
     part.energy_shift.before = energy_shift.now;
   }
@@ -55,7 +55,7 @@ WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request
   if (request.key) mirrored.key = Mirror(pairs, *request.key);
   for (size_t joint = 0; joint < request.mask.joints.size(); ++joint)
     mirrored.mask.joints[joint] = request.mask.joints[static_cast<size_t>(pairs[joint])];
-  // A rotation vector keeps what lies across the mirror, a place turns that alone.
+  // A mirrored rotation vector keeps the component across the mirror; a position flips only that.
   if (request.turning) mirrored.turning->tail<2>() *= -1;
   mirrored.controls.Mirror();
   if (request.stage) mirrored.stage->x() *= -1;
@@ -136,7 +136,7 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   double squares = 0, known = 0;
   for (int d = 0; d < dimensions; ++d) {
     const MotionPrior::Bridge& bridge = At(d);
-    // What a dance made of its own history says little of how lively its keys are.
+    // A history that the dance made says little about its keys' energy.
     const bool keyed = keyed_[static_cast<size_t>(d)];
     if (prior.Moves(d) && keyed) {
       squares += displacement_[d] * displacement_[d] / bridge.expected[MotionPrior::kPast];
@@ -223,7 +223,7 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   const Eigen::MatrixXf by_time = scales_.cwiseProduct(z).cast<float>().transpose();
   Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
   for (int d = 0; d < z.rows(); ++d) {
-    // By columns this takes half as long as Eigen's product with a triangle.
+    // By columns this takes half as long as Eigen's triangular product.
     const Eigen::MatrixXf& spread = At(d).spread;
     for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
       x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);

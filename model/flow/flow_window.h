@@ -17,18 +17,18 @@
 
 namespace choreo {
 
-/// What is asked of a window of frames and known of it, besides noise. All poses stand in the
-/// canonical frame of the last history pose (motion/canonical.h). What is left empty is unknown.
+/// A request for a window of frames, apart from noise. All poses are in the canonical frame of the
+/// last history pose (motion/canonical.h). Empty fields are unknown.
 struct WindowRequest {
   int frames = 0;                  ///< w >= 1
   std::vector<Pose> history = {};  ///< tau poses, oldest first
-  /// The pose to reach and which of it counts; none: nothing is awaited.
+  /// The pose to reach, and which parts of it count; none: no key is known.
   std::optional<Pose> key = {};
   PoseMask mask = {};
-  bool height = false;  ///< whether the key's height counts where its position does not
-  int to_key = 0;       ///< N >= frames, frames from the history to the key; unread without one
-  /// The way round that the root is known to turn to its key, a rotation vector. None: the one
-  /// that the history leads to.
+  bool height = false;  ///< whether the key's height counts if its position does not
+  int to_key = 0;       ///< N >= frames, frames from the history to the key, if any
+  /// The known rotation vector by which the root turns to its key. None: the one that the history
+  /// suggests.
   std::optional<Eigen::Vector3d> turning = {};
   Controls controls = {};          ///< of its frames
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
@@ -38,8 +38,8 @@ struct WindowRequest {
   /// says where the root goes.
   std::optional<Eigen::Vector3d> stage = {};
 
-  /// What is asked of its frames [from, from + count) alone, behind `poses` instead of its history;
-  /// those, and all else, stand in the frame that `ground` is of the request's.
+  /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame
+  /// that `ground` is in the request's.
   WindowRequest Part(int from, int count, std::span<const Pose> poses,
                      const GroundFrame& ground) const;
   bool StageCounts() const {
@@ -47,53 +47,52 @@ struct WindowRequest {
   }
 };
 
-/// The same of a dancer whose left is its right, who stands in the mirrored canonical frame.
+/// The mirrored request, in the mirrored canonical frame.
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
 
-/// EnergyLevel of each body part in each frame, [kBodyParts, w], NaN where it is not asked for.
+/// EnergyLevel of each body part in each frame, [kBodyParts, w]; NaN if not requested.
 Eigen::MatrixXd LevelCurves(const WindowRequest& request,
                             const std::array<double, kBodyParts>& medians);
-/// EnergyLevel of the mean factor of each body part that is asked for.
+/// EnergyLevel of the mean factor of each requested body part.
 std::array<std::optional<double>, kBodyParts> LevelsOf(
     const WindowRequest& request, const std::array<double, kBodyParts>& medians);
 
-/// A window in the coordinates of the flow: residuals x [dimensions, w] from the motion prior's
-/// mean, which the prior's spread makes white, z. Dimensions: root position (metres), then a
-/// rotation vector a joint, local to the mean's rotation (radians). A key that counts is the mean's
-/// own last pose.
+/// A window in the flow's coordinates: residuals x [dimensions, w] from the motion prior's mean, or
+/// z, whitened by the prior's spread. Dimensions: root position (metres), then a rotation vector
+/// per joint, local to the mean's rotation (radians). A key that counts is the mean's last pose.
 class FlowWindow {
  public:
-  /// The request is valid.
+  /// The request must be valid.
   FlowWindow(const MotionPrior& prior, const WindowRequest& request);
 
   int frames() const { return static_cast<int>(mean_.cols()); }
-  /// Displacements from the last history pose, as its own tangent space has them. [dimensions, w]
+  /// [dimensions, w] Displacements from the last history pose, in its own tangent space.
   const Eigen::MatrixXd& mean() const { return mean_; }
-  /// The same of the history's poses, [dimensions, tau]; the last column is zero.
+  /// The same for the history's poses, [dimensions, tau]; the last column is zero.
   const Eigen::MatrixXd& history() const { return history_; }
-  /// To the key, [dimensions]; zero where it asks for nothing.
+  /// The same for the key, [dimensions]; zero where it asks for nothing.
   const Eigen::VectorXd& displacement() const { return displacement_; }
   /// Which dimensions the key fixes, [dimensions].
   const std::vector<bool>& keyed() const { return keyed_; }
-  /// The stage says how the root's place goes on.
+  /// Whether the stage determines how the root's position continues.
   bool staged() const { return stage_ != nullptr; }
 
-  /// How far the key is or, without one, how fast the history was, of what the prior expects: mean
-  /// square.
+  /// Mean square, relative to what the prior expects, of the displacement to the key, or without a
+  /// key of the history's velocity.
   double surprise() const { return surprise_; }
-  /// MotionPrior::Scales of that and of the energy asked for, [dimensions, w]: white coordinates
-  /// are in their units.
+  /// MotionPrior::Scales for that and the requested energy, [dimensions, w]: the units of white
+  /// coordinates.
   const Eigen::MatrixXd& scales() const { return scales_; }
-  /// Another energy is asked for than the request that it was made of asks for; all else is alike.
+  /// Replaces the energy of the request that it was made from; all else must be equal.
   void SetEnergy(const MotionPrior& prior, const WindowRequest& request);
 
-  /// Poses of that many frames → x; none where a joint strays from the mean farther than the
-  /// coordinates reach, or ends a turn away from the key.
+  /// Poses for all frames → x; none if a joint deviates farther from the mean than coordinates
+  /// reach, or ends a turn away from the key.
   std::optional<Eigen::MatrixXd> Encode(std::span<const Pose> poses) const;
   std::vector<Pose> Decode(const Eigen::MatrixXd& x) const;
-  /// z → x, and back for one dimension's row.
+  /// z → x; and its inverse for one dimension's row.
   Eigen::MatrixXd Colour(const Eigen::MatrixXd& z) const;
-  /// Where `skeleton`'s joints are in Decode(x)'s poses, [3 joints, w].
+  /// Positions of `skeleton`'s joints in Decode(x)'s poses, [3 joints, w].
   Eigen::MatrixXf PlaceJoints(const Skeleton& skeleton, const Eigen::MatrixXd& x) const;
   Eigen::VectorXd Whiten(int dimension, const Eigen::VectorXd& x) const;
 

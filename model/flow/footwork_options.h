@@ -5,18 +5,19 @@
 
 namespace choreo {
 
-/// How a plan is put on its feet (model/plan/footwork.h). Stored in the model's checkpoint.
+/// Settings of footwork (model/plan/footwork.h). Stored in the model's checkpoint.
 struct FootworkOptions {
-  double step_cost = 0.05;    ///< of a step: so far toes leave the plan for a frame, square metres
-  double flight_cost = 0.3;   ///< of a frame without a foot on the floor, likewise
+  double step_cost =
+      0.05;  ///< cost of a step, in square metres that toes leave the plan for a frame
+  double flight_cost = 0.3;     ///< cost of a frame without a foot on the floor, likewise
   double shortest_step = 0.15;  ///< seconds in the air
   double longest_flight = 0.4;  ///< seconds without a foot on the floor
-  /// The pelvis leaves the plan with an acceleration of so many m/s² as soon as ...
+  /// The pelvis accelerates away from the plan by this, m/s², if ...
   double acceleration = 2;
-  double offset = 0.10;   ///< ... it leaves it by so many metres, ...
-  double reach = 0.01;    ///< ... legs are so many metres too short for where their feet stand, ...
-  double balance = 0.05;  ///< ... or the zero moment point is so many metres outside of the feet
-  double sole = 0.06;     ///< metres that a foot carries around its toes and ankle
+  double offset = 0.10;   ///< ... that moves it by this many metres, ...
+  double reach = 0.01;    ///< ... or legs are this many metres too short for their feet, ...
+  double balance = 0.05;  ///< ... or the zero moment point is this many metres outside the feet
+  double sole = 0.06;     ///< metres that a foot supports around its toes and ankle
 
   /// Throws Error(kInvalidArgument, field) for an option that is not above 0.
   void Validate(const std::string& field) const;

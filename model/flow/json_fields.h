@@ -7,15 +7,15 @@
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))   \
   }
 
-/// Defines to_json and from_json of a struct that a header declares: one list serves both
-/// directions, so that a field can't be written and not read. All must be there.
+/// Defines to_json and from_json of a struct that a header declares. One list serves both, so that
+/// no field is written but not read. All fields are required.
 #define CHOREO_JSON_FIELDS(Type, ...)                                            \
   CHOREO_TO_JSON(Type, __VA_ARGS__)                                              \
   void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) { \
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_FROM, __VA_ARGS__))   \
   }
 
-/// The same of options: what is not there has its default.
+/// The same for options: missing fields keep their defaults.
 #define CHOREO_JSON_OPTIONS(Type, ...)                                                      \
   CHOREO_TO_JSON(Type, __VA_ARGS__)                                                         \
   void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) {            \

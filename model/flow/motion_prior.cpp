@@ -10,14 +10,14 @@
 namespace choreo {
 namespace {
 
-// Shares of the velocity's variance: what a history may be wrong by (it may have been danced), and
-// what keeps covariances invertible.
+// Shares of the velocity's variance: the assumed error of a history (which may be a model's), and a
+// jitter that keeps covariances invertible.
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
-constexpr double kStillness = 2e-4;  // a frame; slower dimensions don't move
+constexpr double kStillness = 2e-4;  // per frame; slower dimensions don't move
 constexpr double kLeastScale = 0.5, kMostAsked = 4;
 constexpr double kLeastEnergy = 1e-3;  // metres a frame
-constexpr int kStaged = -1;            // in place of a key's frames, among what is kept
-constexpr size_t kKept = 96;           // bridges; one of 96 frames takes 3 MB
+constexpr int kStaged = -1;            // stands for "no key, staged" in cache keys
+constexpr size_t kKept = 96;           // cached bridges; one of 96 frames takes 3 MB
 
 }  // namespace
 
@@ -93,20 +93,21 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key,
                                       double usual_variance) const {
   const Eigen::Index lags = covariance_.cols();
   const auto velocity = [&](int lag) { return lag < lags ? covariance_(dimension, lag) : 0.0; };
-  const auto sum = [&](int lag) {  // of lags 1 to `lag`
+  const auto sum = [&](int lag) {  // over lags 1 to `lag`
     return sums_[static_cast<size_t>(dimension)][std::min<Eigen::Index>(lag, lags - 1)];
   };
   const int longest = std::max({frames, to_key, kPast});
-  std::vector<double> variance(static_cast<size_t>(longest) + 1, 0.0);  // of n frames' displacement
+  std::vector<double> variance(static_cast<size_t>(longest) + 1,
+                               0.0);  // of the displacement over n frames
   for (int n = 1; n <= longest; ++n) {
     variance[static_cast<size_t>(n)] =
         variance[static_cast<size_t>(n) - 1] + velocity(0) + 2 * sum(n - 1);
   }
-  const auto both = [&](int i, int j) {  // displacements over i and over j frames
+  const auto both = [&](int i, int j) {  // of displacements over i and over j frames
     const auto at = [&](int n) { return variance[static_cast<size_t>(n)]; };
     return 0.5 * (at(i) + at(j) - at(std::abs(i - j)));
   };
-  // The velocity p frames before the last one, and the displacement over i frames.
+  // Covariance of the velocity p frames before the last and the displacement over i frames.
   const auto with_past = [&](int i, int p) { return sum(i + p) - sum(p); };
 
   const int known = kPast + (to_key > 0 || usual_variance > 0 ? 1 : 0);
@@ -122,10 +123,11 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key,
     for (int i = 0; i < frames; ++i) shared(i, kPast) = both(i + 1, to_key);
   }
   if (usual_variance > 0) {
-    // Stationary about it: so the way there goes with the way of i frames by half of its variance.
+    // Stationary about the usual pose: the way there covaries with the way of i frames by half of
+    // its variance.
     const auto half = [&](int i) { return 0.5 * variance[static_cast<size_t>(i)]; };
     for (int p = 0; p < kPast; ++p) observed(p, kPast) = observed(kPast, p) = half(p) - half(p + 1);
-    // Nobody goes beyond it for being off it.
+    // Being far from the usual pose must not lead beyond it.
     observed(kPast, kPast) = std::max(usual_variance, half(longest));
     for (int i = 0; i < frames; ++i) shared(i, kPast) = half(i + 1);
   }
@@ -172,7 +174,7 @@ MotionPrior::Made MotionPrior::Bridges(int frames, int to_key) const {
   return Cached({frames, to_key}, [&] {
     std::vector<Bridge> bridges;
     for (int d = 0; d < dimensions(); ++d) {
-      // Nobody has a usual place but on a stage, nor a usual way to face.
+      // No position is usual except on a stage, and no facing is.
       const bool returns = to_key == 0 && d != 0 && d != 2 && d != 4;
       bridges.push_back(Make(d, frames, to_key, returns ? UsualVariance(d) : 0));
     }

@@ -16,95 +16,96 @@
 
 namespace choreo {
 
-/// How far dancers stray from the prior's mean, by what is known of them: powers that training
-/// measured of the variance.
+/// How far dancers deviate from the prior's mean: the variance as powers, measured in training, of
+/// what is known.
 struct VariancePowers {
   static constexpr double kUsualLeastScale = 0.25;
 
   double surprise = 0;  ///< of FlowWindow::surprise
-  /// What of that training saw: who moves less or more counts as so much.
+  /// The range in training, to which values are clipped.
   double least = 1e-3, most = 1e3;
-  /// Of a body part whose energy is known: times e to `offset`, the surprise to a power, and e to
-  /// `level` times its EnergyLevel.
+  /// For a body part with known energy the variance is e to `offset`, times the surprise to a
+  /// power, times e to `level` times its EnergyLevel.
   double offset = 0, known_surprise = 0, level = 0;
-  double least_scale = kUsualLeastScale;  ///< the least that its spread is so
-  std::vector<int> parts = {};            ///< by dimension: the body part that it belongs to, or -1
+  double least_scale = kUsualLeastScale;        ///< the least factor of its spread
+  std::vector<int> parts = {};                  ///< by dimension: its body part, or -1
   std::array<double, kBodyParts> medians = {};  ///< of their velocity factors, metres a frame
 };
 
-/// How much livelier a body part is than its median: the logarithm of its velocity factor's share,
-/// flat below a millimetre a frame.
+/// The energy of a body part relative to its median: the logarithm of the ratio of velocity
+/// factors, flat below a millimetre a frame.
 double EnergyLevel(double factor, double median);
-/// The factor of that level, at least 0.
+/// The velocity factor with that level, at least 0.
 double EnergyFactor(double level, double median);
 
-/// Units of rotations that a network is told of. What spreads by no more than `still` is not in the
-/// recordings; keys may move it all the same, and in units of nothing that would be beyond all
-/// bounds: it has the mean of the others. The first three, of the root's position, stay.
+/// Units of rotations as network inputs. Dimensions with a spread of at most `still` are absent
+/// from the recordings but may be moved by keys; a unit near zero would make those inputs
+/// unbounded, so they get the mean of the others. Leaves the first three, the root's position,
+/// unchanged.
 Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still);
 
-/// What dancers come back to where nothing is asked of them, as measured. Empty: unknown.
+/// The pose that dancers return to when nothing is requested. Empty: unknown.
 struct UsualPose {
-  /// In the canonical frame, over the stage's middle.
+  /// In the canonical frame, at the stage's middle.
   Pose pose = {};
-  Eigen::VectorXd variance = {};  ///< [dimensions], m² and rad², of where they are about it
+  Eigen::VectorXd variance = {};  ///< [dimensions], m² and rad², of the spread about it
 };
 
-/// How poses move when nothing but their past and a key is known: the velocity of every degree of
-/// freedom is a stationary Gaussian process. Its mean through history and key is the line that the
-/// flow departs from; its covariance is the flow's noise. Noise so made is as smooth as motion is,
-/// at any length, with a key and without.
+/// How poses move given only their past and a key: the velocity of each degree of freedom is a
+/// stationary Gaussian process. Its mean given history and key is the line that the flow starts
+/// from; its covariance is that of the flow's noise, which makes noise as smooth as motion, at any
+/// length, with and without a key.
 ///
 /// Units: metres a frame for the root's position, radians a frame for rotations. Thread-safe.
 class MotionPrior {
  public:
   static constexpr int kLags = 121;  ///< of a trained covariance: four seconds at 30 fps
   static constexpr int kPast = 3;    ///< velocities of the history that are known
-  /// Deviations from the mean that white coordinates go: what recordings have beyond are faults.
+  /// Bound of white coordinates, in deviations from the mean: recordings beyond it are faulty.
   static constexpr double kMostWhite = 5;
 
-  /// What is known of the displacements f_1..f_w from the last history frame of one degree of
-  /// freedom. `past` [w, kPast] and `key` [w] weigh the last velocities (latest first) and the
-  /// displacement of the key or, without one, of the usual pose, in their mean; `spread` [w, w] is
-  /// the lower Cholesky factor of their covariance, so that row i depends on frames up to i alone.
+  /// What is known of one degree of freedom's displacements f_1..f_w from the last history frame.
+  /// `past` [w, kPast] and `key` [w] are the weights in their mean of the last velocities (latest
+  /// first) and of the displacement to the key or, without one, to the usual pose; `spread` [w, w]
+  /// is the lower Cholesky factor of their covariance, so that row i depends only on frames up to
+  /// i.
   struct Bridge {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
     Eigen::MatrixXf spread;
-    /// Variance of what is known: the last velocities, then that displacement.
+    /// Variance of the known values: the last velocities, then that displacement.
     Eigen::VectorXd expected;
   };
 
-  /// `covariance` [dimensions, lags]: of a velocity with itself so many frames later.
-  /// Throws Error(kInvalidArgument) where it is no covariance.
+  /// `covariance` [dimensions, lags]: of velocities with themselves that many frames later. Throws
+  /// Error(kInvalidArgument) if it is not a valid covariance.
   explicit MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers = {},
                        UsualPose usual = {});
 
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const VariancePowers& powers() const { return powers_; }
-  /// Who is known to be lively goes on so: the factor of each frame's noise, [dimensions, frames].
-  /// What is known of the window has `surprise` times the squares that the covariance expects (1 on
-  /// average); `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN where it is
-  /// unknown.
+  /// The factor of each frame's noise, [dimensions, frames]: who is lively stays so. `surprise`:
+  /// the known displacements' squares over those that the covariance expects (1 on average);
+  /// `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN if unknown.
   Eigen::MatrixXd Scales(double surprise, const Eigen::MatrixXd& levels) const;
-  /// The unit that networks have velocities in, [dimensions]: their standard deviation.
+  /// The networks' unit of velocities, [dimensions]: their standard deviation.
   Eigen::VectorXd VelocitySpread() const;
 
-  /// False for what recordings lack, as the joints of hands.
+  /// False for what recordings lack, such as finger joints.
   bool Moves(int dimension) const;
 
-  /// By dimension: a window of `frames` frames whose key stands `to_key` frames behind the history
-  /// (at least `frames`); 0: there is no key. The last few that were asked for are kept.
+  /// By dimension, for a window of `frames` frames with a key `to_key` frames after the history (at
+  /// least `frames`); 0: no key. Caches the latest.
   std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
-  /// Without a key, of the root's position alone [3], on a stage whose middle is known.
+  /// Without a key, for the root's position alone [3], on a stage with known middle.
   std::shared_ptr<const std::vector<Bridge>> StageBridges(int frames) const;
   const UsualPose& usual() const { return usual_; }
 
  private:
   using Made = std::shared_ptr<const std::vector<Bridge>>;
   Made Cached(std::pair<int, int> key, const std::function<std::vector<Bridge>()>& make) const;
-  // `usual_variance`: about the usual pose, which a window without a key comes back to; 0: none.
+  // `usual_variance`: about the usual pose, to which a window without a key returns; 0: none.
   Bridge Make(int dimension, int frames, int to_key, double usual_variance) const;
   double UsualVariance(int dimension) const {
     return usual_.variance.size() > 0 ? usual_.variance[dimension] : 0;

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-// What LibTorch's own kernels were chosen for, as in "AVX512"; empty if it doesn't tell.
+// The instruction set that LibTorch chose kernels for, such as "AVX512"; empty if it doesn't say.
 std::string CpuCapability() {
   const std::string config = at::show_config();
   const std::string key = "CPU capability usage: ";
@@ -26,7 +26,7 @@ std::string CpuCapability() {
 
 std::string TorchKernels(const torch::Device& device) {
   const std::string torch = "torch " TORCH_VERSION ", ";
-  if (device.is_cuda()) {  // a list, of which a fingerprint has one line
+  if (device.is_cuda()) {  // a list; fingerprints need one line
     std::istringstream words(at::detail::getCUDAHooks().showConfig());
     std::string cuda;
     for (std::string word; words >> word;) cuda += word == "-" ? ", " : word + " ";

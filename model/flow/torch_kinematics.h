@@ -4,7 +4,7 @@
 
 #include "model/motion/skeleton.h"
 
-/// The motion mathematics of model/motion on batches, differentiable. "..." is any leading shape.
+/// The motion mathematics of model/motion, batched and differentiable. "..." is any leading shape.
 /// Float32 or float64.
 namespace choreo {
 
@@ -24,7 +24,7 @@ class TorchKinematics {
  private:
   struct Level {
     std::vector<int64_t> joints;   ///< in tree order
-    std::vector<int64_t> parents;  ///< their places within the level above
+    std::vector<int64_t> parents;  ///< their indices in the level above
   };
   std::vector<Level> levels_;
   std::vector<int64_t> order_;  ///< joint → its place in the concatenated levels

@@ -8,11 +8,10 @@
 
 namespace choreo {
 
-/// Which way round dancers turn to a key. Two turns end alike: the shorter one, and the rest of a
-/// whole turn the other way. How likely the other is follows, by logistic regression, from how far
-/// each goes and in what time, how the dancer turns and goes sideways already, how lively she is,
-/// where the key stands, and how its chest is turned against the hips. Training measures it.
-/// Thread-safe.
+/// Which way round dancers turn to a key. Two turns have the same end: the shorter one, and the
+/// rest of a whole turn the other way. Logistic regression gives the probability of the other from
+/// how far and how fast each goes, the dancer's present turn and sideways motion, her energy, the
+/// key's position, and the turn of its chest against the hips. Measured in training. Thread-safe.
 class TurnPrior {
  public:
   static constexpr int kInputs = 9;
@@ -23,16 +22,15 @@ class TurnPrior {
 
   bool known() const { return !weights.isZero(); }
 
-  /// How the root turns from the last history pose to the key the shorter way, as its rotation
-  /// vector in that pose's frame. `request` has a key.
+  /// The shorter turn of the root from the last history pose to the key, as a rotation vector in
+  /// that pose's frame. `request` has a key.
   static Eigen::Vector3d ShorterTurn(const WindowRequest& request);
-  /// What tells the other way from the shorter one; none of a request whose key does not ask how
-  /// the root is turned, or asks for a turn about another axis than the vertical. Alike for a
-  /// dancer and her mirror image.
+  /// The inputs that distinguish the two ways; none if the key leaves the root's rotation open or
+  /// turns it about an axis other than the vertical. Equal for a dancer and her mirror image.
   static std::optional<Inputs> Describe(const Skeleton& skeleton, const WindowRequest& request);
   double ChanceOfOther(const Inputs& inputs) const;
-  /// WindowRequest::turning: the likelier way at temperature 0, at 1 each as often as dancers take
-  /// it. `normal`: a standard normal number. None where nothing is known.
+  /// WindowRequest::turning: at temperature 0 the likelier way; at 1 each as often as dancers take
+  /// it. `normal`: a standard normal number. None if nothing is known.
   std::optional<Eigen::Vector3d> Sample(const Skeleton& skeleton, const WindowRequest& request,
                                         double normal, double temperature) const;
 };

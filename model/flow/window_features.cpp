@@ -10,7 +10,7 @@
 namespace choreo {
 namespace {
 
-constexpr int kTimeWidth = 16;       // of each embedded number of frames
+constexpr int kTimeWidth = 16;       // per embedded frame count
 constexpr double kLongestBeat = 27;  // frames: slower beats are halved, as dancers do
 constexpr double kUsualBeat = 15;    // frames
 constexpr double kPathScale = 0.3;   // metres

@@ -7,8 +7,8 @@
 #include "model/flow/continuous_flow_config.h"
 #include "model/flow/flow_window.h"
 
-/// What the network is told of a window besides its poses: numbers of order one, zero where
-/// something is unknown. Written once, for training and for every engine.
+/// The network's inputs for a window besides its poses: numbers of order one, zero for unknowns.
+/// Shared by training and all engines.
 namespace choreo {
 
 struct WindowFeatures {
@@ -23,9 +23,9 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
                               const MotionPrior& prior, const WindowRequest& request,
                               const FlowWindow& window);
 
-/// Where frame `at` stands between two of the `beats` (frames, ascending): [0, 1). Before the first
-/// and after the last beat the nearest interval goes on; fewer than two beats have no phase.
-/// `period`: of that interval, frames.
+/// Position of frame `at` between two of the `beats` (frames, ascending): [0, 1). Outside the beats
+/// the nearest interval repeats; fewer than two beats have no phase. `period`: frames of that
+/// interval.
 struct BeatPhase {
   double phase = 0, period = 0;
 };
