@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-/// The continuous flow: a slice is an evaluation of its network, in rounds where energy is asked
-/// for; the last one is the stages of the plan. Windows are sampled one after another, so a
+/// Samples the continuous flow. A slice is one evaluation of its network, in rounds if energy is
+/// requested; the last slice runs the plan's stages. Windows are sampled one after another, so a
 /// transition's bits depend on nothing else. It hears beats, not sounds. Made by samplers.h.
 class ContinuousFlowSampler : public Sampler {
  public:

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// What an operator can say of engines: where, and by which code they compute.
+/// An operator's choice of devices and engines.
 namespace choreo {
 
 /// Where an engine computes.
@@ -22,29 +22,29 @@ struct Device {
 /// What this build can use on this machine.
 struct AvailableDevices {
   bool cuda_build = false;  ///< compiled against a LibTorch with CUDA
-  int cuda_devices = 0;     ///< that answer now
+  int cuda_devices = 0;     ///< that respond now
 };
 
-/// Reads `auto | cpu | cuda:N[,M...]`, as in "cuda:0,1". `auto` is every CUDA device, or the CPU
-/// where there is none. Throws Error(kInvalidArgument, field) for another form or a device named
-/// twice, and Error(kNotFound, field) for one that is not there; the message says what is.
+/// Parses `auto | cpu | cuda:N[,M...]`, such as "cuda:0,1". `auto` is every CUDA device, or the CPU
+/// without one. Throws Error(kInvalidArgument, field) for another form or a device named twice, and
+/// Error(kNotFound, field), listing the existing ones, for a device that does not exist.
 std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& available,
                                  const std::string& field = "--device");
 
-/// What computes the flows' networks. Paper C's model LibTorch runs, whatever is asked.
+/// What computes the flows' networks. LibTorch always runs paper C's model.
 enum class EngineKind {
-  kAuto,        ///< the fastest: packed on the CPU, in bfloat16 where it can be, else torch
-  kTorch,       ///< LibTorch, on any of its devices; the reference that others are held to
-  kPacked,      ///< own kernels on packed weights, on the CPU alone, float32
-  kPackedBf16,  ///< the same with products of bfloat16, where the CPU has instructions for them
+  kAuto,        ///< the fastest: packed on the CPU, in bfloat16 if possible; else torch
+  kTorch,       ///< LibTorch, on any of its devices; the reference for the others
+  kPacked,      ///< own kernels on packed weights, CPU only, float32
+  kPackedBf16,  ///< the same with bfloat16 products, if the CPU has instructions for them
 };
 
-/// What they are called, in that order.
+/// Their names, in that order.
 inline constexpr std::array<std::string_view, 4> kEngineKindNames = {"auto", "torch", "packed",
                                                                      "packed-bf16"};
 
-/// What the packed engine's kernels are called (PackedKernels::name), slowest first; which of them
-/// are here depends on the machine.
+/// Names of the packed engine's kernels (PackedKernels::name), slowest first; the machine decides
+/// which exist.
 inline constexpr std::array<std::string_view, 5> kKernelNames = {"portable", "avx2", "avx512",
                                                                  "avx512_bf16", "amx_bf16"};
 

@@ -9,49 +9,49 @@
 #include "model/engine/packed/kernels.h"
 #include "model/engine/sampler.h"
 
-/// What every kind of model is made into samplers with, whatever network it is. Free of torch.
+/// Makes samplers of any kind of model. Free of torch.
 namespace choreo {
 
-/// What this program was built from, as in "GNU 12.2.0 Release 0123456789abcdef": compiler, build
-/// type, and a hash of its flags, of Eigen's version, of whether sources were compiled together,
-/// and of every source that can change a bit of a dance. Builds of the same sources have the same,
-/// wherever they were made. cmake/write_build_identity.cmake makes it.
+/// The build's identity, such as "GNU 12.2.0 Release 0123456789abcdef": compiler, build type, and a
+/// hash of its flags, Eigen's version, the unity setting, and every source that can change a
+/// dance's bits. Builds of the same sources agree, wherever they were made.
+/// cmake/write_build_identity.cmake makes it.
 const char* BuildIdentity();
 
 /// Makes samplers that share one device's weights.
 using SamplerFactory = std::function<std::unique_ptr<Sampler>()>;
 
-/// Where and by which code a model is to be computed.
+/// Where and by which code to compute a model.
 struct EngineRequest {
   Device device;
   EngineKind kind = EngineKind::kAuto;
   std::string kernels;  ///< a PackedKernels::name; empty: the fastest here
 };
 
-/// Of the kernels in a fingerprint, where they are our own.
+/// The start of our own kernels' part of a fingerprint.
 inline constexpr const char* kPackedPrefix = "packed ";
 
 struct KernelSet {
   const PackedKernels* exact;
-  /// Of the networks: the exact ones, or those of bfloat16, whose dances have the same figures
-  /// (docs/decisions.md, 32).
+  /// For the networks' products: the exact kernels, or those of bfloat16, whose dances have the
+  /// same figures (docs/decisions.md, 32).
   const PackedKernels* products;
 
   std::string Name() const { return kPackedPrefix + std::string(products->name); }
 };
 
-/// What a flow is computed with: the fastest that keep rows apart, or those that are asked for by
-/// name. None: LibTorch does it. Throws Error(kInvalidArgument) for a kind or kernels that the
-/// device or this machine does not have.
+/// The kernels for a flow: the fastest that keep rows independent, or the requested ones. None:
+/// LibTorch computes it. Throws Error(kInvalidArgument) for a kind or kernels that the device or
+/// machine lacks.
 std::optional<KernelSet> ChooseKernels(const EngineRequest& request);
 
-/// What names model, weights, build and kernels: the same where every bit is.
+/// Identifies model, weights, build and kernels: equal exactly if every bit is.
 std::string FingerprintOf(const std::string& name, const std::string& hash,
                           const std::string& kernels);
-/// What a model card states; empty: nothing.
+/// The licence in a model card, or "".
 std::string LicenceOf(const std::string& card);
 
-/// What is the same of every checkpoint (CheckpointOf, model/flow/checkpoint.h).
+/// What is common to all checkpoints (CheckpointOf, model/flow/checkpoint.h).
 template <typename Checkpoint>
 ModelInfo InfoOf(const Checkpoint& checkpoint, const std::string& kernels) {
   const auto& config = checkpoint.model->config();
@@ -65,7 +65,7 @@ ModelInfo InfoOf(const Checkpoint& checkpoint, const std::string& kernels) {
           .velocity_references = {}};
 }
 
-/// The velocity reference that every model has that takes factors.
+/// The velocity reference of every model that takes velocity factors.
 VelocityReference MedianReference(const std::array<double, kBodyParts>& factors);
 
 }  // namespace choreo

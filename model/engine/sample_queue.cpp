@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 double Seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 double Seconds(Clock::time_point time) { return Seconds(time.time_since_epoch()); }
 
-// What is being thrown, as an Error. Call inside a catch block.
+// The exception being handled, as an Error. Call inside a catch block.
 Error CurrentError() {
   try {
     throw;
@@ -35,7 +35,7 @@ Error CurrentError() {
   }
 }
 
-// How much bulk there is; whoever reserves may outlive the queue.
+// The reserved bulk; reservations may outlive the queue.
 struct Bulk {
   std::mutex mutex;
   int reserved = 0;  ///< Lock: mutex
@@ -43,21 +43,20 @@ struct Bulk {
 
 }  // namespace
 
-// One mutex guards who waits and how far the queue is. It is never held while a job is called, but
-// for Cancelled.
+// One mutex guards the queue's state. It is never held during calls to jobs, except Cancelled.
 struct SampleQueue::Impl {
   /// A job from its submission until its OnDone.
   struct Entry {
     std::shared_ptr<SampleJob> job;
     bool is_bulk;
-    uint64_t order;    ///< of submission; settles equal deadlines
+    uint64_t order;    ///< of submission; breaks ties of deadlines
     double deadline;   ///< seconds
     double submitted;  ///< seconds
-    double taken = 0;  ///< seconds, of its slices
+    double taken = 0;  ///< seconds, in its slices
   };
   using Entries = std::vector<std::unique_ptr<Entry>>;
 
-  /// One sampler and the thread that alone touches it.
+  /// One sampler, and the only thread that uses it.
   struct Worker {
     explicit Worker(std::unique_ptr<Sampler> one)
         : sampler(std::move(one)), cost(sampler->seconds_a_frame()) {}
@@ -66,7 +65,7 @@ struct SampleQueue::Impl {
     SamplingCost cost;
     std::thread thread;
     Entries begun;       ///< Lock: mutex
-    bool looks = false;  ///< for cancelled jobs. Lock: mutex
+    bool looks = false;  ///< to look for cancelled jobs. Lock: mutex
     std::atomic<int> failures_in_a_row = 0;
   };
 
@@ -81,7 +80,7 @@ struct SampleQueue::Impl {
   size_t live = 0;                       ///< waiting, begun, and inside OnDone. Lock: mutex
   uint64_t submitted = 0;                ///< Lock: mutex
   bool stopped = false;                  ///< Lock: mutex
-  bool exit = false;                     ///< workers end, after `stopped`. Lock: mutex
+  bool exit = false;                     ///< ends workers, after `stopped`. Lock: mutex
 
   std::atomic<uint64_t> frames = 0, transitions = 0;
   Histogram slice_seconds{Histogram::Seconds()};
@@ -90,7 +89,7 @@ struct SampleQueue::Impl {
 
   void Accept(std::shared_ptr<SampleJob> job, bool is_bulk);
 
-  // The caller of these holds the lock; they let go of it while they call jobs.
+  // The caller holds the lock; these functions release it while they call jobs.
   using Lock = std::unique_lock<std::mutex>;
   void Run(Worker* worker);
   Entries TakeCancelled(Worker* worker);
@@ -100,7 +99,7 @@ struct SampleQueue::Impl {
   void EndAll(Entries entries, const Error& failure, Lock& lock);
 };
 
-// ---- What callers ask for -----------------------------------------------------------------------
+// ---- Calls of clients ---------------------------------------------------------------------------
 
 void SampleQueue::Impl::Accept(std::shared_ptr<SampleJob> job, bool is_bulk) {
   if (job == nullptr) throw InvalidArgument("job", "is null");
@@ -153,9 +152,10 @@ SampleQueue::Impl::Entries SampleQueue::Impl::TakeCancelled(Worker* worker) {
   return cancelled;
 }
 
-// Of what it has begun and what waits, that which is due first; it has begun it then. Null: none.
+// The job that is due first, of those the worker has begun and those waiting, which it then begins.
+// Null: none.
 SampleQueue::Impl::Entry* SampleQueue::Impl::Next(Worker* worker) {
-  // Nobody listens to bulk: it is due when real time ends.
+  // Nobody waits in real time for bulk: it is due when real time ends.
   const double real_time_end = Seconds(Clock::now()) + Seconds(options.bulk_yields);
   const auto due = [=](const std::unique_ptr<Entry>& entry) {
     const double at = entry->is_bulk ? std::max(entry->deadline, real_time_end) : entry->deadline;
@@ -182,7 +182,7 @@ void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
       more = entry->job->Continue(*worker->sampler);
     } catch (...) {
       failure = CurrentError();
-      // A job that is refused is at fault itself; anything else that goes wrong is the sampler's.
+      // A refused job is at fault itself; any other failure is the sampler's.
       if (failure->code() == ErrorCode::kInternal) worker->failures_in_a_row.fetch_add(1);
     }
     const double took = Seconds(Clock::now() - begin);

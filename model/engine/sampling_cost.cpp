@@ -10,9 +10,9 @@
 namespace choreo {
 namespace {
 
-/// What is left of a sum when the next transition comes: the last twenty count.
+/// Decay of the sums per transition: about the last twenty count.
 constexpr double kFades = 0.95;
-/// The warm-up stands for as many.
+/// The weight of the warm-up.
 constexpr double kWarmFrames = 20 * kUsualFrames;
 
 constexpr double kBeatSeconds = 0.5;
@@ -30,10 +30,10 @@ void WarmUp(Sampler& sampler) {
   TransitionSpec spec;
   spec.frames = std::min(kUsualFrames, model.max_transition_frames);
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
-  // As music has them: a model that is guided by them is asked twice.
+  // Like music's: a model guided by beats is evaluated twice.
   for (double beat = 0; beat <= spec.frames; beat += kBeatSeconds * model.fps)
     spec.beats.push_back(beat);
-  sampler.Sample(spec);  // what is done once is not measured
+  sampler.Sample(spec);  // leaves one-time work out of the measurement
   const double seconds = SecondsOf([&] { sampler.Sample(spec); });
   sampler.set_seconds_a_frame(seconds / spec.frames);
 }
@@ -43,7 +43,7 @@ SamplingCost::SamplingCost(double seconds_a_frame)
 
 void SamplingCost::Add(double seconds, int frames) {
   const std::lock_guard lock(mutex_);
-  if (seconds_ <= 0) return;  // a load that nobody knew at the start is none later
+  if (seconds_ <= 0) return;  // stays unknown if the warm-up measured nothing
   seconds_ = kFades * seconds_ + seconds;
   frames_ = kFades * frames_ + frames;
 }

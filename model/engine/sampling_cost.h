@@ -6,27 +6,26 @@ namespace choreo {
 
 class Sampler;
 
-/// Samples a usual transition twice and forgets it: whatever is set up when it is first used is
-/// there when the first client comes, and the sampler's seconds_a_frame() are known. Throws what
-/// the sampler throws.
+/// Samples a usual transition twice and discards it, so that one-time setup is done before the
+/// first client and the sampler's seconds_a_frame() is known. Throws what the sampler throws.
 void WarmUp(Sampler& sampler);
 
-/// What a frame costs one worker: what the warm-up of its sampler measured, then what transitions
-/// have taken lately. Thread-safe.
+/// A frame's cost on one worker: from its sampler's warm-up, then from recent transitions.
+/// Thread-safe.
 class SamplingCost {
  public:
-  /// 0: nothing was measured.
+  /// 0: not measured.
   explicit SamplingCost(double seconds_a_frame);
 
-  /// A transition is made.
+  /// Records a transition.
   void Add(double seconds, int frames);
 
-  /// The share of the worker's time that so many frames a second take, above 1 where they are more
-  /// than it can make. 0 where nothing is known.
+  /// The share of the worker's time that this many frames a second need; above 1 for more than it
+  /// can make. 0 if unknown.
   double LoadOf(double frames_per_second) const;
 
  private:
-  mutable std::mutex mutex_;  // guards all below; sums in which what is old fades
+  mutable std::mutex mutex_;  // guards the decaying sums below
   double seconds_, frames_;
 };
 

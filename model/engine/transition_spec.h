@@ -18,37 +18,37 @@
 #include "model/motion/velocity_factors.h"
 #include "model/plan/arrival.h"
 
-/// What a model is, and what is asked of it.
+/// Describes models and requests for transitions.
 namespace choreo {
 
-/// How lively a model's dancers usually are: what multipliers of velocity factors refer to.
+/// A model's usual speeds, to which multipliers of velocity factors refer.
 struct VelocityReference {
   std::string name;
   std::array<float, kBodyParts> factors = {};  ///< by BodyPart, metres a frame at the model's rate
 };
 
-/// What a loaded model is. Fixed for the life of a sampler.
+/// Describes a loaded model. Constant for the life of a sampler.
 struct ModelInfo {
   std::string name;         ///< "default", "paper", ...
   std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
-  std::string licence;      ///< terms of the weights
+  std::string licence;      ///< of the weights
   std::string card;         ///< the model card, JSON
   Skeleton skeleton;
   double fps = kModelFps;               ///< rate at which the model runs
   int history_frames = kHistoryFrames;  ///< tau
-  int audio_features = kMfccCount;      ///< MFCC rows' width
+  int audio_features = kMfccCount;      ///< columns of MFCC rows
   int max_transition_frames = kMaxTransitionFrames;
   double default_temperature = 0.3;
-  double max_temperature = kMaxTemperature;  ///< beyond it nothing changes any more
-  /// It reads the MFCC rows of a transition, so live it waits for the music of the whole of it.
-  /// False: rows change nothing.
+  double max_temperature = kMaxTemperature;  ///< higher values change nothing
+  /// Whether it reads a transition's MFCC rows, and so live must wait for all of its music. False:
+  /// rows change nothing.
   bool hears_music = true;
   bool deterministic = false;              ///< seed, candidate and temperature change nothing
   bool likelihood = false;                 ///< plans have exact ones (Plan::log_likelihoods)
   std::vector<std::string> controls = {};  ///< that it takes, of the names in kControls
   /// The first one, "median", is the default. At least one where velocity factors are taken.
   std::vector<VelocityReference> velocity_references = {};
-  std::vector<std::string> styles = {};  ///< that may be asked for
+  std::vector<std::string> styles = {};  ///< available for requests
   FootworkOptions footwork = {};
 
   bool Takes(size_t control) const {
@@ -56,48 +56,46 @@ struct ModelInfo {
   }
 };
 
-/// Everything that a transition is a function of. All poses stand in the transition's canonical
-/// frame (motion/canonical.h).
+/// All inputs of a transition. All poses are in its canonical frame (motion/canonical.h).
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
-  std::vector<Pose> history;  ///< tau poses, oldest first; the last one stands right before frame 0
-  std::optional<Target> target;  ///< none: music alone
-  /// The middle of the floor that the dance keeps to where nothing says its place, its height
-  /// unread. None: where the history ends.
+  std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
+  std::optional<Target> target;  ///< none: dances to music alone
+  /// The middle of the floor area that the dance keeps to if nothing fixes its position; its height
+  /// is ignored. None: where the history ends.
   std::optional<Eigen::Vector3d> stage = {};
-  bool has_audio = false;  ///< false: audio rows are ignored, the model dances without music
-  /// MFCC rows, of models that hear music: [audio_features, tau] of the history's frames and
-  /// [audio_features, frames] of its own, oldest first.
+  bool has_audio = false;  ///< false: ignores audio rows and dances without music
+  /// MFCC rows, for models that hear music: [audio_features, tau] for the history's frames and
+  /// [audio_features, frames] for its own, oldest first.
   Eigen::MatrixXf audio_history, audio_rows;
-  /// Where the music beats, in frames from frame 0, ascending; a dance without a path is timed to
-  /// it (plan/plan_stages.h). Empty: unknown.
+  /// The music's beats, in frames from frame 0, ascending; a dance without a path is timed to them
+  /// (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;        ///< beside the key (paper C, Section 3.3)
   EnergyShift energy = {};  ///< of models that say themselves how lively they are
   uint64_t seed = 0;
   uint32_t candidate = 0;
-  int64_t first_frame = 0;  ///< absolute number of frame 0: the noise is keyed (seed, candidate,
+  int64_t first_frame = 0;  ///< absolute number of frame 0: noise is keyed by (seed, candidate,
                             ///< absolute frame, dimension)
-  /// [frames] or empty: of each frame the absolute one that it comes back as, whose noise it has
-  /// with so much `variation`, 0 to 1 (FillNormalLike).
+  /// [frames] or empty: for each frame the absolute frame that it repeats, whose noise it shares,
+  /// with this much `variation`, 0 to 1 (FillNormalLike).
   std::vector<int64_t> noise_like = {};
   double variation = 0;
   float temperature = 0.3F;
-  std::string style = {};  ///< one of the model's, or empty: any
-  /// Steers each frame of a model that makes one after another before it makes the next: such a
-  /// model goes on from where the dance is.
+  std::string style = {};  ///< one of the model's, or empty for any
+  /// For models that make frame after frame: steers each frame before the next is made, so that the
+  /// model continues from where the dance is.
   std::optional<Arrival> arrival = {};
 };
 
-/// Whether its target asks for the root's position or a joint.
+/// Whether its target fixes the root's position or a joint.
 bool Keyed(const TransitionSpec& spec);
 
 /// Throws Error(kInvalidArgument, field) unless the pose has the skeleton's joints.
 void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);
 
 /// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
-/// history, joints, mask, music rows and controls; a control that the model does not take is
-/// refused too.
+/// history, joints, mask, music rows and controls; also for a control that the model lacks.
 void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model);
 
 }  // namespace choreo

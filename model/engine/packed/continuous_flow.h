@@ -10,14 +10,14 @@
 
 namespace choreo {
 
-/// The continuous flow's network (model/flow/continuous_flow.h) on the CPU that calls it, on one
-/// thread, one window at a time. Weights are read only: threads share it, each with a workspace of
-/// its own that keeps its memory.
+/// The continuous flow's network (model/flow/continuous_flow.h) on the calling CPU thread, one
+/// window at a time. Weights are read-only and shared by threads; each thread has a workspace that
+/// keeps its memory.
 class PackedFlowNetwork : public FlowNetwork {
  public:
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `products`: of the transformer's blocks, `kernels` or less exact ones of the
-  /// same panel; what leads from poses to tokens and back is `kernels`'.
+  /// configuration. `products`: for the transformer's blocks; `kernels` or less exact ones with the
+  /// same panel. Layers between poses and tokens use `kernels`.
   PackedFlowNetwork(const Safetensors& content, const ContinuousFlowConfig& config,
                     const Skeleton& skeleton, const PackedKernels& kernels,
                     const PackedKernels& products);
@@ -33,13 +33,13 @@ class PackedFlowNetwork : public FlowNetwork {
   struct Block {
     PackedLinear qkv, out, up, down;
     PackedLinear modulation;  ///< [condition] -> shift, scale and weight of both halves
-    RowMajorMatrix bias;      ///< [heads, 2 tokens + panel], of a token by how far ahead it is
+    RowMajorMatrix bias;      ///< [heads, 2 tokens + panel], by a token's offset
   };
   struct Workspace;
 
   /// Attention over time, from `qkv` to `mixed`.
   void Attend(const Block& block, long tokens, Workspace* work) const;
-  /// One block: x += attention, x += perceptron, each weighed by `modulation`, the block's own.
+  /// One block: x += attention, x += perceptron, each weighted by `modulation`.
   void Transform(const Block& block, const float* modulation, long tokens, Workspace* work) const;
   /// out = normalised x times (1 + scale) + shift, row by row; both [width].
   void Normalise(const RowBuffer& x, const float* shift, const float* scale, long tokens,

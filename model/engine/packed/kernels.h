@@ -2,20 +2,19 @@
 
 #include <span>
 
-/// The loops in which the packed engine spends its time, compiled once for each instruction set.
-/// Every element of a product is one sum over the depth, from first to last, so a row's bits depend
-/// neither on how many rows are multiplied with it nor on its place.
+/// The packed engine's inner loops, compiled once per instruction set. Every element of a product
+/// is one sum over the depth from first to last, so a row's bits depend neither on its place nor on
+/// how many rows are multiplied with it.
 ///
-/// All float32; but where PackedKernels::pair is, elements of `a` and `b` are pairs of bfloat16
-/// that lie behind one another in the depth, and the depth is half of what it was. Sums are
-/// float32.
+/// All float32; but with PackedKernels::pair, elements of `a` and `b` are pairs of bfloat16,
+/// adjacent in depth, and the depth is halved. Sums are float32.
 namespace choreo {
 
-/// c [rows, panels * panel] = init + a b. Columns of `b` lie in panels of PackedKernels::panel,
-/// padded with zeros, each [depth, panel], one after another.
+/// c [rows, panels * panel] = init + a b. `b` is in panels of PackedKernels::panel columns, padded
+/// with zeros, each [depth, panel], one after another.
 struct PackedProduct {
   const float* a = nullptr;  ///< [rows, depth]
-  long a_stride = 0;         ///< floats from row to row
+  long a_stride = 0;         ///< floats between rows
   const float* b = nullptr;
   long depth = 0, panels = 0;
   const float* init = nullptr;  ///< [rows, panels * panel]; may be `c`
@@ -25,7 +24,7 @@ struct PackedProduct {
   long rows = 0;
 };
 
-/// The affine coupling's inverse (paper F, Eq. 7) on one row.
+/// The inverse of the affine coupling (paper F, Eq. 7) on one row.
 struct PackedCoupling {
   const float* ab = nullptr;  ///< [a, b], 2 * width
   float* high = nullptr;      ///< width, z_hi -> h_hi
@@ -36,33 +35,33 @@ struct PackedCoupling {
 struct PackedKernels {
   const char* name;  ///< "avx512"
   long panel;        ///< columns
-  /// out [count / 2, rounded up] = x in pairs of bfloat16, an odd one with a zero. Null: products
-  /// take floats as they are.
+  /// out [count / 2, rounded up] = x in pairs of bfloat16, an odd one padded with zero. Null:
+  /// products take floats directly.
   void (*pair)(const float* x, long count, float* out);
   void (*multiply)(const PackedProduct& product);
   /// x = silu(x)
   void (*silu)(float* x, long count);
   /// One LSTM cell of a row: gates [4 * width] (input, forget, cell, output), state updated.
   void (*lstm)(const float* gates, float* hidden, float* cell, long width);
-  /// Returns the product of the deltas, whose logarithm is the log-determinant.
+  /// Returns the product of the deltas; its logarithm is the log-determinant.
   double (*coupling)(const PackedCoupling& coupling);
   /// out [repeats, width] = clamp((x - mean) * scale, -bound, bound), mean and scale [width]
   void (*standardise)(const float* x, const float* mean, const float* scale, long width,
                       long repeats, float bound, float* out);
-  /// out = (x bent softly towards bound + 1 beyond the bound) * scale + mean
+  /// out = (x, bent softly towards bound + 1 beyond the bound) * scale + mean
   void (*bend)(const float* x, const float* mean, const float* scale, long width, float bound,
                float* out);
-  /// A distribution of a row of logits, in place.
+  /// Softmax of a row of logits, in place.
   void (*softmax)(float* x, long count);
   /// out = (x - its mean) / its standard deviation * gain + bias, all [width]
   void (*layer_norm)(const float* x, const float* gain, const float* bias, long width, float* out);
-  /// x = x times the normal distribution's share below x
+  /// x = x times the normal distribution function at x
   void (*gelu)(float* x, long count);
 };
 
-/// What this machine can run in float32, fastest first; never empty.
+/// The float32 kernels that this machine can run, fastest first; never empty.
 std::span<const PackedKernels* const> PackedKernelsHere();
-/// The same with products of bfloat16, and the panel of the fastest of those above; empty where the
+/// The same with bfloat16 products and the panel of the fastest of those above; empty if the
 /// machine has no instructions for them.
 std::span<const PackedKernels* const> Bf16KernelsHere();
 

@@ -20,11 +20,11 @@ constexpr int kVectorBytes = CHOREO_VECTOR_BYTES;
 constexpr long kLanes = kVectorBytes / 4;
 constexpr long kPanel = 2 * kLanes;
 
-// Aligned as floats are: rows begin anywhere.
+// Aligned like floats: rows begin anywhere.
 typedef float Vector __attribute__((vector_size(kVectorBytes), aligned(4), may_alias));
 
 #if CHOREO_BF16
-// To the nearest bfloat16, of two equally near ones the even.
+// To the nearest bfloat16; ties to even.
 inline unsigned Round(float x) {
   const unsigned bits = __builtin_bit_cast(unsigned, x);
   return (bits + 0x7FFFU + ((bits >> 16) & 1U)) >> 16;
@@ -44,7 +44,7 @@ constexpr void (*Pair)(const float*, long, float*) = nullptr;
 #include "model/engine/packed/tiles_of_one_cpu.h"
 #else
 constexpr int kMostRows = CHOREO_MOST_ROWS;
-constexpr long kAhead = 512;  // floats that are asked for before they are needed
+constexpr long kAhead = 512;  // floats to prefetch
 
 #if CHOREO_BF16
 // An element of a product is two numbers.
@@ -105,7 +105,8 @@ void OnePanel(const PackedProduct& p, long row, long rows, long panel) {
 }
 
 void Multiply(const PackedProduct& p) {
-  // Few rows leave registers for several panels, without which sums would wait for each other.
+  // With few rows, registers are free for several panels, which keeps sums from waiting for each
+  // other.
   const long together = p.rows <= 2 ? 4 : p.rows <= 4 ? 2 : 1;
   const long blocks = (p.rows + kMostRows - 1) / kMostRows;
   for (long panel = 0; panel < p.panels;) {
@@ -119,7 +120,7 @@ void Multiply(const PackedProduct& p) {
                     : Block<4, 2>(p, 0, panel);
       panel += 2;
     } else {
-      // Even shares: a last block of one row costs nearly as much as one of many.
+      // Even shares: a last block of one row costs nearly as much as a full one.
       long row = 0;
       for (long left = blocks; left > 0; --left) {
         const long rows = (p.rows - row + left - 1) / left;

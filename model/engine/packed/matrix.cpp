@@ -19,7 +19,7 @@ LargePages::LargePages(size_t count) {
   const size_t rounded = (bytes + unit - 1) / unit * unit;
   data_.reset(static_cast<float*>(std::aligned_alloc(unit, rounded)));
   if (!data_) throw std::bad_alloc();
-  // Before the first touch, and whether it is heeded or not.
+  // Before the first touch; the kernel may ignore it.
   if (unit == kLarge) madvise(data_.get(), rounded, MADV_HUGEPAGE);
   std::memset(data_.get(), 0, rounded);
 }

@@ -14,8 +14,8 @@ namespace choreo {
 
 using RowMajorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Zeros, in pages as large as the system gives: small ones cost a large matrix a third of its
-/// speed.
+/// Zeroed memory in the largest pages that the system gives: small ones cost a large matrix a third
+/// of its speed.
 class LargePages {
  public:
   LargePages() = default;
@@ -30,11 +30,10 @@ class LargePages {
   std::unique_ptr<float, Free> data_;
 };
 
-/// Rows of floats that keep their memory: what is no larger than what was there before allocates
-/// nothing.
+/// Rows of floats that keep their memory: nothing is allocated unless it grows.
 class RowBuffer {
  public:
-  /// Afterwards nothing in it has a meaning.
+  /// Its contents are undefined afterwards.
   void Resize(long rows, long width) {
     stride_ = width;
     if (rows * width <= size_) return;
@@ -53,7 +52,7 @@ class RowBuffer {
 };
 
 /// A linear map x W + bias in the precision of its kernels, laid out for PackedKernels::multiply.
-/// Read only: engines share it.
+/// Read-only: engines share it.
 class PackedLinear {
  public:
   PackedLinear() = default;
@@ -62,7 +61,7 @@ class PackedLinear {
                const Eigen::VectorXf& bias);
 
   long columns() const { return columns_; }
-  /// Columns that are written: `columns()`, filled up to whole panels.
+  /// Columns written: `columns()`, rounded up to whole panels.
   long padded() const { return panels_ == 0 ? 0 : panels_ * kernels_->panel; }
   /// y [rows, >= padded()] = bias + x W
   void Run(const float* x, long x_stride, float* y, long y_stride, long rows) const {
@@ -80,7 +79,7 @@ class PackedLinear {
   void Multiply(const float* x, long x_stride, const float* init, long init_stride, float* y,
                 long y_stride, long rows) const;
 
-  /// Of the products' elements: floats, or pairs.
+  /// Number of the products' elements: floats, or pairs.
   long elements() const { return kernels_->pair != nullptr ? (depth_ + 1) / 2 : depth_; }
 
   const PackedKernels* kernels_ = nullptr;
@@ -88,8 +87,8 @@ class PackedLinear {
   LargePages weight_, bias_;
 };
 
-/// A checkpoint's tensors by name, as the packed engine packs them. Throws Error(kInvalidArgument)
-/// naming a tensor that is missing or does not fit the configuration.
+/// A checkpoint's tensors by name, for packing. Throws Error(kInvalidArgument) naming a tensor that
+/// is missing or does not fit the configuration.
 class PackedTensors {
  public:
   /// `content` must outlive this.
@@ -101,7 +100,7 @@ class PackedTensors {
   Eigen::Map<const Eigen::VectorXf> Get(const std::string& name, long size) const {
     return {content_.Get(name, {size}).data.data(), size};
   }
-  /// A linear layer `name`.weight, `name`.bias of LibTorch's, which holds [out, in].
+  /// LibTorch's linear layer `name`.weight [out, in], `name`.bias.
   PackedLinear Linear(const PackedKernels& kernels, const std::string& name, long in,
                       long out) const {
     return {kernels, Get(name + ".weight", out, in).transpose(), Get(name + ".bias", out)};

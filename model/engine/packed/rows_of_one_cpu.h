@@ -1,8 +1,8 @@
 // Row by row work, the second half of kernels_of_one_cpu.h, which includes it inside its
 // namespace: no #pragma once.
 
-// From here on scalars: compilers make vectors of these loops. Selections are written as minima and
-// maxima are computed, a < b ? a : b.
+// From here on scalar code that compilers vectorise. Selections have the form of minima and maxima,
+// a < b ? a : b.
 
 inline float Clamp(float x, float least, float most) {
   const float above = x < least ? least : x;
@@ -12,7 +12,7 @@ inline float Clamp(float x, float least, float most) {
 // exp(x) to 2 ulp; x is kept within [-87, 87].
 inline float Exp(float x) {
   const float bounded = Clamp(x, -87.0F, 87.0F);
-  constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: what is added to it is rounded to a whole
+  constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: adding it rounds to a whole number
   const float rounded = bounded * 1.44269504F + kRounder;
   const float n = rounded - kRounder;
   const float r = (bounded - n * 0.693359375F) + n * 2.12194440e-4F;
@@ -72,7 +72,7 @@ void Bend(const float* __restrict x, const float* __restrict mean, const float* 
   }
 }
 
-// Sums and maxima of a row are taken lane by lane, and over the lanes at the end, by halves.
+// Sums and maxima of a row are computed lane by lane, and at the end over lanes by halves.
 inline float SumOfLanes(const Vector& lanes) {
   float part[kLanes];
   __builtin_memcpy(part, &lanes, sizeof part);
@@ -126,7 +126,7 @@ float Largest(const float* x, long count) {
   return largest;
 }
 
-// x = exp(x - by), a register's worth.
+// x = exp(x - by), one register.
 inline void ExpLanes(float* x, float by) {
   for (long lane = 0; lane < kLanes; ++lane) x[lane] = Exp(x[lane] - by);
 }
@@ -135,7 +135,7 @@ void Softmax(float* x, long count) {
   const float largest = Largest(x, count);
   long i = 0;
   for (; i + kLanes <= count; i += kLanes) ExpLanes(x + i, largest);
-  if (i < count) {  // one by one, the rest would take as long as all before it
+  if (i < count) {  // one by one, the rest would take as long as everything before it
     float rest[kLanes];
     for (long lane = 0; lane < kLanes; ++lane)
       rest[lane] = i + lane < count ? x[i + lane] : largest;

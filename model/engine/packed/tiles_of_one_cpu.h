@@ -1,19 +1,19 @@
 // Products on AMX's tiles, in place of Multiply of kernels_of_one_cpu.cpp, which includes it inside
 // its namespace: no #pragma once.
 
-constexpr int kTileRows = 16;          // of a and of sums, at most; of b, always
-constexpr long kTileElements = 16;     // of the depth, in a tile of a or b: one row of 64 bytes
-constexpr int kMostTall = 3;           // tiles of sums below one another
-constexpr int kTileA = 6, kTileB = 7;  // those before them hold sums
+constexpr int kTileRows = 16;          // at most, of a and of sums; exactly, of b
+constexpr long kTileElements = 16;     // of the depth in a tile of a or b: one row of 64 bytes
+constexpr int kMostTall = 3;           // stacked tiles of sums
+constexpr int kTileA = 6, kTileB = 7;  // the ones before hold sums
 
-// As LDTILECFG reads it.
+// The layout that LDTILECFG reads.
 struct alignas(64) TileShapes {
   unsigned char palette = 1, start_row = 0, reserved[14] = {};
   unsigned short row_bytes[16] = {};
   unsigned char rows[16] = {};
 };
 
-// "memory": the compiler must have written what is read here, and read again what is written.
+// "memory": the compiler must finish writes that this reads, and reload what it writes.
 inline void ShapeTiles(const TileShapes& shapes) {
   asm volatile("ldtilecfg %0" ::"m"(shapes) : "memory");
 }
@@ -32,7 +32,7 @@ inline void MultiplyTiles() {
   asm volatile("tdpbf16ps %%tmm%c2, %%tmm%c1, %%tmm%c0" ::"i"(kSum), "i"(kTileA), "i"(kTileB));
 }
 
-// Calls f<0>() to f<kCount - 1>(): the number of a tile is part of an instruction.
+// Calls f<0>() to f<kCount - 1>(): a tile's number is part of the instruction.
 template <int kCount, typename F>
 inline void ForTiles(const F& f) {
   if constexpr (kCount > 0) {
@@ -41,7 +41,7 @@ inline void ForTiles(const F& f) {
   }
 }
 
-// Zeros, but for `rows` rows of `count` floats.
+// Copies `rows` rows of `count` floats; the rest is zero.
 inline void CopyTile(const float* from, long stride, long rows, long count, float* to) {
   for (long row = 0; row < kTileRows; ++row) {
     for (long i = 0; i < kTileElements; ++i) {
@@ -50,10 +50,10 @@ inline void CopyTile(const float* from, long stride, long rows, long count, floa
   }
 }
 
-// `rows` rows from `row` on, in kTall tiles of `height`; kWide tiles of columns from `panel` on.
+// `rows` rows from `row` on in kTall tiles of `height`, and kWide tiles of columns from `panel` on.
 template <int kTall, int kWide>
 void TileBlock(const PackedProduct& p, long row, long rows, long height, long panel) {
-  // The last tile may overlap the one before: all are read before one is written.
+  // The last tile may overlap the one before: all are read before any is written.
   const auto first = [&](int tile) {
     return row + (tile * height < rows - height ? tile * height : rows - height);
   };
@@ -106,7 +106,7 @@ void Multiply(const PackedProduct& p) {
     }
     ShapeTiles(shapes);
     for (long panel = 0; panel < p.panels;) {
-      // Sums wait for one another where there are fewer than four.
+      // With fewer than four sums they would wait for one another.
       const bool two = tall == 1 && p.panels - panel >= 2;
       two         ? TileBlock<1, 4>(p, row, rows, height, panel)
       : tall == 1 ? TileBlock<1, 2>(p, row, rows, height, panel)
