@@ -36,7 +36,7 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
     network = MakeTorchFlowNetwork(checkpoint.model, there);
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
-  info.hears_music = false;  // but its beats
+  info.hears_music = false;  // except its beats
   info.default_temperature = config.temperature;
   info.max_temperature = kMaxFlowTemperature;
   info.controls = ControlNames();
@@ -57,14 +57,14 @@ void CheckName(const std::string& name, const std::filesystem::path& path) {
                          "\", is not 1 to " + std::to_string(kMostNameBytes) + " printable bytes");
 }
 
-// Every error says which file it is about.
+// Every error names the file.
 SamplerFactory Load(const std::filesystem::path& path, const EngineRequest& request) try {
   const c10::InferenceMode inference;
-  // Exact float32 everywhere: bits before speed.
+  // Exact float32 everywhere: reproducible bits before speed.
   at::globalContext().setAllowTF32CuBLAS(false);
   at::globalContext().setAllowTF32CuDNN(false);
   at::globalContext().setDeterministicCuDNN(true);
-  // Whoever may put a file there must not take the memory of who serves.
+  // Whoever may put a file there must not exhaust the server's memory.
   std::error_code none;
   if (const auto bytes = std::filesystem::file_size(path, none); !none && bytes > kMostBytes) {
     throw InvalidArgument(path.string(), std::to_string(bytes) + " bytes, the limit is " +
@@ -107,7 +107,7 @@ std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& 
 }
 
 UsedSettings SettingsUsedBy(const Sampler& sampler) {
-  // Who draws nothing is no flow.
+  // A deterministic sampler is not a flow.
   return {.kind = !sampler.model().deterministic,
           .kernels = sampler.model().fingerprint.find(kPackedPrefix) != std::string::npos};
 }

@@ -9,26 +9,25 @@
 #include "model/engine/engine_choice.h"
 #include "model/engine/sampler.h"
 
-/// Makes the samplers that run the continuous flow (model/flow) and the papers' networks
-/// (model/papers); the checkpoint says which. This header is free of torch.
+/// Makes samplers from checkpoints: of the continuous flow (model/flow) or the papers' networks
+/// (model/papers). This header is free of torch.
 ///
-/// A row's bits don't depend on the rows beside it. That is verified of our own kernels when
-/// samplers are made, with random rows in every place; where it doesn't hold, slower kernels are
-/// taken.
+/// A row's bits don't depend on its neighbours in a batch. Making a sampler verifies this for our
+/// own kernels with random rows in every place, and falls back to slower kernels if it fails.
 namespace choreo {
 
-/// What LibTorch can use here.
+/// The devices that LibTorch can use here.
 AvailableDevices TorchDevices();
 
-/// Threads of one of LibTorch's matrix products or operations, process-wide. Call before anything
-/// is sampled. Throws Error(kInvalidArgument) unless threads is in [1, kMaxMathThreads].
+/// Sets LibTorch's threads per matrix product or operation, process-wide. Call before sampling
+/// anything. Throws Error(kInvalidArgument) unless threads is in [1, kMaxMathThreads].
 void SetTorchThreads(int threads);
 
-/// Loads a checkpoint once and makes a sampler on each device; those of one device share its
-/// weights. `kernels`: a PackedKernels::name, so that packed engines on different CPUs have one
-/// fingerprint; empty: the fastest here; what LibTorch runs is left alone. Throws as
-/// ReadSafetensors and ParseContinuousFlow (model/flow/continuous_flow.h) do, and
-/// Error(kInvalidArgument) for a kind or kernels that the device or this machine does not have.
+/// Loads a checkpoint once and makes one sampler per device; samplers on the same device share
+/// weights. `kernels`: a PackedKernels::name, which gives packed engines on different CPUs one
+/// fingerprint; empty: the fastest here. It does not affect LibTorch. Throws as ReadSafetensors and
+/// ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a kind or
+/// kernels that the device or machine lacks.
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& checkpoint,
                                                    std::span<const Device> devices,
                                                    EngineKind kind = EngineKind::kAuto,
