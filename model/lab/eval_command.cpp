@@ -25,7 +25,7 @@ namespace {
 
 using Evaluate = std::vector<Table> (*)(const Evaluation&);
 
-// In the order in which they are told.
+// In the order of the report.
 constexpr Evaluate kPaperControls[] = {EvaluateControls};
 constexpr Evaluate kControls[] = {EvaluateControls, EvaluateMultipliers, EvaluateRepetition,
                                   EvaluateDrawnPaths};
@@ -45,7 +45,7 @@ struct Arguments {
   EvalOptions options;
   float temperature = -1;
   std::span<const Evaluate> tables = kAll;
-  bool controls = false;  // tables of controls alone, whose lengths are their own
+  bool controls = false;  // only tables of controls, which choose their own lengths
   bool encode = true, sheets = false;
   std::vector<std::filesystem::path> music;
 };
@@ -66,7 +66,7 @@ void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
 void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& lengths) {
   const int longest = std::ranges::max(lengths);
   for (const Method& method : methods) {
-    // The other engines have the limit of the judged one, and names that nobody gave them.
+    // The other engines have the limit of the judged one, and built-in names.
     if (!method.Judged()) continue;
     const ModelInfo& model = method.sampler->model();
     if (longest <= model.max_transition_frames) continue;
@@ -85,7 +85,7 @@ std::string CheckTemperature(const std::string& text) {
 }
 
 std::string Summary(const Arguments& arguments, const Contest& contest) {
-  // Of the fingerprint the model's part; builds differ, figures hardly.
+  // Only the model's part of the fingerprint: builds differ, figures hardly do.
   const std::string& print = contest.judged().model().fingerprint;
   char temperature[32];
   std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);
@@ -108,14 +108,14 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
       std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
   }
   progress.Finish();
-  // Every table says it of itself: they get quoted one by one.
+  // Every table states it, as tables are quoted one by one.
   for (Table& table : tables)
     table.note += (table.note.empty() ? "Engine: " : " Engine: ") + contest.engine + ".";
   return tables;
 }
 
 void EvaluateAll(Arguments arguments) {
-  // What can be refused is refused before the long work.
+  // Check everything before the long work.
   SetNames(arguments.data);
   if (!arguments.json.empty()) CheckReportPath(arguments.json);
   const Contest contest = MakeContest(arguments.contest);

@@ -5,16 +5,15 @@
 
 namespace choreo {
 
-/// What `choreo-lab eval --music` measures.
+/// Arguments of `choreo-lab eval --music`.
 struct HearArguments {
   std::filesystem::path model;               ///< checkpoint
-  std::vector<std::filesystem::path> music;  ///< songs, and folders of them
-  std::filesystem::path json;                ///< or nothing
+  std::vector<std::filesystem::path> music;  ///< songs, or folders of songs
+  std::filesystem::path json;                ///< or empty
 };
 
-/// Prints EvaluateHearing's table, and writes it where that is wanted. Throws
-/// Error(kInvalidArgument, "--music") for a folder without songs; otherwise as MakeSampler and
-/// DecodeAudioFile do.
+/// Prints EvaluateHearing's table and writes it if asked to. Throws Error(kInvalidArgument,
+/// "--music") for a folder without songs; otherwise as MakeSampler and DecodeAudioFile.
 void HearSongs(const HearArguments& arguments);
 
 }  // namespace choreo

@@ -17,7 +17,7 @@
 
 namespace {
 
-/// The one device that a name stands for; a model is trained on one.
+/// The single device with this name: a model is trained on one.
 std::string OneDevice(const std::string& name) {
   const auto devices = choreo::ParseDevices(name, choreo::TorchDevices());
   if (devices.size() > 1)
@@ -27,7 +27,7 @@ std::string OneDevice(const std::string& name) {
 
 }  // namespace
 
-/// choreo-lab: prepares data, trains models and measures them. Serving is choreod's.
+/// choreo-lab prepares data, trains models and measures them. choreod serves.
 int main(int argc, char** argv) {
   CLI::App app("Prepare data, train models, measure them", "choreo-lab");
   app.set_version_flag("--version", CHOREO_VERSION);
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     choreo::FlushDenormals();
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version come this way too, with code 0.
+    // --help and --version end here, too, with code 0.
     return app.exit(error) == 0 ? 0 : choreo::kMisused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "choreo-lab: %s\n", error.what());

@@ -20,8 +20,8 @@ constexpr std::string_view kPresets[] = {
     kDefaultPreset, "paper", "paper-f", "ablation", ControllersConfig::kPreset, kInbetweenerPreset};
 constexpr const char* kPresetNames = "default, paper, paper-f, ablation, controllers-paper, harvey";
 
-// VisitFixed of all presets: `visit(option, value, is_used, what)`; `is_used`: this one has a use
-// for it.
+// VisitFixed for all presets: `visit(option, value, is_used, what)`; `is_used`: this preset uses
+// the option.
 void VisitAll(auto& options, auto&& visit) {
   const bool continuous = options.preset == kDefaultPreset;
   VisitFixed(options, [&](const char* option, auto& value, const char* what) {
@@ -87,7 +87,7 @@ void AddTrainCommand(CLI::App& app,
   command->callback([command, options, read_device] {
     VisitAll(*options, [&](const char* option, const auto& value, bool is_used, const char*) {
       const CLI::Option& given = *command->get_option(option);
-      // A card names all options, those that are not used at their defaults: it can be typed.
+      // A card lists all options, unused ones at their defaults, so that it can be typed.
       if (is_used || given.empty() || given.results().front() == given.get_default_str()) return;
       const bool flag = std::is_same_v<decltype(value), const bool&>;
       throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +

@@ -9,8 +9,8 @@ class App;
 
 namespace choreo {
 
-/// `choreo-lab train`. `read_device`: the device ("cpu", "cuda:N") that the text of --device stands
-/// for; throws Error for one that is not there.
+/// `choreo-lab train`. `read_device` parses --device ("cpu", "cuda:N") and throws Error for a
+/// device that does not exist.
 void AddTrainCommand(CLI::App& app,
                      const std::function<std::string(const std::string&)>& read_device);
 
