@@ -91,7 +91,7 @@ void RequireRegularFile(const std::string& field, const std::filesystem::path& p
 std::string ReadSmallFile(const std::string& field, const std::filesystem::path& path,
                           size_t most) {
   RequireRegularFile(field, path);
-  // It may be another one by now: without O_NONBLOCK a FIFO waits for somebody to write into it.
+  // It may have been replaced: without O_NONBLOCK a FIFO would block until somebody writes to it.
   const Descriptor file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
   if (file.fd < 0) throw Absent(field, path, errno);
   struct stat status {};
@@ -111,7 +111,7 @@ std::string ReadSmallFile(const std::string& field, const std::filesystem::path&
     if (count < 0) throw Absent(field, path, errno);
     if (count == 0) return text;
     text.append(bytes, static_cast<size_t>(count));
-    require_small(text.size());  // it may grow meanwhile
+    require_small(text.size());  // it may have grown meanwhile
   }
 }
 
@@ -145,7 +145,7 @@ KeyPair ReadKeyPair(const std::string& certificate_field,
   if (X509_check_private_key(first.get(), key.get()) != 1) {
     throw Unusable(key_field, key_path, "is not the key of " + certificate_path.string());
   }
-  // What the handshake would refuse, as a key that is too short.
+  // Detects what the handshake would refuse, such as a key that is too short.
   const Context context(SSL_CTX_new(TLS_method()), SSL_CTX_free);
   ERR_clear_error();
   if (SSL_CTX_use_certificate(context.get(), first.get()) != 1) {

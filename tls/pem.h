@@ -4,27 +4,27 @@
 #include <filesystem>
 #include <string>
 
-/// Small files that people name in settings, of secrets and certificates. What cannot be used is
-/// told in words that name the setting, the file, and what is wrong with it. Thread-safe.
+/// Reads small files of secrets and certificates that settings name. Errors name the setting, the
+/// file and the problem. Thread-safe.
 namespace choreo {
 
-/// Throws Error(kInvalidArgument, field) where nothing is there, and for what is no regular file:
-/// to read a FIFO or a device could take for ever. Links are followed.
+/// Throws Error(kInvalidArgument, field) if nothing is there, or it is not a regular file: reading
+/// a FIFO or a device could block for ever. Follows links.
 void RequireRegularFile(const std::string& field, const std::filesystem::path& path);
 
-/// Its bytes. Throws as RequireRegularFile, and so where it may not be read or has more than `most`
-/// bytes, of which it reads none.
+/// The file's bytes. Throws as RequireRegularFile, and if the file is unreadable or longer than
+/// `most` bytes, without reading it.
 std::string ReadSmallFile(const std::string& field, const std::filesystem::path& path, size_t most);
 
-/// A PEM file of certificates, one at least. Throws as ReadSmallFile.
+/// A PEM file with at least one certificate. Throws as ReadSmallFile.
 std::string ReadCertificates(const std::string& field, const std::filesystem::path& path);
 
 struct KeyPair {
   std::string certificates, key;  ///< PEM
 };
 
-/// A chain of certificates and the private key of its first, which needs no passphrase. Throws as
-/// ReadCertificates, with the field whose file is at fault.
+/// A chain of certificates and the private key of its first, without a passphrase. Throws as
+/// ReadCertificates, with the field of the faulty file.
 KeyPair ReadKeyPair(const std::string& certificate_field,
                     const std::filesystem::path& certificate_path, const std::string& key_field,
                     const std::filesystem::path& key_path);
