@@ -20,12 +20,12 @@
 namespace choreo::studio {
 namespace {
 
-/// A file in a folder of ours by the page's name for it, of which only the extension is believed.
+/// A path in our folder for the page's file name, of which only the extension is used.
 std::filesystem::path PlaceFor(const ScratchFolder& folder, const std::string& name) {
   return folder.path() / ("file" + SmallExtension(name));
 }
 
-/// What an error says of a file of ours, by the page's name for it.
+/// Replaces our path by the page's file name in an error message.
 std::string Named(const std::string& message, const std::string& path, const std::string& name) {
   const size_t at = message.find(path);
   return at == std::string::npos ? message : std::string(message).replace(at, path.size(), name);

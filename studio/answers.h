@@ -5,12 +5,12 @@
 
 #include "studio/studio_context.h"
 
-/// What a page asks for and is answered at once: pure but for the server and files on the way. The
-/// page's names for files stand in errors. `music`: what is danced to; null: nothing. Throw Error.
+/// The page's simple calls: pure, except for the server and temporary files. Errors use the page's
+/// file names. `music`: what is danced to, or null. All throw Error.
 namespace choreo::studio {
 
 std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File& file);
-/// Each part of the answer, in order.
+/// The parts of the answer, in order.
 std::vector<Response> MakeTransition(const StudioContext& context, const Song* music,
                                      const v1::GenerateTransitionRequest& asked);
 Response ComposeKeys(const StudioContext& context, const Song* music, const Compose& request);

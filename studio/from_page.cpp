@@ -107,7 +107,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   }
   out.first_frame = config.history().first_frame();
   if (config.has_continuation()) out.continuation = client::FromProto(config.continuation());
-  // A file's rotations may have gone round more than once; what is sent takes the shortest way.
+  // A file's rotations may have wound up; send the shortest way.
   const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, skeleton.joints())};
   for (Pose& pose : out.history) MakeContinuous(pose, unturned);
   return out;

@@ -6,9 +6,9 @@
 #include "client/edit.h"
 #include "studio/studio.pb.h"
 
-/// What the page says, in messages of choreo.v1, as the client library's structs: the other way
-/// round than client/convert.h. It is checked; a value that cannot be used throws
-/// Error(kInvalidArgument) naming its field.
+/// The page's messages (of choreo.v1) as the client library's structs: the inverse of
+/// client/convert.h. Checks values; throws Error(kInvalidArgument) naming the field of an unusable
+/// one.
 namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
@@ -17,7 +17,7 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton);
-/// Each piece follows the one before.
+/// The samples of all pieces, in order.
 std::vector<float> SamplesOf(const v1::Audio& audio);
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);
 

@@ -14,7 +14,7 @@
 namespace choreo::studio {
 namespace {
 
-constexpr size_t kMostDances = 8;  // at once, of one page
+constexpr size_t kMostDances = 8;  // simultaneous, per page
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
     if (found != dances_.end()) throw InvalidArgument("config", "came twice");
     return StartDance(call, request.config());
   }
-  if (found == dances_.end()) return;  // it is over, which the page may not have heard yet
+  if (found == dances_.end()) return;  // it has ended; the page may not know yet
   client::RemoteDance& dance = *found->second.dance;
   switch (request.request_case()) {
     case v1::StreamDanceRequest::kKeyframe: {
@@ -105,7 +105,7 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMostDances) + " are in progress, the most");
   client::DanceConfig config = FromProto(request, context_.model().skeleton);
-  // Who sends the music as it sounds is not danced to the song.
+  // Whoever sends music live is not danced to the song.
   const bool is_live = config.audio.kind != client::AudioKind::kNone;
   const std::shared_ptr<const Song> music = is_live ? nullptr : song();
   const bool hears = music && context_.model().takes_music;
@@ -116,7 +116,7 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
     dance->SendSamples(music->audio.samples);
     dance->EndAudio();
   }
-  // Whatever fails before, no call is left that has no dance.
+  // From here on nothing fails: every call left has a dance.
   Dancing& dancing = dances_[call];
   dancing.is_live = is_live;
   dancing.dance = std::move(dance);

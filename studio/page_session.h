@@ -12,26 +12,25 @@
 
 namespace choreo::studio {
 
-/// Does what one page asks. Dances run beside each other; everything else is done one after
-/// another, in the order in which it was asked. A call that fails is answered by a Failure, and the
-/// others go on.
+/// Serves one page's calls. Dances run concurrently; all other calls run one after another in
+/// order. A failing call is answered by a Failure and does not affect others.
 class PageSession {
  public:
-  /// Called from any thread, one at a time.
+  /// Called from any thread, one call at a time.
   using Send = std::function<void(const Response&)>;
 
   /// `context` must outlive it. Sends the Welcome.
   PageSession(const StudioContext& context, Send send);
-  /// Ends all calls: waits for a transition in progress, and for nothing else.
+  /// Ends all calls; waits only for a transition in progress.
   ~PageSession();
   PageSession(const PageSession&) = delete;
   PageSession& operator=(const PageSession&) = delete;
 
-  /// Blocks for no call. From one thread.
+  /// Never blocks. Call from one thread.
   void Take(Request request);
 
  private:
-  /// A dance in progress, and the thread that reads it.
+  /// A dance in progress, and the thread that reads its frames.
   struct Dancing {
     std::unique_ptr<client::RemoteDance> dance;
     bool is_live = false;               // its keys come one by one
@@ -42,13 +41,13 @@ class PageSession {
 
   void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);
   void StartDance(uint32_t call, const v1::DanceConfig& config);
-  /// What no body could dance of the keys, as warnings at their frames.
+  /// Sends warnings at the keys' frames about poses that no body can dance.
   void TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
   void ReadDance(uint32_t call, Dancing* dancing);
   void EndDance(uint32_t call);
   void Reap();
 
-  /// The calls that are done one after another.
+  /// Runs the calls that come one after another.
   void Work();
   void Do(const Request& request);
   void TakeSong(uint32_t call, const File& file);
@@ -59,7 +58,7 @@ class PageSession {
 
   const StudioContext& context_;
   const Send send_;
-  std::map<uint32_t, Dancing> dances_;  // of the thread of Take
+  std::map<uint32_t, Dancing> dances_;  // used by the thread of Take
 
   mutable std::mutex mutex_;
   std::mutex sending_;

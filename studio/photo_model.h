@@ -7,20 +7,20 @@
 
 namespace choreo::studio {
 
-/// The files of npm's @mediapipe/pose, with which the page sees poses in photos. They are not part
-/// of the program: scripts/photo_model.sh puts them into a folder, where npm can be had. Immutable.
+/// The files of npm's @mediapipe/pose, with which the page finds poses in photos. They are not part
+/// of the program: scripts/photo_model.sh downloads them into a folder. Immutable.
 class PhotoModel {
  public:
   explicit PhotoModel(std::filesystem::path folder);
 
-  /// Whether all of them were there when this was made.
+  /// Whether all files were present at construction.
   bool is_there() const { return is_there_; }
 
   struct File {
     std::string_view type;  ///< MIME
     std::string data;
   };
-  /// Null for what is none of them, or is not there.
+  /// Null if no file has this name, or it is missing.
   std::optional<File> Read(std::string_view name) const;
 
  private:

@@ -23,9 +23,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kName = "project";  // how errors call what came
+constexpr const char* kName = "project";  // the name of input in errors
 constexpr int kAtOnce = 2;
-constexpr int kMostAsked = 4;  // in progress or waiting
+constexpr int kMostAsked = 4;  // running or waiting
 
 std::string FromBase64(const std::string& text, const std::string& field) {
   std::string out(text.size(), '\0');
@@ -38,7 +38,7 @@ std::string FromBase64(const std::string& text, const std::string& field) {
   return out;
 }
 
-/// The song that came with a project; none where it has none. Takes it out of `file`.
+/// Takes a project's song, if any, out of `file`.
 std::optional<Song> TakeSong(json* file, const std::string& name, double most_seconds) {
   const std::string field = std::string(kName) + ":song_data";
   if (!file->contains("song_data")) {
@@ -55,7 +55,7 @@ std::optional<Song> TakeSong(json* file, const std::string& name, double most_se
   return HearSong(path, name, most_seconds);
 }
 
-/// Six digits behind the point are enough for bodies.
+/// Six decimals are enough for bodies.
 double Short(double value) { return std::round(value * 1e6) / 1e6; }
 
 json Vectors(const Eigen::Matrix3Xd& columns) {
@@ -103,7 +103,7 @@ ProjectCalls::~ProjectCalls() {
 }
 
 ProjectCalls::Reply ProjectCalls::Refuse(unsigned status, const std::string& message) {
-  // What somebody sent may be no UTF-8.
+  // The client's text may be invalid UTF-8.
   const json said = {{"error", message}};
   return {.status = status, .body = said.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
@@ -151,7 +151,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   keys.poses = cli::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
-  // An answer has to fit into memory.
+  // An answer must fit into memory.
   if (project.seconds && *project.seconds > context_.most_seconds()) {
     throw InvalidArgument(std::string(kName) + ":seconds",
                           Rounded(*project.seconds) + " is beyond " +

@@ -9,11 +9,11 @@
 
 namespace choreo::studio {
 
-/// What other programs ask over plain HTTP, in JSON (docs/programs.md): GET /model is the model,
-/// POST /dance a project (client/cli/project_file.h) in and its dance out, /dance?as=bvh as a BVH
-/// file. Metres, axis-angle. A project's song comes with it, `song_data` in base64; without one the
-/// dance is silent, `seconds` long. What cannot be answered is {"error": "..."}, which names field,
-/// value and limit.
+/// Calls of other programs over plain HTTP, in JSON (docs/programs.md): GET /model returns the
+/// model; POST /dance takes a project (client/cli/project_file.h) and returns its dance;
+/// /dance?as=bvh returns a BVH file. Metres, axis-angle. A project contains its song, `song_data`
+/// in base64; without one the dance is silent, `seconds` long. Failures are {"error": "..."},
+/// naming field, value and limit.
 class ProjectCalls {
  public:
   struct Reply {
@@ -31,8 +31,7 @@ class ProjectCalls {
   ProjectCalls& operator=(const ProjectCalls&) = delete;
 
   Reply Model() const;
-  /// Returns at once; `answer` is called from another thread, once. Those beyond a few are sent
-  /// away with 503.
+  /// Returns at once; calls `answer` once from another thread. Answers 503 to all beyond a few.
   void Dance(std::string project, bool as_bvh, Answer answer);
 
   static Reply Refuse(unsigned status, const std::string& message);

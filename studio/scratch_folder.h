@@ -8,7 +8,7 @@
 
 namespace choreo::studio {
 
-/// A folder for files that are read or written on the way; removed with it.
+/// A folder for temporary files; removed with it.
 class ScratchFolder {
  public:
   ScratchFolder() {

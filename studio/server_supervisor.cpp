@@ -11,7 +11,7 @@ namespace choreo::studio {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{200};
-constexpr std::chrono::seconds kPause{1};  // a server that cannot start is not tried all the time
+constexpr std::chrono::seconds kPause{1};  // between attempts to start a server that fails
 
 }  // namespace
 

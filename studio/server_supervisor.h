@@ -11,18 +11,18 @@
 
 namespace choreo::studio {
 
-/// A choreod of our own that is started again, at the same address, when it dies: dances in
-/// progress then go on, bit for bit, by the client library's resume.
+/// Runs a choreod and restarts it at the same address when it dies. The client library then resumes
+/// dances in progress, bit for bit.
 class ServerSupervisor {
  public:
-  /// Returns when the server listens. Throws what LocalServer does.
+  /// Returns when the server listens. Throws as LocalServer.
   explicit ServerSupervisor(const std::filesystem::path& program);
   ~ServerSupervisor();
   ServerSupervisor(const ServerSupervisor&) = delete;
   ServerSupervisor& operator=(const ServerSupervisor&) = delete;
 
   const std::string& address() const { return address_; }
-  /// That of the server that runs, or of the last one.
+  /// The process of the running server, or of the last one.
   pid_t process() const { return process_; }
 
  private:

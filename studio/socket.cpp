@@ -6,7 +6,7 @@ namespace choreo::studio {
 namespace {
 
 namespace beast = boost::beast;
-constexpr size_t kLargestMessage = size_t{256} << 20;  // a song
+constexpr size_t kLargestMessage = size_t{256} << 20;  // large enough for a song
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void Socket::Start(const beast::http::request<beast::http::string_body>& request
   stream_.binary(true);
   stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
-    // Weak: what an ended connection is still told is for nobody.
+    // Weak: messages to an ended connection are dropped.
     const std::weak_ptr<Socket> weak = self;
     self->session_ = std::make_unique<PageSession>(
         self->context_, [weak, executor = self->stream_.get_executor()](const Response& response) {

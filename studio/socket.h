@@ -12,17 +12,17 @@
 
 namespace choreo::studio {
 
-/// One page's WebSocket. Reads and writes on its server's thread; the session's answers come from
-/// others and wait their turn.
+/// One page's WebSocket. Reads and writes on its server's thread; the session answers from other
+/// threads and waits its turn.
 class Socket : public std::enable_shared_from_this<Socket> {
  public:
-  /// Desks end on `leaving`: their last calls may take long, and other pages are served meanwhile.
+  /// Sessions end on `leaving`: their last calls may take long while other pages are served.
   Socket(boost::beast::tcp_stream stream, const StudioContext& context,
          boost::asio::thread_pool* leaving);
 
-  /// Takes over from HTTP.
+  /// Upgrades from HTTP.
   void Start(const boost::beast::http::request<boost::beast::http::string_body>& request);
-  /// Ends all calls and the connection. On the server's thread.
+  /// Ends all calls and the connection. Call on the server's thread.
   void Close();
 
  private:

@@ -9,11 +9,11 @@
 namespace choreo::studio {
 namespace {
 
-constexpr double kSuggestedEvery = 2.4;  // seconds, about
+constexpr double kSuggestedEvery = 2.4;  // seconds, approximately
 constexpr double kPeaksPerSecond = 40;
 constexpr int64_t kMostPeaks = 12000;
 
-/// Largest amplitudes of equal pieces.
+/// Peak amplitudes of equal pieces.
 std::vector<float> Peaks(const DecodedAudio& audio) {
   const int64_t samples = audio.samples();
   const int64_t count = std::clamp<int64_t>(std::llround(audio.seconds() * kPeaksPerSecond), 1,
@@ -46,7 +46,7 @@ int64_t Room(const std::vector<double>& beats) {
 Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds) {
   Song song;
   try {
-    // What is longer is not decoded to its end.
+    // Stops decoding songs that are too long.
     song.music = cli::ReadMusic(path, most_seconds);
   } catch (const Error& error) {
     throw error.Of(name);

@@ -8,15 +8,15 @@
 
 namespace choreo::studio {
 
-/// A song that is danced to. Immutable, hence shared between threads.
+/// A song to dance to. Immutable, hence shared between threads.
 struct Song {
   cli::Music music;
-  client::Audio audio;  ///< what is sent
+  client::Audio audio;  ///< sent to the server
   SongHeard heard;
 };
 
-/// Decodes a song and hears its beats. `name` is how errors call it, which are those of
-/// DecodeAudioFile, and Error(kInvalidArgument) for one that is longer than `most_seconds`.
+/// Decodes a song and finds its beats. `name` is its name in errors. Throws as DecodeAudioFile, and
+/// Error(kInvalidArgument) if it is longer than `most_seconds`.
 Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds);
 
 }  // namespace choreo::studio

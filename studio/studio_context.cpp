@@ -13,7 +13,7 @@
 namespace choreo::studio {
 namespace {
 
-/// The body that the page shows, the same as in every other picture.
+/// The body on the page, the same as in all other pictures.
 std::string BodyAtRest(const Skeleton& skeleton) {
   const ScratchFolder folder;
   const std::filesystem::path path = folder.path() / "body.glb";

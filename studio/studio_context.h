@@ -12,22 +12,22 @@
 
 namespace choreo::studio {
 
-/// What all pages share. Thread-safe: nothing changes after construction.
+/// Shared by all pages. Thread-safe: constant after construction.
 class StudioContext {
  public:
-  /// Asks the server what it has. `song` may be empty, and the folder of the photo model. Throws
-  /// what the client library, HearSong and the library's retargeting do.
+  /// Queries the server. `song` and the photo model's folder may be empty. Throws as the client
+  /// library, HearSong and the library's retargeting.
   StudioContext(const client::Options& server, const std::filesystem::path& song,
                 const std::filesystem::path& photo_model = {});
 
   const client::Client& client() const { return client_; }
   const client::ModelDescription& model() const { return model_; }
-  /// Of music that the server dances to.
+  /// Longest music that the server accepts.
   double most_seconds() const { return most_seconds_; }
   const PhotoModel& photo_model() const { return photo_model_; }
   /// The first message to every page.
   const Welcome& welcome() const { return welcome_; }
-  /// That of the command line, or null.
+  /// The command line's song, or null.
   const std::shared_ptr<const Song>& song() const { return song_; }
 
  private:

@@ -6,7 +6,7 @@
 #include "client/edit.h"
 #include "studio/studio.pb.h"
 
-/// What the page is told: the client library's structs as messages of choreo.v1.
+/// The client library's structs as messages of choreo.v1 for the page.
 namespace choreo::studio {
 
 v1::StreamDanceResponse ToProto(const client::Header& header);

@@ -20,13 +20,13 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using tcp = boost::asio::ip::tcp;
 
-constexpr int kLeaveAtOnce = 4;  // pages that are closed
+constexpr int kLeaveAtOnce = 4;  // closing pages that are handled concurrently
 constexpr std::chrono::milliseconds kAskEvery{100};
 constexpr std::chrono::seconds kPatience{30};      // for a request
-constexpr size_t kLargestBody = size_t{64} << 20;  // of a project with its song
+constexpr size_t kLargestBody = size_t{64} << 20;  // for a project with its song
 constexpr const char* kSocketPath = "/studio";
 constexpr std::string_view kPhotoPath = "/photo/";
-// Browsers hold the page to this, whatever it loads.
+// Browsers enforce this, whatever the page loads.
 constexpr const char* kPolicy =
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; "
@@ -81,7 +81,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
  private:
-  /// Where the browser believes to be. A name that anybody can point here is nobody's home.
+  /// Checks the host that the browser believes it talks to: anybody can point another name here.
   bool AskedForUs() const {
     const std::string host(request_[http::field::host]);
     const std::string name = host.substr(0, host.rfind(':'));
@@ -115,7 +115,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     Say(http::status::ok, file->type, file->data);
   }
 
-  /// Dances a project, while this connection waits.
+  /// Dances a project while this connection waits.
   void Dance(const std::string& target) {
     beast::error_code error;
     const bool is_near = stream_.socket().remote_endpoint(error).address().is_loopback();
@@ -123,7 +123,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return Say(ProjectCalls::Refuse(403, "projects are danced for this machine alone"));
     if (request_.method() != http::verb::post)
       return Say(ProjectCalls::Refuse(405, "POST a project"));
-    // Which no page from elsewhere can send without asking first.
+    // Pages from elsewhere cannot send this type without a preflight.
     if (!request_[http::field::content_type].starts_with("application/json"))
       return Say(ProjectCalls::Refuse(415, "Content-Type must be application/json"));
     const std::string query = target.substr(std::min(target.find('?'), target.size()));
@@ -140,7 +140,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
                  });
   }
 
-  /// What comes behind it cannot be told from another request.
+  /// Bytes after an unread body could be taken for another request.
   void RefuseBody() {
     request_ = {};
     request_.keep_alive(false);
@@ -197,7 +197,7 @@ WebServer::WebServer(const std::string& listen, const StudioContext& context)
 WebServer::~WebServer() {
   for (const auto& weak : sockets_)
     if (const auto socket = weak.lock()) socket->Close();
-  leaving_.join();  // while io_ is there, by which they answer
+  leaving_.join();  // while io_ exists, through which they answer
 }
 
 std::string WebServer::url() const {

@@ -15,10 +15,10 @@ namespace choreo::studio {
 
 class Socket;
 
-/// Serves the page over HTTP, and a WebSocket at /studio with a PageSession behind each; projects
-/// of other programs (project_calls.h), which must run on this machine. Answers only those who came
-/// to it by its own name: a page from elsewhere, or a name of elsewhere that leads here, is
-/// refused. No request of the page leaves this machine: its headers see to it.
+/// Serves the page over HTTP, a WebSocket at /studio with a PageSession for each page, and project
+/// calls of other programs (project_calls.h) on this machine. Refuses requests that come under
+/// another host name or from another site's page. The headers keep the page from sending any
+/// request off this machine.
 class WebServer {
  public:
   /// Listens at HOST:PORT; port 0 takes a free one. `context` must outlive it. Throws
@@ -26,13 +26,13 @@ class WebServer {
   WebServer(const std::string& listen, const StudioContext& context);
   ~WebServer();
 
-  /// As a browser takes it: "http://127.0.0.1:8765".
+  /// As typed into a browser: "http://127.0.0.1:8765".
   std::string url() const;
   int port() const { return acceptor_.local_endpoint().port(); }
 
-  /// Serves until Stop; asks `go_on` a few times a second, and stops when that says false.
+  /// Serves until Stop, or until `go_on`, polled a few times a second, returns false.
   void Run(const std::function<bool()>& go_on);
-  /// From any thread.
+  /// Call from any thread.
   void Stop();
 
  private:
@@ -46,7 +46,7 @@ class WebServer {
   boost::asio::steady_timer timer_;
   std::string host_;
   std::set<std::weak_ptr<Socket>, std::owner_less<>> sockets_;
-  boost::asio::thread_pool leaving_;  // where pages that are closed end their calls
+  boost::asio::thread_pool leaving_;  // closed pages end their calls here
 };
 
 }  // namespace choreo::studio
