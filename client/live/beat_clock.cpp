@@ -7,11 +7,11 @@
 namespace choreo::live {
 namespace {
 
-constexpr size_t kBeats = 9;      // that are looked at
-constexpr double kForgotten = 3;  // seconds without a beat, and there is none
-// A step so many times the usual one is a gap: what was before it says nothing any more.
+constexpr size_t kBeats = 9;      // used for the period
+constexpr double kForgotten = 3;  // seconds without a beat after which there is none
+// A step this many times the median is a gap: earlier beats no longer count.
 constexpr double kGap = 1.7;
-constexpr double kRounding = 1e-3;  // seconds, of a beat that is asked for itself
+constexpr double kRounding = 1e-3;  // seconds, when a beat itself is asked for
 
 }  // namespace
 

@@ -7,16 +7,15 @@
 
 namespace choreo::live {
 
-/// Where the next beats of a live dance will be, told from those that it was danced to.
+/// Predicts the next beats of a live dance from those it has been danced to.
 class BeatClock {
  public:
   void Hear(const client::Beat& beat);
 
-  /// Seconds from beat to beat; none before there were three without a gap, and where the last is
-  /// long ago.
+  /// Seconds between beats; none before three beats without a gap, and if the last was long ago.
   std::optional<double> Period(double now) const;
   double confidence() const { return beats_.empty() ? 0 : beats_.back().confidence; }
-  /// The first beat at `seconds` or behind; `seconds` itself where there is no period.
+  /// The first beat at or after `seconds`; `seconds` itself without a period.
   double AtOrBehind(double seconds, double now) const;
 
  private:

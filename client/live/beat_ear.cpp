@@ -8,18 +8,17 @@
 namespace choreo::live {
 namespace {
 
-constexpr double kMemorySeconds =
-    120;  // an intro's half beats are heard as such within one of them
+constexpr double kMemorySeconds = 120;  // an intro's half beats sound like beats within one window
 constexpr double kFirstSeconds = 4, kEverySeconds = 1.5;
-constexpr size_t kSureBeats = 8;           // that say how fast they go on
-constexpr double kLeastConfidence = 0.25;  // of those
-constexpr double kStoppedSeconds = 3;      // without a beat, and the music pauses
+constexpr size_t kSureBeats = 8;           // that determine the tempo ahead
+constexpr double kLeastConfidence = 0.25;  // mean over those
+constexpr double kStoppedSeconds = 3;      // without a beat, after which the music pauses
 
 int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 
 }  // namespace
 
-// Before the music there is silence.
+// Silence precedes the music.
 BeatEar::BeatEar() : mono_(kOnsetWindow / 2) {}
 
 void BeatsAhead::Keep(double from, double to) {

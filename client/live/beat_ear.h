@@ -10,28 +10,28 @@
 
 namespace choreo::live {
 
-/// Beats that are still to sound, seconds, ascending, and those of them that begin a bar.
+/// Beats ahead, seconds, ascending, and those of them that begin a bar.
 struct BeatsAhead {
   std::vector<double> beats, downbeats;
 
-  /// Leaves those of [from, to].
+  /// Keeps only those in [from, to].
   void Keep(double from, double to);
 };
 
-/// Hears in music that sounds now where it will beat: the beats of its last minutes, found as in a
-/// whole song (TrackBeats), go on as they are. They are found in a thread of their own, so who
-/// listens never waits.
+/// Predicts the beats of live music: finds those of its last minutes as in a whole song
+/// (TrackBeats) and extrapolates them. Works on its own thread, so the listener never waits.
 class BeatEar {
  public:
-  /// What is told reaches so far ahead of the music, seconds: as transitions do.
+  /// How far ahead of the music it predicts, seconds: as far as transitions reach.
   static constexpr double kAheadSeconds = 5;
 
   BeatEar();
 
-  /// The next mono samples, at 22 050 Hz. Beats ahead, every other second or so; none while
-  /// nothing beats clearly.
+  /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second; none
+  /// while no beat is clear.
   BeatsAhead Hear(std::span<const float> mono);
-  /// Until beats that are looked for are found: the next Hear tells them. For who is not in time.
+  /// Waits for a search in progress, whose beats the next Hear returns. For callers not in real
+  /// time.
   void Wait() const {
     if (found_.valid()) found_.wait();
   }
@@ -40,10 +40,10 @@ class BeatEar {
   BeatsAhead GoOn(const BeatTrack& track, double now) const;
 
   OnsetMeter meter_;
-  std::vector<float> mono_;    // of the next onset's window on
-  std::vector<Onset> onsets_;  // the last minutes'
-  int64_t first_ = 0;          // of onsets_, in onsets from the music's begin
-  int64_t asked_ = 0;          // onsets heard when beats were looked for
+  std::vector<float> mono_;    // from the next onset's window on
+  std::vector<Onset> onsets_;  // of the last minutes
+  int64_t first_ = 0;          // index of the first of onsets_ in the music
+  int64_t asked_ = 0;          // onsets heard at the last search
   std::future<BeatTrack> found_;
 };
 

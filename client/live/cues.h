@@ -5,34 +5,33 @@
 #include <string>
 #include <vector>
 
-/// What a performer asks for while the dance goes on.
+/// A performer's requests during the dance.
 namespace choreo::live {
 
-/// A pose, by its name in the library; without a name, the last one that can be taken back.
+/// A library pose by name; an empty name takes back the last pose that can be.
 struct Cue {
   std::string pose;
-  std::optional<double> ahead_s = {};  ///< from now; none: as the dance was told
+  std::optional<double> ahead_s = {};  ///< from now; none: the dance's default
 };
 
 /// Not thread-safe.
 class Cues {
  public:
   virtual ~Cues() = default;
-  /// Those since the last call, oldest first. Does not block.
+  /// The cues since the last call, oldest first. Does not block.
   virtual std::vector<Cue> Take() = 0;
 };
 
-/// Letters and digits typed at a terminal, which shows none of them as long as this lives; the
-/// backspace key takes back. Arrows and function keys do nothing. `poses`: names, of the keys of
-/// KeyboardKeys in their order; those beyond have no key. Null where the file is no terminal.
+/// Reads letters and digits from a terminal, without echo while it exists; backspace takes back.
+/// Ignores arrows and function keys. `poses`: names for KeyboardKeys, in order; extra ones have no
+/// key. Null if the file is not a terminal.
 std::unique_ptr<Cues> ReadKeyboard(int terminal, std::vector<std::string> poses);
 /// a-z, A-Z, 0-9.
 const std::string& KeyboardKeys();
 
-/// OSC messages, over UDP at `port` of all of the machine's addresses: /choreo/key with a pose's
-/// name and, if so, the seconds ahead, a number of any type; /choreo/undo. Others are left aside,
-/// and so is what comes in floods. Throws Error(kUnavailable), whose field is --osc, for a port
-/// that is taken.
+/// Receives OSC messages over UDP at `port` on all addresses of the machine: /choreo/key with a
+/// pose's name and optionally the seconds ahead, a number of any type; /choreo/undo. Ignores other
+/// messages and floods. Throws Error(kUnavailable), whose field is --osc, for a port in use.
 std::unique_ptr<Cues> HearOsc(int port);
 
 }  // namespace choreo::live

@@ -12,7 +12,7 @@ class Keyboard final : public Cues {
  public:
   Keyboard(int terminal, const termios& before, std::vector<std::string> poses)
       : terminal_(terminal), before_(before), poses_(std::move(poses)) {
-    // Keys come one by one, at once or not at all; Ctrl-C is still Ctrl-C.
+    // Unbuffered, non-blocking input; Ctrl-C still works.
     termios now = before;
     now.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     now.c_cc[VMIN] = 0;
@@ -33,7 +33,7 @@ class Keyboard final : public Cues {
       else if (at < poses_.size())
         cues.push_back({poses_[at]});
     }
-    // The escape key alone: what follows later is no part of a sequence.
+    // The escape key alone: later bytes are not part of a sequence.
     if (!typed) sequence_ = Sequence::kNone;
     return cues;
   }
@@ -41,8 +41,7 @@ class Keyboard final : public Cues {
  private:
   enum class Sequence { kNone, kEscape, kOneMore, kParameters };
 
-  // Arrows and function keys, and letters with Alt, are several bytes that begin with Escape
-  // (ECMA-48).
+  // Arrows, function keys, and letters with Alt are several bytes that begin with Escape (ECMA-48).
   bool IsOfSequence(char key) {
     constexpr char kEscape = 0x1b;
     const Sequence before = std::exchange(sequence_, Sequence::kNone);

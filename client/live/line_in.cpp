@@ -8,7 +8,7 @@
 namespace choreo::live {
 namespace {
 
-constexpr unsigned kRate = 44100;           // every card has it
+constexpr unsigned kRate = 44100;           // every sound card supports it
 constexpr unsigned kBufferMicros = 200000;  // how long we may be busy elsewhere
 
 void KeepQuiet(const char*, int, const char*, int, const char*, ...) {}
@@ -16,7 +16,7 @@ void KeepQuiet(const char*, int, const char*, int, const char*, ...) {}
 class LineIn final : public Sound {
  public:
   explicit LineIn(const std::string& device) : device_(device), samples_(kPiece) {
-    // What went wrong is said by our errors, in one line.
+    // Our errors say in one line what went wrong.
     snd_lib_error_set_handler(KeepQuiet);
     Check(snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_CAPTURE, 0));
     const int code = snd_pcm_set_params(pcm_, SND_PCM_FORMAT_FLOAT, SND_PCM_ACCESS_RW_INTERLEAVED,
@@ -32,7 +32,7 @@ class LineIn final : public Sound {
 
   std::span<const float> Next() override {
     snd_pcm_sframes_t read = snd_pcm_readi(pcm_, samples_.data(), samples_.size());
-    // What was lost while we were too busy is gone: the dance goes on with what sounds now.
+    // After an overrun the lost sound is gone: the dance continues with what sounds now.
     for (int tries = 0; read < 0 && tries < 3; ++tries) {
       snd_pcm_recover(pcm_, static_cast<int>(read), /*silent=*/1);
       read = snd_pcm_readi(pcm_, samples_.data(), samples_.size());

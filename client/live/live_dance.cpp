@@ -15,12 +15,12 @@
 namespace choreo::live {
 namespace {
 
-constexpr double kSpareSeconds = 0.05;      // for the way from here to the server and back
-constexpr double kLeastWaySeconds = 0.5;    // from pose to pose
-constexpr double kLeastAheadSeconds = 0.1;  // of a pose before what is danced already
-constexpr double kClockMissedSeconds = 5;  // a MIDI clock that was not started by then is asked for
-constexpr int kMostNotes = 5;              // a second
-constexpr size_t kLongestNote = 300;       // bytes
+constexpr double kSpareSeconds = 0.05;      // for the way to the server and back
+constexpr double kLeastWaySeconds = 0.5;    // between poses
+constexpr double kLeastAheadSeconds = 0.1;  // between a pose and what is already danced
+constexpr double kClockMissedSeconds = 5;   // after which a missing MIDI clock is reported
+constexpr int kMostNotes = 5;               // per second
+constexpr size_t kLongestNote = 300;        // bytes
 
 void Add(const LiveFigures& figures, LiveFigures* all) {
   all->frames += figures.frames;
@@ -73,7 +73,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   double now = 0, told = 0;
   bool clock_missed = midi == nullptr;
   Resampler resampler(sound.sample_rate(), sound.channels());
-  std::vector<float> mono;  // of the piece
+  std::vector<float> mono;  // of this piece
   PassageEar passages;
   BeatEar beats;
   while (!over_ && now < options_.seconds && observer_.go_on()) {
@@ -88,7 +88,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     resampler.Push(piece);
     resampler.Pull(mono);
     if (midi) SendBeats({.beats = midi->Take(now), .downbeats = {}}, now);
-    // It hears all, so that it knows the time when the clock stops.
+    // It hears everything, so that it knows the beats when the clock stops.
     BeatsAhead heard = beats.Hear(mono);
     if (!midi || !midi->runs()) SendBeats(std::move(heard), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
@@ -103,14 +103,14 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     if (now >= told + 1) Tell(told = std::floor(now));
   }
   since_.seconds = now;
-  // The dance ends with the music: poses that would come later are not danced.
+  // The dance ends with the music; later poses are not danced.
   for (auto key = keys_.lower_bound(granted_); key != keys_.end(); ++key)
     dance_->RemoveKey(key->second);
   dance_->EndAudio();
   dance_->CompleteKeys();
 }
 
-// Those that are settled already would come too late, and none are taken behind the longest music.
+// Beats in the settled part would come too late, and none are accepted after the longest music.
 void LiveDance::SendBeats(BeatsAhead ahead, double now) {
   ahead.Keep(now + options_.look_ahead_s, kMaxAudioSeconds);
   if (!ahead.beats.empty()) dance_->SendBeats(ahead.beats, ahead.downbeats);
@@ -165,7 +165,7 @@ void LiveDance::Refuse(const std::string& reason) {
   ++since_.keys_refused;
 }
 
-// The last one that is too near to another one at this frame.
+// The last key that is too near to another at this frame.
 std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
   const int64_t least = FrameAt(kLeastWaySeconds);
   const auto behind = keys_.upper_bound(frame + least);
@@ -177,7 +177,7 @@ void LiveDance::TakeBack() {
   while (!asked_.empty()) {
     const auto last = keys_.find(asked_.back());
     asked_.pop_back();
-    if (last == keys_.end() || last->first < granted_) continue;  // settled, and stays so
+    if (last == keys_.end() || last->first < granted_) continue;  // settled, so it stays
     dance_->RemoveKey(last->second);
     keys_.erase(last);
     return;
@@ -254,7 +254,7 @@ void LiveDance::TakeFrames(const client::FrameBlock& block) {
 
 void LiveDance::Note(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  // Names may come from anybody who reaches the port.
+  // Anybody who reaches the port can send names.
   if (++notes_ <= kMostNotes) observer_.note(Printable(text.substr(0, kLongestNote)));
 }
 

@@ -23,47 +23,48 @@
 
 namespace choreo::live {
 
-inline constexpr double kMostAheadSeconds = 60;  ///< that a cue's pose may come behind it
+inline constexpr double kMostAheadSeconds = 60;  ///< limit of a cue's delay
 
-/// What a live dance is made with.
+/// Options of a live dance.
 struct LiveOptions {
-  client::DanceConfig config = {};         ///< `audio` and `generate_until` are set here
-  std::vector<client::KeyPose> keys = {};  ///< that are known from the beginning
-  std::map<std::string, Pose> poses = {};  ///< that cues may name
-  double ahead_s = 1;                      ///< a cue's pose comes so long behind it, on a beat
-  double look_ahead_s = 0.3;               ///< what is nearer than this is danced already
-  double seconds = std::numeric_limits<double>::infinity();  ///< of music, at most
-  int most_keys = kMaxKeys;  ///< that the server takes in one dance, those taken back included
+  client::DanceConfig config = {};         ///< Run sets `audio` and `generate_until`
+  std::vector<client::KeyPose> keys = {};  ///< known from the beginning
+  std::map<std::string, Pose> poses = {};  ///< for cues, by name
+  double ahead_s = 1;                      ///< delay of a cue's pose, which goes on a beat
+  double look_ahead_s = 0.3;               ///< nearer frames are already danced
+  double seconds = std::numeric_limits<double>::infinity();  ///< limit of the music
+  int most_keys = kMaxKeys;  ///< limit of the server for one dance, including keys taken back
 };
 
-/// How it goes: frames and keys since the last time, the pulse as it is now.
+/// Progress: frames and keys since the last report, and the present pulse.
 struct LiveFigures {
   double seconds = 0;  ///< of music so far
   int64_t frames = 0, late = 0;
   double most_late_ms = 0;           ///< of the late ones
-  std::optional<double> tempo = {};  ///< beats a minute, of those that are danced to
+  std::optional<double> tempo = {};  ///< beats a minute that are danced to
   double confidence = 0;
   int keys_taken = 0, keys_danced = 0, keys_refused = 0;
 };
 
-/// Called while it goes on, by one thread at a time.
+/// Callbacks during a dance, one thread at a time.
 struct LiveObserver {
-  std::function<bool()> go_on;                      ///< asked before each piece of music
-  std::function<void(const LiveFigures&)> figures;  ///< each second, and once for all of it
-  std::function<void(const std::string&)> note;     ///< for people, printable; few a second
-  PosePlayer::Show show = {};                       ///< frames in time; may be empty
+  std::function<bool()> go_on;  ///< called before each piece of music
+  std::function<void(const LiveFigures&)>
+      figures;  ///< called every second, and once at the end for everything
+  std::function<void(const std::string&)> note;  ///< for people, printable; a few per second
+  PosePlayer::Show show = {};                    ///< shows frames in time; may be empty
 };
 
-/// Dances to music while it sounds. A frame is shown as long behind its music as the model has to
-/// hear ahead, a piece of sound takes, and 50 ms; one that comes later than that is late.
+/// Dances to live music. Each frame is shown after its music by the model's look-ahead, one piece
+/// of sound, and 50 ms; frames that come later are late.
 class LiveDance {
  public:
   LiveDance(const client::Client& client, const client::ModelDescription& model,
             LiveOptions options, LiveObserver observer);
   ~LiveDance();
 
-  /// Until the music is over or nobody goes on. Throws Error when the dance fails; what came stays.
-  /// `midi`: who knows the beats; may be null.
+  /// Runs until the music ends or `go_on` is false. Throws Error if the dance fails; keeps the
+  /// frames received. `midi`: a source of beats, or null.
   void Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi = nullptr);
 
   const client::Header& header() const { return header_; }
@@ -71,7 +72,7 @@ class LiveDance {
   const std::vector<Contacts>& contacts() const { return contacts_; }
 
  private:
-  // Of the thread that runs.
+  // On the thread of Run.
   void Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi);
   void SendBeats(BeatsAhead ahead, double now);
   void Follow(const Cue& cue, double now);
@@ -82,7 +83,7 @@ class LiveDance {
   int64_t FrameAt(double seconds) const;
   void Tell(double seconds);
 
-  // Of the thread that reads.
+  // On the reading thread.
   void Read();
   void Take(const client::Message& message);
   void TakeFrames(const client::FrameBlock& block);
@@ -95,10 +96,10 @@ class LiveDance {
   std::unique_ptr<client::RemoteDance> dance_;
   PosePlayer::Clock::time_point began_;
 
-  std::map<int64_t, std::string> keys_;  // by frame: ids of those that were sent and not taken back
-  std::vector<int64_t> asked_;           // their frames, in the order in which they were asked for
+  std::map<int64_t, std::string> keys_;  // by frame: ids of keys sent and not taken back
+  std::vector<int64_t> asked_;           // their frames, in the order of requests
   int64_t granted_ = 0;
-  int sent_ = 0;  // keys, those taken back included
+  int sent_ = 0;  // keys, including those taken back
 
   client::Header header_;
   Motion motion_;
@@ -107,10 +108,10 @@ class LiveDance {
   std::unique_ptr<PosePlayer> player_;
   std::atomic<bool> over_ = false;
 
-  std::mutex mutex_;  // guards what follows, and the observer
+  std::mutex mutex_;  // guards the members below and the observer
   BeatClock clock_;
   LiveFigures since_, all_;
-  int notes_ = 0;  // since the last figures
+  int notes_ = 0;  // since the last report
 };
 
 }  // namespace choreo::live

@@ -17,13 +17,13 @@ namespace {
 
 constexpr uint8_t kTick = 0xF8, kStart = 0xFA, kContinue = 0xFB, kStop = 0xFC;
 constexpr int64_t kBeat = 24;  // ticks
-// Ticks that the tempo is told from, at most and at least: each of them is late by up to a piece of
-// sound, which makes one in a hundred over four beats.
+// Most and least ticks for the tempo: each is late by up to a piece of sound, which is 1 % over
+// four beats.
 constexpr size_t kMost = 8 * kBeat, kLeast = 4 * kBeat;
-constexpr int kAhead = 8;         // beats: about as far as transitions reach
-constexpr double kFastest = 0.2;  // seconds a beat; faster ones would soon be too many
-constexpr size_t kMostBytes = size_t{1} << 17;  // at once: twice what waits in a pipe
-constexpr double kPauseSeconds = 0.25;          // from tick to tick, beyond the slowest tempo
+constexpr int kAhead = 8;         // beats: about the reach of transitions
+constexpr double kFastest = 0.2;  // seconds a beat; faster ones would exceed the limit of beats
+constexpr size_t kMostBytes = size_t{1} << 17;  // per read: twice what a pipe holds
+constexpr double kPauseSeconds = 0.25;          // between ticks, longer than at the slowest tempo
 
 }  // namespace
 
@@ -45,7 +45,7 @@ MidiClock::MidiClock(const std::string& device)
 MidiClock::~MidiClock() { close(file_); }
 
 std::vector<double> MidiClock::Take(double now) {
-  // What came since the last piece of sound, came on average half a piece ago.
+  // Bytes since the last piece of sound are half a piece old on average.
   const double then = now - 0.5 * kPieceSeconds;
   std::vector<double> beats;
   std::array<uint8_t, 256> bytes;
@@ -73,7 +73,7 @@ std::vector<double> MidiClock::Take(double now) {
 }
 
 void MidiClock::Tick(double now, std::vector<double>* beats) {
-  if (!tick_) return;  // where its beats are, is not known
+  if (!tick_) return;  // the position of its beats is unknown
   ++*tick_;
   if (!times_.empty() && now - times_.back() > kPauseSeconds) times_.clear();
   times_.push_back(now);
@@ -82,7 +82,7 @@ void MidiClock::Tick(double now, std::vector<double>* beats) {
 }
 
 std::vector<double> MidiClock::Ahead() const {
-  // The line through the ticks: each of them is late by up to a piece of sound.
+  // Fits a line through the ticks, each of which is late by up to a piece of sound.
   const auto count = static_cast<double>(times_.size());
   double mean = 0, slope = 0, squares = 0;
   for (const double time : times_) mean += time / count;

@@ -8,23 +8,23 @@
 
 namespace choreo::live {
 
-/// The beats of whoever keeps a MIDI clock: a DJ's program, a drum machine. 24 ticks are a beat;
-/// the first tick behind a Start is one. Not thread-safe.
+/// Beats from a MIDI clock: a DJ program, a drum machine. 24 ticks make a beat, starting with the
+/// first after Start. Not thread-safe.
 class MidiClock {
  public:
-  /// `device`: what raw MIDI comes from, as /dev/snd/midiC1D0, or a named pipe. Throws
-  /// Error(kNotFound), whose field is --midi-clock, where it cannot be read, and
-  /// Error(kInvalidArgument) for a file or a folder.
+  /// `device`: a source of raw MIDI, such as /dev/snd/midiC1D0, or a named pipe. Throws
+  /// Error(kNotFound), whose field is --midi-clock, if it cannot be read, and
+  /// Error(kInvalidArgument) for a regular file or a folder.
   explicit MidiClock(const std::string& device);
   ~MidiClock();
   MidiClock(const MidiClock&) = delete;
   MidiClock& operator=(const MidiClock&) = delete;
 
-  /// Reads what has come until `now`, seconds of the music, without blocking. From the fifth beat
-  /// on, at every second one, the next eight; otherwise none. Throws Error(kUnavailable) for a
-  /// device that is lost, Error(kInvalidArgument) for one that says more than any MIDI device.
+  /// Reads without blocking what came until `now`, seconds of the music. From the fifth beat on,
+  /// returns the next eight beats at every second one; otherwise none. Throws Error(kUnavailable)
+  /// if the device is lost, Error(kInvalidArgument) if it sends more than MIDI can.
   std::vector<double> Take(double now);
-  /// Whether it was started and not stopped since.
+  /// Whether the clock was started and has not been stopped.
   bool runs() const { return tick_.has_value(); }
 
  private:
@@ -33,8 +33,8 @@ class MidiClock {
 
   std::string device_;
   int file_;
-  std::optional<int64_t> tick_;  // the last one; none: the clock stands
-  std::deque<double> times_;     // of the last ticks
+  std::optional<int64_t> tick_;  // the last one; none: the clock is stopped
+  std::deque<double> times_;     // of recent ticks
 };
 
 }  // namespace choreo::live

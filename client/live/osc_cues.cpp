@@ -24,7 +24,7 @@ class OscCues final : public Cues {
   }
 
   std::vector<Cue> Take() override {
-    // What comes faster than it can be danced waits for the next time, or is lost.
+    // Messages beyond the limit wait for the next call, or are lost.
     for (int i = 0; i < kMostAtOnce && lo_server_recv_noblock(server_.get(), 0) > 0; ++i) continue;
     return std::exchange(cues_, {});
   }
@@ -41,7 +41,7 @@ class OscCues final : public Cues {
     if (has_ahead) {
       const auto ahead =
           static_cast<double>(lo_hires_val(static_cast<lo_type>(given[1]), values[1]));
-      // An impossible time is told as an unknown pose is, by who takes the cue.
+      // The receiver reports impossible times, like unknown poses.
       cue.ahead_s = ahead;
     }
     if (!cue.pose.empty()) static_cast<OscCues*>(self)->cues_.push_back(std::move(cue));

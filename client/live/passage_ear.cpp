@@ -6,7 +6,7 @@
 namespace choreo::live {
 namespace {
 
-// Moments from one telling to the next.
+// Moments between reports.
 const auto kEvery = std::lround(1 / PassageListener::kMomentSeconds);
 
 }  // namespace
@@ -23,7 +23,7 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
     if (lag == told_lag_ && (!lag || now - told_at_ < kEvery)) continue;
     const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
     if (from >= kMaxAudioSeconds) break;
-    // One that ends has no length: what was told ahead does not hold any more.
+    // An ended passage has no length: it revokes what was announced.
     const int64_t behind = lag ? *lag : *told_lag_;
     told = Passage{from, lag ? std::min<double>(from + kAheadSeconds, kMaxAudioSeconds) : from,
                    from - static_cast<double>(behind) * PassageListener::kMomentSeconds};

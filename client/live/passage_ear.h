@@ -8,21 +8,21 @@
 
 namespace choreo::live {
 
-/// Hears in music that sounds now whether it comes back, and how it goes on then.
+/// Hears whether live music repeats, and how it then continues.
 class PassageEar {
  public:
-  /// What is told reaches so far ahead of the music, seconds: as transitions do.
+  /// How far ahead of the music it predicts, seconds: as far as transitions reach.
   static constexpr double kAheadSeconds = 4;
 
-  /// The next mono samples, at 22 050 Hz. What there is to tell, once a second while the music
-  /// comes back, and where it begins or ends to.
+  /// Takes the next mono samples at 22 050 Hz. Returns a passage once a second while the music
+  /// repeats, and where a repeat begins or ends.
   std::optional<Passage> Hear(std::span<const float> mono);
 
  private:
   PassageListener listener_;
   std::vector<float> mono_;  // from the listener's next moment on
   std::optional<int64_t> told_lag_;
-  int64_t told_at_ = 0;  // moments
+  int64_t told_at_ = 0;  // in moments
 };
 
 }  // namespace choreo::live

@@ -14,23 +14,23 @@
 
 namespace choreo::live {
 
-/// Shows the frames of a dance when their time has come, on a thread of its own. Frames that come
-/// late are shown at once. Thread-safe.
+/// Shows a dance's frames at their times, on its own thread. Shows late frames at once.
+/// Thread-safe.
 class PosePlayer {
  public:
   using Clock = std::chrono::steady_clock;
-  /// `seconds` of the dance; called in the frames' order.
+  /// `seconds` of the dance; called in frame order.
   using Show = std::function<void(const Pose& pose, double seconds)>;
 
-  /// Frame f is shown f / `fps` seconds after `start`.
+  /// Shows frame f at f / `fps` seconds after `start`.
   PosePlayer(double fps, Clock::time_point start, Show show);
-  ~PosePlayer();  ///< what has not been shown yet, is not
+  ~PosePlayer();  ///< drops frames not yet shown
   PosePlayer(const PosePlayer&) = delete;
   PosePlayer& operator=(const PosePlayer&) = delete;
 
   void Push(int64_t first_frame, std::span<const Pose> poses);
   Clock::time_point Due(int64_t frame) const;
-  /// Whether all that was pushed is shown, if need be after `patience`.
+  /// Whether everything pushed has been shown, waiting at most `patience`.
   bool Shown(std::chrono::milliseconds patience = std::chrono::milliseconds(50));
 
  private:
@@ -39,9 +39,9 @@ class PosePlayer {
   const double fps_;
   const Clock::time_point start_;
   const Show show_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::deque<std::pair<int64_t, Pose>> waiting_;  // the one that is being shown, too
+  std::deque<std::pair<int64_t, Pose>> waiting_;  // includes the one being shown
   bool stop_ = false;
   std::thread thread_;
 };

@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
-/// Music while it sounds.
+/// Live music.
 namespace choreo::live {
 
-/// At most so much of it comes at a time, seconds.
+/// The longest piece of sound, seconds.
 inline constexpr double kPieceSeconds = 0.02;
 
 /// Not thread-safe.
@@ -18,21 +18,20 @@ class Sound {
   virtual ~Sound() = default;
   virtual int sample_rate() const = 0;  ///< Hz
   virtual int channels() const = 0;
-  /// How long it lasts; infinity: until somebody ends it.
+  /// Its length; infinity if it lasts until stopped.
   virtual double seconds() const { return std::numeric_limits<double>::infinity(); }
-  /// The next interleaved samples, once they have sounded; blocks until then. Valid until the next
-  /// call. None: it is over. Throws Error(kUnavailable) for a device that is lost.
+  /// The next interleaved samples; blocks until they have sounded. Valid until the next call. Empty
+  /// at the end. Throws Error(kUnavailable) if the device is lost.
   virtual std::span<const float> Next() = 0;
 };
 
-/// A file from its second `start` on, as if it were played now: nothing is heard, but samples come
-/// as fast as they sound. Errors as DecodeAudioFile, and kInvalidArgument (--song-start) for a
-/// start behind its end.
+/// Plays a file silently from second `start` on: samples come at the speed of sound. Errors as
+/// DecodeAudioFile, and kInvalidArgument (--song-start) for a start after its end.
 std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start = 0);
 
-/// A microphone or line in, mono: a capture device by its name in ALSA, "default" for that of the
-/// desktop (PipeWire's and PulseAudio's, too). Throws Error(kNotFound), whose field is --input,
-/// where it cannot be opened.
+/// A microphone or line in, mono: an ALSA capture device by name; "default" is the desktop's (also
+/// with PipeWire and PulseAudio). Throws Error(kNotFound), whose field is --input, if it cannot be
+/// opened.
 std::unique_ptr<Sound> ListenTo(const std::string& device);
 
 }  // namespace choreo::live

@@ -16,7 +16,7 @@
 namespace choreo::live {
 namespace {
 
-// Joints as Skeleton names them, and VRM's bones. SMPL's hands turn nothing and are left out.
+// Joints by Skeleton's names, and VRM's bones. Omits SMPL's hands, which turn nothing.
 constexpr std::pair<const char*, const char*> kBones[] = {
     {"spine1", "Spine"},
     {"spine2", "Chest"},
@@ -41,7 +41,7 @@ constexpr std::pair<const char*, const char*> kBones[] = {
     {"right_foot", "RightToes"},
 };
 
-/// Everything that happened at one time.
+/// All messages for one time.
 class Bundle {
  public:
   Bundle() : bundle_(lo_bundle_new(lo_timetag{0, 1})) {}  // OSC's "at once"
@@ -63,7 +63,7 @@ class Bundle {
            const Eigen::Quaterniond& rotation) {
     lo_message message = lo_message_new();
     lo_message_add_string(message, name);
-    // x points the other way.
+    // VMC's x has the opposite sign.
     for (const double value : {-position.x(), position.y(), position.z(), rotation.x(),
                                -rotation.y(), -rotation.z(), rotation.w()})
       lo_message_add_float(message, static_cast<float>(value));
@@ -105,7 +105,7 @@ struct VmcSender::Impl {
     for (const auto& [joint, name] : kBones) {
       if (const int found = skeleton.Find(joint); found >= 0) bones.push_back({found, name});
     }
-    // The host is looked up when something is sent: this says that a dancer is about to come.
+    // The host is resolved on sending; this announces a dancer.
     Bundle bundle;
     bundle.Add("/VMC/Ext/OK", int32_t{0});
     if (!bundle.SendTo(address.get())) {

@@ -8,16 +8,16 @@
 
 namespace choreo::live {
 
-/// Sends poses as VMC (Virtual Motion Capture protocol), the way VTuber programs and game engines
-/// listen: OSC over UDP, one bundle a frame with /VMC/Ext/OK, /VMC/Ext/T, /VMC/Ext/Root/Pos and a
-/// /VMC/Ext/Bone/Pos for each bone, by VRM's names. The root is where the hips are on the floor,
-/// unturned; the hips have their height and turn. VMC is left-handed, so what it shows is turned
-/// over in x. The skeleton at rest is taken for VRM's T-pose. Not thread-safe.
+/// Sends poses as VMC (Virtual Motion Capture protocol), as VTuber programs and game engines
+/// expect: OSC over UDP, one bundle per frame with /VMC/Ext/OK, /VMC/Ext/T, /VMC/Ext/Root/Pos and a
+/// /VMC/Ext/Bone/Pos for each bone, by VRM's names. The root is the hips' floor position, unturned;
+/// the hips have their height and rotation. VMC is left-handed, so x is mirrored. The skeleton's
+/// rest pose counts as VRM's T-pose. Not thread-safe.
 class VmcSender {
  public:
-  /// `address`: HOST:PORT. Whether anybody listens there is not known. Throws
-  /// Error(kInvalidArgument) whose field is --vmc where it is none or its host has no address, and
-  /// as Skeleton::RequireRoles for a body without limbs.
+  /// `address`: HOST:PORT. UDP does not tell whether anybody listens. Throws
+  /// Error(kInvalidArgument), whose field is --vmc, for a malformed address or a host without one,
+  /// and as Skeleton::RequireRoles for a body without limbs.
   VmcSender(const std::string& address, const Skeleton& skeleton);
   ~VmcSender();
   VmcSender(const VmcSender&) = delete;
