@@ -14,7 +14,7 @@ namespace choreo {
 struct BareProducts::Impl {
   struct Product {
     dnnl::matmul matmul;
-    LargePages pages;  // of the weights, as our own have them
+    LargePages pages;  // of the weights, in the same pages as ours
     std::unordered_map<int, dnnl::memory> arguments;
   };
   dnnl::engine engine{dnnl::engine::kind::cpu, 0};
@@ -27,7 +27,7 @@ BareProducts::BareProducts(const std::vector<Shape>& shapes, int most_rows, bool
   using Tag = dnnl::memory::format_tag;
   using Type = dnnl::memory::data_type;
   const Type type = bf16 ? Type::bf16 : Type::f32;
-  // The same everywhere, as one float or two bfloat16: what they are costs nothing.
+  // The same value everywhere, as one float or two bfloat16: values don't affect speed.
   const auto value = std::bit_cast<float>(0x3c003c00U);
   for (const Shape& shape : shapes) {
     const int rows = shape.rows > 0 ? shape.rows : most_rows;

@@ -5,20 +5,20 @@
 
 namespace choreo {
 
-/// The limit that an engine is measured against: oneDNN's matrix product over weights of the same
-/// shapes, which it packed for itself, on one thread, and nothing else.
+/// The limit for an engine: oneDNN's matrix products with weights of the same shapes, which oneDNN
+/// packs itself, on one thread, and nothing else.
 class BareProducts {
  public:
   struct Shape {
     int depth, columns;
-    int rows = 0;  ///< 0: as many as the others
+    int rows = 0;  ///< 0: the default
   };
-  /// `bf16`: weights and inputs are of bfloat16, sums of float32.
+  /// `bf16`: bfloat16 weights and inputs, float32 sums.
   BareProducts(const std::vector<Shape>& shapes, int rows, bool bf16);
   ~BareProducts();
-  /// All of them once, one after another.
+  /// Runs all products once, one after another.
   void Run();
-  /// Bytes of the weights, which one Run reads.
+  /// Bytes of weights read by one Run.
   double bytes() const { return bytes_; }
   /// Floating-point operations of one Run.
   double operations() const { return operations_; }

@@ -1,8 +1,8 @@
-// How well beats are heard, without a shift between beats and songs: the F measure at 70 ms from
-// the first second and from the tenth, of what is found in the whole song (FindBeats) and of what a
-// live dance of transitions of 2 s predicts (MusicBeats), or what `choreo live` tells it (BeatEar).
-// Songs: with a tempo map (SONG.beats beside SONG.ogg: seconds, one a line), or made ones of every
-// tempo and metre, whose downbeats are known, too. An octave is told, and counts half.
+// Measures beat tracking, without a shift between beats and songs: the F measure at 70 ms, from the
+// first second and from the tenth, for whole songs (FindBeats) and for predictions, either of a
+// live dance with transitions of 2 s (MusicBeats) or of `choreo live` (BeatEar). Songs: with a
+// tempo map (SONG.beats beside SONG.ogg: seconds, one per line), or made ones at every tempo and
+// metre, whose downbeats are known, too. An octave error is named and counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<double> EverySecond(const std::vector<double>& beats, size_t first) 
   return half;
 }
 
-/// "" or the octave at which the beats fit.
+/// "", or the octave at which the beats fit.
 std::string Octave(const std::vector<double>& found, const std::vector<double>& map) {
   constexpr double kFits = 0.8;
   const double plain = BeatFMeasure(found, map);
@@ -60,7 +60,7 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   return music.told();
 }
 
-/// What `choreo live` tells its server, as soon as it is found.
+/// What `choreo live` sends to its server, as soon as it is found.
 std::vector<double> HearByClient(const std::vector<float>& mono) {
   const double settled_s = live::LiveOptions().look_ahead_s;
   live::BeatEar ear;
@@ -90,9 +90,9 @@ std::vector<double> ReadSeconds(const std::filesystem::path& path) {
 struct Judged {
   std::string name;
   std::vector<float> mono{};
-  std::vector<double> beats{}, downbeats{};  // downbeats: none where they are not known
-  std::optional<double> librosa{};           // its F from the first second
-  std::vector<SongPlan::Span> spans{};       // judged apart: before and behind a step of the tempo
+  std::vector<double> beats{}, downbeats{};  // downbeats: empty if unknown
+  std::optional<double> librosa{};           // librosa's F from the first second
+  std::vector<SongPlan::Span> spans{};       // judged separately: before and after a tempo step
 };
 
 void PrintHead() {
@@ -100,7 +100,7 @@ void PrintHead() {
               "librosa", "down", "bpm", "off %", "live", "live10", "client", "cli.10", "");
 }
 
-/// Returns F, half of an octave's.
+/// Returns F; half of it for an octave error.
 double Judge(const Judged& song) {
   const BeatTrack track = FindBeats(song.mono);
   const std::vector<double> found = track.Seconds();

@@ -21,17 +21,17 @@
 #include "model/motion/pose_codec.h"
 #include "model/samplers/samplers.h"
 
-/// Transitions of both engines, and beside them what limits them: the bare matrix products of the
-/// same shapes, and memory. All on one thread, in CPU time of that thread, so that a machine that
-/// does something else besides disturbs less; quote ratios of one run.
+/// Measures transitions of both engines beside their limits: bare matrix products of the same
+/// shapes, and memory. Everything runs on one thread and is measured in that thread's CPU time, so
+/// that other load disturbs less; quote ratios from one run.
 ///
-/// `default` is the model that ships, a continuous flow that samples a transition at once; `paper`
-/// has paper F's size and random weights, and makes one frame after another. Where a GPU answers,
-/// `paper` on it, too.
+/// `default` is the shipped model, a continuous flow that samples a whole transition; `paper` has
+/// paper F's size and random weights, and makes frame after frame. With a GPU, `paper` runs there,
+/// too.
 namespace choreo {
 namespace {
 
-/// What a run measures, and where it is for a while.
+/// The models of a run, and a temporary folder for them.
 class Models {
  public:
   Models() {
@@ -82,7 +82,7 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   return spec;
 }
 
-/// Transitions of kUsualFrames, one after the other.
+/// Transitions of kUsualFrames, one after another.
 void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<double>& beats) {
   TransitionSpec spec = Spec(sampler.model(), 1);
   spec.beats = beats;
@@ -90,7 +90,7 @@ void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<do
   state.SetItemsProcessed(state.iterations());
 }
 
-/// The packed engine's products of one frame.
+/// The packed engine's products for one frame.
 std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   const int tau = config.history_frames, hidden = config.hidden, low = width / 2;
   const int live = tau * width + (tau + 1) * config.audio_features + 1;
@@ -107,7 +107,7 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   return shapes;
 }
 
-/// The continuous flow's products of one transition of kUsualFrames.
+/// The continuous flow's products for one transition of kUsualFrames.
 std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
                                         const Skeleton& skeleton) {
   const int dimensions = 3 + 3 * skeleton.joints(), width = config.width;
@@ -127,7 +127,7 @@ std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
   return shapes;
 }
 
-/// The bare products of one transition: `times` those.
+/// The bare products of one transition: `products`, `times` times.
 void Bare(benchmark::State& state, BareProducts& products, int times) {
   for (auto _ : state) {
     for (int i = 0; i < times; ++i) products.Run();
@@ -138,8 +138,8 @@ void Bare(benchmark::State& state, BareProducts& products, int times) {
                                                benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Read in several places at once with the widest vectors there are: a core that reads one word
-/// after another does not ask for all that memory gives.
+/// Reads several places at once with the widest vectors: a core that reads word after word does not
+/// reach full bandwidth.
 [[gnu::target_clones("avx512f", "avx2", "default")]] uint64_t SumOf(const uint64_t* words,
                                                                     size_t count) {
   constexpr size_t kPlaces = 8, kLanes = 8;
@@ -188,7 +188,7 @@ void Register(Models* models) {
       Bare(state, products, kUsualFrames);
     });
   }
-  // By the clock: the thread waits for the GPU.
+  // Wall time: the thread waits for the GPU.
   if (TorchDevices().cuda_devices > 0) {
     benchmark::RegisterBenchmark(
         "paper/cuda/torch",
@@ -240,8 +240,8 @@ int Measure(Models* models, int argc, char** argv) {
 }  // namespace
 }  // namespace choreo
 
-/// engine_bench [--probes FOLDER]: besides, checkpoints and probes for bench/peer_torch.py go
-/// there.
+/// engine_bench [--probes FOLDER]: also writes checkpoints and probes for bench/peer_torch.py into
+/// FOLDER.
 int main(int argc, char** argv) {
   using namespace choreo;
   benchmark::Initialize(&argc, argv);

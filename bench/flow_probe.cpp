@@ -28,7 +28,7 @@ NamedTensor Normal(Random* random, std::vector<int64_t> shape, float size) {
   return tensor;
 }
 
-/// Row of a tensor [kRows, ...].
+/// A row of a tensor [kRows, ...].
 std::span<float> Row(NamedTensor& tensor, int row) {
   const size_t width = tensor.data.size() / kRows;
   return {tensor.data.data() + static_cast<size_t>(row) * width, width};

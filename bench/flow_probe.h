@@ -4,11 +4,11 @@
 
 namespace choreo {
 
-/// Steps the packed flow of a checkpoint a few frames, several rows together, on inputs drawn at
-/// random, and writes inputs and outputs as safetensors, so that other implementations can be held
-/// to them (bench/peer_torch.py). Names: static_condition [rows, frames, static width]; and for
-/// each frame past.N [rows, tau, width], audio.N [rows, tau + 1, audio features], has_audio.N
-/// [rows], noise.N, features.N [rows, width], log_likelihood.N [rows].
+/// Steps a checkpoint's packed flow a few frames, several rows together, on random inputs, and
+/// writes inputs and outputs as safetensors for checking other implementations
+/// (bench/peer_torch.py). Names: static_condition [rows, frames, static width]; and for each frame
+/// past.N [rows, tau, width], audio.N [rows, tau + 1, audio features], has_audio.N [rows], noise.N,
+/// features.N [rows, width], log_likelihood.N [rows].
 void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesystem::path& out);
 
 }  // namespace choreo

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What live dances are worth: starts a choreod and prints up to four tables.
+"""Measures live dances: starts a choreod and prints up to four tables.
 
     live.py BIN_DIRECTORY [--songs SONG...] [--tables beats songs latency notice] [--data FOLDER --splits JSON] [--seconds 40]
 
@@ -43,7 +43,7 @@ POSES = sorted((ROOT / "client" / "poses").glob("*.json"))
 
 
 class Server:
-    """A choreod of one's own."""
+    """A choreod for this run."""
 
     def __init__(self, program):
         self.process = subprocess.Popen([program, "--listen", "127.0.0.1:0", "--log-level", "warning"], stdout=subprocess.PIPE, text=True)
@@ -124,7 +124,7 @@ def dancers_beats(joints):
 
 
 def hits(own, beats):
-    """The share of `own`, frames, that has one of `beats`, seconds, at most two frames away."""
+    """The share of `own` (frames) with one of `beats` (seconds) at most two frames away."""
     if len(beats) == 0:
         return 0
     own = own[(own >= FROM_SECOND * FPS) & (own <= beats[-1] * FPS)]
@@ -139,7 +139,7 @@ def f_measure(found, wanted):
 
 
 def tempo_map(song, shift, seconds):
-    """Of SONG.beats beside the song, None if there is none."""
+    """The beats in SONG.beats beside the song, or None."""
     file = pathlib.Path(song).with_suffix(".beats")
     if not file.exists():
         return None
@@ -193,7 +193,7 @@ def songs_table(server, songs, seconds):
 
 
 class LiveDance:
-    """One dance in real time; `first_s`, `late_ms`, `sent` and `rejected` when it has run."""
+    """One dance in real time; sets `first_s`, `late_ms`, `sent` and `rejected`."""
 
     def __init__(self, server, look_ahead, key_each, seconds=13):
         self.server, self.look_ahead, self.key_each, self.seconds = server, look_ahead, key_each, seconds

@@ -26,7 +26,7 @@ struct Sent {
   Clock::time_point at;
 };
 
-// Sends the song as it plays.
+// Sends the song in real time.
 std::vector<Sent> Play(client::RemoteDance& dance, const client::Audio& song,
                        const LiveRequest& request, Clock::time_point start) {
   std::minstd_rand random(request.seed);
@@ -125,7 +125,7 @@ Lateness DanceLive(const client::Client& client, const client::Audio& song,
 
   for (size_t frame = 0; frame < arrivals.size(); ++frame) {
     const double needs_s = (static_cast<double>(frame) + latency) / fps;
-    // Behind its end, the song's end is what is waited for.
+    // For frames after the song, wait for the song's end.
     auto chunk = std::ranges::lower_bound(sent, needs_s, {}, &Sent::end_s);
     if (chunk == sent.end()) --chunk;
     lateness.all_ms.push_back(

@@ -1,4 +1,4 @@
-"""What it costs that keys come late: the third table of live.py.
+"""The cost of late keys: the third table of live.py.
 
 A minute of each held-out dance, and its own poses each 2 s as keys: where the dancer stood, or, as `choreo live` has them, wherever ours is then.
 Each comes so long before its frame as the table says ("all": before the dance); what is nearer is danced already. Until a key comes the dance
@@ -33,7 +33,7 @@ def read_clip(path):
 
 
 def within_pi(rotations):
-    """The same rotations by the shorter way; recordings turn on and on."""
+    """The same rotations by the shorter way; recordings wind up."""
     angle = numpy.maximum(numpy.linalg.norm(rotations, axis=-1, keepdims=True), 1e-9)
     return rotations / angle * ((angle + numpy.pi) % (2 * numpy.pi) - numpy.pi)
 

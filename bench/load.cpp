@@ -18,8 +18,8 @@
 #include "model/core/error.h"
 #include "server/process_usage.h"
 
-/// How many dances one choreod serves over gRPC, on the machine that also plays all its clients.
-/// The server has its defaults, or what the environment says (choreod --help).
+/// Measures how many dances one choreod serves over gRPC, on a machine that also runs all its
+/// clients. The server has its defaults, or the environment's settings (choreod --help).
 namespace choreo::bench {
 namespace {
 
@@ -37,7 +37,7 @@ double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Runs `dance(i)` for i in [0, count) at once; the first error is thrown when all are over.
+// Runs `dance(i)` for i in [0, count) concurrently; throws the first error when all have ended.
 void Together(int count, const std::function<void(int)>& dance) {
   std::vector<std::thread> dancers;
   std::mutex mutex;
@@ -56,7 +56,7 @@ void Together(int count, const std::function<void(int)>& dance) {
   if (failed) std::rethrow_exception(failed);
 }
 
-// The server under load, and who loads it.
+// The server under load, and its clients.
 class Load {
  public:
   explicit Load(const Options& options)
@@ -72,7 +72,7 @@ class Load {
                 std::thread::hardware_concurrency(), options.seconds);
   }
 
-  /// Lateness by the size of the music's chunks, four dances at once.
+  /// Lateness by the size of music chunks, with four dances at once.
   void Chunks() {
     std::printf(
         "\n| chunks ms | first frame p50 ms | p99 | frames p50 ms | p95 | p99 | max | "
@@ -87,8 +87,8 @@ class Load {
     }
   }
 
-  /// Real-time streams at once, music in chunks of 100 ms: those that are admitted dance, the
-  /// others are told to come back later.
+  /// Concurrent real-time streams, music in chunks of 100 ms: admitted ones dance, others are told
+  /// to come back later.
   void Streams() {
     std::printf(
         "\n| streams | from addresses | admitted | refused, with a time to come back | told after "
@@ -114,7 +114,7 @@ class Load {
     }
   }
 
-  /// One live dance beside calls that want all there is.
+  /// One live dance beside calls that use all capacity.
   void Beside() {
     std::printf(
         "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' "
@@ -132,7 +132,7 @@ class Load {
                 [this](const std::atomic<bool>& over) { return AskWithoutTime(5'000, over); });
   }
 
-  /// Dances as fast as they come, one behind the other.
+  /// Dances one after another, as fast as possible.
   void Closed() {
     std::printf(
         "\n| dances at once, music known ahead | frames/s | frames/s of the server's CPU "
@@ -167,11 +167,11 @@ class Load {
                 (Mebibytes() - before) * 1024 / kStreams);
   }
 
-  /// The tenth minute of streams against their first.
+  /// Compares the tenth minute of streams with their first.
   void Minutes() {
     constexpr int kStreams = 8, kMinutes = 10;
     std::printf("\n| minute | ms of the server's CPU a frame | server MiB |\n|---|---|---|\n");
-    constexpr int64_t kFrames = 1790;  // of a minute: ten and their music are what a song may last
+    constexpr int64_t kFrames = 1790;  // of a minute: ten with their music are a song's limit
     const client::Audio song = ClickSong(60 * kMinutes, kModelSampleRate, 1);
     struct Stream {
       std::unique_ptr<client::RemoteDance> dance;
@@ -186,7 +186,7 @@ class Load {
     }
     const auto samples = size_t{kFrames} * kFeatureHop;
     for (int minute = 1; minute <= kMinutes; ++minute) {
-      // As a player would, but faster: a minute of music is sent when the minute before was danced.
+      // Like a player, but faster: sends a minute of music when the previous one has been danced.
       const double before = CpuSeconds(server_->process());
       for (Stream& stream : streams) {
         const size_t ahead = minute == 1 ? size_t{kModelSampleRate} : 0;
@@ -212,13 +212,13 @@ class Load {
   }
 
  private:
-  // `others` returns soon after the flag that it is given, with how many frames it was given.
+  // `others` runs until shortly after the flag it gets, and returns how many frames it received.
   void DanceBeside(const std::string& name,
                    const std::function<int64_t(const std::atomic<bool>&)>& others) {
     std::atomic<bool> over = false;
     int64_t frames = 0;
     std::thread beside([&] { frames = others(over); });
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // they are at it
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // they have started
     const Clock::time_point start = Clock::now();
     Lateness lateness = DanceLive(client_, song_, {.seed = 1});
     const double took = Since(start);
@@ -241,7 +241,7 @@ class Load {
   }
 
   int64_t AskForTransitions(int frames, int candidates, const std::atomic<bool>& over) const {
-    // What is in progress when the dance is over is given up.
+    // Cancels what is in progress when the dance ends.
     const client::Client client(
         {.addresses = {server_->address()}, .deadline_s = options_.seconds + 1, .retry_s = 0});
     int64_t made = 0;
@@ -251,7 +251,7 @@ class Load {
              client.GenerateTransition(Transition(frames, candidates)).candidates)
           made += static_cast<int64_t>(candidate.motion.frames.size());
       } catch (const Error& error) {
-        // Its time is over, or the server is full and asks it to come back.
+        // Its deadline passed, or the full server asks it to come back.
         if (error.code() != ErrorCode::kDeadlineExceeded &&
             error.code() != ErrorCode::kResourceExhausted)
           throw;
@@ -261,7 +261,7 @@ class Load {
     return made;
   }
 
-  // Calls whose time is over when they are heard.
+  // Calls whose deadline passes before they are handled.
   int64_t AskWithoutTime(int calls, const std::atomic<bool>& over) const {
     constexpr int kCallers = 50;
     const client::Client client(
@@ -270,7 +270,7 @@ class Load {
       for (int i = 0; i < calls / kCallers && !over; ++i) {
         try {
           client.GenerateTransition(Transition(1800, 32));
-        } catch (const Error&) {  // as was to be expected
+        } catch (const Error&) {  // as expected
         }
       }
     });
@@ -278,13 +278,13 @@ class Load {
   }
 
   Lateness Live(int streams, double shortest_s, double longest_s, int addresses = 1) {
-    // The first one reaches the server as we do; what is one address' own is gone with it.
+    // The first one connects directly; limits per address disappear with it.
     std::vector<std::unique_ptr<Relay>> relays;
     std::vector<client::Client> clients;
     for (int i = 0; i < addresses; ++i) {
       if (i > 0) relays.push_back(std::make_unique<Relay>(server_->address(), 1 + i));
       client::Options options{.addresses = {i > 0 ? relays.back()->address() : server_->address()}};
-      // Who is refused without a time to come back is not asked, and fails.
+      // Without a time to come back a refused client does not retry, and fails.
       options.before_retry = [] {
         throw Error(ErrorCode::kResourceExhausted, "", "is to come back later");
       };
@@ -293,7 +293,7 @@ class Load {
     Lateness all;
     std::mutex mutex;
     Together(streams, [&](int i) {
-      // Not all in step.
+      // Spread over time.
       std::this_thread::sleep_for(std::chrono::duration<double>(2.0 * i / streams));
       const Lateness one = DanceLive(clients[static_cast<size_t>(i % addresses)], song_,
                                      {.shortest_chunk_s = shortest_s,
@@ -362,7 +362,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   const std::vector<std::pair<std::string, void (Load::*)()>> tables = {
-      {"idle", &Load::Idle},  // first: memory that others gave back would hide what it takes
+      {"idle", &Load::Idle},  // first: memory freed by other tables would hide its use
       {"chunks", &Load::Chunks}, {"live", &Load::Streams},   {"beside", &Load::Beside},
       {"closed", &Load::Closed}, {"minutes", &Load::Minutes}};
   std::vector<std::string> names;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The flow as a user would run it: plain eager PyTorch, reading the same checkpoint.
+"""The flow in plain eager PyTorch, as a user would run it, from the same checkpoint.
 
     peer_torch.py FOLDER      what `engine_bench --probes FOLDER` wrote
 
@@ -72,7 +72,7 @@ class Coupling(torch.nn.Module):
 
 
 class Flow:
-    """`precision`: of the networks; what leads straight from noise to features is float32."""
+    """`precision`: of the networks; the path from noise to features is always float32."""
 
     def __init__(self, path, precision=torch.float32):
         self.tensors, metadata = read_safetensors(path)

@@ -15,7 +15,7 @@ namespace {
 
 const nlohmann::json kCard = {{"licence", "none: random weights"}};
 
-// What starts as zero would hide everything before it.
+// Weights that start at zero would hide everything before them.
 void FillZeros(torch::nn::Module* module) {
   torch::NoGradGuard no_grad;
   for (auto& parameter : module->parameters()) {

@@ -8,8 +8,8 @@
 #include "model/papers/networks/controllers_config.h"
 #include "model/papers/networks/flow_config.h"
 
-/// Checkpoints with weights drawn at random, the same for the same seed: they dance nothing, but
-/// every path computes. Their cards say so. For tests and benchmarks.
+/// Checkpoints with random weights, the same for the same seed: they dance nothing, but run every
+/// path. Their cards say so. For tests and benchmarks.
 namespace choreo {
 
 void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,

@@ -26,7 +26,7 @@ void Require(bool done, const char* what) {
   if (!done) throw Error(ErrorCode::kUnavailable, "", std::string(what) + std::strerror(errno));
 }
 
-// A socket of 127.0.0.`number`.
+// A socket bound to 127.0.0.`number`.
 int Bound(int number) {
   const int made = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   Require(made >= 0, "no socket: ");
@@ -44,7 +44,7 @@ Relay::Relay(const std::string& server, int number)
     : server_port_(std::stoi(server.substr(server.rfind(':') + 1))),
       number_(number),
       listening_(Bound(1)) {
-  close(Bound(number));  // what can't be had is told of here
+  close(Bound(number));  // fails here if the address is unavailable
   Require(listen(listening_, SOMAXCONN) == 0, "a relay can't listen: ");
   sockaddr_in address{};
   socklen_t size = sizeof address;
@@ -78,7 +78,7 @@ void Relay::Accept() {
   }
 }
 
-// Until either side is gone.
+// Copies until either side closes.
 void Relay::Pass(int from, int to) {
   std::array<char, 65536> bytes;
   for (ssize_t count = 0; (count = recv(from, bytes.data(), bytes.size(), 0)) > 0;)

@@ -6,11 +6,11 @@
 
 namespace choreo::bench {
 
-/// Another address of this machine for clients: what they say at `address` reaches the server from
-/// 127.0.0.`number`, and its answers come back. Each connection has two threads.
+/// Gives clients another address of this machine: connections to `address` reach the server from
+/// 127.0.0.`number`. Two threads per connection.
 class Relay {
  public:
-  /// `server`: 127.0.0.1:PORT. Throws Error(kUnavailable) where the machine has no such address.
+  /// `server`: 127.0.0.1:PORT. Throws Error(kUnavailable) if the machine has no such address.
   Relay(const std::string& server, int number);
   ~Relay();  ///< ends its connections
   Relay(const Relay&) = delete;
@@ -27,7 +27,7 @@ class Relay {
   int listening_;
   std::string address_;
   std::thread thread_;
-  std::vector<int> sockets_;          // the thread's, until it is over
+  std::vector<int> sockets_;          // owned by the thread until it ends
   std::vector<std::thread> passing_;  // so are these
 };
 

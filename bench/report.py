@@ -29,7 +29,7 @@ def engine_figures(report):
 
 
 def table_rows(text, first_column):
-    """The rows of the table with that first column, as lists of words."""
+    """The rows of the table whose first column has that name, as lists of words."""
     rows, inside = [], False
     for line in text.splitlines():
         if line.startswith(f"| {first_column} "):
@@ -92,7 +92,7 @@ def tables_of(text):
 
 
 def memory_figures(figures, report):
-    """What paper F's flow reaches of what memory lets through: every frame reads every weight."""
+    """The share of memory bandwidth that paper F's flow reaches: every frame reads every weight."""
     reached = {}
     for _, packed, bare, _ in kinds_of(figures):
         for run in report["benchmarks"]:
@@ -103,7 +103,7 @@ def memory_figures(figures, report):
 
 
 def bars(figures, gpu):
-    """The table of what is to be reached: figure, measured, at least, aim, whether more is better. `gpu`: what gpu_row takes."""
+    """The table of targets: figure, measured, at least, aim, whether more is better. `gpu`: what gpu_row takes."""
     served = kinds_of(figures)[-1]
     packed, bare = served[1], served[2]
     frames = FRAMES_OF_PLAN * figures[f"paper/{packed}"]
@@ -148,7 +148,7 @@ def bars(figures, gpu):
 
 
 def gpu_row(figures, gpu):
-    """The card and what was measured on it; the bars are for one of H200's class."""
+    """The card and its measurements; the bars are for one of H200's class."""
     rate, least, aim = FRAMES_OF_PLAN * figures["paper/cuda/torch"], 1500, 4000
     return f"| {gpu}, `paper`, frames/s | {rate:,.0f} | {least:,} | {aim:,} | {'aim' if rate >= aim else 'yes' if rate >= least else '**no**'} |"
 
@@ -189,7 +189,7 @@ def main(folder, root):
 
 
 def as_json(figures, tables):
-    """A figure a line, a row of a table a line."""
+    """One figure, or one table row, per line."""
     rows = ["[\n   " + ",\n   ".join(json.dumps(row, ensure_ascii=False) for row in table) + "\n  ]" for of in tables.values() for table in of]
     names = [f"{name}, {at + 1}" for name, of in tables.items() for at in range(len(of))]
     body = ",\n".join(f"  {json.dumps(name)}: {table}" for name, table in zip(names, rows))

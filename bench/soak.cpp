@@ -19,8 +19,8 @@
 #include "model/core/error.h"
 #include "server/process_usage.h"
 
-/// One choreod for a long time, among clients that dance as they should and others that do not:
-/// whether its memory, threads and descriptors grow, and whether the first get later.
+/// Runs one choreod for a long time with well-behaved and misbehaving clients, and checks whether
+/// its memory, threads and descriptors grow, and whether the well-behaved get later.
 namespace choreo::bench {
 namespace {
 
@@ -34,19 +34,19 @@ constexpr int kRate = kModelSampleRate;
 struct Options {
   double minutes = 30;
   int dances = 4;
-  std::string dance_at;  // what the crashing client is told: a server
+  std::string dance_at;  // the server for the crashing client
 };
 
 double MinutesSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count() / 60;
 }
 
-/// What a process has at a moment.
+/// A process's resources at a moment.
 struct Sample {
   double minute = 0, mebibytes = 0;
 };
 
-/// MiB an hour, by least squares.
+/// MiB per hour, by least squares.
 double SlopeAnHour(const std::vector<Sample>& samples) {
   double minute = 0, mebibytes = 0, product = 0, square = 0;
   for (const Sample& sample : samples) {
@@ -64,16 +64,16 @@ class Soak {
  public:
   explicit Soak(const Options& options) : options_(options) {}
 
-  /// False where something grew.
+  /// False if something grew.
   bool Run() {
-    DanceLive(client::Client(ClientOptions()), song_, {});  // gRPC sets things up at its first call
+    DanceLive(client::Client(ClientOptions()), song_, {});  // gRPC initialises on its first call
     const Usage before = Now();
     start_ = Clock::now();
     {
       std::vector<std::jthread> clients;
       for (int i = 0; i < options_.dances; ++i) {
         clients.emplace_back([this, i] { Behave(i); });
-        std::this_thread::sleep_for(milliseconds(500));  // not all in step
+        std::this_thread::sleep_for(milliseconds(500));  // spread over time
       }
       clients.emplace_back([this] { Crash(); });
       clients.emplace_back([this] { BeSilent(); });
@@ -84,7 +84,7 @@ class Soak {
         samples_.push_back({MinutesSince(start_), Mebibytes()});
       }
     }
-    // gRPC lets go of connections a little later.
+    // gRPC closes connections a little later.
     const auto end = Clock::now() + seconds(20);
     Usage after = Now();
     while ((after.threads > before.threads || after.descriptors > before.descriptors) &&
@@ -112,7 +112,7 @@ class Soak {
     while (Clock::now() < end && !IsOver()) std::this_thread::sleep_for(milliseconds(50));
   }
 
-  // One dance after the other, in real time.
+  // One dance after another, in real time.
   void Behave(int number) {
     const client::Client client(ClientOptions());
     for (uint32_t round = 0; !IsOver(); ++round) {
@@ -134,7 +134,7 @@ class Soak {
     }
   }
 
-  // A process in the middle of its dance that is killed.
+  // Kills a client process in the middle of its dance.
   void Crash() {
     std::minstd_rand random(1);
     while (!IsOver()) {
@@ -151,7 +151,7 @@ class Soak {
     }
   }
 
-  // Begins dances and says no more, until it goes without a word.
+  // Begins dances, goes silent, and leaves without a word.
   void BeSilent() {
     while (!IsOver()) {
       const client::Client client(ClientOptions());
@@ -163,7 +163,7 @@ class Soak {
     }
   }
 
-  // Asks for more than it takes: alternatives without end, and dances that it does not read.
+  // Requests more than it takes: endless alternatives, and dances that it does not read.
   void BeGreedy() {
     const client::Client client(ClientOptions());
     while (!IsOver()) {
@@ -174,7 +174,7 @@ class Soak {
           dances.back()->CompleteKeys();
         }
         client.GenerateTransition({.frames = 150, .candidates = 8});
-      } catch (const Error&) {  // it is told to come back
+      } catch (const Error&) {  // the server tells it to come back
         ++refused_;
       }
       greedy_ += static_cast<int>(dances.size()) + 1;
@@ -215,11 +215,11 @@ class Soak {
   Clock::time_point start_;
   std::vector<Sample> samples_;
   std::atomic<int> danced_ = 0, lost_ = 0, crashes_ = 0, silent_ = 0, greedy_ = 0, refused_ = 0;
-  std::mutex mutex_;  // of the two below
+  std::mutex mutex_;  // guards the two below
   Lateness first_, last_;
 };
 
-// The client that is killed: dances until then.
+// The client to be killed: dances until then.
 [[noreturn]] void DanceForEver(const std::string& address) {
   const client::Client client({.addresses = {address}});
   const client::Audio song = ClickSong(kSong_s, kRate, 1);
