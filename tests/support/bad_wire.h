@@ -31,15 +31,15 @@ class BadWire {
  public:
   struct Badness {
     double loss = 0;                      ///< share of the packets
-    std::chrono::milliseconds delay{0};   ///< of each packet
-    std::chrono::milliseconds spread{0};  ///< at most so much more: those behind may pass it
+    std::chrono::milliseconds delay{0};   ///< for each packet
+    std::chrono::milliseconds spread{0};  ///< additional, at most: later packets may overtake
   };
 
-  /// Whether this process may make one.
+  /// Whether this process may create one.
   static bool MayMake() { return geteuid() == 0 && access("/dev/net/tun", R_OK | W_OK) == 0; }
 
-  /// Afterwards the calling thread, and what it starts, lives at the near end; its processes of
-  /// before stay where they were. `at_far_end` is called once in between, there.
+  /// Moves the calling thread, and those it starts, to the near end; the process's earlier threads
+  /// stay. Calls `at_far_end` once at the far end.
   template <typename AtFarEnd>
   explicit BadWire(AtFarEnd&& at_far_end) {
     ends_[1] = EnterNewNamespace(kFar);
@@ -79,7 +79,8 @@ class BadWire {
     if (!done) throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
   }
 
-  // Its loopback, and a device at this address whose packets are read and written here.
+  // Enters a namespace with loopback and a device at this address, whose packets are read and
+  // written here.
   static int EnterNewNamespace(const char* address) {
     Require(unshare(CLONE_NEWNET) == 0, "a network namespace");
     const int device = open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC);
@@ -139,7 +140,7 @@ class BadWire {
   }
 
   std::array<int, 2> ends_{-1, -1};
-  std::mutex mutex_;  // of badness_
+  std::mutex mutex_;  // guards badness_
   Badness badness_;
   std::mt19937 random_{1};
   std::priority_queue<Packet> on_their_way_;

@@ -10,12 +10,12 @@
 
 namespace choreo {
 
-/// A certificate and its key, as PEM files.
+/// PEM files of a certificate and its key.
 struct Certificate {
   std::filesystem::path certificate, key;
 };
 
-/// Signs certificates that are good for a day; all files stand in a folder.
+/// Signs certificates that are valid for a day; all files are in one folder.
 class Authority {
  public:
   Authority(std::filesystem::path folder, const std::string& name)

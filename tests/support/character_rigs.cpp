@@ -69,7 +69,7 @@ void WriteCharacter(const std::filesystem::path& path, const CharacterRig& rig) 
   const Eigen::Quaterniond armature = rig.armature_scale == 1
                                           ? Eigen::Quaterniond::Identity()
                                           : QuaternionFromExp({-std::numbers::pi / 2, 0, 0});
-  // Where a joint's node stands in the world: turned at rest, rolled, as small as the armature.
+  // World transform of a joint's node: turned at rest, rolled, scaled with the armature.
   const auto frame = [&](int joint) {
     const auto i = static_cast<size_t>(joint);
     return Eigen::Affine3d(Eigen::Translation3d(rest.positions.col(joint)) *
@@ -85,7 +85,7 @@ void WriteCharacter(const std::filesystem::path& path, const CharacterRig& rig) 
     node["translation"] = List(Eigen::Vector3d(local.translation()));
     node["rotation"] = List(Eigen::Quaterniond(local.rotation()).coeffs());
   }
-  // The mesh is bound with the arms held out, in the rolled frames.
+  // The mesh is bound with arms held out, in the rolled frames.
   const json& inverse =
       glb.document["accessors"][glb.document["skins"][0]["inverseBindMatrices"].get<size_t>()];
   char* data =

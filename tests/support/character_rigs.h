@@ -5,21 +5,21 @@
 
 #include "tests/support/proportions.h"
 
-/// Characters of our own making: the doll, under other names and with other bones.
+/// Characters for tests: the doll with other names and bones.
 namespace choreo::testing_support {
 
 struct CharacterRig {
-  std::string rig = "Mixamo and HumanIK";  ///< whose names (fit/human_bones.h); empty: none at all
+  std::string rig = "Mixamo and HumanIK";  ///< its naming (fit/human_bones.h); empty: no names
   std::string prefix = "mixamorig:";
   Skeleton body = Skeleton::Smpl24();  ///< its proportions
   double arms_down = 0;                ///< at rest, degrees: 45 is an A-pose
   bool rolled = false;                 ///< bones have odd frames
-  /// A node above all: turned by -90 degrees about X, so scaled, with its bones scaled back.
+  /// Scale of a node above all, turned by -90 degrees about X; the bones are scaled back.
   double armature_scale = 1;
   double facing = 0;  ///< at rest, degrees
 };
 
-/// Writes the rig as .glb, with a mesh, a skin and without an animation.
+/// Writes the rig as .glb, with a mesh and a skin, without animation.
 void WriteCharacter(const std::filesystem::path& glb, const CharacterRig& rig);
 
 }  // namespace choreo::testing_support

@@ -15,17 +15,17 @@
 
 namespace choreo {
 
-/// Joints by which the fake model tells of velocity factors, by BodyPart.
+/// Joints in which the fake model shows velocity factors, by BodyPart.
 inline const std::array<std::string, kBodyParts> kTellingJoints = {
     "head", "left_hand", "right_hand", "left_foot", "right_foot"};
 
-/// A dance model without a network, for tests of what stands around one. Each degree of freedom
-/// walks towards the target (or towards its last history value, where there is none or it is
-/// masked), damped, shaken by the counter noise, nods on the beats, and turns its last joint as the
-/// music's energy says; of those that hear music its rows shake them, too.
-/// Whose place nobody says goes to the middle of the stage. Deterministic. Like a real model it
-/// misses its target by a little. Controls it obeys to the letter: its root stands on the path, and
-/// the first number of a telling joint's rotation is the velocity factor asked of the joint's part.
+/// A model without a network, for testing what surrounds models. Each degree of freedom walks,
+/// damped, towards the target (or its last history value if it is open), is shaken by the counter
+/// noise, nods on beats, and turns its last joint by the music's energy; in models that hear music,
+/// rows shake it, too. A dancer with an open position goes to the middle of the stage.
+/// Deterministic. It misses its target slightly, like a real model. It follows controls exactly:
+/// the root is on the path, and the first number of a telling joint's rotation is the velocity
+/// factor of its part.
 class FakeSampler : public Sampler {
  public:
   explicit FakeSampler(std::string device = "fake:0", const Skeleton& skeleton = Skeleton::Smpl24())
@@ -40,15 +40,14 @@ class FakeSampler : public Sampler {
     model_.likelihood = true;
   }
 
-  /// What a subclass makes of the frame that the plan has just got: others, nothing, or an error;
-  /// sooner or later.
+  /// Hook for subclasses after each frame: may change the plan, throw, or wait.
   virtual void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {}
 
  protected:
   std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
 };
 
-/// A transition of the fake model, a frame a slice.
+/// A transition of the fake model; one frame per slice.
 class FakeSampling : public Sampling {
  public:
   FakeSampling(FakeSampler& sampler, const TransitionSpec& spec)
@@ -68,7 +67,7 @@ class FakeSampling : public Sampling {
     double music = 0;
     if (spec_.has_audio && model_.hears_music)
       music = std::tanh(spec_.audio_rows.col(frame).cast<double>().sum() / 100.0);
-    const double left = spec_.frames - frame;  // the goal is reached in this many steps
+    const double left = spec_.frames - frame;  // reaches the goal in this many steps
     const Eigen::VectorXd now = Flat(pose_);
     velocity_ = 0.5 * velocity_ + 0.5 * (Goal() - now) / left;
     double energy = 0;
@@ -77,7 +76,7 @@ class FakeSampling : public Sampling {
       energy += z * z;
       velocity_[d] += 0.004 * spec_.temperature * z;
     }
-    // Music sways the arms and the trunk, not the place of the feet.
+    // Music sways arms and trunk, not feet.
     Eigen::VectorXd next = now + velocity_;
     for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + frame);
     for (const double beat : spec_.beats)
@@ -109,7 +108,7 @@ class FakeSampling : public Sampling {
     return flat;
   }
 
-  // The history's last pose where the target does not ask for a degree of freedom, on the stage.
+  // The target, with the history's last pose on the stage in open degrees of freedom.
   Eigen::VectorXd Goal() const {
     Pose last = spec_.history.back();
     const Eigen::Vector3d stage = spec_.stage.value_or(Eigen::Vector3d::Zero());
@@ -118,7 +117,7 @@ class FakeSampling : public Sampling {
     return Flat(spec_.target ? Masked(spec_.target->pose, spec_.target->mask, last) : last);
   }
 
-  // So that a test can see in the dance what was asked of the model.
+  // Shows controls in the dance for tests.
   void Obey(int frame, Eigen::VectorXd* next) const {
     const Controls& controls = spec_.controls;
     if (controls[kRootPath].IsGiven()) next->head<3>() = controls[kRootPath].values.col(frame);
@@ -133,7 +132,7 @@ class FakeSampling : public Sampling {
   FakeSampler& sampler_;
   const ModelInfo& model_;
   TransitionSpec spec_;
-  Pose pose_;  // the frame before, as arrival has steered it
+  Pose pose_;  // the frame before, steered by arrival
   Eigen::VectorXd velocity_;
   std::vector<float> noise_;
 };
@@ -142,13 +141,13 @@ inline std::unique_ptr<Sampling> FakeSampler::BeginValid(const TransitionSpec& s
   return std::make_unique<FakeSampling>(*this, spec);
 }
 
-/// One that hears more of music than its beats, so it waits for that of a whole transition.
+/// A model that hears more than beats, so it waits for a whole transition's music.
 class HearingSampler : public FakeSampler {
  public:
   HearingSampler() { model_.hears_music = true; }
 };
 
-/// One that takes controls.
+/// A model with controls.
 class ControlledSampler : public FakeSampler {
  public:
   explicit ControlledSampler(const std::string& name = "fake") {
@@ -160,7 +159,7 @@ class ControlledSampler : public FakeSampler {
   }
 };
 
-/// Of one model, a worker each.
+/// Samplers of one model, one per worker.
 template <typename Model = FakeSampler>
 std::vector<std::unique_ptr<Sampler>> FakeSamplers(int workers = 1) {
   std::vector<std::unique_ptr<Sampler>> samplers;

@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// As long as it lives, this process's files cannot grow beyond so many bytes: writing fails as on
-/// a disk that is full.
+/// While it exists, this process's files cannot grow beyond a number of bytes: writing fails as on
+/// a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(signal(SIGXFSZ, SIG_IGN)) {

@@ -12,7 +12,7 @@
 
 namespace choreo::testing_support {
 
-/// A .glb taken apart by hand: header, JSON chunk, binary chunk.
+/// The parts of a .glb: header, JSON chunk, binary chunk.
 struct Glb {
   nlohmann::json document;
   std::string binary;
@@ -48,7 +48,7 @@ struct Glb {
     file << std::string("BIN\0", 4) << binary;
   }
 
-  /// The elements of an accessor of floats.
+  /// The elements of a float accessor.
   std::vector<float> Floats(int accessor) const {
     const nlohmann::json& one = document["accessors"][accessor];
     const nlohmann::json& view = document["bufferViews"][one["bufferView"].get<int>()];

@@ -5,7 +5,7 @@
 
 namespace choreo {
 
-/// What Mixamo's skeletons call SMPL's joints.
+/// Mixamo's names of SMPL's joints.
 inline const std::map<std::string, std::string> kMixamoNames = {{"pelvis", "Hips"},
                                                                 {"left_hip", "LeftUpLeg"},
                                                                 {"left_knee", "LeftLeg"},

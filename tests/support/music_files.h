@@ -10,7 +10,7 @@ namespace choreo {
 
 inline constexpr int kMusicRate = 22050;
 
-/// A tone that rises all the time, so that every row of features is another.
+/// A steadily rising tone, so that all feature rows differ.
 inline std::vector<float> Music(double seconds) {
   std::vector<float> samples;
   for (int i = 0; i < seconds * kMusicRate; ++i) {

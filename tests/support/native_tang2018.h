@@ -10,7 +10,7 @@
 
 namespace choreo::testing_support {
 
-/// tang2018's own skeleton, measured on a dancer of ours.
+/// tang2018's own skeleton, measured on one of our dancers.
 inline const NativeTang2018& Native() {
   static const NativeTang2018 native = [] {
     const PositionClip clip = Tang2018Markers(fixtures::SmoothMotion(Skeleton::Smpl24(), 1, 60));
@@ -19,7 +19,7 @@ inline const NativeTang2018& Native() {
   return native;
 }
 
-/// What is recorded of a dance on that skeleton, metres.
+/// The recording of a dance on that skeleton, metres.
 inline PositionClip RecordNative(const Motion& motion) {
   const auto& [skeleton, mapping] = Native();
   PositionClip clip{.fps = motion.fps, .joint_names = Tang2018JointNames(), .frames = {}};
@@ -27,7 +27,7 @@ inline PositionClip RecordNative(const Motion& motion) {
     const JointPlacement placement = ForwardKinematics(skeleton, pose);
     Eigen::Matrix3Xd points(3, std::ssize(clip.joint_names));
     for (const Landmark& landmark : mapping.landmarks) {
-      if (landmark.source.size() != 1) continue;  // not recorded, but between recorded points
+      if (landmark.source.size() != 1) continue;  // not recorded; between recorded points
       const OurPoint& point = landmark.ours.front();
       const int joint = skeleton.Find(point.joint);
       points.col(IndexOf(clip.joint_names, landmark.source.front().first)) =

@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// What stands in a dict of numpy arrays of '<f8', as Python 3 pickles it (protocol 4).
+/// The items of a dict of '<f8' numpy arrays, as Python 3 pickles them (protocol 4).
 inline std::string PickledItems(const std::map<std::string, NpyArray>& arrays) {
   using namespace std::string_literals;
   const auto int32 = [](size_t value) {
@@ -30,13 +30,13 @@ inline std::string PickledItems(const std::map<std::string, NpyArray>& arrays) {
   return pickle;
 }
 
-/// Writes what pickle.dump({key: array, ...}) would mean.
+/// Writes the equivalent of pickle.dump({key: array, ...}).
 inline void WritePickle(const std::filesystem::path& path,
                         const std::map<std::string, NpyArray>& arrays) {
   std::ofstream(path, std::ios::binary) << "\x80\x04}(" << PickledItems(arrays) << "u.";
 }
 
-/// Writes what pickle.dump({name: {key: array, ...}, ...}) would mean.
+/// Writes the equivalent of pickle.dump({name: {key: array, ...}, ...}).
 inline void WritePickledDicts(const std::filesystem::path& path,
                               const std::map<std::string, std::map<std::string, NpyArray>>& dicts) {
   std::ofstream file(path, std::ios::binary);

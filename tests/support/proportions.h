@@ -6,7 +6,7 @@
 
 namespace choreo::testing_support {
 
-/// SMPL's body with trunk, arms and legs so much longer.
+/// SMPL's body with trunk, arms and legs scaled by these factors.
 inline Skeleton Proportions(double trunk, double arms, double legs) {
   Skeleton body = Skeleton::Smpl24();
   for (int joint = 1; joint < body.joints(); ++joint) {

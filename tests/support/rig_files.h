@@ -12,12 +12,12 @@
 #include "model/formats/bvh.h"
 #include "model/motion/rotation.h"
 
-/// Rigs of our own making, as other programs would export them: a body in centimetres that stands
-/// with its arms held out, faces +Z, and moves as it is told.
+/// Rigs for tests, as other programs export them: a body in centimetres that stands with arms held
+/// out, faces +Z, and moves as told.
 namespace choreo::testing_support {
 
 struct RigJoint {
-  std::string bone;  ///< as HumanBones has it
+  std::string bone;  ///< a name of HumanBones
   std::string parent;
   Eigen::Vector3d offset;  ///< at rest, world axes
 };
@@ -50,7 +50,7 @@ inline int RigIndex(const std::string& bone) {
   return -1;
 }
 
-/// How a bone is turned in its parent in a frame, world axes at rest.
+/// A bone's rotation relative to its parent in a frame, in world axes at rest.
 using RigTurn = std::function<Eigen::Matrix3d(const std::string& bone, int frame)>;
 
 inline Eigen::Matrix3d About(double x, double y, double z, double degrees) {
@@ -71,7 +71,7 @@ inline Eigen::Matrix3d Walk(const std::string& bone, int frame) {
   return Eigen::Matrix3d::Identity();
 }
 
-/// Where all bones of RigBody are in a frame: places in centimetres, turns since rest.
+/// All bones of RigBody in a frame: positions in centimetres, rotations since rest.
 struct RigState {
   Eigen::Matrix3Xd places;
   std::vector<Eigen::Matrix3d> turns;
@@ -95,7 +95,7 @@ inline RigState MoveRig(const RigTurn& turn, int frame) {
 
 using RigNames = std::function<std::string(const std::string& bone)>;
 
-/// The names of one of the rigs that we know; bones that it has none for keep ours.
+/// The names of one of the known rigs; bones that it lacks keep ours.
 inline RigNames NamesOf(std::string_view rig) {
   return [rig](const std::string& bone) {
     const std::string name = NameInRig(rig, bone);
@@ -107,15 +107,15 @@ struct BvhRig {
   RigNames names = NamesOf(kHumanIkRig);
   RigTurn turn = Walk;
   int frames = 30;
-  Eigen::Matrix3d world = Eigen::Matrix3d::Identity();  ///< all of the file is turned by
-  /// At rest each bone is turned by this, its offset with it: the file's zero pose is no body.
+  Eigen::Matrix3d world = Eigen::Matrix3d::Identity();  ///< rotation of the whole file
+  /// Rotation of each bone (and its offset) at rest: the file's zero pose is not a body.
   std::function<Eigen::Matrix3d(const std::string& bone)> zero = [](const std::string&) {
     return Eigen::Matrix3d::Identity();
   };
 };
 
-/// As other tools write it: ZXY angles, six channels at the root. Bones' frames at rest are the
-/// file's axes turned by `zero`, so that offsets stand in those.
+/// As other tools write it: ZXY angles, six channels at the root. Rest frames are the file's axes
+/// turned by `zero`, and offsets are in them.
 inline BvhFile MakeBvh(const BvhRig& rig) {
   BvhFile file;
   std::map<std::string, int> at;
@@ -162,7 +162,7 @@ inline BvhFile MakeBvh(const BvhRig& rig) {
       const std::string& parent = RigBody()[static_cast<size_t>(RigIndex(bone))].parent;
       const Eigen::Matrix3d r = turned(parent).transpose() * turned(bone);
       const double sine = std::clamp(r(2, 1), -1.0, 1.0);
-      // A quarter turn about x leaves but one of the other two.
+      // A quarter turn about x makes the other two axes coincide.
       const bool locked = std::abs(sine) > 1 - 1e-9;
       values[row++] =
           (locked ? std::atan2(r(1, 0), r(0, 0)) : std::atan2(-r(0, 1), r(1, 1))) * kDegrees;
@@ -173,7 +173,7 @@ inline BvhFile MakeBvh(const BvhRig& rig) {
   return file;
 }
 
-/// A glTF with one rig more each time.
+/// A glTF that gains a rig with each call.
 class GlbRigs {
  public:
   using Json = nlohmann::json;
@@ -203,8 +203,8 @@ class GlbRigs {
     return static_cast<int>(document["nodes"].size()) - 1;
   }
 
-  /// In metres, standing `aside`. Returns the first node's index; the others stand in the order of
-  /// RigBody.
+  /// In metres, displaced by `aside`. Returns the first node's index; the others follow in the
+  /// order of RigBody.
   int AddBody(const RigNames& names, double aside = 0) {
     const auto first = static_cast<int>(document["nodes"].size());
     for (const RigJoint& joint : RigBody()) {
@@ -233,7 +233,7 @@ class GlbRigs {
         {{"joints", joints}, {"inverseBindMatrices", AddFloats(inverse, "MAT4")}});
   }
 
-  /// Turns of all bones, and the pelvis' place.
+  /// Rotations of all bones, and positions of the pelvis.
   void AddAnimation(const std::string& name, int first, const RigTurn& turn, int frames) {
     std::vector<float> times, places;
     for (int frame = 0; frame < frames; ++frame) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether this program runs under a sanitizer: LibTorch can't, and memory that is freed is kept.
+/// Whether this program runs under a sanitizer: LibTorch can't, and freed memory is kept.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else

@@ -9,11 +9,11 @@
 namespace choreo {
 
 struct Outcome {
-  int code = -1;     ///< exit status; -1 where a signal ended it
+  int code = -1;     ///< exit status; -1 if killed by a signal
   std::string said;  ///< stdout and stderr
 };
 
-/// Runs a command line as people do.
+/// Runs a shell command line.
 inline Outcome Shell(const std::string& command) {
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   Outcome outcome;

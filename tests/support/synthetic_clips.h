@@ -12,8 +12,7 @@
 
 namespace choreo::testing_support {
 
-/// A clip of our own making: a dancer who walks a circle and swings her limbs, each joint at a rate
-/// of its own.
+/// A made-up clip: a dancer who walks in a circle and swings her limbs, each joint at its own rate.
 inline PreparedClip SyntheticClip(const std::string& name, int frames, double phase, bool music,
                                   const Skeleton& skeleton = Skeleton::Smpl24()) {
   PreparedClip clip;

@@ -9,7 +9,8 @@
 
 namespace choreo {
 
-/// A recording as tang2018's NAME.npy: row 0 is the world centre, the others stand relative to it.
+/// Writes a recording as tang2018's NAME.npy: row 0 is the world centre, the others are relative to
+/// it.
 inline void WriteTang2018Npy(const std::filesystem::path& path, const PositionClip& clip) {
   const auto rows = static_cast<int64_t>(clip.joint_names.size()) + 1;
   NpyArray array{{static_cast<int64_t>(clip.frames.size()), rows, 3}, std::vector<float>()};

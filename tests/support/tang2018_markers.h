@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// The markers of tang2018 on a dancer of ours.
+/// tang2018's markers on one of our dancers.
 inline PositionClip Tang2018Markers(const Motion& motion) {
   PositionClip clip;
   clip.fps = motion.fps;
@@ -51,7 +51,7 @@ inline PositionClip Tang2018Markers(const Motion& motion) {
   return clip;
 }
 
-/// The rows of tang61 on a dancer of ours.
+/// tang61's rows on one of our dancers.
 inline PositionClip Tang61Markers(const Motion& motion) {
   const PositionClip markers = Tang2018Markers(motion);
   PositionClip clip;

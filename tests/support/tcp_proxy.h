@@ -14,12 +14,11 @@
 
 namespace choreo {
 
-/// Stands between a client and a server of this machine and passes their bytes on, for one
-/// connection, until it is told to fall silent: then neither hears of the other any more, and
-/// neither is told.
+/// Forwards bytes of one connection between a client and a server on this machine until told to
+/// fall silent: then each side hears nothing more, and no end either.
 class TcpProxy {
  public:
-  /// `upward`: falls silent towards the server, alone, after so many bytes.
+  /// `upward`: after this many bytes falls silent towards the server only.
   explicit TcpProxy(int server_port, int64_t upward = std::numeric_limits<int64_t>::max())
       : listening_(socket(AF_INET, SOCK_STREAM, 0)), upward_(upward) {
     sockaddr_in address = Local(0);
@@ -41,7 +40,7 @@ class TcpProxy {
 
   const std::string& address() const { return address_; }
   void FallSilent() { silent_ = true; }
-  /// All that was to go up has gone.
+  /// Whether all upward bytes have been forwarded.
   bool upward_done() const { return upward_ == 0; }
 
  private:

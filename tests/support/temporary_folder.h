@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// An empty folder of the running test's own, removed with it.
+/// An empty folder for the running test, removed with it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -17,7 +17,7 @@ class TemporaryFolder {
     for (char& c : name) {
       if (c == '/') c = '_';
     }
-    // The process: builds that test at the same time have a folder each.
+    // Includes the process, so that concurrently tested builds have separate folders.
     path_ = std::filesystem::path(testing::TempDir()) /
             ("choreo." + name + "." + std::to_string(getpid()));
     std::filesystem::remove_all(path_);
