@@ -1,4 +1,4 @@
-# Everything that this project takes from others, found in one place. scripts/install_packages.sh installs it on Debian 12.
+# All dependencies, found in one place. scripts/install_packages.sh installs it on Debian 12.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(nlohmann_json 3.11 REQUIRED)
@@ -10,8 +10,8 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(tinygltf REQUIRED IMPORTED_TARGET tinygltf)
 find_package(Torch 1.13 REQUIRED)
-# Includes of others do not have to pass our warnings. choreo::torch is the one way to LibTorch, whose headers take most of a build:
-# a test of the architecture counts the translation units that include them.
+# Others' headers are exempt from our warnings. Use LibTorch only through choreo::torch: its headers take most of a build, and
+# an architecture test counts the translation units that include them.
 add_library(choreo_torch INTERFACE)
 add_library(choreo::torch ALIAS choreo_torch)
 target_link_libraries(choreo_torch INTERFACE ${TORCH_LIBRARIES})
@@ -21,7 +21,7 @@ target_compile_options(choreo_torch INTERFACE ${torch_flags})
 
 if(CHOREO_SERVICE)
   pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
-  # What libsndfile gives up: FLAC and MP3 whose headers err, joined Ogg, Ogg FLAC.
+  # For what libsndfile refuses: FLAC and MP3 whose headers err, joined Ogg, Ogg FLAC.
   pkg_check_modules(flac REQUIRED IMPORTED_TARGET flac)
   pkg_check_modules(vorbisfile REQUIRED IMPORTED_TARGET vorbisfile)
   pkg_check_modules(opusfile REQUIRED IMPORTED_TARGET opusfile)
@@ -40,7 +40,7 @@ if(CHOREO_TESTS)
 endif()
 if(CHOREO_BENCH)
   find_package(benchmark REQUIRED)
-  # oneDNN, to compare with. Its own CMake package asks for OpenCL, which no benchmark needs.
+  # oneDNN, for comparison. Its own CMake package requires OpenCL, which no benchmark needs.
   find_library(DNNL_LIBRARY dnnl REQUIRED)
   find_path(DNNL_INCLUDE_DIR dnnl.hpp REQUIRED)
   add_library(choreo_dnnl INTERFACE)

@@ -1,4 +1,4 @@
-# What a stranger gets: the programs, the shipped model, and the client library as a CMake package (find_package(choreo), target
+# Installs the programs, the shipped model, and the client library as a CMake package (find_package(choreo), target
 # choreo::client). examples/client uses it; scripts/verify.sh tries it. The component `programs` is what a server needs (docker/).
 include(CMakePackageConfigHelpers)
 

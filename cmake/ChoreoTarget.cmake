@@ -2,8 +2,8 @@
 # includes from the root of the repository ("model/motion/skeleton.h").
 
 add_library(choreo_options INTERFACE)
-# GCC 12 sees overlaps in std::string's operator+ (bug 105651) and uninitialised values in CLI11's pairs where there are none, and
-# takes a source that is compiled together with others for a header.
+# GCC 12 wrongly reports overlaps in std::string's operator+ (bug 105651) and uninitialised values in CLI11's pairs, and
+# treats a source in a unity build as a header.
 target_compile_options(choreo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized;-Wno-subobject-linkage>)
 target_include_directories(choreo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
@@ -21,7 +21,7 @@ function(choreo_library name)
   target_include_directories(choreo_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
-# For what waits for people, files or LibTorch: it is compiled in three quarters of the time.
+# For code that waits for people, files or LibTorch: compiling takes a quarter less time.
 function(choreo_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
@@ -32,13 +32,13 @@ function(choreo_executable name)
   target_link_libraries(${name} PRIVATE choreo_options ${ARG_LINK})
 endfunction()
 
-# LibTorch is not built for sanitizers, and full of false alarms: what runs it is not tested under them.
+# LibTorch is not built for sanitizers and raises false alarms: tests that run it are skipped under them.
 set(CHOREO_SANITIZED OFF)
 if(CMAKE_CXX_FLAGS MATCHES "fsanitize")
   set(CHOREO_SANITIZED ON)
 endif()
 
-# choreo_test(NAME SOURCES ... LINK ...): a GoogleTest program, its cases registered one by one with ctest. `choreo_tests` builds all.
+# choreo_test(NAME SOURCES ... LINK ...): a GoogleTest program, with each case registered in ctest. `choreo_tests` builds all.
 add_custom_target(choreo_tests)
 function(choreo_test name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")

@@ -1,6 +1,6 @@
-# Writes what a build is made from, as the C++ source OUTPUT; a fingerprint contains it. A script: it runs when a source changes.
+# Writes a build's identity, a part of fingerprints, as the C++ source OUTPUT. A script, because it runs when a source changes.
 #   cmake -DROOT=... -DFOLDERS=a,b -DCOMPILER=... -DBUILD_TYPE=... -DFLAGS=... -DEIGEN=3.4.0 -DUNITY=1 -DOUTPUT=... -P write_build_identity.cmake
-# Names are relative to ROOT, so the same sources have the same identity wherever they lie, with git and without.
+# Names are relative to ROOT, so the same sources have the same identity in any place, with git or without.
 string(REPLACE "," ";" folders "${FOLDERS}")
 set(sources)
 foreach(folder ${folders})
@@ -12,9 +12,9 @@ if(NOT sources)
   message(FATAL_ERROR "no sources in ${FOLDERS} of ${ROOT}")
 endif()
 list(SORT sources)
-# These flags hold the path of the build and change no bit.
+# These flags contain the build's path and change no bit.
 string(REGEX REPLACE "-f[a-z]+-prefix-map=[^ ]*" "" flags "${FLAGS}")
-# Eigen is headers alone; compiled together, sources are inlined into one another.
+# Eigen is header-only; in a unity build sources are inlined into one another.
 set(text "${flags}\nEigen ${EIGEN}\nunity ${UNITY}\n")
 foreach(source ${sources})
   file(SHA256 ${ROOT}/${source} hash)
