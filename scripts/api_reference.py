@@ -2,7 +2,7 @@
 """Writes docs/api.md, the reference of the API, from the comments of proto/choreo/v1.
 
     scripts/api_reference.py            writes
-    scripts/api_reference.py --check    changes nothing; fails where the page is not what the proto says
+    scripts/api_reference.py --check    changes nothing; fails if the page is outdated
 """
 import pathlib
 import re
@@ -18,11 +18,11 @@ FILES = ("choreo/v1/choreography.proto", "choreo/v1/motion.proto")
 Field = descriptor_pb2.FieldDescriptorProto
 HEAD = """# API
 
-Written by `scripts/api_reference.py` from the comments of [proto/choreo/v1](../proto/choreo/v1); do not edit. It has every call, message,
-field and value; where a comment says more, … leads there. Time, sizes and statuses are told at the top of
-[choreography.proto](../proto/choreo/v1/choreography.proto), what is promised in [contract](contract.md), clients are in [examples](../examples).
+Written by `scripts/api_reference.py` from the comments of [proto/choreo/v1](../proto/choreo/v1); do not edit. It lists every call, message,
+field and value; … links to longer comments. For time, sizes and statuses see the top of
+[choreography.proto](../proto/choreo/v1/choreography.proto), for promises the [contract](contract.md), for clients [examples](../examples).
 """
-# Sentences that say what is allowed: kept wherever they stand in a comment.
+# Sentences about allowed values: kept from anywhere in a comment.
 RULE = re.compile(r"(Required|Default|Absent|Empty|Range|Only|Must|Needs|At (most|least)|\d[\d ]* to) ?\b")
 
 
@@ -34,7 +34,7 @@ def described():
 
 
 class Comments:
-    """Of a file, by path, as descriptor.proto has paths."""
+    """A file's comments by path, with the paths of descriptor.proto."""
 
     def __init__(self, file):
         self.page = f"../proto/{file.name}"
@@ -44,7 +44,7 @@ class Comments:
         return [" ".join(paragraph.split()) for paragraph in self.said[path][0].split("\n\n") if paragraph.strip()]
 
     def brief(self, path):
-        """The first sentence and the rules, as a cell; what is left out is led to."""
+        """The first sentence and the rules, as a cell, with a link to the rest."""
         text, line = self.said[path]
         first, *others = re.split(r"(?<=\.) (?=[A-Z`(])", " ".join(text.split()))
         rules = [sentence for sentence in others if RULE.match(sentence)]
