@@ -16,11 +16,11 @@ mkdir -p "$out"
   --title "24 s of \"Escape from chaosland\"; key poses are framed"
 "$choreo" render "$out/dance.npz" --report "$out/report.json" --video "$out/dance.mp4" --song "$song" --size 640x360
 
-# The same song, led along a path, the left arm livelier than the rest.
+# The same song, led along a path, with a higher velocity factor for the left arm.
 "$choreo" dance "$song" --seconds 10 --path "$examples/path.json" --velocity left_arm=1.5 \
   --out "$out/controlled.npz" --report "$out/controlled.json"
 "$choreo" render "$out/controlled.npz" --report "$out/controlled.json" --out "$out/controlled.png" \
-  --title "10 s along a path, the left arm 1.5 times as lively"
+  --title "10 s along a path, the left arm 1.5 times as fast"
 
 keys=$(($(grep -c '"id"' "$out/report.json") - $(grep -c '"holds"' "$out/report.json")))  # poses that are held count once
 if [[ $keys -lt 4 ]]; then

@@ -166,28 +166,28 @@ void AddEvalCommand(CLI::App& app) {
   command->add_option("--model", arguments->contest.model, "Checkpoint")->required();
   CLI::Option* data = command->add_option(
       "--data", arguments->data,
-      "Folders written by `choreo-lab prepare`: each is a set with tables of its own");
+      "Folders written by `choreo-lab prepare`: each is a set with its own tables");
   CLI::Option* splits = command->add_option("--splits", arguments->splits,
                                             "Which clip trains, validates, tests (JSON)");
   data->needs(splits);
   splits->needs(data);
   command
       ->add_option("--music", arguments->music,
-                   "Instead of clips: how far dances show that music is heard, of songs that are "
-                   "made and of these, files and folders of them")
+                   "Instead of clips: how far dances show that music is heard, for made songs and "
+                   "for these (files or folders)")
       ->check(CLI::ExistingPath)
       ->excludes(data);
   command->add_option("--other", arguments->contest.others,
-                      "NAME=CHECKPOINT: a row for another model, danced just as the first");
+                      "NAME=CHECKPOINT: a row for another model, danced like the first");
   command->add_option("--json", arguments->json,
                       "Also write the figures here, and plots beside it");
   command
       ->add_flag("--sheets", arguments->sheets,
-                 "Also draw each clip beside the dance through its poses, next to the JSON; which "
-                 "of the two is which stands in a text file")
+                 "Also draw each clip beside the dance through its poses, next to the JSON; a "
+                 "text file says which is which")
       ->needs("--json");
   command->add_flag("!--no-encoder", arguments->encode,
-                    "No FID, variability and diversity, for which an encoder is learnt from the "
+                    "Skip FID, variability and diversity, which learn an encoder from the "
                     "training clips of the data");
   command
       ->add_option_function<std::string>(
@@ -197,54 +197,55 @@ void AddEvalCommand(CLI::App& app) {
             arguments->tables = kPaperControls;
             if (which == "all") arguments->tables = kControls;
           },
-          "all | paper: only the tables of controls, or of those paper C's alone; they have "
-          "lengths of their own")
+          "all | paper: only the tables of controls, or only paper C's; they have their own "
+          "lengths")
       ->check(CLI::IsMember({"all", "paper"}));
   command
       ->add_flag_callback(
           "--liveliness", [arguments] { arguments->tables = kLiveliness; },
-          "Only the tables that tell whether the dance lives")
+          "Only the tables of liveliness")
       ->excludes("--controls");
   command
       ->add_flag_callback(
           "--paper", [arguments] { arguments->tables = kPaper; },
-          "Only paper F's tables, of every row raw and as served, at its own temperature")
+          "Only paper F's tables, every row raw and as served, at its own temperature")
       ->excludes("--controls")
       ->excludes("--liveliness");
   command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
       ->check(CheckTemperature);
   command->option_defaults()->always_capture_default();
   command->add_option("--split", arguments->split,
-                      "Which of them is measured: validation | test | any other group of clips "
-                      "that the file names, such as test_unseen_genre");
+                      "The group to measure: validation | test | any other group of clips "
+                      "in the file, such as test_unseen_genre");
   command
       ->add_option("--baseline", arguments->contest.baselines,
                    "Further rows of the tables: \"real\" by real, \"interpolation\" and "
                    "\"interpolation, footwork\" by interpolation, \"model without keys\" by "
                    "music_only")
       ->check(CLI::IsMember({"real", "interpolation", "music_only"}));
-  command->add_option("--name", arguments->contest.name, "What the rows of --model are called");
+  command->add_option("--name", arguments->contest.name, "Name of the rows of --model");
   command
       ->add_option("--engine", arguments->contest.engine,
                    EngineKindNames() +
-                       "; packed is float32 on any CPU; networks that draw nothing are run by "
-                       "torch all the same")
+                       "; packed is float32 on any CPU; torch always runs deterministic "
+                       "networks")
       ->check(CLI::IsMember(
           std::vector<std::string>(kEngineKindNames.begin(), kEngineKindNames.end())));
   command
       ->add_option("--lengths", options.lengths,
-                   "Frames of the transitions, at most as many as every model takes: 150 of the "
-                   "preset default")
+                   "Frames of the transitions, within every model's limit: 150 for the preset "
+                   "default")
       ->check(CLI::Range(1, kMaxTransitionFrames));
   const auto count = [&](const char* name, int& value, int least, int most, const char* what) {
     command->add_option(name, value, what)->take_last()->check(CLI::Range(least, most));
   };
-  count("--windows", options.windows_per_clip, 1, 100000, "Transitions a clip and length");
-  count("--best-of", options.best_of, 0, 1000, "Samples a transition, of which the nearest counts");
+  count("--windows", options.windows_per_clip, 1, 100000, "Transitions per clip and length");
+  count("--best-of", options.best_of, 0, 1000,
+        "Samples per transition, of which the nearest counts");
   count("--long-dances", options.long_seeds, 0, 100000, "Long dances of each kind; 0: none");
   count("--long-frames", options.long_frames, 60, 100000, "Frames of a long dance");
   count("--free-dances", options.free_dances, 0, 100000,
-        "Dances without keys in the table of liveliness; 0: none");
+        "Dances without keys in the liveliness table; 0: none");
   command->callback([arguments] {
     if (!arguments->music.empty())
       return HearSongs({arguments->contest.model, arguments->music, arguments->json});

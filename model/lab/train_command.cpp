@@ -43,7 +43,7 @@ void AddTrainCommand(CLI::App& app,
   CLI::App* command = app.add_subcommand("train", "Train a model on prepared clips");
   command
       ->add_option("--preset", options->preset,
-                   "default | paper | paper-f (the same, of a twentieth) | ablation (smaller "
+                   "default | paper | paper-f (a twentieth of its size) | ablation (smaller "
                    "still) | controllers-paper | harvey (the baseline of both papers)")
       ->capture_default_str()
       ->check(CLI::Validator(
@@ -54,11 +54,10 @@ void AddTrainCommand(CLI::App& app,
           },
           ""));
   command->add_option("--name", options->name,
-                      "What servers call the model; default: the preset's name");
+                      "The model's name on servers; default: the preset's");
   command
       ->add_option("--served-temperature", options->flow.temperature,
-                   "What a flow is sampled at unless a dance asks otherwise; a finished run is "
-                   "written anew with it")
+                   "The flow's default sampling temperature; also rewrites a finished run with it")
       ->check(CLI::Range(0.0, kMaxTemperature))
       ->capture_default_str();
   command->add_option("--data", options->data, "Folders written by `choreo-lab prepare`")
@@ -74,8 +73,8 @@ void AddTrainCommand(CLI::App& app,
                       "auto | cpu | cuda:N; controllers and the baseline train on the CPU");
   command->add_option("--report-every", options->report_every, "Steps between reports");
   command->add_option("--stop-after", options->stop_after,
-                      "Leave after this many steps of the run, to be resumed; 0: to the end");
-  command->add_flag("--resume", options->resume, "Go on from the run's saved state");
+                      "Stop, resumable, after this many steps of the run; 0: run to the end");
+  command->add_flag("--resume", options->resume, "Continue from the run's saved state");
   VisitAll(*options, [&](const char* option, auto& value, bool, const char* what) {
     if constexpr (std::is_same_v<decltype(value), bool&>) {
       command->add_flag(option, value, what);

@@ -265,9 +265,9 @@ void AddPrepareCommand(CLI::App& app) {
                       "PREFIX FACTOR: stretch these clips in time");
   command->add_flag("--native-skeleton", options->native_skeleton,
                     "tang2018: fit a skeleton of the data's own 23 joints instead of SMPL's 24");
-  command->add_option("--terms", options->terms, "Terms of use, kept with every clip")
+  command->add_option("--terms", options->terms, "Terms of use, stored with every clip")
       ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "Clips at once")
+  command->add_option("--jobs", options->jobs, "Concurrent clips")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
   command->callback([options] {

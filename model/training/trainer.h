@@ -54,17 +54,16 @@ void Require(bool good, const char* option, const std::string& value, const std:
 /// --preset and --from.
 void VisitFixed(auto& options, auto&& visit) {
   visit("--steps", options.steps, "Steps of the run");
-  visit("--batch", options.batch, "Windows a step");
+  visit("--batch", options.batch, "Windows per step");
   visit("--rate", options.rate, "Peak learning rate");
   visit("--clip", options.clip, "Norm that gradients are clipped to; 0: never");
-  visit("--tempo", options.tempo,
-        "Share of the windows that are danced up to a third faster or slower");
-  visit("--seed", options.seed, "Same seed, data and machine: same checkpoint");
+  visit("--tempo", options.tempo, "Share of windows danced up to a third faster or slower");
+  visit("--seed", options.seed, "The same seed, data and machine give the same checkpoint");
 }
 /// The same for the preset `default` alone.
 void VisitFixedOfDefault(auto& options, auto&& visit) {
   visit("--keep-statistics", options.keep_statistics,
-        "With --from: what that measured of its data stays, and what it does not know is measured");
+        "With --from: keep its statistics of the data, and measure only missing ones");
 }
 
 /// Writes options as they are typed: a visitor for VisitFixed.
