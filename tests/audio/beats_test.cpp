@@ -37,7 +37,7 @@ TEST(BeatsTest, ClicksAreHeardWhenTheySound) {
   EXPECT_LT(std::abs(late), 0.015);
 }
 
-// Seeds that no one developed with.
+// Seeds that nothing was developed with.
 TEST(BeatsTest, BackbeatsAreCountedAtTheirOwnTempoAlsoWhereItIsFast) {
   for (const double bpm : {80.0, 140.0, 170.0, 190.0}) {
     SongPlan plan{

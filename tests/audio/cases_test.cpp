@@ -1,5 +1,5 @@
-// Songs that others' programs wrote, or that beat trackers erred in. Skipped where the files are
-// absent: CHOREO_CASES names their folder (default: ../shared/cases beside the repository).
+// Songs written by other programs, or misjudged by beat trackers. Skipped if the files are absent:
+// CHOREO_CASES names their folder (default: ../shared/cases beside the repository).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class AudioCases : public ::testing::Test {
 
   DecodedAudio Decode(const std::string& name) const { return DecodeAudioFile(folder_ / name); }
 
-  /// F at 70 ms of a file's beats against those of a .beats file.
+  /// F at 70 ms between a file's beats and those in a .beats file.
   double FMeasure(const std::string& song, const std::string& map, BeatTrack* track) const {
     *track = FindBeats(ToModelRate(Decode(song)));
     std::ifstream file(folder_ / map);

@@ -26,13 +26,13 @@ struct FileFormat {
   int format;
   int rate;
   int channels;
-  double snr_db;  // of what comes back; infinite: the samples themselves
+  double snr_db;  // of the decoded samples; infinite: they are exact
 };
 
 std::ostream& operator<<(std::ostream& out, const FileFormat& format) { return out << format.name; }
 
 constexpr double kExact = std::numeric_limits<double>::infinity();
-/// libsndfile writes it with a varying bit rate.
+/// libsndfile writes a variable bit rate.
 constexpr int kMp3 = SF_FORMAT_MPEG | SF_FORMAT_MPEG_LAYER_III;
 
 const FileFormat kFormats[] = {
@@ -142,7 +142,7 @@ TEST_P(DecodeFormatTest, GivesBackWhatWasWritten) {
   EXPECT_EQ(DecodeMono(std::as_bytes(std::span(bytes))), mono);
 }
 
-// A header that says ten minutes of 8 channels at 192 kHz, or half of what is there.
+// Headers that state ten minutes of 8 channels at 192 kHz, or half of the real length.
 TEST_F(DecodeTest, FlacIsReadWhateverItsHeaderSays) {
   const std::vector<float> wave(8 * 5000);
   const std::string bytes = Bytes(Write(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 192'000, 8, wave));
@@ -190,7 +190,7 @@ TEST_P(DecodeFormatTest, TruncatedFilesAreReadAsFarAsTheyGoAndToldOf) {
   EXPECT_NE(Refusal(bytes.substr(0, 20)), "accepted");
 }
 
-// As `cat a b` joins them; a WAV has but one part.
+// Joined as by `cat a b`; a WAV has only one part.
 TEST_P(DecodeFormatTest, JoinedFilesAreReadToTheEnd) {
   if (std::string(GetParam().name).starts_with("wav")) return;
   const std::string bytes = Bytes(WriteWave());
@@ -263,7 +263,7 @@ TEST_F(DecodeTest, LimitsAreHeld) {
   ten_minutes.insert(ten_minutes.end(), 8000 * 60, 0.25f);
   const auto longer = Write(u8, 8000, 1, ten_minutes);
   EXPECT_THAT(Refusal(Bytes(longer)), AllOf(HasSubstr("600 s"), HasSubstr("at most")));
-  // They hold for the part that is asked for.
+  // Limits apply to the requested part.
   EXPECT_NEAR(DecodeAudioFile(longer, 5, 640).seconds(), 8, 4);
   EXPECT_EQ(DecodeAudioFile(longer, 1000, 60).samples(), 8000 * 600);
 }
@@ -291,18 +291,18 @@ TEST_F(DecodeTest, Mp3OfVaryingBitRateIsReadToItsEndWithoutAnIndex) {
   const std::string without = bytes.substr(second_frame);
   EXPECT_NEAR(Decode(without).seconds(), 6.0, 0.1);
   EXPECT_NEAR(Decode(without.substr(0, without.size() / 2)).seconds(), 1.7, 1.3);
-  // Joined to one with an index, whose count of frames is then too small.
+  // Joined to a file with an index, whose frame count is then too small.
   const DecodedAudio joined = Decode(bytes + without);
   EXPECT_NEAR(joined.seconds(), 12.0, 0.2);
   ASSERT_FALSE(joined.notes.empty());
   EXPECT_THAT(joined.notes[0], HasSubstr("frames, "));
-  // Behind what a server says, or in the middle of a frame.
+  // After a server's headers, or in the middle of a frame.
   EXPECT_NEAR(Decode("HTTP/1.1 200 OK\r\nContent-Type: audio/mpeg\r\n\r\n" + bytes).seconds(), 6,
               0.1);
   EXPECT_NEAR(Decode(without.substr(100)).seconds(), 6, 0.15);
 }
 
-// What programs write that do not know how much will come, and what others err by.
+// Headers by programs that do not know the length, and other common errors.
 TEST_F(DecodeTest, WavIsReadWhateverItsHeaderSays) {
   const std::string bytes =
       Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 44100, 1, Noise(5000, 1)));

@@ -66,7 +66,7 @@ TEST_P(FeatureStreamFormatTest, ChunksDoNotChangeABit) {
       EXPECT_GE(stream.final_rows(), final_rows);
       final_rows = stream.final_rows();
     }
-    // What was final before the end stays as it was.
+    // Rows that were final before the end do not change.
     const std::vector<float> early = RowsOf(stream, 0, final_rows);
     EXPECT_TRUE(std::equal(early.begin(), early.end(), expected.begin()));
     stream.Finish();
@@ -125,7 +125,7 @@ TEST_P(FeatureStreamFormatTest, ForgottenRowsAreGoneAndTheOthersStay) {
   EXPECT_EQ(stream.audio_rows(), whole.audio_rows());
   EXPECT_EQ(RowsOf(stream, 7, 35), RowsOf(whole, 7, 35));
   stream.Forget(1000);
-  EXPECT_LE(stream.first_row(), 40);  // behind the last computed one all are silence's
+  EXPECT_LE(stream.first_row(), 40);  // later rows are all silence
   EXPECT_EQ(RowsOf(stream, 50, 60), RowsOf(whole, 50, 60));
 }
 
@@ -152,7 +152,7 @@ TEST(FeatureStreamTest, NoRateHasMoreThanTheLargestLatency) {
   for (int rate = kMinSampleRate; rate <= kMaxSampleRate; rate += 1000) {
     largest = std::max(largest, FeatureStream(rate, 1).latency_samples());
   }
-  // Half a window and, at the lowest rate, half the resampling filter.
+  // Half a window plus, at the lowest rate, half the resampling filter.
   EXPECT_EQ(largest, kFftSize / 2 + 188);
 }
 

@@ -1,5 +1,5 @@
-// Agreement with what librosa 0.10.2 itself computed. Skipped where the files are absent:
-// CHOREO_GOLDEN names their folder (default: ../shared/golden beside the repository).
+// Agreement with output of librosa 0.10.2. Skipped if the files are absent: CHOREO_GOLDEN names
+// their folder (default: ../shared/golden beside the repository).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::filesystem::path GoldenFolder() {
 
 struct Difference {
   double largest = 0;
-  double relative_rms = 0;  // of the RMS of what is expected
+  double relative_rms = 0;  // relative to the RMS of the expected values
 };
 
 Difference Compare(std::span<const float> values, std::span<const float> expected) {
@@ -101,7 +101,7 @@ TEST_P(GoldenTest, TempoAndBeats) {
   const double tempo = golden.at("tempo_bpm").get<double>();
   EXPECT_NEAR(track.tempo_bpm, tempo, 0.03 * tempo);
   std::vector<double> beats = track.Seconds();
-  // librosa leaves out beats at both ends.
+  // librosa omits beats at both ends.
   std::erase_if(beats, [&](double beat) {
     return beat < expected.front() - 0.07 || beat > expected.back() + 0.07;
   });

@@ -24,7 +24,7 @@ std::vector<RowSound> RowsOf(std::span<const float> wave, size_t chunk) {
 }
 std::vector<RowSound> RowsOf(std::span<const float> wave) { return RowsOf(wave, wave.size()); }
 
-/// At the end of each second from the third on.
+/// At the end of each second, from the third on.
 std::vector<double> EnergiesOf(const std::vector<RowSound>& rows) {
   std::vector<double> energies;
   for (size_t row = 90; row <= rows.size(); row += 30)
@@ -55,7 +55,7 @@ TEST(RowSoundTest, ASineIsAsLoudAsTheStandardSays) {
     const auto rows = RowsOf(Sine(997, kRate, kRate, amplitude));
     EXPECT_NEAR(Loudness(rows[15].power), -3.01 + 20 * std::log10(amplitude), 0.05);
   }
-  // What is low is less loud, and bass; what is high is louder, by 4 dB, and none.
+  // A low tone is less loud, and bass; a high one is louder, by 4 dB, and not bass.
   const RowSound low = RowsOf(Sine(60, kRate, kRate))[15];
   const RowSound high = RowsOf(Sine(4000, kRate, kRate))[15];
   EXPECT_NEAR(low.bass, 0.5, 0.05);

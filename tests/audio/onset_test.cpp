@@ -37,7 +37,7 @@ TEST(OnsetTest, BandsAreToldApart) {
   const auto strongest = [](double hz) {
     std::vector<float> wave(20000, 0.0f);
     const std::vector<float> tone = Sine(hz, 22050, 10000, 0.5);
-    // Swelling, as a tone that is cut on sounds in all bands.
+    // Fades in, as a tone that is switched on sounds in all bands.
     for (size_t i = 0; i < tone.size(); ++i)
       wave[10000 + i] = tone[i] * std::min(1.0F, static_cast<float>(i) / 1500);
     Onset sum;
@@ -55,7 +55,7 @@ TEST(OnsetTest, ADcOffsetChangesNothing) {
   const std::vector<float> plain = Strength(wave);
   for (float& sample : wave) sample += 0.25F;
   const std::vector<float> offset = Strength(wave);
-  // But at both ends, where the offset itself begins and ends.
+  // Except at both ends, where the offset begins and ends.
   for (size_t i = 6; i + 6 < plain.size(); ++i) EXPECT_NEAR(offset[i], plain[i], 0.05) << i;
 }
 
@@ -68,7 +68,7 @@ TEST(OnsetTest, LoudnessIsThatOfTheLoudestBand) {
 TEST(OnsetTest, OnsetsDependOnAFiniteMemory) {
   const std::vector<float> wave = Noise(4 * 22050, 7, 0.3);
   const std::vector<Onset> whole = FindOnsets(wave);
-  constexpr size_t kFrom = 60;  // frames left out
+  constexpr size_t kFrom = 60;  // frames ignored
   const std::vector<Onset> later = FindOnsets(std::span(wave).subspan(kFrom * kOnsetHop));
   for (size_t f = OnsetMeter::kMemory + 3; f < later.size(); ++f)
     EXPECT_EQ(later[f], whole[f + kFrom]) << f;

@@ -6,7 +6,7 @@
 
 #include "model/audio/made_song.h"
 
-/// Songs put together of parts: where they come back is known.
+/// Songs assembled from parts, so that repeats are known.
 namespace choreo::passages_test {
 
 constexpr double kPart = 24;  // seconds
@@ -24,7 +24,7 @@ std::vector<float> SongOf(std::initializer_list<uint64_t> parts) {
   return song;
 }
 
-// Seconds that are found to come back as `lag` seconds before, of those from one second to another.
+// Seconds in [from, to) found to repeat what was `lag` seconds before.
 double Found(const std::vector<Passage>& passages, double lag, double from, double to) {
   double found = 0;
   for (const Passage& passage : passages) {
@@ -73,7 +73,7 @@ TEST(Passages, SilenceDoesNotComeBack) {
   EXPECT_TRUE(FindPassages({}, {}).empty());
 }
 
-// What comes later moves no passage but by its last seconds.
+// Later music only changes the last seconds of passages.
 TEST(Passages, TheBeginningOfASongHasThemToo) {
   const std::vector<float> song = SongOf({11, 12, 11, 12});
   const auto cut = [&](double seconds) {
@@ -85,7 +85,7 @@ TEST(Passages, TheBeginningOfASongHasThemToo) {
   EXPECT_EQ(part.front().like, whole.front().like);
 }
 
-// What is told of a moment while it sounds is what was heard up to it.
+// What is reported of a moment depends only on the music before it.
 TEST(Passages, AreHeardWhileTheySound) {
   const std::vector<float> song = SongOf({11, 12, 11});
   PassageListener listener;

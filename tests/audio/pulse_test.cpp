@@ -31,7 +31,7 @@ Pulse After(const std::vector<float>& onsets, double seconds) {
   return HearPulse(std::span(onsets).first(static_cast<size_t>(30 * seconds)));
 }
 
-/// Clicks that are `period` apart until `change`, and `then` from there on; seconds.
+/// Click times, `period` apart until `change`, and `then` apart afterwards; seconds.
 std::vector<double> Times(double seconds, double period, double change, double then) {
   std::vector<double> times;
   for (double t = 0.3; t < seconds; t += t < change ? period : then) times.push_back(t);
@@ -49,7 +49,7 @@ std::vector<float> ClicksAt(double seconds, const std::vector<double>& times, fl
   return wave;
 }
 
-/// How far the next beats of a pulse that was heard after `seconds` are off the clicks, at most.
+/// The largest distance between the pulse's next beats after `seconds` and the clicks.
 double FurthestOff(const Pulse& pulse, double seconds, const std::vector<double>& times) {
   const double last_row = 30 * seconds - 1;
   double furthest = 0;

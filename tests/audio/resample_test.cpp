@@ -13,8 +13,8 @@
 
 namespace choreo::resample_test {
 
-// Two rates of few phases, the usual ones, both ends of the range, one of many phases that are
-// kept, one whose are not.
+// Two rates with few phases, the usual rates, both ends of the range, one with many phases that are
+// cached, one whose are not.
 constexpr int kRates[] = {8000, 11025, 16000, 44100, 48000, 96000, 192000, 22255, 44101};
 
 std::vector<float> Resample(std::span<const float> interleaved, double rate, int channels = 1,
@@ -27,7 +27,7 @@ std::vector<float> Resample(std::span<const float> interleaved, double rate, int
   return mono;
 }
 
-/// RMS of mono minus expected, away from the ends, where the filter meets the silence outside.
+/// RMS of mono minus expected, away from the ends, where the filter reaches the silence outside.
 double RmsError(std::span<const float> mono, std::span<const float> expected) {
   double squares = 0;
   size_t count = 0;
@@ -112,8 +112,7 @@ TEST_P(ResamplerRateTest, WhereTheStreamStartsDoesNotChangeABit) {
     const std::vector<float> tail =
         Resample(std::span(wave).subspan(static_cast<size_t>(start)), rate(), 1, start);
     const int64_t first = probe.first_output();
-    // No output that could be had is left out, none is given whose support begins before the
-    // stream.
+    // No available output is missing, and none has support before the stream's start.
     const auto support = [&](int64_t n) {
       return n * rate() / kModelSampleRate - probe.half_length() + 1;
     };

@@ -28,8 +28,8 @@ inline std::vector<float> Noise(int64_t samples, uint64_t seed, double amplitude
   return wave;
 }
 
-/// A signal of the formula that expected vectors in these tests were computed from with NumPy: a
-/// tone, a sweep and a burst every quarter of a second, 1.5 s at 22 050 Hz.
+/// The signal whose expected vectors in these tests were computed with NumPy: a tone, a sweep and a
+/// burst every quarter of a second, 1.5 s at 22 050 Hz.
 inline std::vector<float> TonesAndBursts() {
   std::vector<float> wave(3 * 22050 / 2);
   for (size_t i = 0; i < wave.size(); ++i) {
@@ -56,8 +56,8 @@ inline std::vector<float> Clicks(int64_t samples, int64_t first, int64_t period)
   return wave;
 }
 
-/// Metal at 22 050 Hz: what is bright and loud strikes between the beats, the low drum on them.
-/// Beat k is at second 0.3 + k * `period`.
+/// Metal at 22 050 Hz: bright, loud strokes between the beats, the bass drum on them. Beat k is at
+/// second 0.3 + k * `period`.
 inline std::vector<float> Metal(double seconds, double period) {
   constexpr int64_t kRate = 22050;
   std::vector<float> wave = Noise(static_cast<int64_t>(seconds * kRate), 9, 0.001);

@@ -80,7 +80,7 @@ TEST(SuggestKeysTest, EvenBeatsGiveEvenKeys) {
   EXPECT_EQ(BeatsOf(Song(41, 1).Suggest(5)), (std::vector<size_t>{4, 12, 20, 28, 36}));
 }
 
-/// Every choice of `count` beats that keeps the interval, scored as the header says.
+/// The best of all choices of `count` beats that keep the interval, scored as in the header.
 double BestByTryingAll(const Song& song, size_t first, int64_t left, double last, double even,
                        std::vector<size_t>* chosen, std::vector<size_t>* best, double score,
                        double top) {
@@ -109,14 +109,14 @@ TEST(SuggestKeysTest, StandWherePhrasesBegin) {
   song.Count(2, 4);  // eights at 2, 10, ... 58
   EXPECT_EQ(BeatsOf(song.Suggest(8)), (std::vector<size_t>{2, 10, 18, 26, 34, 42, 50, 58}));
   for (const SuggestedKey& key : song.Suggest(15)) EXPECT_GE(key.begins, Phrase::kBar) << key.beat;
-  // What began at 6 returns at 24, where the bars that are heard do not begin.
+  // The passage that began at 6 returns at 24, where no tracked bar begins.
   const std::vector<double> times = song.track.Seconds();
   song.passages = {{.from = times[24] + 0.1, .to = times[34], .like = times[6] - 0.1}};
   EXPECT_THAT(BeatsOf(song.Suggest(8)), testing::IsSupersetOf({6, 24}));
   const std::vector<Phrase> phrases = FindPhrases(song.track, song.passages);
   EXPECT_EQ(phrases[2], Phrase::kEight);
   EXPECT_EQ(phrases[6], Phrase::kPassage);
-  EXPECT_EQ(phrases[10], Phrase::kBar);  // eights are counted anew
+  EXPECT_EQ(phrases[10], Phrase::kBar);  // counting restarts
   EXPECT_EQ(phrases[11], Phrase::kBeat);
   EXPECT_EQ(phrases[14], Phrase::kEight);
   for (size_t i = 24; i < 34; ++i) EXPECT_EQ(phrases[i], phrases[i - 18]) << i;
@@ -190,7 +190,7 @@ TEST(SuggestKeysTest, MoreThanFitOrNoneAreRefused) {
   ExpectError(ErrorCode::kInvalidArgument, "n: 2 keys, but no beat is heard",
               [] { SuggestKeys(BeatTrack{}, {}, {}, {.count = 2, .named = "n"}); });
   EXPECT_EQ(BeatsOf(Song(1, 1).Suggest(1)), std::vector<size_t>{0});
-  // Whatever fits is found, also where it leaves no freedom.
+  // Finds every choice that fits, even the only one.
   EXPECT_EQ(BeatsOf(Song(19, 4).Suggest(7)), (std::vector<size_t>{0, 3, 6, 9, 12, 15, 18}));
 }
 

@@ -28,7 +28,7 @@ TEST(BodyDistance, IsThatOfTheHandsOfTwoWhoHoldTheirArmsOut) {
   const MovingBody body(kSmpl, Standing(1));
   const double between = LeastDistance(body, body, {3, 0, 0}).metres;
   EXPECT_NEAR(between, 3 - Reach(1) - Reach(-1), 0.02);
-  // Behind each other they are as far apart as they stand, but for their noses and toes.
+  // One behind the other, they are as far apart as they stand, less noses and toes.
   EXPECT_NEAR(LeastDistance(body, body, {0, 0, 2}).metres, 1.7, 0.15);
   EXPECT_LT(LeastDistance(body, body, {0.5, 0, 0}).metres, 0);
 }

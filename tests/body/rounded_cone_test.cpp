@@ -56,7 +56,7 @@ TEST(RoundedCone, RaysMeetTheSurfaceFirst) {
     const Vector3f origin = 3 * random().normalized();
     const Vector3f direction = (0.5f * random() - origin).normalized();
     const float hit = Distance(cone, origin, direction);
-    // March by the distance, which never goes through the surface.
+    // Marching by the distance never passes through the surface.
     float marched = 0, gap = 1;
     for (int step = 0; step < 300 && gap > 1e-4f && marched < 6; ++step) {
       gap = SearchedDistance(cone, origin + marched * direction);
@@ -98,7 +98,7 @@ TEST(RoundedCone, LanesAreOfTheirOwn) {
   EXPECT_NEAR(distance[0], 0.9f, 1e-5f);
   EXPECT_GT(distance[1], 3.8f);
   for (int lane = 2; lane < kLanes; ++lane) EXPECT_EQ(distance[lane], distance[1]);
-  // A shape that stands in for none is not counted twice.
+  // A shape that only fills lanes is not counted twice.
   const Lane hidden = HiddenSky(cones, Lanes::All({2.5f, 0.6f, 0}), ahead);
   EXPECT_GT(hidden[1], 0.1f);
   for (int lane = 2; lane < kLanes; ++lane) EXPECT_EQ(hidden[lane], 0);

@@ -62,7 +62,7 @@ TEST(Skin, IsClosedAndFacesOutward) {
       }
       volume += corner[0].dot(corner[1].cross(corner[2])) / 6;
     }
-    // Each edge is run through once in each direction.
+    // Each edge is used once in each direction.
     for (const auto& [edge, count] : edges) {
       EXPECT_EQ(count, 1);
       EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
@@ -89,7 +89,7 @@ TEST(Skin, StaysOnTheDollWhenTheBodyBends) {
         const Eigen::Vector3d moved =
             now.positions.col(joint) +
             now.rotations[joint] * (patch.positions[v].cast<double>() - rest.positions.col(joint));
-        // Calf and heel end beside a joint whose turning they do not follow.
+        // Calf and heel end beside a joint whose rotation they do not follow.
         EXPECT_LT(Distance(parts, patch.colour, moved.cast<float>()), limb ? 0.02f : 0.05f)
             << kSmpl.joint_names[joint];
       }
@@ -97,7 +97,7 @@ TEST(Skin, StaysOnTheDollWhenTheBodyBends) {
   }
 }
 
-// Thigh and shin are seen there at once, however they turn: they have the same shade.
+// Thigh and shin both show there, however they turn: they must have the same shade.
 TEST(Skin, ABallThatTwoBonesShareIsRound) {
   const JointPlacement rest = ForwardKinematics(kSmpl, RestPose(kSmpl));
   const std::vector<SkinPatch> skin = MakeSkin(kSmpl);

@@ -41,7 +41,7 @@ std::string Refusal(const std::string& bytes) {
   return "accepted";
 }
 
-// What numpy.save writes for numpy.arange(3, dtype='<f4'), byte for byte.
+// The output of numpy.save for numpy.arange(3, dtype='<f4'), byte for byte.
 TEST(NpyTest, WritesWhatNumpyWrites) {
   const std::string header =
       "{'descr': '<f4', 'fortran_order': False, 'shape': (3,), }" + std::string(60, ' ') + "\n";

@@ -15,7 +15,7 @@ namespace choreo::random_test {
 
 using ::testing::ElementsAre;
 
-// The known-answer vectors that the authors publish with Random123 (kat_vectors, philox4x32 10).
+// The known-answer vectors published with Random123 (kat_vectors, philox4x32 10).
 TEST(PhiloxTest, GivesThePublishedAnswers) {
   EXPECT_THAT(Philox4x32({0, 0, 0, 0}, {0, 0}),
               ElementsAre(0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8));
@@ -97,8 +97,8 @@ TEST(FillNormalTest, DependsOnItsCoordinatesAloneWhateverTheOrderAndWidth) {
   }
 }
 
-// Bits are promised from run to run; these pin them from build to build, too: the same seed must go
-// on giving the same dance.
+// Bits must not change between runs; these also pin them between builds: the same seed must keep
+// giving the same dance.
 TEST(FillNormalTest, WhatComesBackIsLikeItAsFarAsItDoesNotVary) {
   const auto like = [](double variation) {
     std::vector<float> out(50'000);

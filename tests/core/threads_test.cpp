@@ -52,7 +52,7 @@ TEST(ThreadsTest, FlushesDenormalsHereAndInThreadsStartedAfterwards) {
   volatile float smallest = std::numeric_limits<float>::min();
   volatile float here = -1;
   volatile float child = -1;
-  // In a thread of its own, so that the other tests keep their arithmetic.
+  // In its own thread, so that other tests keep their arithmetic.
   std::thread([&] {
     const volatile float before = smallest / 4;
     ASSERT_GT(before, 0);

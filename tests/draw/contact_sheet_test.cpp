@@ -125,7 +125,7 @@ TEST(ContactSheet, ALongTitleHasALineOfItsOwnAndRowsCanBeApart) {
   };
   const DecodedPng brief = draw("Short", 60, false);
   EXPECT_EQ(draw(std::string(90, 'W'), 60, false).height, brief.height + 26);
-  // Other times under the second row, and nothing of the whole.
+  // Other times below the second row, and nothing about the whole.
   const DecodedPng apart = draw("Short", 60, true);
   EXPECT_EQ(apart.height, brief.height);
   EXPECT_NE(apart.pixels, brief.pixels);

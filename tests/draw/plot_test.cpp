@@ -33,7 +33,7 @@ Plot Example() {
   return plot;
 }
 
-// Rows in which a line's own colour stands, in one column.
+// Rows with a line's own colour, in one column.
 std::vector<int> Rows(const DecodedPng& png, int x, uint32_t colour) {
   std::vector<int> rows;
   for (int y = 100; y < png.height; ++y) {
@@ -128,7 +128,7 @@ TEST(Plot, BarsOfNamedPlacesStandSideBySideOnZero) {
   plot.series = {{"low", {0, 1}, {5, 5}}, {"high", {0, 1}, {10, NAN}}, {"highest", {2}, {20}}};
   DrawPlot(plot, folder / "bars.png");
   const DecodedPng png(folder / "bars.png");
-  // Columns and rows of a colour, the legend left out.
+  // Columns and rows of a colour, without the legend.
   const auto extent = [&](uint32_t colour) {
     int columns = 0, tallest = 0;
     for (int x = 0; x < png.width; ++x) {

@@ -20,7 +20,7 @@ constexpr int kRate = 44100;
 
 bool HaveFfmpeg() { return std::system("ffmpeg -version >/dev/null 2>&1") == 0; }
 
-// What ffmpeg makes of a file: arguments behind the input, raw bytes out.
+// ffmpeg's output for a file: arguments after the input, raw bytes out.
 std::string Decode(const std::filesystem::path& file, const std::string& arguments) {
   const std::string out = file.string() + ".raw";
   std::string quoted = file.string();
@@ -95,7 +95,7 @@ TEST(VideoViews, FollowsUnhurriedlyFromOneSide) {
 TEST(Video, PictureAndSongBeginTogetherAndEndTogether) {
   if (!HaveFfmpeg()) GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   const TemporaryFolder folder;
-  // A name that a shell, or ffmpeg's own syntax, would trip over.
+  // A name that would confuse a shell, or ffmpeg's own syntax.
   const std::filesystem::path song = folder / "-y concat:a|b; $(false) \"#%d.wav";
   constexpr int kFrames = 40, kMove = 20;
   WriteClick(song, 5, kMove / 30.0);

@@ -14,7 +14,7 @@ namespace choreo::control_tables_test {
 
 using testing_support::SyntheticClip;
 
-/// Dances as the fake model does, beside its path.
+/// Dances like the fake model, but beside its path.
 class BesideSampler : public ControlledSampler {
  public:
   explicit BesideSampler(double metres) : metres_(metres) {}
@@ -26,8 +26,8 @@ class BesideSampler : public ControlledSampler {
   double metres_;
 };
 
-/// Keeps its posture and swings the left shoulder to and fro, as fast as it is asked: the mean
-/// speed of the arm's joints is the factor, to the letter.
+/// Keeps its posture and swings the left shoulder at the requested speed: the mean speed of the
+/// arm's joints is exactly the factor.
 class SwingingSampler : public ControlledSampler {
  public:
   void OnFrame(const TransitionSpec& spec, Plan* plan) override {
@@ -120,7 +120,7 @@ TEST_F(ControlTablesTest, RealMotionIsTheYardstick) {
   for (const std::string_view part : kBodyPartNames)
     EXPECT_DOUBLE_EQ(Figure("multipliers", {"real", "1.0"}, std::string(part)), 1);
   EXPECT_EQ(Figure("repetition", {"real"}, "still at the end, 250"), 0);
-  // As many rows as there are ways, in every table.
+  // Every table has as many rows as there are methods.
   for (const Table& table : tables_) {
     if (table.label_headings.size() != 1) continue;
     EXPECT_EQ(table.rows.size(), 2U + 2 * 5 + 1) << table.name;
@@ -144,7 +144,7 @@ TEST_F(ControlTablesTest, ARootWithinSevenCentimetresCounts) {
   EXPECT_EQ(Figure("art", {"near, network alone"}, "100"), 1);
   EXPECT_EQ(Figure("art", {"beside, network alone"}, "100"), 0);
   EXPECT_EQ(Figure("art", {"near, network alone"}, "mean"), 1);
-  // Who takes no path is not told of it.
+  // A method without paths is not told the path.
   EXPECT_LT(Figure("art", {"plain, network alone"}, "150"), 1);
 }
 
@@ -165,7 +165,7 @@ TEST_F(ControlTablesTest, ConstantFactorsAreHeldAgainstTheReference) {
     EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "left_arm"), scale, 0.01);
     EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "right_arm"), 0, 1e-4);
   }
-  // Real dancers were not asked: theirs are their own.
+  // Real dancers were asked for nothing: their speeds are their own.
   const double own = Figure("constant", {"real", "1.0"}, "left_arm");
   EXPECT_GT(std::abs(own - 1), 0.01);
   EXPECT_TRUE(std::isnan(Figure("constant", {"plain", "0.5"}, "left_arm")));
@@ -181,14 +181,14 @@ TEST_F(ControlTablesTest, DrawnPathsAreKeptToAndEndAtTheKey) {
     EXPECT_LT(Figure("drawn", {path, "model"}, "root off path mean cm"), 1) << path;
     EXPECT_LT(Figure("drawn", {path, "model"}, "key missed cm"), 0.01) << path;
     EXPECT_NEAR(Figure("drawn", {path, "near, network alone"}, "root off path mean cm"), 5, 1e-3);
-    // The fake misses keys by a little itself.
+    // The fake model itself misses keys slightly.
     EXPECT_NEAR(Figure("drawn", {path, "near, network alone"}, "key missed cm"), 5, 0.5) << path;
-    // Who takes no path can't be asked for one.
+    // A method without paths can't be asked for one.
     EXPECT_TRUE(std::isnan(Figure("drawn", {path, "plain"}, "skating"))) << path;
   }
   EXPECT_GT(Figure("drawn", {"as danced", "real"}, "root asked m/s"), 0);
   EXPECT_TRUE(std::isnan(Figure("drawn", {"a bow", "real"}, "skating")));
-  // A bow is a detour; on the spot, what is left is the height, and to stop.
+  // A bow is a detour; on the spot only the height changes, and stopping.
   const auto asked = [&](const std::string& path) {
     return Figure("drawn", {path, "interpolation"}, "root asked m/s");
   };

@@ -106,7 +106,7 @@ TEST_F(Tables, RealMotionIsTheYardstickAndInterpolationTheUnit) {
   ASSERT_TRUE(model[1].interval);
   EXPECT_LE(model[1].interval->low, model[1].value);
   EXPECT_GE(model[1].interval->high, model[1].value);
-  // Who does not know the key ends elsewhere.
+  // A method that does not know the key ends elsewhere.
   EXPECT_GT(Row("transitions_set", {"30", "music"})[0].value, model[0].value);
 }
 
@@ -116,7 +116,7 @@ TEST_F(Tables, KeysAreMissedRawAndMetAsServed) {
   EXPECT_GT(keys[1].value, 0.01);
   EXPECT_LE(keys[5].value, 1);
   EXPECT_LE(keys[6].value, 0.1);
-  // Real motion has its keys, who is told of none misses it, and by the same before arrival.
+  // Real motion has its keys; a method without them misses, equally before arrival.
   for (const Cell& cell : Row("keys_set", {"30", "real"})) EXPECT_EQ(cell.value, 0);
   EXPECT_EQ(Row("keys_set", {"30", "interpolation"})[5].value, 0);
   const auto& free = Row("keys_set", {"30", "music"});

@@ -49,7 +49,7 @@ TEST(HearingTable, HasAllFiguresAtUsualSettingsAndThoseThatMatterAtOthers) {
   }
 }
 
-// The fake is shaken by noise and nods on beats; how loud it is, leaves its speed as it is.
+// The fake model is shaken by noise and nods on beats; loudness does not change its speed.
 TEST(HearingTable, TellsWhatADanceHears) {
   EXPECT_NEAR(Figure("silence ÷ drums", 0), 1, 0.2);
   EXPECT_LT(Figure("a part again", 2), Figure("a part again", 3) - 0.1);

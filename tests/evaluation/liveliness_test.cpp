@@ -74,7 +74,7 @@ TEST(KeyedDances, BeatsAreRegularOrAsManyShuffled) {
 
 TEST(KeyedDances, RealMotionThroughFootworkKeepsItsKeysAndSkatesLess) {
   const ModelInfo model = FakeSampler().model();
-  // One who stands, and is drawn over the floor.
+  // A standing dancer, pulled over the floor.
   ClipSet set = Clips(780);
   for (int t = 0; t < 780; ++t) {
     Pose& pose = set.clips[0].motion.frames[static_cast<size_t>(t)];
@@ -105,7 +105,7 @@ TEST(HitsOverChance, AreHighOnTheBeatAndLowBesideIt) {
   EXPECT_NEAR(HitsOverChance({Nodding(20, 0)}, 90, 0, 30).value, 75, 3);
   EXPECT_NEAR(HitsOverChance({Nodding(20, 10)}, 90, 0, 30).value, -25, 3);
   EXPECT_NEAR(HitsOverChance({Nodding(20, 10)}, 90, 0.5, 30).value, 75, 3);
-  // Who nods twice as often hits with half; who has a tempo of its own by chance alone.
+  // Nodding twice as often hits with half; another tempo hits by chance alone.
   EXPECT_NEAR(HitsOverChance({Nodding(10, 0)}, 90, 0, 30).value, 25, 3);
   EXPECT_NEAR(HitsOverChance({Nodding(17, 0)}, 90, 0, 30).value, 0, 5);
 }
@@ -157,7 +157,8 @@ TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
   FakeSampler sampler;
   const ClipSet set = Clips(700);
   InterpolationSampler line(sampler.model());
-  // Who is not the judged one has a name in its tables; who is no network has none.
+  // A method that is not the judged one has its name in its tables; one without a network has no
+  // tables.
   const std::vector<Method> methods = {{"other", Method::Kind::kModel, &sampler},
                                        {"line", Method::Kind::kModel, &line, true, false},
                                        {"model", Method::Kind::kModel, &sampler}};

@@ -54,7 +54,7 @@ TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
   }
 }
 
-// As a stream's does, whose last transition is cut, not shortened.
+// As in a stream, whose last transition is cut, not shortened.
 TEST(DanceLong, OneThatEndsEarlierIsTheBeginning) {
   const ClipSet set = Clips(false);
   FakeSampler sampler;
@@ -85,7 +85,7 @@ TEST(PlanLongDances, KeysAreOfTheRealMotionBesideADance) {
     ASSERT_EQ(beside.size(), 300U);
     for (const auto& [frame, pose] : plan.keys)
       EXPECT_EQ(beside[static_cast<size_t>(frame)].root_position, pose.root_position);
-    // Where the clip is over it is walked back: no step is longer than the clip's own.
+    // After the clip's end it is traversed backwards: no step is longer than the clip's own.
     for (size_t t = 1; t < beside.size(); ++t)
       EXPECT_LT((beside[t].root_position - beside[t - 1].root_position).norm(), 0.2) << t;
   }
@@ -168,7 +168,7 @@ TEST(LongFigures, StillestIsTheSlowestFifthWhereverItIs) {
     EXPECT_NEAR(dance.stillest, 0.1, 1e-6) << from;
     EXPECT_EQ(range.Frozen(dance), from >= 233) << from;  // that is in the last fifth alone
   }
-  // Less than half a fifth is a pause, which no median sees.
+  // Less than half a fifth is a pause, which no median shows.
   EXPECT_NEAR(walk(130, 29).stillest, 1, 1e-6);
   // The last fifth is among them, whatever the length.
   const PreparedClip clip = SyntheticClip("a", 153, 0.1, false);
@@ -220,9 +220,9 @@ TEST(LongFigures, DriftIsWalkingAwaySinkingOrAnotherPace) {
   EXPECT_NEAR(measure(away(2.5), steady).away_m_per_min, 2.5, 1e-6);
   EXPECT_FALSE(calm.Drifted(measure(away(2.5), steady)));
   EXPECT_TRUE(calm.Drifted(measure(away(3.5), steady)));
-  // Where real dancers go further, so may others.
+  // Where real dancers go further, others may, too.
   EXPECT_FALSE(RangeOf({measure(away(4), steady)}, {}, 30).Drifted(measure(away(3.5), steady)));
-  // Round a circle of three metres and back, again and again, is no drift.
+  // Round and round a circle of three metres is not drift.
   const auto round = [](double s) {
     return Eigen::Vector3d(3 * std::cos(s / 2) - 3, 0, 3 * std::sin(s / 2));
   };
@@ -280,7 +280,7 @@ TEST(EvaluateStress, WarnsOfWhatNobodyCanDoAndMeetsItsKeys) {
   EXPECT_EQ(row({"standing to lying 6 m away", "30"})[3].value, 100);
   for (const TableRow& any : table.rows)
     EXPECT_TRUE(any.labels[0] == "no key" || any.cells[7].value <= 1) << any.labels[0];
-  // Real motion asks of itself what people do, and arrives; who is asked for nothing is not judged.
+  // Real motion asks only what people can do, and arrives; without a request there is no verdict.
   for (const char* frames : {"3", "10", "30", "90"}) {
     EXPECT_EQ(row({"real motion", frames})[3].value, 0);
     EXPECT_EQ(row({"real motion", frames})[4].value, 0);

@@ -24,8 +24,8 @@ struct SourceJoint {
   const char* ours;  ///< whose rotation it takes, null for none
 };
 
-// A skeleton in the fashion of motion capture files: other proportions, five spine joints,
-// collarbones near the neck, in centimetres.
+// A skeleton as in motion capture files: other proportions, five spine joints, collarbones near the
+// neck, in centimetres.
 std::vector<SourceJoint> MocapJoints() {
   std::vector<SourceJoint> joints = {
       {"Hips", nullptr, {0, 0, 0}, "pelvis"},     {"Spine", "Hips", {0, 7, 0}, nullptr},
@@ -57,7 +57,7 @@ std::vector<SourceJoint> MocapJoints() {
   return joints;
 }
 
-// The source's joints when it dances like `motion`, in centimetres.
+// The source's joints, in centimetres, when it dances `motion`.
 PositionClip Perform(const std::vector<SourceJoint>& joints, const Motion& motion,
                      const std::string& prefix = "") {
   PositionClip clip;
@@ -117,7 +117,7 @@ TEST(BvhSource, FollowsASkeletonOfAnotherBuild) {
   EXPECT_LT(BoneError(fit, source, "right_knee", "right_ankle", "RightLeg", "RightFoot"), 4);
   EXPECT_LT(BoneError(fit, source, "left_shoulder", "left_elbow", "LeftArm", "LeftForeArm"), 4);
   EXPECT_LT(BoneError(fit, source, "right_elbow", "right_wrist", "RightForeArm", "RightHand"), 4);
-  // What positions tell only together: where pelvis, chest and feet face.
+  // What positions tell only in combination: where pelvis, chest and feet face.
   double pelvis = 0, chest = 0, foot = 0;
   for (size_t frame = 0; frame < dance.frames.size(); ++frame) {
     const JointPlacement ours = ForwardKinematics(Smpl(), fit.motion.frames[frame]);
@@ -136,7 +136,7 @@ TEST(BvhSource, FollowsASkeletonOfAnotherBuild) {
   EXPECT_LT(foot, 15);
 }
 
-// The same dancer under other names; joints that `names` leaves out get names that say nothing.
+// The same dancer under other names; joints not in `names` get meaningless names.
 PositionClip Renamed(PositionClip clip, const std::map<std::string, std::string>& names) {
   for (std::string& name : clip.joint_names) {
     const auto found = names.find(name);

@@ -50,7 +50,7 @@ TEST(Fit, GroundsDriftButNotJumps) {
   }
 }
 
-// Some recordings sink a foot into the floor for half a second: the body must not be lifted for it.
+// Some recordings sink a foot into the floor for half a second, which must not lift the body.
 TEST(Ground, IsNotLedByAFootThatARecordingSinks) {
   Motion motion;
   motion.frames.assign(300, RestPose(Smpl()));

@@ -7,7 +7,7 @@
 
 namespace choreo::fixtures {
 
-/// Where the joints of a motion are.
+/// Joint positions of a motion.
 inline PositionClip Positions(const Skeleton& skeleton, const Motion& motion) {
   PositionClip clip;
   clip.fps = motion.fps;
@@ -16,8 +16,7 @@ inline PositionClip Positions(const Skeleton& skeleton, const Motion& motion) {
   return clip;
 }
 
-/// A dance in which every joint moves within a body's limits, so that sources of other builds can
-/// follow.
+/// A dance within a body's joint limits, so that sources of other proportions can follow.
 inline Motion Dance(int frames) {
   Motion motion = SmoothMotion(Skeleton::Smpl24(), 21, frames);
   for (Pose& pose : motion.frames) {

@@ -29,8 +29,8 @@ double MeanJointError(const Motion& a, const Motion& b) {
   return sum / static_cast<double>(a.frames.size());
 }
 
-// The largest turn of a joint from one frame to the next. Of rotations, not of their vectors: near
-// a whole turn those move fast.
+// The largest rotation of a joint between frames. Of rotations, not vectors: near a whole turn
+// those move fast.
 double LargestStep(const Motion& motion) {
   double largest = 0;
   for (size_t frame = 1; frame < motion.frames.size(); ++frame) {
@@ -43,7 +43,7 @@ double LargestStep(const Motion& motion) {
   return largest;
 }
 
-// How far a knee or elbow bends about its hinge, radians; negative is backwards.
+// The bend of a knee or elbow about its hinge, radians; negative is backwards.
 double LeastBend(const Motion& motion) {
   double least = 10;
   for (const Pose& pose : motion.frames) {
@@ -85,8 +85,8 @@ TEST_P(FitRoundTrip, WorksCausallyFrameByFrame) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FitRoundTrip, testing::Range(1, 6));
 
-// Steps that would not help are refused; a frame must not be given up for that, or it repeats the
-// one before it. Of targets that no body reaches, many first steps are.
+// Steps that do not help are refused; the frame must not be given up, or it repeats the one before.
+// With unreachable targets many first steps are refused.
 TEST(Fit, NeverRepeatsAFrameThatMoved) {
   FitOptions hasty;
   hasty.iterations = 1;
@@ -106,8 +106,7 @@ TEST(Fit, NeverRepeatsAFrameThatMoved) {
   }
 }
 
-// An elbow that is bent far and turned as well goes through half a turn, where the vector that
-// stands for it turns round.
+// An elbow that is bent far and also turned passes half a turn, where its vector flips.
 TEST(Fit, FollowsAnElbowPastHalfATurn) {
   const int elbow = Smpl().left_elbow;
   const Eigen::Vector3d hinge(0, -1, 0), side(0, 0, 1);
@@ -201,8 +200,8 @@ TEST(Fit, KneesAndElbowsNeverBendBackwards) {
 }
 
 TEST(Fit, StartsFromAnyPose) {
-  // No frame before: each frame is a first one, and bent limbs must come out right from positions
-  // alone.
+  // Without a frame before, each frame is a first one, and bent limbs must come out right from
+  // positions alone.
   const Motion motion = fixtures::SmoothMotion(Smpl(), 10, 300);
   for (size_t frame = 0; frame < motion.frames.size(); frame += 15) {
     PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
@@ -222,7 +221,8 @@ TEST(Fit, FindsItsWayBackAfterAJump) {
   EXPECT_LT((JointPositions(Smpl(), fitter.Next(far)) - far).colwise().norm().mean(), 0.003);
 }
 
-// Hips and shoulders a whole turn apart stand where they would without it, so no distance tells.
+// Hips and shoulders a whole turn apart are in the same places as without it, so no distance shows
+// it.
 TEST(Fit, UnwindsATrunk) {
   const Pose rest = RestPose(Smpl());
   Pose wound = rest;

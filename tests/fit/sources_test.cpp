@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Layouts, TangSources,
                          [](const auto& layout) { return std::string(layout.param.name); });
 
 TEST(Tang2018Source, StaysOnTheFloorWhenTheSourcesHipsMoveInTheBody) {
-  // From the middle on, the hips are taken 8 cm higher, as where recordings are cut together.
+  // From the middle on the hips are 8 cm higher, as in recordings that were joined.
   Motion standing;
   standing.frames.assign(300, RestPose(Smpl()));
   PositionClip clip = Tang2018Markers(standing);

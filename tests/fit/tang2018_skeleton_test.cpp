@@ -39,7 +39,7 @@ TEST(Tang2018Skeleton, HasTheBonesOfTheRecordingsStandingUpright) {
   EXPECT_GT(at("head").y(), at("left_shoulder").y() + 0.05);
   EXPECT_GT(at("left_hand").x(), 0.5);
   EXPECT_LT(at("right_hand").x(), -0.5);
-  // Its sides are mirror images but for what lies below the elbows.
+  // Its sides are mirror images except below the elbows.
   const std::vector<int> pairs = MirrorPairs(skeleton);
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];

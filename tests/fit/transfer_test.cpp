@@ -59,8 +59,8 @@ Motion Clapping() {
   return motion;
 }
 
-// How far toes go while SMPL's stand, metres a second of her size; and by how much the distance of
-// hands that are near each other is another than SMPL's, metres of her size.
+// How far toes move while SMPL's stand, metres a second at her size; and the error in the distance
+// of hands that are near each other, metres at her size.
 struct Misses {
   double slide = 0, hands = 0;
 };

@@ -9,7 +9,7 @@
 
 namespace choreo::flow_sampler_test {
 
-// It has learnt nothing: dances are the prior's.
+// Has learnt nothing: its dances are the prior's.
 class Silent : public FlowNetwork {
  public:
   Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
@@ -38,7 +38,7 @@ class Silent : public FlowNetwork {
   mutable int evaluations = 0;
 };
 
-// Has a side that it favours.
+// Favours one side.
 class Lopsided : public Silent {
  public:
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
@@ -91,7 +91,7 @@ TEST(FlowSampler, SeedsTakeOtherWaysToTheSameKey) {
   for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(Apart(a[i], again[i]), 0);
 }
 
-// What the network is told of the energy.
+// Records the energy given to the network.
 class Listening : public Silent {
  public:
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
@@ -127,7 +127,7 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
 }
 
-// Frames' own levels, of which the energy's mean is that of the window.
+// Levels per frame, whose energy averages to the window's.
 TEST(FlowSampler, EnergyGoesUpAndDownAboutTheWindowsWhereTheModelKnowsHow) {
   const Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
@@ -150,7 +150,7 @@ TEST(FlowSampler, EnergyGoesUpAndDownAboutTheWindowsWhereTheModelKnowsHow) {
   for (Eigen::Index row = 0; row < all.rows(); ++row) {
     if (all.row(row) == of_all.row(row)) continue;
     ++moving;
-    // Levels are logarithms of what a millimetre a frame is added to.
+    // Levels are logarithms with a millimetre a frame added.
     const Eigen::ArrayXd energy = 0.011 * all.row(row).transpose().array().cast<double>().exp();
     EXPECT_NEAR(energy.mean(), 0.011, 1e-6);
     EXPECT_GT((energy - energy.mean()).abs().maxCoeff(), 2e-3);
@@ -196,7 +196,7 @@ TEST(FlowSampler, TheMusicsEnergyIsAddedOnceToWhatNobodyAsksFor) {
   const Eigen::VectorXf shifted = told(arm) - calm;
   EXPECT_EQ((shifted.array() != 0).count(), kBodyParts - 1);
   EXPECT_NEAR(shifted.maxCoeff(), 0.5, 1e-5);
-  // A history as lively as the music made it is followed as if that had made nothing of it.
+  // A history made lively by the music is continued as if the music had not changed it.
   for (int part = 0; part < kBodyParts; ++part)
     parts.energy.keyed(part, EnergyPrior::kHistoryInput + part) = 0.5;
   const Eigen::VectorXf follows = told(arm);
@@ -212,7 +212,7 @@ TEST(FlowSampler, LaterWindowsFollowWhatTheMusicMadeOfTheFirst) {
   EXPECT_EQ(request.Part(10, 10, request.history, ground).energy_shift.before, 0.7);
 }
 
-// Moves everything by `step` where it is told of beats, or of one of `styles`.
+// Moves everything by `step` if given beats, or one of `styles`.
 class Hearing : public Silent {
  public:
   Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
@@ -314,7 +314,7 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
     EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);
 }
 
-// Who has to go far has to be lively; a key says so of what it asks for.
+// A long way needs energy; a key tells it as far as it is known.
 TEST(KnownOfEnergy, TellsTheWayToTheKey) {
   const FlowModelParts parts = Parts();
   const Skeleton& skeleton = parts.skeleton;

@@ -8,12 +8,12 @@
 #include "model/motion/kinematics.h"
 #include "tests/support/synthetic_clips.h"
 
-/// What tests of windows and of sampling look at.
+/// Scenes for tests of windows and sampling.
 namespace choreo {
 
 inline constexpr int kTau = 10;
 
-/// A smooth prior that nobody trained.
+/// A smooth, untrained prior.
 inline FlowModelParts Parts() {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const int dimensions = 3 + 3 * skeleton.joints();

@@ -42,7 +42,7 @@ TEST(FlowWindow, ItsMeanIsTheKeyInItsLastFrameAndLeavesWhatTheKeyLeavesOpen) {
   EXPECT_GT((reached.rotations.col(4) - scene.request.key->rotations.col(4)).norm(), 0.02);
 }
 
-// Keys too far away in time force any speed; what follows must not be faster still.
+// Keys too far away for their time force any speed; what follows must not be faster still.
 TEST(FlowWindow, AHistoryFasterThanAnyDancerDoesNotGoOnSo) {
   Scene scene = MakeScene(30);
   scene.request.key.reset();
@@ -71,7 +71,7 @@ TEST(FlowWindow, WhoIsBentComesBackToTheUsualPoseFacingWhereShePleases) {
   EXPECT_EQ(window.mean().row(4).norm(), 0);
 }
 
-// Part of the way back within a second, as far as it is; unless a key or a path says the place.
+// Part of the way back within a second; unless a key or a path fixes the place.
 TEST(FlowWindow, WhoIsOffTheStageComesBack) {
   const Scene scene = MakeScene(30);
   const MotionPrior prior(Parts().prior.covariance(), {},

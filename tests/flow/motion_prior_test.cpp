@@ -31,7 +31,7 @@ TEST(MotionPrior, AMeanLeavesWithTheLastVelocity) {
   const MotionPrior prior(SmoothCovariance());
   for (const int to_key : {0, 60}) {
     const auto& bridge = prior.Bridges(60, to_key)->front();
-    // Of a dancer who goes steadily, and has no key or one that lies on her way.
+    // A dancer at steady speed, without a key or with one on her way.
     const double first = bridge.past.row(0).sum() + 60.0 * bridge.key[0];
     EXPECT_NEAR(first, 1, 0.1) << to_key;
   }
@@ -70,7 +70,7 @@ TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
   EXPECT_NEAR(second.squaredNorm() / expected, 1, 0.25);
 }
 
-// Poses are stationary: how they come back follows from how they vary and how far ways spread.
+// Poses are stationary: how they return follows from their spread and that of ways.
 TEST(MotionPrior, WithoutAKeyDancersComeBackToTheirUsualPose) {
   const Eigen::MatrixXd covariance = SmoothCovariance().replicate(3, 1);
   Eigen::VectorXd variance = Eigen::VectorXd::Constant(6, 1);
@@ -100,7 +100,7 @@ TEST(MotionPrior, RefusesWhatIsNoCovariance) {
               [] { MotionPrior(Eigen::MatrixXd::Zero(2, 3)); });
 }
 
-// Toes that no recording bends may be bent by a key: a network would take that for a storm.
+// Keys may bend toes that no recording bends; a network must not see a storm.
 TEST(MotionPrior, WhatRecordingsLackIsToldInTheUnitsOfTheOthers) {
   Eigen::MatrixXd covariance = SmoothCovariance().replicate(9, 1);
   covariance.row(4) *= 4;

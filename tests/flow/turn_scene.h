@@ -6,7 +6,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/skeleton.h"
 
-/// Dancers who are to turn to a key.
+/// Dancers who must turn to a key.
 namespace choreo::testing_support {
 
 inline constexpr double kPi = std::numbers::pi;
@@ -19,7 +19,7 @@ inline Pose Facing(double yaw) {
   return pose;
 }
 
-// A dancer who turns by `rate` a frame, and is to face `yaw` in so many frames.
+// A dancer who turns by `rate` a frame, and must face `yaw` after this many frames.
 inline WindowRequest To(double yaw, double rate = 0, int frames = 60) {
   WindowRequest request{.frames = frames, .to_key = frames};
   for (int i = 9; i >= 0; --i) request.history.push_back(Facing(-rate * i));
@@ -27,7 +27,7 @@ inline WindowRequest To(double yaw, double rate = 0, int frames = 60) {
   return request;
 }
 
-// Who turns already goes on so.
+// Dancers who turn already keep turning.
 inline TurnPrior GoesOn() {
   TurnPrior prior;
   prior.weights[0] = -3;  // farther is rarer

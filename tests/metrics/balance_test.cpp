@@ -58,7 +58,7 @@ TEST(Weight, WhoJumpsFliesAndDoesNotHover) {
   EXPECT_LT(jumps.hover_share, 0.5);
   EXPECT_NEAR(jumps.hover_acceleration, -kGravity, 1);  // smoothed at both ends
   EXPECT_EQ(jumps.longest_hover_s, 0);
-  // The same way in the same time, but carried at constant speed.
+  // The same way in the same time, but at constant speed.
   const WeightFigures carried = Measure(Carried(
       120, [](double s) { return Eigen::Vector3d(0, 0.6 * std::abs(0.5 - std::fmod(s, 1)), 0); }));
   EXPECT_NEAR(carried.longest_hover_s, 0.53, 0.07);
@@ -80,7 +80,7 @@ TEST(Weight, WhoLeansOverIsOutsideOfHerFeet) {
 
 TEST(Weight, AContactIsAsLongAsTheFootStays) {
   JointTrack track = Carried(120, [](double) { return Eigen::Vector3d::Zero().eval(); });
-  // Each foot 20 frames down, 10 up, by turns.
+  // Each foot alternately 20 frames down, 10 up.
   for (int t = 0; t < 120; ++t) {
     for (const int side : {0, 2}) {
       if ((t + 15 * side / 2) % 30 < 20) continue;

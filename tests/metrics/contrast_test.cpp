@@ -12,7 +12,7 @@ using testing_support::Carried;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-// Turns about the vertical, degrees a second, for so many seconds.
+// Turns about the vertical, degrees a second, for that many seconds.
 std::vector<Pose> Spinning(double rate, int seconds) {
   std::vector<Pose> poses;
   for (int t = 0; t <= 30 * seconds; ++t) {
@@ -28,7 +28,7 @@ TEST(WindowTurns, CountWholeTurnsAndWhichWayTheyGo) {
     ASSERT_EQ(turns.size(), 3U);
     for (const double turn : turns) EXPECT_NEAR(turn * kDegrees, 2 * rate, 1e-6);
   }
-  EXPECT_EQ(WindowTurns(Spinning(60, 5), 30).size(), 2U);  // what is left over is no window
+  EXPECT_EQ(WindowTurns(Spinning(60, 5), 30).size(), 2U);  // the remainder is not a window
   EXPECT_TRUE(WindowTurns({}, 30).empty());
 }
 

@@ -25,12 +25,12 @@ TEST(ControlFigures, RootRelativeDistanceIsTheNormOverAllJoints) {
     danced[frame].col(Body().Find("left_hand")).z() -= 0.4;
   }
   EXPECT_NEAR(RootRelativeDistance(danced, real), 0.25, 1e-12);
-  // Where the dancer is does not count.
+  // The dancer's position does not count.
   for (Eigen::Matrix3Xd& frame : danced) frame.colwise() += Eigen::Vector3d(1, 0, 2);
   EXPECT_NEAR(RootRelativeDistance(danced, real), 0.25, 1e-12);
 }
 
-// A hand that swings to and fro, wherever its dancer walks.
+// A hand that swings to and fro while its dancer walks.
 JointTrack Swinging(double hz, double metres) {
   JointTrack track = Standing(90);
   for (size_t frame = 0; frame < track.size(); ++frame) {
@@ -46,8 +46,8 @@ TEST(ControlFigures, TremorIsTheShareOfQuickMovement) {
   EXPECT_LT(TremorShare(Swinging(0.5, 0.3), 30), 0.001);
   EXPECT_LT(TremorShare(Swinging(3, 0.1), 30), 0.01);
   EXPECT_GT(TremorShare(Swinging(5, 0.1), 30), 0.99);
-  // A fifth as wide and five times as quick is as fast: half of the energy, less what steps of a
-  // thirtieth of a second miss.
+  // A fifth as wide and five times as quick is equally fast: half of the energy, less what steps of
+  // a thirtieth of a second miss.
   JointTrack both = Swinging(1, 0.1);
   const JointTrack quick = Swinging(5, 0.02);
   const int hand = Body().Find("left_hand"), other = Body().Find("right_hand");

@@ -59,7 +59,7 @@ TEST(CriticFamilies, CutAMotionIntoWindowsOfTwoSeconds) {
 
 TEST(CriticFamilies, EachSeesItsOwnSideAlone) {
   const FamilyWindows real = Dancers(1, 0, 0.2);
-  // Of ten clips what is learnt of eight may mislead about two: below a half is nothing, too.
+  // With ten clips, what eight teach may mislead about two: below a half also means nothing.
   for (const double area : FamilyAreas(real, Dancers(2, 0, 0.2))) EXPECT_LT(area, 0.7);
   const FamilyWindows lifted = Dancers(2, 0.1, 0.2);
   EXPECT_GT(AreaOf("floor", real, lifted), 0.95);

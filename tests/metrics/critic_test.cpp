@@ -55,7 +55,7 @@ TEST(Critic, IsFairToOneKindAndSeesAnother) {
 }
 
 TEST(Critic, JudgesNoClipThatItHasSeen) {
-  // The sides differ in each clip by itself, not in what is common to clips.
+  // The sides differ within each clip, not across clips.
   CriticWindows one = Dancers(3, 1), other = Dancers(4, 1);
   EXPECT_LT(CriticArea(one, other), 0.75);
   CriticWindows alone, beside;

@@ -69,7 +69,7 @@ TEST(Frechet, ScaleMakesRealFeaturesStandard) {
   const Eigen::MatrixXd scaled = FeatureScale::Of(real).Apply(real);
   EXPECT_NEAR(scaled(0, 0), -1, 1e-12);
   EXPECT_NEAR(scaled(0, 2), 1, 1e-12);
-  EXPECT_NEAR(scaled.row(1).norm(), 0, 1e-12);  // what never varies stays as it is
+  EXPECT_NEAR(scaled.row(1).norm(), 0, 1e-12);  // constant features stay as they are
 }
 
 TEST(KineticFeatures, OfSteadyMotion) {
@@ -97,7 +97,7 @@ TEST(KineticFeatures, OfFreeFall) {
   EXPECT_NEAR(KineticFeatures(track, 30)[2], 9.81, 1e-6);
 }
 
-// Positions of a feature in GeometricFeatures.
+// Indices into GeometricFeatures.
 enum { kRightHandFast = 12, kLeftHandFast = 13, kLeftFootRaised = 17, kRightKneeBent = 19 };
 enum { kLeftKneeBent = 20, kLeftThigh = 26, kTrunkLevel = 28, kRootFast = 31 };
 

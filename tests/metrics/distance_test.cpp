@@ -93,11 +93,11 @@ TEST(PhysicalFootContact, NeedsBothFeetToSlideWhileTheBodyAccelerates) {
 }
 
 TEST(PhysicalFootContact, TakesWhatFeetGoOverTheFloorAlone) {
-  // Who jumps lifts both feet without sliding.
+  // A jump lifts both feet without sliding.
   const Eigen::Vector3d up(0, 0.05, 0), right(0, 0, 0.03);
   EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, up, up)), 0);
   EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, up, right)), 0);
-  // Of a way of 13 cm that leads up by 12 it takes the 5 over the floor, 3 and 4 to its axes.
+  // Of 13 cm that rise by 12, it counts the 5 over the floor, 3 and 4 along its axes.
   const Eigen::Vector3d diagonal(0.03, 0.12, 0.04);
   EXPECT_NEAR(PhysicalFootContact(Body(), Hop(0.1, diagonal, right)), 1e4 * 2 * 0.05 * 0.03 / 3,
               1e-9);

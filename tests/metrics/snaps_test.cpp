@@ -9,7 +9,7 @@
 
 namespace choreo::snaps_test {
 
-// With limbs that are straight at rest, as SMPL's are not quite.
+// With limbs straight at rest; SMPL's are not quite.
 Skeleton StraightBody() {
   Skeleton body = Skeleton::Smpl24();
   for (const Hinge& hinge : Hinges(body)) {

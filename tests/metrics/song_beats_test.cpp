@@ -44,8 +44,7 @@ TEST(SongBeats, SilenceHasNone) {
   EXPECT_TRUE(SongBeats({}, 30).empty());
 }
 
-// Speeds of `frames` - 1 steps that are least at each of `minima`, by depth, and rise evenly
-// beside.
+// Speeds of `frames` - 1 steps, least at each of `minima` by depth, rising evenly beside them.
 std::vector<float> Valleys(int frames, const std::map<int, float>& minima) {
   std::vector<float> speeds(static_cast<size_t>(frames) - 1, 100);
   for (int frame = 1; frame < frames; ++frame) {  // step i leads to frame i + 1
@@ -66,7 +65,7 @@ TEST(BeatAlignment, IsAGaussianOfFiftyMillisecondsAtAnyRate) {
     const double far = 20 + 2 * apart;
     EXPECT_NEAR(BeatAlignmentScore(one, {&far, 1}, fps), std::exp(-2), 1e-12) << fps;
   }
-  // The mean over motion beats, each to the music beat that is nearest to it.
+  // The mean over motion beats, each to its nearest music beat.
   const std::vector<float> two = Valleys(60, {{20, 0.0F}, {40, 1.0F}});
   EXPECT_NEAR(BeatAlignmentScore(two, std::vector<double>{0, 20, 38.5}, 30),
               (1 + std::exp(-0.5)) / 2, 1e-12);
@@ -81,7 +80,7 @@ TEST(BeatAlignment, AMotionBeatIsTheSlowestWithinASixthOfASecond) {
               1e-12);
   EXPECT_DOUBLE_EQ(BeatAlignmentScore(Valleys(60, {{20, 0.0F}, {30, 0.5F}}), music, 60), 1);
   EXPECT_LT(BeatAlignmentScore(Valleys(60, {{20, 0.0F}, {31, 0.5F}}), music, 60), 0.51);
-  // Nothing is smoothed: one slow frame is a beat where it stands.
+  // Nothing is smoothed: a single slow frame is a beat.
   std::vector<float> dip(59, 1.0F);
   for (size_t i = 0; i < dip.size(); ++i) dip[i] += 0.1F * static_cast<float>(i % 2);
   dip[19] = 0.5F;
@@ -91,7 +90,7 @@ TEST(BeatAlignment, AMotionBeatIsTheSlowestWithinASixthOfASecond) {
 TEST(BeatAlignment, WithoutBeatsOfEitherKindIsNone) {
   const std::vector<double> music = {20};
   EXPECT_EQ(BeatAlignmentScore(Valleys(60, {{20, 0.0F}}), {}, 30), 0);
-  // Who stands still, or is slowest at an end, has no minimum.
+  // A body that stands still, or is slowest at an end, has no minimum.
   EXPECT_EQ(BeatAlignmentScore(std::vector<float>(59, 0.0F), music, 30), 0);
   EXPECT_EQ(BeatAlignmentScore(Valleys(60, {{1, 0.0F}}), music, 30), 0);
   EXPECT_EQ(BeatAlignmentScore(Valleys(60, {{59, 0.0F}}), music, 30), 0);

@@ -14,7 +14,7 @@ using testing_support::Wave;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-// Half a minute of one who swings an arm (style 0), a leg (1) or the head (2).
+// Half a minute of a dancer who swings an arm (style 0), a leg (1) or the head (2).
 CriticWindows Dance(uint64_t seed, size_t style) {
   constexpr int kMoving[] = {16, 1, 15};
   Random random(seed);

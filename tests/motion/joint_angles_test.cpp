@@ -12,7 +12,7 @@ namespace choreo::joint_angles_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-/// Where a joint is, seen from another, when that one is turned by so many degrees.
+/// Position of a joint relative to another that is turned by these degrees.
 Eigen::Vector3d Seen(const std::string& turned, const std::vector<double>& degrees,
                      const std::string& end) {
   Pose pose = RestPose(Body());
@@ -35,7 +35,7 @@ TEST(JointAngles, TurnLimbsTheWayThatTheyAreDescribed) {
   EXPECT_GT(Seen("neck", {0, 80, 0}, "head").x(), 0.04);
 }
 
-// About x first: an arm that is turned about itself and lowered then is at the side, not in front.
+// About x first: an arm that is twisted and then lowered ends at the side, not in front.
 TEST(JointAngles, TurnAboutXThenYThenZ) {
   const Eigen::Vector3d hand = Seen("left_shoulder", {70, 0, -90}, "left_elbow");
   EXPECT_LT(hand.y(), -0.25);
@@ -54,7 +54,7 @@ TEST(JointAngles, GoThereAndBack) {
     ASSERT_EQ(back.size(), degrees.size());
     for (size_t i = 0; i < back.size(); ++i) EXPECT_NEAR(back[i], degrees[i], 1e-9) << joint;
   }
-  // Where x and z turn about one axis, there are several ways to say the same.
+  // Where x and z turn about the same axis, several answers are right.
   const int hip = Body().left_hip;
   const Eigen::Vector3d locked =
       RotationFromDegrees(Body(), hip, std::vector{20.0, 90.0, 50.0}, "test");

@@ -56,7 +56,7 @@ double Flexion(const Leg& leg, const Pose& pose) {
   return std::atan2(thigh.cross(shin).norm(), thigh.dot(shin)) * 180 / M_PI;
 }
 
-// `pose` with its left toes put off their place by `offset`.
+// `pose` with its left toes displaced by `offset`.
 Pose Moved(const Pose& pose, const Eigen::Vector3d& offset) {
   const Leg leg = Leg::Of(Body())[0];
   const JointPlacement before = ForwardKinematics(Body(), pose);
@@ -72,16 +72,15 @@ TEST(Leg, AStraightLegBendsItsKneeForward) {
   const Eigen::Matrix3Xd after = JointPositions(Body(), Moved(pose, {0, 0.2, 0}));
   EXPECT_GT(after(2, leg.knee), before.positions(2, leg.knee) + 0.05);
   EXPECT_NEAR(after(1, leg.toes), before.positions(1, leg.toes) + 0.2, 1e-9);
-  // Where a straight leg begins to bend it gives way to what is asked by little more than a
-  // centimetre.
+  // Where a straight leg begins to bend, it misses its target by little more than a centimetre.
   for (double up = 0; up < 0.2; up += 0.005) {
     const Eigen::Matrix3Xd near = JointPositions(Body(), Moved(pose, {0, up, 0}));
     EXPECT_NEAR(near(1, leg.toes), before.positions(1, leg.toes) + up, 0.012) << up;
   }
 }
 
-// Recorded and generated knees go a little beyond straight. From there a knee that bent on the way
-// it has begun would break.
+// Recorded and generated knees go slightly beyond straight. A knee that kept bending that way would
+// break.
 TEST(Leg, AKneeThatIsBeyondStraightBendsForwardToo) {
   const Leg leg = Leg::Of(Body())[0];
   for (const double beyond : {0.02, 0.12, 0.2, 0.4}) {
@@ -99,8 +98,8 @@ TEST(Leg, AKneeThatIsBeyondStraightBendsForwardToo) {
   }
 }
 
-// Through its full length and back a leg neither snaps straight nor out of it: toes that move by
-// three millimetres, the tenth of a metre a second, turn the knee by less than three degrees.
+// Through its full length and back, a leg never snaps: toes that move three millimetres (a tenth of
+// a metre a second) turn the knee by less than three degrees.
 TEST(Leg, StraightensSmoothlyWhateverItIsAskedFor) {
   const Leg leg = Leg::Of(Body())[0];
   for (const double bend : {-0.1, -0.055, 0.0, 0.1, 0.2, 0.4}) {
@@ -166,7 +165,7 @@ TEST(Leg, WithinReachIsOnTheWayThere) {
     EXPECT_LT((at - toes).cross(far).norm(), 1e-9);
     EXPECT_GT((at - toes).dot(far), 0);
   }
-  // Who stretches more already may go on so, and no farther.
+  // A leg that is stretched more already may stay so, but not stretch further.
   const double stretched = Reach(leg, placement, toes);
   EXPECT_NEAR(Reach(leg, placement,
                     WithinReach(leg, placement, toes + Eigen::Vector3d(0, -1, 0), 0.5 * stretched)),

@@ -64,8 +64,8 @@ TEST(Velocity, DoesNotDependOnTheSceneAndTurnsTheShortWay) {
   EXPECT_NEAR(v.yaw, 6, 1e-9);
 }
 
-// Feet that stand for half a period and swing forward for the other half, left and right in turn;
-// toes and ankle move together.
+// Feet that alternately stand for half a period and swing forward for the other half; toes and
+// ankle move together.
 struct Gait {
   static constexpr int kPeriod = 30;
   static constexpr double kFps = 30;
@@ -104,7 +104,7 @@ TEST(Contacts, FollowASyntheticGait) {
     }
   }
   EXPECT_NEAR(down, 2 * frames, 0.15 * 2 * frames);
-  // At most the first and the last two frames of a swing are still slow and low.
+  // At most the first and last two frames of a swing are still slow and low.
   EXPECT_LT(wrong, 4 * 10 * 4);
 }
 

@@ -7,7 +7,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Motion of our own making for the tests of this folder.
+/// Made-up motion for the tests of this folder.
 namespace choreo::fixtures {
 
 inline Eigen::Vector3d RandomVector(std::mt19937& generator, double scale) {
@@ -29,8 +29,8 @@ inline Pose RandomPose(const Skeleton& skeleton, std::mt19937& generator, double
   return pose;
 }
 
-/// A smooth motion that a body could make: each joint swings by three slow sines of random phase;
-/// knees and elbows bend about their hinge only, the right way; the dancer turns and wanders.
+/// A smooth, possible motion: each joint swings by three slow sines of random phase; knees and
+/// elbows bend only about their hinge, the right way; the dancer turns and wanders.
 inline Motion SmoothMotion(const Skeleton& skeleton, uint32_t seed, int frames, double fps = 30) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

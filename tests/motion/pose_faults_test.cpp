@@ -54,7 +54,7 @@ TEST(PoseFaults, WhatIsNotAskedForIsNoFault) {
   head.joints.assign(24, false);
   head.joints[15] = true;
   EXPECT_THAT(PoseFaults(Body(), pose, head), IsEmpty());
-  // Of whom only the place is asked, the pelvis is known to be above the floor, the feet are not.
+  // If only the place is asked for, the pelvis is known to be above the floor, but not the feet.
   PoseMask place = head;
   place.root_position = true;
   EXPECT_THAT(PoseFaults(Body(), pose, place), IsEmpty());

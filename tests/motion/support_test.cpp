@@ -39,7 +39,7 @@ TEST(MassWeights, AreSharesOfOneAndPutTheCentreWherePeopleHaveIt) {
   const Eigen::Vector3d centre = JointPositions(Body(), stands) * weights;
   EXPECT_NEAR(centre.y(), 0.57 * 1.73, 0.015);
   EXPECT_NEAR(centre.x(), 0, 0.01);
-  // Who bends forwards has it in front.
+  // A body that bends forwards has its centre in front.
   Pose bent = stands;
   bent.rotations(0, Body().Find("spine1")) = 1;
   EXPECT_GT((JointPositions(Body(), bent) * weights).z(), centre.z() + 0.1);
@@ -131,7 +131,7 @@ TEST(BalanceGauge, WhoSpeedsUpLeansOnWhatIsBehind) {
   });
   const Balance balance = gauge.At(points, 20);
   EXPECT_NEAR(balance.acceleration.z(), push, 1e-6);
-  // The smoothed centre is a little ahead, as the mean of squares is above the mean's square.
+  // The smoothed centre is slightly ahead, as the mean of squares exceeds the mean's square.
   const double zmp = balance.centre.z() - (balance.centre.y() - kRestFloor) * push / kGravity;
   const double heels = points[20].feet.row(2).minCoeff();
   EXPECT_NEAR(*balance.zmp_outside, heels - zmp, 0.005);

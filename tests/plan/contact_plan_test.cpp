@@ -95,7 +95,7 @@ TEST(PlanContacts, TheKeyHasTheLastWord) {
   const Stance* last = StanceAt(stances[1], kFrames - 1);
   ASSERT_NE(last, nullptr);
   EXPECT_EQ(last->place, feet[1].toes.back());
-  // A foot that is up takes the time that a fall takes.
+  // A foot in the air needs the time of a fall.
   EXPECT_EQ(StanceAt(stances[0], kFrames - 5), nullptr);
 }
 

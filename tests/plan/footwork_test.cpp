@@ -174,7 +174,7 @@ TEST(StandOnFeet, WhoHasNoLegsIsLeftAlone) {
   EXPECT_EQ(plan.back().root_position, Glide(0.01).back().root_position);
 }
 
-// Who lies below the floor, tumbles or is thrown about is no dancer, and still no reason to fail.
+// Bodies below the floor, tumbling or thrown about are no dancers, but must not fail.
 TEST(StandOnFeet, WhateverIsPlannedStaysFinite) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed);

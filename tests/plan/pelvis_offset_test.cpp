@@ -7,7 +7,7 @@ namespace choreo::pelvis_offset_test {
 constexpr double kFps = 30, kHeight = 1;
 constexpr int kFrames = 60;
 
-// Who stands still, feet `beside` the centre of mass.
+// A body standing still, feet `beside` the centre of mass.
 std::vector<SupportFrame> Still(double beside) {
   SupportFrame frame;
   frame.support = {
@@ -25,7 +25,7 @@ TEST(PelvisOffset, WhoseFeetAreBesideGoesThere) {
   const Eigen::Matrix3Xd offset = PelvisOffset(Still(0.3), {0, kHeight, 0}, {.fps = kFps});
   EXPECT_GT(offset(0, kFrames - 1), 0.1);
   EXPECT_NEAR(offset.row(2).norm(), 0, 1e-9);
-  // The first frame goes on from the one before, in which nothing was moved.
+  // The first frame continues the one before, in which nothing was moved.
   EXPECT_LT(offset.col(0).norm(), 0.02);
 }
 

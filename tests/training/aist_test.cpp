@@ -16,7 +16,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/training/preparation.h"
 
-/// Recordings of our own making in the layout of AIST++.
+/// Made-up recordings in AIST++'s layout.
 namespace choreo::aist_test {
 
 using nlohmann::json;
@@ -42,8 +42,8 @@ class AistTest : public Preparation {
   void WriteList(const std::string& name, const std::string& text) {
     std::ofstream(In() / name) << text;
   }
-  /// As AIST++ has it: 60 fps, the scaled body's translation, which is the pelvis less its rest
-  /// position. `lift`: metres that the floor is off.
+  /// AIST++'s conventions: 60 fps, the scaled body's translation, which is the pelvis minus its
+  /// rest position. `lift`: error of the floor, metres.
   void WriteMotion(const std::string& name, double lift = 0, const std::string& without = "") {
     const Motion dance = Resample(Dance(), 60);
     std::vector<double> poses, trans;

@@ -11,7 +11,7 @@ namespace choreo::flow_statistics_test {
 
 using namespace testing_support;
 
-// What is measured of dancers who turn as a prior says says the same.
+// Measuring dancers who turn according to a prior recovers it.
 TEST(FlowStatistics, TurnsAreMeasuredFromDancersWhoFollowAPrior) {
   const TurnPrior real = GoesOn();
   Random random(2);

@@ -13,7 +13,7 @@
 #include "tests/support/synthetic_clips.h"
 #include "tests/training/preparation.h"
 
-/// Recordings of our own making in the layout of LAFAN1.
+/// Made-up recordings in LAFAN1's layout.
 namespace choreo::lafan1_test {
 
 using nlohmann::json;
@@ -70,7 +70,7 @@ Skeleton Lafan1Skeleton() {
 BvhFile Record(const Motion& motion) {
   const Skeleton& smpl = Skeleton::Smpl24();
   const Skeleton skeleton = Lafan1Skeleton();
-  // Joints stand in another order there; those of one name have one offset.
+  // Joints have another order there; joints with the same name have the same offset.
   std::vector<int> ours;
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
     for (int other = 0; other < smpl.joints(); ++other) {

@@ -13,7 +13,7 @@
 
 namespace choreo {
 
-/// Recordings that a test writes into In(), and what comes of them.
+/// Recordings that a test writes into In(), and their prepared clips.
 class Preparation : public testing::Test {
  protected:
   explicit Preparation(const std::string& layout) {
@@ -31,7 +31,7 @@ class Preparation : public testing::Test {
     std::ifstream file(options_.output / name);
     return nlohmann::json::parse(file);
   }
-  /// What is said of a clip; null where nothing is.
+  /// A clip's report, or null.
   nlohmann::json Report(const std::string& name) const {
     for (const auto& report : Read("report.json")) {
       if (report.at("name") == name) return report;

@@ -46,7 +46,7 @@ TEST_F(AmassTest, ComesThroughAndABrokenFileIsNamedAndSkipped) {
   EXPECT_EQ(Report("subject_walk").at("frames"), 90);
 }
 
-// Our skeleton under the joint names of motion capture, which make it a foreign one.
+// Our skeleton under motion capture's joint names, which make it a foreign one.
 BvhFile Renamed(BvhFile file) {
   const std::map<std::string, std::string> names = {
       {"pelvis", "Hips"},   {"spine1", "Spine"}, {"spine2", "Spine1"},   {"spine3", "Spine2"},
@@ -71,7 +71,7 @@ TEST_F(BvhTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
   BvhFile file =
       Renamed(MotionToBvh(Skeleton::Smpl24(), SyntheticClip("walk", 90, 0.2, false).motion));
   for (BvhJoint& joint : file.joints) joint.offset /= 2.54;
-  // Inches instead of centimetres, and a header that lies about the rate.
+  // Inches instead of centimetres, and a wrong rate in the header.
   file.values.topRows(3) /= 2.54;
   file.frame_time = 1.0 / 120;
   WriteBvh(In() / "inches.bvh", file);

@@ -16,7 +16,7 @@
 #include "tests/support/tang2018_markers.h"
 #include "tests/training/preparation.h"
 
-/// Recordings of our own making in the two layouts of tang2018.
+/// Made-up recordings in the two layouts of tang2018.
 namespace choreo::tang2018_test {
 
 using nlohmann::json;

@@ -16,7 +16,7 @@
 #include "tests/support/tang2018_markers.h"
 #include "tests/training/preparation.h"
 
-/// Recordings of our own making in the layout of tang61.
+/// Made-up recordings in tang61's layout.
 namespace choreo::tang61_test {
 
 constexpr double kFps = 25;
@@ -68,7 +68,7 @@ TEST_F(Tang61Test, ADanceComesThroughWithItsMusicAndUnstretched) {
     const Eigen::Matrix3Xd theirs = JointPositions(smpl, dance.frames[f]);
     for (const char* name : {"left_knee", "right_ankle", "left_elbow", "right_wrist"}) {
       const int joint = smpl.Find(name);
-      // Seen from the hips: the floor is fitted.
+      // Relative to the hips, as the floor is fitted.
       EXPECT_LT(((ours.col(joint) - ours.col(0)) - (theirs.col(joint) - theirs.col(0))).norm(),
                 0.08)
           << f << ' ' << name;

@@ -52,7 +52,7 @@ TEST_F(TrainerTest, TheContinuousFlowResumesAsIfUndisturbedAndGoesOnFromAnother)
 
   TrainOptions further = Options("further", 1);
   further.from = options.run / "checkpoint.safetensors";
-  further.rate = 0;  // what it took up stays as it was
+  further.rate = 0;  // the base's statistics stay
   TrainContinuousFlow(further);
   EXPECT_EQ(weights(further).tensors.at("head.weight").data, whole.tensors.at("head.weight").data);
 }
@@ -87,7 +87,7 @@ TEST_F(TrainerTest, ARunIsResumedAsItWasStarted) {
     WriteSafetensors(options.run / "state.safetensors", state);
   };
   const std::string rest = "--steps 2 --batch 4 --rate 0.001 ";
-  // What a version wrote that named all presets' options.
+  // The state of a version that listed all presets' options.
   started_as("--preset default " + rest +
              "--shortest 5 --longest 100 --clip 1 --flow-steps 0 --hidden 0 --condition-width -1 "
              "--tempo 0.5 --seed 1 --truth-decay 0.99995");
@@ -101,7 +101,7 @@ TEST_F(TrainerTest, ARunIsResumedAsItWasStarted) {
   }
 }
 
-// A card names what its preset has, and no more.
+// A card lists only its preset's options.
 TEST_F(TrainerTest, ItsCommandNamesItsOwnOptions) {
   TrainOptions options = Options("x", 4);
   options.keep_statistics = true;

@@ -78,7 +78,8 @@ TEST_F(WindowClipsTest, ABodyStandsWhereForwardKinematicsHasIt) {
   }
 }
 
-// The mean of a pose and its mirror image is its own mirror image; where clips stand is no matter.
+// The mean of a pose and its mirror image is its own mirror image; the position of clips does not
+// matter.
 TEST_F(WindowClipsTest, TheUsualPoseHasNoSides) {
   const UsualPose usual = MeasureUsualPose(clips_.skeleton(), clips_.tracks());
   const Pose mirrored = Mirror(clips_.skeleton(), usual.pose);
@@ -95,7 +96,7 @@ TEST_F(WindowClipsTest, TheUsualPoseHasNoSides) {
   EXPECT_LT((there.variance - usual.variance).norm(), 1e-9);
 }
 
-// Who does not know the stage has no usual place; a batch says whose root it leads.
+// Without a known stage there is no usual place; a batch says which windows have one.
 TEST_F(WindowClipsTest, StagesAreToldAsOftenAsAskedFor) {
   EXPECT_EQ(Draw({.no_key = 1}).staged.sum().item<double>(), 0);
   EXPECT_EQ(Draw({.no_key = 1, .stage = 1}).staged.sum().item<double>(), 3);
@@ -117,7 +118,7 @@ TEST_F(WindowClipsTest, ABodyMovesAsItsCoordinatesDo) {
 
 TEST_F(WindowClipsTest, WhoIsLedAstrayComesBack) {
   const WindowBatch real = Draw({}), astray = Draw({.astray = 1});
-  // The first window is the same; she ends where she does, but for the way that she faced at first.
+  // The first window is the same; she ends in the same place, except for how she first faced.
   const auto apart = [](const Pose& a, const Pose& b) {
     return (a.rotations - b.rotations).rightCols(a.rotations.cols() - 1).norm();
   };
@@ -151,7 +152,7 @@ TEST_F(WindowClipsTest, EnergyTellsHowFarDancersStray) {
 }
 
 TEST_F(WindowClipsTest, EnergyGoesUpAndDownAsInTheClips) {
-  // A dancer whose arms and trunk are lively and calm by turns, a second each.
+  // A dancer whose arms and trunk are alternately lively and calm, a second each.
   ClipTrack track;
   track.energy = Eigen::MatrixXd::Constant(kBodyParts, 600, 0.01);
   for (Eigen::Index i = 0; i < track.energy.cols(); ++i)
@@ -170,7 +171,7 @@ TEST_F(WindowClipsTest, EnergyGoesUpAndDownAsInTheClips) {
   EXPECT_FALSE(MeasureCurve(std::array{track}, medians).known()) << "too short a clip";
 }
 
-// It has learnt nothing: dances are the prior's.
+// Has learnt nothing: its dances are the prior's.
 class Silent : public FlowNetwork {
  public:
   Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
