@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks that every test named in docs/contract/ is one that ctest knows, and every `make` target one of the Makefile.
+# Checks that ctest knows every test named in docs/contract/, and the Makefile every `make` target.
 #   scripts/check_contract.sh BUILD_DIRECTORY [REPORT [PAGE...]]
-# REPORT is what `ctest --output-junit` wrote: a name of tests that were all skipped is refused, too.
+# REPORT is the output of `ctest --output-junit`: a name whose tests were all skipped is refused, too.
 set -euo pipefail
 pages=("${@:3}")
 ((${#pages[@]})) || pages=("$(dirname "$0")"/../docs/contract/*.md)
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 tests() { ctest --test-dir "$1" -N | sed -n 's/  # GetParam.*//; s/^ *Test *#[0-9]*: //p'; }
 targets() { sed -nE 's/^([a-z]+):.*/make \1/p' Makefile; }
 skipped() { [[ -z $report ]] || grep -oE '<testcase name="[^"]*".* status="notrun"' "$report" | sed 's/  # GetParam[^"]*//; s/<testcase name="//; s/".*//'; }
-# Names stand in backticks behind the first column of a table; a test's begins with a capital, or a * in its place, and has a dot.
+# Names are in backticks after the first column of a table; a test's begins with a capital or a * and has a dot.
 names() { sed -n 's/^|[^|]*|\(.*\)|$/\1/p' "$1" | grep -oE '`([A-Z*][^` ]*\.[^` ]*|make [a-z]+)`' | tr -d '`'; }
 check() {
   awk -v page="$1" '

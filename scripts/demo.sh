@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Dances 24 seconds of a real song through the key poses of examples/demo.json, and shows what came of it.
+# Dances 24 seconds of a real song through the key poses of examples/demo.json, and shows the result.
 #   scripts/demo.sh BIN_DIRECTORY OUT_DIRECTORY
 set -euo pipefail
 choreo=$1/choreo
@@ -8,7 +8,7 @@ examples=$(dirname "$0")/../examples
 song="/usr/share/games/fretsonfire/data/songs/sectoid/Escape from chaosland/song.ogg"
 mkdir -p "$out"
 
-# No server is named, so choreo starts the choreod beside it, and stops it afterwards. It fails if a key pose is missed by more than 1 mm.
+# Without --server choreo starts the choreod beside it, and stops it afterwards. Fails if a key pose is missed by more than 1 mm.
 "$choreo" dance "$song" --seconds 24 --seed 1 --keyframes "$examples/demo.json" --out "$out/dance.npz" --report "$out/report.json"
 "$choreo" convert "$out/dance.npz" "$out/dance.bvh"
 "$choreo" convert "$out/dance.npz" "$out/dance.glb"

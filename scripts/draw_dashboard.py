@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws docker/grafana.json as Prometheus answers it, of a choreod under mixed load.
+"""Draws docker/grafana.json with Prometheus' answers for a choreod under mixed load.
 
     scripts/draw_dashboard.py BUILD_DIRECTORY PICTURE [--minutes 4]
 
@@ -85,7 +85,7 @@ def name_of(template, labels):
 
 
 def draw(panel, axes, port, begin, end):
-    """Returns queries that have nothing to show."""
+    """Returns queries without data."""
     empty = []
     for target in panel["targets"]:
         # As Grafana fills them in: all jobs, four scrapes.

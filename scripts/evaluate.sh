@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures the checkpoint that ships on test clips and writes docs/figures/*.json, and what docs/results.md quotes of them.
+# Measures the shipped checkpoint on test clips, writes docs/figures/*.json, and updates their quotes in docs/results.md.
 #   scripts/evaluate.sh BIN_DIRECTORY RECORDINGS [EVAL_OPTION...]
 # RECORDINGS holds dancedb/, splits.json (docs/training.md) and music/, songs in Ogg files. Six minutes of one core.
 set -euo pipefail
@@ -10,7 +10,7 @@ recordings=$(realpath "$2")
 shift 2
 cd "$root"
 
-# Prepared once, and again where the recordings or what prepares them has changed.
+# Prepared once, and again if the recordings or the code have changed.
 data=build/data
 stamp=$({
   find -L "$recordings/dancedb" -type f -printf '%P %s\n' | sort

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The faults of docs/reliability.md that take too long for `make test`; each prints its figure.
+# Runs the faults of docs/reliability.md that take too long for `make test`; each prints its figure.
 #   scripts/faults.sh BUILD_DIRECTORY
 set -euo pipefail
 bin=$1/bin

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Makes docs/films/choreo.webm, a film with sound of what choreo can do, and docs/images/choreo.jpg, its still:
+# Makes docs/films/choreo.webm, a film with sound about choreo, and docs/images/choreo.jpg, its still:
 # pictures by choreo, captions and cuts by ffmpeg.
 #   scripts/film.sh BIN_DIRECTORY OUT.webm
-# The song is Carlos Viola Iborra's (docs/films/NOTICE): its notice goes where the film goes.
+# The song is Carlos Viola Iborra's (docs/films/NOTICE): keep its notice with the film.
 set -euo pipefail
 (($# == 2)) || { echo "film.sh: BIN_DIRECTORY and OUT.webm are wanted" >&2; exit 2; }
 choreo=$1/choreo
@@ -31,7 +31,7 @@ scene() {
   echo "file 'scene$1.mp4'" >> "$scratch/scenes.txt"
 }
 
-# The cuts are downbeats of the song, which goes through.
+# Cuts are on downbeats of the song, which plays through.
 cuts=(0 24.922 33.811 42.7 51.589 60.478)
 part() { awk "BEGIN {print ${cuts[$1 + 1]} - ${cuts[$1]}}"; }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# libFuzzer on every target of tests/fuzz for so many seconds each, as many at a time as there are cores: executions, covered edges, and
-# whether something was found. A find stays in out/fuzz/TARGET/: mend it, and add it to tests/fuzz/corpus/TARGET. Given targets, those alone.
+# Runs libFuzzer on every target of tests/fuzz for SECONDS each, one per core at a time, and prints executions, covered edges, and
+# finds. A find stays in out/fuzz/TARGET/: fix it, and add it to tests/fuzz/corpus/TARGET. Runs all targets, or those given.
 #   cmake --preset fuzz && cmake --build build/fuzz --target choreo_fuzz
 #   scripts/fuzz.sh build/fuzz SECONDS [TARGET...]
 set -euo pipefail
@@ -13,9 +13,9 @@ shift 2
 
 fuzz() {
   local target=$1 leaks=1 lengths=-max_len=8192
-  # The server's threads free what calls took a little later; libsndfile loses 6 KB of some damaged Oggs.
+  # The server's threads free a call's memory slightly later; libsndfile leaks 6 KB for some damaged Oggs.
   [[ ! $target =~ ^(stream_dance|generate_transition|audio)$ ]] || leaks=0
-  # Calls are slow: libFuzzer would come to no more than a few messages. 256 bytes are a hundred.
+  # Calls are slow: libFuzzer would reach only a few messages. 256 bytes are a hundred.
   [[ ! $target =~ ^(stream_dance|generate_transition)$ ]] || lengths="-max_len=256 -len_control=0"
   local out=$root/out/fuzz/$target found=none
   mkdir -p "$out/corpus"

@@ -11,7 +11,7 @@ songs=/usr/share/games/fretsonfire/data/songs/sectoid
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# The poses that the library would dance through, where it would have them: key I of the base dance.
+# The library's own choice of poses and times: key I of the base dance.
 "$choreo" dance "$songs/Escape from chaosland/song.ogg" --seconds 12 --seed 1 --out "$scratch/base.npz" --report "$scratch/base.json" >/dev/null
 mapfile -t times < <(grep '"frame"' "$scratch/base.json" | awk '{printf "%.4f\n", $2 / 30}')
 if ((${#times[@]} < 7)); then

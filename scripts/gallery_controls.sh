@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws what controls change (paper C, Figures 5 to 10): root paths, velocity factors and lengths between the same two keys, which are framed,
-# and beside the pictures the ways and speeds that were asked, dashed.
+# and beside the pictures the requested paths and speeds, dashed.
 #   scripts/gallery_controls.sh BIN_DIRECTORY OUT.webp [MODEL]
 set -euo pipefail
 (($# >= 2)) || { echo "gallery_controls.sh: BIN_DIRECTORY and OUT.webp are wanted" >&2; exit 2; }
@@ -29,7 +29,7 @@ pair() {  # pair NAME: two plots side by side
   rows+=(-i "$scratch/$1.png")
 }
 
-# Ways of 4 s that bow to either side, and one in a curve.
+# Paths of 4 s that bow to either side, and a curved one.
 path() {  # path NAME X1 Z1 X2 Z2
   echo "{\"points\": [{\"time\": 0, \"x\": 0, \"z\": 0}, {\"time\": 1.3, \"x\": $2, \"z\": $3}, {\"time\": 2.7, \"x\": $4, \"z\": $5}," \
     "{\"time\": 4, \"x\": 0, \"z\": 1.2}]}" >"$scratch/$1.path"

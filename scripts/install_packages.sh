@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that this project needs. The one place that names them.
+# Installs the Debian 12 packages that this project needs, which are listed only here.
 #
 #   scripts/install_packages.sh [GROUP...]     groups: build run demo video test bench lint browser blender fuzz verify; default: build run demo video test
 #
-# Runs as root, or through sudo. Quick when everything is there already: it asks dpkg first and touches apt only for what is missing.
+# Run as root or with sudo. Quick if everything is installed: asks dpkg first, and apt only for missing packages.
 set -euo pipefail
 
 # To compile everything.
@@ -16,25 +16,25 @@ build=(
   libsndfile1-dev libflac-dev libvorbis-dev libopusfile-dev libmpg123-dev libzip-dev libxxhash-dev libcairo2-dev libtinygltf-dev
   libgtest-dev libgmock-dev libbenchmark-dev libdnnl-dev
 )
-# To run what was compiled elsewhere. Debian's LibTorch has only a slow BLAS of its own: libopenblas0-pthread takes its place.
+# To run programs compiled elsewhere. Debian's LibTorch brings only a slow BLAS: libopenblas0-pthread replaces it.
 run=(
   libtorch1.13 libopenblas0-pthread libgrpc++1.51 libprotobuf32
   libasound2 liblo7 libspdlog1.10 libprometheus-cpp-core1.0 libssl3 libsndfile1 libflac12 libvorbisfile3 libopusfile0 libmpg123-0 libzip4 libxxhash0 libcairo2 libtinygltf2d
 )
 # Free songs to dance to.
 demo=(fretsonfire-songs-sectoid)
-# What `choreo render --video` runs.
+# For `choreo render --video`.
 video=(ffmpeg)
-# An independent reader of the files that we write; what the examples of other languages and web pages need (they are tests, too).
+# An independent reader of our files, and the needs of the examples in other languages and web pages (which are tests, too).
 test=(python3-numpy python3-grpcio python3-protobuf python3-pip python3-setuptools python3-wheel nodejs npm openssl)
-# What `make bench` compares with.
+# For the comparisons of `make bench`.
 bench=(python3-torch python3-numpy)
 lint=(clang-format clang-tidy)
-# To use the studio in a browser that nobody sees.
+# To test the studio in a headless browser.
 browser=(chromium nodejs npm)
-# To open what we write in Blender, and to try its add-on.
+# To open our files in Blender, and to test its add-on.
 blender=(blender)
-# libFuzzer, and the compiler that it comes with.
+# libFuzzer with its compiler.
 fuzz=(clang-14 libclang-rt-14-dev libfuzzer-14-dev)
 # To build the container without a container engine, and to draw the dashboard.
 verify=(buildah debootstrap prometheus python3-matplotlib)
@@ -65,7 +65,7 @@ if ! command -v dpkg-query >/dev/null; then
   exit 1
 fi
 
-# What is installed, and what that provides: a Node.js from elsewhere brings its own npm, for one.
+# Installed packages and what they provide: for example, a Node.js from elsewhere brings its own npm.
 installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}, ${Provides}\n' |
   sed -n 's/^installed //p' | tr ',' '\n' | sed 's/(.*//; s/ //g')
 missing=()
@@ -85,7 +85,7 @@ fi
 
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
 install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends)
-# The lists may be old or absent: refresh them once if the first attempt fails.
+# Package lists may be old or missing: refresh them once if the first attempt fails.
 if ! "${install[@]}" "${missing[@]}" >/dev/null 2>&1; then
   "${as_root[@]}" apt-get update -qq
   "${install[@]}" "${missing[@]}" >/dev/null

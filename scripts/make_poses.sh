@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the poses of the library that are recipes: client/poses/*.json, out of joints in degrees and hands and feet in places.
+# Makes those library poses, client/poses/*.json, that are recipes of joints in degrees and places of hands and feet.
 #   scripts/make_poses.sh [FOLDER]
 # `choreo` is build/release/bin/choreo, or $CHOREO.
 set -euo pipefail
@@ -71,7 +71,7 @@ pose crouch standing "Low on both feet, hands between the knees." stand \
   pelvis=14,0,0 spine2=12,0,0 neck=-18,0,0 left_hip=-85,26,20 right_hip=-85,-26,-20 left_knee=125 right_knee=125 left_ankle=-50,0,0 right_ankle=-50,0,0 \
   at left_hand=0.08,0.35,0.34 right_hand=-0.08,0.35,0.34
 
-# Travelling: caught in the middle of a step.
+# Travelling: in the middle of a step.
 pose walk travelling "A step with the left leg, arms swinging." stand \
   left_shoulder=0,28,-72 right_shoulder=0,32,72 left_hip=-28,4,2 left_knee=6 left_ankle=-12,0,0 right_hip=18,-4,-2 right_knee=18 right_ankle=26,0,0 right_foot=-36,0,0
 pose strut travelling "A long step, right shoulder ahead, chin up." stand \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Puts the files with which the studio's page sees poses in photos (npm's @mediapipe/pose, Apache-2.0) into a folder, where `choreo studio`
-# looks for them: share/choreo/photo beside bin. Where there is no npm, or it reaches no registry, the studio works without them.
+# Puts the files with which the studio's page finds poses in photos (npm's @mediapipe/pose, Apache-2.0) into a folder, where `choreo studio`
+# looks for them: share/choreo/photo beside bin. Without npm or a registry the studio works without them.
 #   scripts/photo_model.sh FOLDER
 set -euo pipefail
 files=(pose.js pose_landmark_full.tflite pose_solution_packed_assets.data pose_solution_packed_assets_loader.js

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes what pages quote from docs/figures/*.json, so that it can't drift. scripts/evaluate.sh and scripts/train_papers.sh measure these;
+"""Fills in the quotes of docs/figures/*.json on pages, so that they can't drift. scripts/evaluate.sh and scripts/train_papers.sh measure these;
 printed.json has the papers' own.
 
     scripts/quote_figures.py            writes

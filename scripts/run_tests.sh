@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# Runs every test of a build directory and ends with one line: "N passed, N failed, N skipped".
+# Runs every test in a build directory and ends with one line: "N passed, N failed, N skipped".
 #   scripts/run_tests.sh BUILD_DIRECTORY
 set -euo pipefail
 build=$1
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 
-# Each test program gets one thread of BLAS: ctest already uses every core. (Asked first: nproc heeds OMP_NUM_THREADS.)
+# Each test program gets one BLAS thread: ctest already uses every core. (nproc comes first because it obeys OMP_NUM_THREADS.)
 jobs=$(env -u OMP_NUM_THREADS nproc)
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 export TSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")/.." && pwd)/tests/tsan.supp ${TSAN_OPTIONS:-}"
-# Processes of this build's programs, one a line.
+# Processes of this build's programs, one per line.
 running() { find /proc -maxdepth 2 -name exe -lname "$(realpath "$build")/*" 2>/dev/null | cut -d/ -f3 | sort || true; }
 before=$(running)
 rc=0
@@ -18,11 +18,11 @@ run=(ctest --test-dir "$build" --output-on-failure -j "$jobs" --no-tests=error -
 if [[ -t 1 ]]; then
   "${run[@]}" --progress || rc=$?
 else
-  # A log needs no line for every test that passes.
+  # A log needs no lines for passing tests.
   "${run[@]}" | grep -vE '^ +Start +[0-9]+: |   Passed  ' || rc=${PIPESTATUS[0]}
 fi
 
-# The first line with these attributes belongs to the <testsuite>, which counts all.
+# The first line with these attributes is the <testsuite>, with the totals.
 attribute() { grep -oE -m1 "$1=\"[0-9]+\"" "$report" | head -1 | tr -dc 0-9 || true; }
 total=$(attribute tests)
 failed=$(attribute failures)
@@ -31,11 +31,11 @@ if [[ -z $total ]]; then
   echo "run_tests.sh: ctest wrote no report" >&2
   exit 1
 fi
-# What is promised rests on no test that was skipped. (Sanitizers skip some, and don't look.)
+# No promise may rest on a skipped test. (Not checked under sanitizers, which skip some.)
 if grep -q 'name="Contract.NamesTestsThatExist"' "$report"; then
   "$(dirname "$0")/check_contract.sh" "$(realpath "$build")" "$report" >/dev/null || rc=1
 fi
-# No process outlives the tests; one that was told to end may take a moment. Whoever was there before is not theirs.
+# No process may outlive the tests; a stopping one gets a moment. Earlier processes are not theirs.
 for _ in {1..50}; do
   left=$(comm -13 <(echo "$before") <(running))
   [[ -z $left ]] && break

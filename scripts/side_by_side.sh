@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws docs/images/side_by_side.jpg: ten frames of a recording, and of a dance through its poses each 2 s, which is told nothing else.
+# Draws docs/images/side_by_side.jpg: ten frames of a recording, and of a dance through its poses every 2 s.
 #   scripts/side_by_side.sh BIN_DIRECTORY RECORDING.bvh FIRST_SECOND OUT.jpg
 # The one on the page: .../dancedb/bvh/Sophie_Excited-BVH.bvh 10
 set -euo pipefail
@@ -9,7 +9,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 seconds=6
 
-# Six seconds of the recording, as it is written: a frame a line, behind the line of their distance.
+# Six seconds of the recording as text: a frame per line, after the line of their distance.
 rate=$(awk '/^Frame Time:/ { printf "%.0f", 1 / $3; exit }' "$2")
 awk -v first=$((rate * $3)) -v count=$((rate * seconds + 1)) '
   /^Frames:/ { print "Frames: " count; next }

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Trains what model/checkpoints/ holds, or a model of your own, from recordings: prepares them, trains on all of them, then on those of the
-# kind that it shall dance like. Four hours of one core. Killed, it goes on from where it was when it is started again.
+# Trains the models in model/checkpoints/, or your own, from recordings: prepares them, trains on all of them, then on those of the
+# kind that it shall dance like. Four hours on one core. Killed and started again, it continues from where it was.
 #   scripts/train.sh BIN_DIRECTORY RECORDINGS RUN [default|free|NAME]
-# RECORDINGS holds a folder for each set, of BVH files but for Tang's, and splits.json (docs/training.md). RUN gets data/, all/, and
-# last/checkpoint.safetensors. `default` takes five sets, `free` CMU's two, a model of another name all that are there.
+# RECORDINGS holds a folder per set, with BVH files (except Tang's), and splits.json (docs/training.md). RUN gets data/, all/, and
+# last/checkpoint.safetensors. `default` uses five sets, `free` CMU's two, a model with another name all sets.
 # $STEPS and $LAST_STEPS are the steps of the two runs, $LAST the sets of the second, $DEVICE where: cpu, cuda:0, auto.
 set -euo pipefail
 (($# == 3 || $# == 4)) || { echo "train.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }

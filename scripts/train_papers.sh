@@ -91,7 +91,7 @@ one() {
   esac
 }
 
-# Rows beside the judged network: the others that there are.
+# Rows beside the judged network: all others.
 others=()
 beside() {  # beside NAME...
   local name

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# What is too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, training from
+# Checks that take too long for `make test`: the figures of docs/results.md, a stranger's program that uses the installed client, training from
 # recordings, the studio in a browser, Blender, npm's mannequin, the dashboard, faults, libFuzzer, the container, a build without the service,
 # and the tests under sanitizers.
 # CHOREO_RECORDINGS names the folder of recordings that figures are measured on (scripts/evaluate.sh). Without it nothing is measured,
-# which the last line says.
+# as the last line says.
 #   scripts/verify.sh BUILD_DIRECTORY
 set -euo pipefail
 build=$(realpath "$1")
@@ -18,7 +18,7 @@ scripts/quote_figures.py --check
 if [[ -n ${CHOREO_RECORDINGS:-} ]]; then
   echo "== The figures can be measured again"
   pages=(docs/figures docs/results.md)
-  # A change that nobody has committed is no figure to hold others against.
+  # Uncommitted changes are no figures to compare with.
   git diff --exit-code --stat HEAD -- "${pages[@]}" || {
     echo "verify.sh: commit the pages above first, or take them back" >&2
     exit 1
@@ -36,7 +36,7 @@ cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
 cmake -S "$root/examples/client" -B "$scratch/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
 cmake --build "$scratch/consumer"
 "$scratch/prefix/bin/choreo" --version
-# Nobody listens on port 1: that it says so shows that the program runs.
+# Nobody listens on port 1: the error shows that the program runs.
 if "$scratch/consumer/first_dance" 127.0.0.1:1 2>"$scratch/said"; then
   echo "verify.sh: first_dance should have failed without a server" >&2
   exit 1
@@ -82,7 +82,7 @@ scripts/run_tests.sh build/model
 for preset in asan tsan; do
   echo "== Tests under $preset"
   cmake --preset "$preset" >/dev/null
-  # Not the programs: they run LibTorch, which is not built for sanitizers and left out of these tests.
+  # Not the programs: they run LibTorch, which is not built for sanitizers and is excluded from these tests.
   cmake --build "build/$preset" -j "$(nproc)" --target choreo_tests
   scripts/run_tests.sh "build/$preset"
 done

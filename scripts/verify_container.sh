@@ -22,7 +22,7 @@ finish() {
   if [[ -n $server ]]; then kill "$server" 2>/dev/null || true; fi
   if [[ -n $container ]]; then build rm "$container" >/dev/null; fi
   rm -rf "$scratch"
-  # buildah leaves it mounted, and then `rm -r build` would fail.
+  # buildah leaves it mounted, which would make `rm -r build` fail.
   umount "$storage/images/overlay" 2>/dev/null || true
 }
 trap finish EXIT
@@ -30,14 +30,14 @@ trap finish EXIT
 # The base image, made here: Debian's own installer unpacks the same packages.
 if ! build images -q debian:bookworm-slim >/dev/null 2>&1; then
   debootstrap --variant=minbase bookworm "$scratch/debian" >"$scratch/log" || { cat "$scratch/log" >&2; exit 1; }
-  # As in the slim image, packages bring no manuals.
+  # As in the slim image, packages are installed without manuals.
   printf 'path-exclude %s\n' '/usr/share/doc/*' '/usr/share/man/*' '/usr/share/locale/*' >"$scratch/debian/etc/dpkg/dpkg.cfg.d/slim"
   base=$(build from scratch)
   build add -q "$base" "$scratch/debian" / >/dev/null
   build commit -q "$base" debian:bookworm-slim >/dev/null
   build rm "$base" >/dev/null
 fi
-# Health checks are part of the format of docker alone.
+# Only docker's format has health checks.
 build bud --layers --format docker --isolation chroot --network host --pull-never --build-arg "JOBS=${JOBS:-$(nproc)}" \
   -f "$root/docker/Dockerfile" -t choreo "$root"
 build images choreo
@@ -57,7 +57,7 @@ expect "all shared libraries are there" inside "$container" -- \
 
 expect "it does not listen to everybody without TLS" inside "$container" -- sh -c '! choreod 2>/dev/null'
 
-# As the image says: its user, its environment, its entry point; but on a port of ours.
+# With the image's user, environment and entry point, but on our own port.
 entry=$(build inspect --format '{{index .Docker.Config.Entrypoint 0}}' "$container")
 port=$((20000 + RANDOM % 20000))
 settings=(--env "CHOREO_LISTEN=127.0.0.1:$port")
