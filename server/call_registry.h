@@ -14,56 +14,56 @@
 
 namespace choreo {
 
-/// How far a call has come.
+/// The progress of a call.
 struct CallProgress {
   bool unread = false;  ///< an answer waits for its client to take it
-  /// Since when: that answer, or that nothing came and nothing went.
+  /// Since when: the time of that answer, or of the last message in either direction.
   std::chrono::steady_clock::time_point since;
 };
 
-/// A call in progress, as the registry sees it.
+/// A call in progress, for the registry.
 class Call {
  public:
   virtual ~Call() = default;
-  /// Ends the call with this error as soon as its client has taken the answer that is on its way;
-  /// from any thread.
+  /// Ends the call with this error once its client has taken the answer on its way; from any
+  /// thread.
   virtual void Abort(const Error& error) = 0;
-  /// Ends the call although its client takes nothing: as CANCELLED. From any thread.
+  /// Ends the call as CANCELLED although its client takes nothing. From any thread.
   virtual void Reset() = 0;
   virtual CallProgress progress() const = 0;
 };
 
-/// What clients may take, and for how long they may do nothing.
+/// Limits on clients' calls and idle time.
 struct CallLimits {
   int calls = 0;
-  int calls_of_peer = 0;  ///< of one caller, those without a first message included
+  int calls_of_peer = 0;  ///< of one caller, including those without a first message
   std::chrono::milliseconds first_message{};
-  std::chrono::milliseconds idle{};    ///< nothing came and nothing went
+  std::chrono::milliseconds idle{};    ///< without messages in either direction
   std::chrono::milliseconds unread{};  ///< an answer was not taken
 };
 
-/// With what a call ends that another server can go on with.
+/// The status a call ends with when another server can resume it.
 Error HandedOn();
 
-/// The calls in progress: how many there may be, how long each may stand still, and how they end
-/// when the server drains. A call enters when it begins and is admitted with its first message: who
-/// says nothing takes nobody's place. Thread-safe.
+/// The calls in progress: limits their number and idle time, and ends them when the server drains.
+/// A call enters when it begins and is admitted with its first message, so silent clients take
+/// nobody's place. Thread-safe.
 class CallRegistry {
  public:
   explicit CallRegistry(const CallLimits& limits) : limits_(limits) {}
 
-  /// `party`: whose calls are counted together (Caller::Party). Throws Refused where these are too
-  /// many, and after StopAdmitting.
+  /// `party`: calls with the same one are counted together (Caller::Party). Throws Refused if it
+  /// has too many, and after StopAdmitting.
   void Enter(const std::shared_ptr<Call>& call, std::string party);
   /// Throws Refused when full, and after StopAdmitting. Once for each call.
   void Admit(const Call* call);
   /// Also for calls that never entered.
   void Leave(const Call* call);
 
-  /// Ends the calls that have stood still for too long. To be called every now and then.
+  /// Ends calls that were idle for too long. Call regularly.
   void EndIdle();
 
-  /// Calls that were not admitted end, too.
+  /// Also ends calls that are not yet admitted.
   void StopAdmitting();
   /// Streams end with their next continuation, as HandedOn.
   void EndAtTransitions() { ends_at_transitions_ = true; }
@@ -74,7 +74,7 @@ class CallRegistry {
   bool admitting() const;  ///< until StopAdmitting
   int count() const;       ///< admitted
   const CallLimits& limits() const { return limits_; }
-  /// When a place may be free: by how often calls have ended lately. Seconds, 1 to 60.
+  /// When capacity may be free, from how often calls have ended lately. Seconds, 1 to 60.
   double retry_after() const;
 
  private:
@@ -82,22 +82,22 @@ class CallRegistry {
   struct Entry {
     std::weak_ptr<Call> call;
     std::string party;
-    Clock::time_point since;  // it entered, or was admitted
+    Clock::time_point since;  // of entering, or of admission
     bool admitted = false;
   };
 
-  // With mutex_ held.
+  // Requires mutex_.
   std::vector<std::shared_ptr<Call>> Calls(bool admitted) const;
 
   const CallLimits limits_;
   std::atomic<bool> ends_at_transitions_ = false;
-  mutable std::mutex mutex_;  // guards all below
+  mutable std::mutex mutex_;  // guards the members below
   mutable std::condition_variable left_;
   std::map<const Call*, Entry> calls_;
   std::map<std::string, int> of_party_;
   int admitted_ = 0;
   bool admitting_ = true;
-  double mean_seconds_ = 0;  // of the calls that ended lately
+  double mean_seconds_ = 0;  // of recently ended calls
 };
 
 }  // namespace choreo

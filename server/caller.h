@@ -7,17 +7,17 @@
 
 namespace choreo {
 
-/// Who calls, as the log tells of it.
+/// The caller of a call, for the log.
 struct Caller {
-  std::string peer;    ///< as gRPC has it: an address and a port
-  std::string holder;  ///< of the token that was sent; empty without
-  /// Of the W3C traceparent that was sent, in hexadecimal digits: what joins this call with what
-  /// its client does. Empty without a valid one.
+  std::string peer;    ///< gRPC's: an address and a port
+  std::string holder;  ///< of its token; empty without
+  /// From its W3C traceparent, hexadecimal: connects this call with its client's work. Empty
+  /// without a valid one.
   std::string trace_id, span_id;
-  /// Of a call that dances: 16 hexadecimal digits, which the client is told as kStreamIdHeader.
+  /// For calls that dance: 16 hexadecimal digits, sent to the client as kStreamIdHeader.
   std::string stream_id = {};
 
-  /// Whose calls are counted together, as people are told: the token's holder, or else an address.
+  /// The name for calls that are counted together: the token's holder, or else an address.
   std::string Party() const;
 };
 
@@ -30,7 +30,7 @@ std::string AddressOf(const std::string& peer);
 /// Everything but the holder.
 Caller CallerOf(const grpc::CallbackServerContext& context);
 
-/// The value of a header of the call; empty where it is not there exactly once.
+/// The value of a header; empty unless it exists exactly once.
 std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char* name);
 
 }  // namespace choreo

@@ -8,7 +8,7 @@ class App;
 
 namespace choreo {
 
-/// Gives `app` every flag of choreod; each fills its setting of `config`, and has an environment
+/// Adds all flags of choreod to `app`; each fills its setting of `config`, and has an environment
 /// variable: CHOREO_ and its name.
 void AddFlags(CLI::App& app, ServerConfig& config);
 

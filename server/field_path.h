@@ -4,10 +4,10 @@
 
 namespace choreo {
 
-/// The path, in the message that was sent, of a field as errors name it for people. Those number
-/// the messages of one kind in a stream, and leave out what holds a pose:
+/// The path of a field in the sent message, from its name in errors for people. Those number the
+/// messages of one kind in a stream, and omit the message around a pose:
 /// "keyframes[3].rotations[16]" is "keyframe.pose.rotations[16]". Vectors in an array are counted,
-/// not their numbers. Whatever is such a path already stays as it is.
+/// not their numbers. Keeps what already is such a path.
 std::string PathInMessage(const std::string& field);
 
 }  // namespace choreo

@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// What a server has done and does, and what its process uses, as Prometheus reads it. Thread-safe.
+/// A server's and its process's figures, in Prometheus' format. Thread-safe.
 std::string FiguresOf(const Serving& serving);
 
 }  // namespace choreo

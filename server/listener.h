@@ -9,18 +9,17 @@
 
 namespace choreo {
 
-/// Takes connections and hands them on. gRPC's own listener is not used: once the process is out of
-/// descriptors it never accepts again. This one refuses connections (closes them at once, so that
-/// clients go elsewhere) while some descriptors are still left for everything else, and goes on
-/// when there are more again. Thread-safe.
+/// Accepts connections and passes them on. Replaces gRPC's listener, which never accepts again once
+/// the process has run out of descriptors. This one refuses connections (closes them at once, so
+/// that clients go elsewhere) while some descriptors are still left for everything else, and
+/// resumes when there are more. Thread-safe.
 class Listener {
  public:
-  /// Called from the listener's thread; from then on the connection belongs to the callee. It
-  /// blocks nowhere and waits for nothing before it sends.
+  /// Called on the listener's thread; the callee then owns the connection. Must not block.
   using Accept = std::function<void(int listening, int connection)>;
 
-  /// Listens on HOST:PORT, wherever HOST is; port 0 takes a free one. Connections wait until Start.
-  /// Throws Error(kUnavailable, field).
+  /// Listens on HOST:PORT; port 0 takes a free one. Connections wait until Start. Throws
+  /// Error(kUnavailable, field).
   explicit Listener(const std::string& address, const std::string& field = "--listen");
   ~Listener();
   Listener(const Listener&) = delete;
@@ -28,12 +27,12 @@ class Listener {
 
   int port() const { return port_; }
   void Start(Accept accept);
-  /// Nobody is accepted any more, and those who wait are sent away. Idempotent.
+  /// Accepts nobody any more, and closes waiting connections. Idempotent.
   void Stop();
 
  private:
   void Work(const Accept& accept);
-  /// Whoever waits at this socket.
+  /// Accepts all connections waiting at this socket.
   void AcceptAll(int listening, const Accept& accept);
   void Pause();
 
@@ -46,11 +45,11 @@ class Listener {
   std::chrono::steady_clock::time_point next_report_;
 };
 
-/// Whether HOST:PORT can be reached from this machine alone. So is a host without an
-/// address, at which nobody can listen.
+/// Whether HOST:PORT is only reachable from this machine; also true for a host without an address,
+/// where nobody can listen.
 bool IsLocal(const std::string& address);
 
-/// Lets the process have as many descriptors as it may ask for.
+/// Raises the process's descriptor limit as far as allowed.
 void RaiseDescriptorLimit();
 
 }  // namespace choreo

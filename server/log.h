@@ -12,11 +12,10 @@
 
 namespace choreo {
 
-/// Sends the log to stderr, from `level` on (as spdlog names them), as text or as one JSON object a
-/// line.
+/// Logs to stderr, from `level` on (spdlog's names), as text or as one JSON object per line.
 void StartLog(const std::string& level, bool json);
 
-/// A call that is over.
+/// A call that has ended.
 struct CallRecord {
   std::string_view method;
   const Caller& caller;
@@ -24,12 +23,12 @@ struct CallRecord {
   double seconds = 0;
   int64_t frames = 0;                   ///< at the client's rate
   double first_frame_s = 0;             ///< after it began; 0 without frames
-  std::string_view model = {};          ///< that it was for; empty: none was found
+  std::string_view model = {};          ///< requested; empty: none was found
   std::optional<uint64_t> seed = {};    ///< in use
-  std::optional<Refusal> refusal = {};  ///< that ended it
+  std::optional<Refusal> refusal = {};  ///< the reason for its end
 };
 
-/// The one line that a call leaves, at level info.
+/// Logs a call's single line at level info.
 void LogCall(const CallRecord& call);
 
 }  // namespace choreo

@@ -7,11 +7,11 @@
 
 namespace choreo {
 
-/// Figures for Prometheus: http://ADDRESS/metrics, from construction to destruction. They are
-/// gathered when somebody looks. Thread-safe.
+/// Serves figures for Prometheus at http://ADDRESS/metrics from construction to destruction,
+/// gathered on each request. Thread-safe.
 class MetricsEndpoint {
  public:
-  /// HOST:PORT; port 0 takes a free one. `serving` outlives it. Throws Error(kUnavailable,
+  /// HOST:PORT; port 0 takes a free one. `serving` must outlive it. Throws Error(kUnavailable,
   /// "--metrics").
   MetricsEndpoint(const std::string& address, const Serving& serving);
   ~MetricsEndpoint();

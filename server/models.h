@@ -11,37 +11,37 @@
 
 namespace choreo {
 
-/// The models of a server: those that it serves, the first one as the default, and those that it
-/// has ceased to serve while calls still dance them. Thread-safe.
+/// A server's models: those that it serves, the first one as the default, and withdrawn ones that
+/// calls still dance. Thread-safe.
 class Models {
  public:
-  /// A model in somebody's hands: it is there for as long as one has it. Only Models ends
-  /// queues, never the last holder: that may be one of their own threads.
+  /// A model in use, which exists as long as anybody holds one. Only Models ends queues, never the
+  /// last holder: that may be one of their own threads.
   using Use = std::shared_ptr<SampleQueue>;
 
-  /// What the models of one name do now, and have done since the start.
+  /// Present and total figures of the models with one name.
   struct Figures {
     SampleQueue::Stats stats;
     SampleQueue::Histograms histograms;
   };
 
-  /// Throws Error(kInvalidArgument) for none, and for two of one name.
+  /// Throws Error(kInvalidArgument) for no models, and for two of one name.
   explicit Models(std::vector<std::unique_ptr<SampleQueue>> models);
 
-  /// Served from now on, in this order: those of `fresh`, and those of today's whose names are not
-  /// among them. Who has another one keeps it. Throws Error(kInvalidArgument), and changes nothing,
-  /// for no names, a name twice, and one that no model has.
+  /// Serves these from now on, in this order: those of `fresh`, and present ones whose names are
+  /// not among them. Users of other models keep them. Throws Error(kInvalidArgument), and changes
+  /// nothing, for no names, a duplicate, and one without a model.
   void Set(const std::vector<std::string>& names, std::vector<std::unique_ptr<SampleQueue>> fresh);
-  /// Ends the queues that are not served and that nobody has. From none of their threads.
+  /// Ends queues that are neither served nor used. Must not run on their threads.
   void FreeUnused();
 
-  /// The first model for an empty name, and for "controllers" where none is called so. Throws
+  /// The first model for an empty name, and for "controllers" if none has that name. Throws
   /// Error(kNotFound) that lists the models.
   Use Find(const std::string& name, const std::string& field) const;
   std::vector<Use> served() const;
-  /// By name. One that has gone is in it until nobody dances it any more.
+  /// By name. Withdrawn models stay until nobody dances them any more.
   std::map<std::string, Figures> figures() const;
-  /// Transitions that are being made, or wait.
+  /// Transitions running or waiting.
   int transitions() const;
 
  private:
@@ -51,11 +51,11 @@ class Models {
 
     std::unique_ptr<SampleQueue> queue;
     std::shared_ptr<std::atomic<bool>> unused = std::make_shared<std::atomic<bool>>(false);
-    Use use;  // null once it is not served; when the last one goes, `unused` turns true
+    Use use;  // null once withdrawn; when the last one is released, `unused` becomes true
   };
 
-  mutable std::mutex mutex_;             // guards all below
-  std::map<std::string, Figures> past_;  // of queues that have ended, but not their models
+  mutable std::mutex mutex_;             // guards the members below
+  std::map<std::string, Figures> past_;  // of ended queues, without their models
   std::vector<Entry> served_;
   std::vector<Entry> former_;
 };

@@ -11,22 +11,22 @@ namespace choreo {
 
 inline constexpr int64_t kMaxAudioFileBytes = 128 << 20;
 
-/// Memory that the calls of a server share for music files that have not come whole. Thread-safe.
+/// Memory for incomplete music files, shared by a server's calls. Thread-safe.
 class MusicBudget {
  public:
   explicit MusicBudget(int64_t bytes) : bytes_(bytes) {}
 
-  /// Throws Refused where so much is not left.
+  /// Throws Refused if less is left.
   void Take(int64_t bytes);
   void GiveBack(int64_t bytes);
 
  private:
   const int64_t bytes_;
-  mutable std::mutex mutex_;  // guards the one below
+  mutable std::mutex mutex_;  // guards the member below
   int64_t taken_ = 0;
 };
 
-/// As much of a music file as has come, in memory taken from a budget. Not thread-safe.
+/// The part of a music file that has come, in memory taken from a budget. Not thread-safe.
 class MusicFile {
  public:
   explicit MusicFile(MusicBudget& budget) : budget_(budget) {}
@@ -34,10 +34,10 @@ class MusicFile {
   MusicFile(const MusicFile&) = delete;
   MusicFile& operator=(const MusicFile&) = delete;
 
-  /// Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and as the budget does; the
-  /// file is then as before.
+  /// Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and as the budget; the file
+  /// is then unchanged.
   void Append(std::string_view bytes, const std::string& field);
-  /// Gives the memory back.
+  /// Returns the memory.
   void Clear();
 
   bool empty() const { return bytes_.empty(); }
@@ -47,7 +47,7 @@ class MusicFile {
  private:
   MusicBudget& budget_;
   std::string bytes_;
-  int64_t reserved_ = 0;  // of the budget; at least what bytes_ has
+  int64_t reserved_ = 0;  // from the budget; at least the size of bytes_
 };
 
 }  // namespace choreo

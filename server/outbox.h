@@ -14,23 +14,22 @@
 
 namespace choreo {
 
-/// Where those who make a call's answers (workers) meet the gRPC reactor that writes them.
+/// Connects the producers of a call's answers (workers) with the gRPC reactor that writes them.
 ///
-/// gRPC 1.51 has no holds on the server: a reactor dies once it has finished and its operations
-/// are over. So nobody but this object asks it to write or finish, always under the lock, and never
-/// again after Finish; workers keep this object alive, not the reactor.
+/// gRPC 1.51 has no holds on the server: a reactor dies once it has finished and its operations are
+/// over. So only this object asks it to write or finish, always under the lock, and never again
+/// after Finish; workers keep this object alive, not the reactor.
 ///
-/// The queue of answers is bounded by back-pressure: beyond `max_bytes` the dance is paused, below
-/// half of it set going again. Frames that wait are joined into larger messages. Beyond
-/// kMostWaiting times `max_bytes` no more of a client's messages are read until it has taken
-/// answers. Thread-safe.
+/// Back-pressure bounds the queue: beyond `max_bytes` the dance pauses, below half of it the dance
+/// resumes. Waiting frames are joined into larger messages. Beyond kMostWaiting times `max_bytes`
+/// the client's messages are not read until it has taken answers. Thread-safe.
 template <class Response>
 class Outbox {
  public:
-  /// Frames alone do not get there, so a client may send everything before it reads anything.
+  /// Frames alone do not reach this, so a client may send everything before it reads anything.
   static constexpr size_t kMostWaiting = 4;
 
-  /// What a reactor does for the outbox. Called with the lock held; neither may call back.
+  /// The reactor's operations. Called with the lock held; must not call back.
   class Wire {
    public:
     virtual ~Wire() = default;
@@ -42,12 +41,11 @@ class Outbox {
 
   enum class State {
     kOpen,      ///< takes answers
-    kClosing,   ///< takes none; what is queued still goes out
+    kClosing,   ///< takes none; queued ones still go out
     kFinished,  ///< the wire has been told to finish and may be gone
   };
 
-  /// While it lives, the wire is not told to finish: whoever uses the reactor outside of the lock
-  /// has one.
+  /// While it exists, the wire is not told to finish: needed to use the reactor without the lock.
   class Hold {
    public:
     explicit Hold(Outbox& outbox) : outbox_(outbox) {
@@ -83,8 +81,7 @@ class Outbox {
     UpdatePressure();
   }
 
-  /// No more answers; once those queued are out the call ends with `status`. The first Close or
-  /// Abort counts.
+  /// Ends the call with `status` after all queued answers. The first Close or Abort counts.
   void Close(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (state_ != State::kOpen) return;
@@ -93,7 +90,7 @@ class Outbox {
     Advance();
   }
 
-  /// As Close, but drops what is queued, also after Close.
+  /// As Close, but drops queued answers; also works after Close.
   void Abort(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (state_ == State::kFinished) return;
@@ -106,14 +103,13 @@ class Outbox {
     Advance();
   }
 
-  /// After Abort: if the client does not even take the answer that is on its way, the call ends
-  /// without it.
+  /// After Abort: ends the call even if the client does not take the answer on its way.
   void Reset() {
     const std::lock_guard lock(mutex_);
     if (writing_ && state_ != State::kFinished) wire_->Reset();
   }
 
-  /// The reactor is done with the client's last message: it may read the next one, as soon as there
+  /// The reactor has handled the client's last message and may read the next one, as soon as there
   /// is room for its answer, unless the call ends before.
   void RequestRead() {
     const std::lock_guard lock(mutex_);
@@ -142,8 +138,8 @@ class Outbox {
     }
   }
 
-  /// Whether an answer waits for the client, and since when; if not, since when nothing came and
-  /// nothing went.
+  /// Whether an answer waits for the client, and since when; if not, since when nothing came or
+  /// went.
   CallProgress progress() const {
     const std::lock_guard lock(mutex_);
     return {writing_, writing_ ? written_at_ : std::max(written_at_, read_at_)};
@@ -154,7 +150,7 @@ class Outbox {
     return state_ == State::kOpen;
   }
 
-  /// With which the call ended, or will end.
+  /// The status that the call ended, or will end, with.
   grpc::Status status() const {
     const std::lock_guard lock(mutex_);
     return status_;
@@ -170,7 +166,7 @@ class Outbox {
     size_t bytes = 0;
   };
 
-  // Appends frames to the message that waits last, if that carries the frames before them.
+  // Appends frames to the last waiting message if they follow its frames.
   bool Join(const Response& message, size_t bytes) {
     if (!message.has_frames() || queue_.size() < (writing_ ? 2U : 1U)) return false;
     Item& last = queue_.back();
@@ -190,7 +186,7 @@ class Outbox {
     return true;
   }
 
-  // The next operations, if any are due. Under the lock.
+  // Starts the next operations that are due. Requires the lock.
   void Advance() {
     if (read_wanted_ && state_ == State::kOpen && bytes_ <= kMostWaiting * max_bytes_) {
       read_wanted_ = false;
@@ -207,7 +203,7 @@ class Outbox {
     }
   }
 
-  // set_paused may make a dance deliver, hence come back here: the outermost call sees to it.
+  // set_paused may make a dance deliver and re-enter here; the outermost call handles it.
   void UpdatePressure() {
     std::unique_lock lock(mutex_);
     if (updating_pressure_) return;
@@ -227,13 +223,13 @@ class Outbox {
   const size_t max_bytes_;
   const std::function<void(bool)> set_paused_;
 
-  mutable std::mutex mutex_;  // guards all below
+  mutable std::mutex mutex_;  // guards the members below
   State state_ = State::kOpen;
-  std::deque<Item> queue_;  // the front is being written while writing_
+  std::deque<Item> queue_;  // the front is being written if writing_
   size_t bytes_ = 0;        // of the queue
   bool writing_ = false;
   Clock::time_point written_at_ = Clock::now();  // the last answer, or when its writing began
-  Clock::time_point read_at_ = Clock::now();     // the last message was dealt with
+  Clock::time_point read_at_ = Clock::now();     // when the last message was handled
   bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;

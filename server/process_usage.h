@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-/// What a process on this machine has used. Throws Error(kNotFound) where it is gone.
+/// Resources used by a process on this machine. Throws Error(kNotFound) if it has ended.
 namespace choreo {
 
 double CpuSeconds(pid_t process);
@@ -12,6 +12,6 @@ int64_t ResidentBytes(pid_t process);
 int64_t VirtualBytes(pid_t process);
 int64_t Threads(pid_t process);
 int64_t Descriptors(pid_t process);  ///< that are open
-double StartSeconds(pid_t process);  ///< when it began, since 1970, to a second or so
+double StartSeconds(pid_t process);  ///< its start since 1970, to about a second
 
 }  // namespace choreo

@@ -10,21 +10,21 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Poses of the API -> ours. Failures are Error(kInvalidArgument) with the path of the field,
-/// beginning with `field`. Pure functions, thread-safe.
+/// The API's poses -> ours. Throw Error(kInvalidArgument) with the path of the field, beginning
+/// with `field`. Pure functions, thread-safe.
 namespace choreo {
 
-/// Numbers a joint of an encoding: 3, 4 or 9.
+/// Numbers per joint in an encoding: 3, 4 or 9.
 int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field);
 
 /// Joint rotations in any encoding -> axis-angle, [3, joints].
 Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
                              const std::string& field);
 
-/// A pose whose root position is required.
+/// A pose with a required root position.
 Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field);
 
-/// A key pose and what it asks for. `mask` null: all joints.
+/// A key pose and its mask. `mask` null: all joints.
 Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
                 const std::string& pose_field, const std::string& mask_field);
 

@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// Why a call is turned away though nothing is wrong with it: what was lacking.
+/// Why a valid call is refused: what was lacking.
 enum class Refusal {
   kStreams,        ///< --max-streams
   kStreamsOfPeer,  ///< --max-streams-of-peer
@@ -18,16 +18,16 @@ enum class Refusal {
   kFileMusic,      ///< --max-file-music-mib
   kUnreadInfos,    ///< answers that wait for the caller to read them
   kToken,          ///< --tokens
-  kDraining,       ///< the server goes away
+  kDraining,       ///< the server is stopping
 };
 
-/// As /metrics calls them, in the order of the enum.
+/// Names in /metrics, in the order of the enum.
 inline constexpr std::array kRefusals = {
     "max_streams",    "max_streams_of_peer", "max_load", "max_load_of_peer", "max_waiting",
     "max_file_music", "unread_infos",        "token",    "draining",
 };
 
-/// An error that turns a call away.
+/// An error that refuses a call.
 class Refused : public Error {
  public:
   Refused(Refusal why, const std::string& message)
@@ -40,10 +40,10 @@ class Refused : public Error {
   Refusal why_;
 };
 
-/// None where the call is not turned away, but fails.
+/// None if the call was not refused but failed.
 inline std::optional<Refusal> RefusalIn(const Error& error) {
   if (const auto* refused = dynamic_cast<const Refused*>(&error)) return refused->why();
-  // Engines know of no calls: they have no room for further candidates.
+  // Engines do not know calls: they have no room for more candidates.
   if (error.code() == ErrorCode::kResourceExhausted) return Refusal::kWaiting;
   return std::nullopt;
 }

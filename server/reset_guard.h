@@ -8,23 +8,22 @@
 
 namespace choreo {
 
-/// Calls that were begun and are not done yet, of each connection. gRPC forgets a call
-/// when its client resets it, but its memory is taken until somebody has had the time to end it: so
-/// a client that begins and resets without end would take all there is. A connection that has more
-/// than `most` such calls is closed, and until they are done its address gets no other one.
-/// Thread-safe.
+/// Counts unfinished calls per connection. gRPC forgets a call when its client resets it, but its
+/// memory is in use until it is cleaned up, so endless resets would exhaust memory. Closes a
+/// connection with more than `most` such calls, and until they are done accepts no other one from
+/// its address. Thread-safe.
 class ResetGuard {
  public:
   explicit ResetGuard(int most) : most_(most) {}
 
-  /// Has it see every call of the server, which it outlives.
+  /// Makes it see every call of the server, which must not outlive it.
   void Watch(grpc::ServerBuilder* builder);
 
-  /// Whether no more connections are taken from where this socket's peer is.
+  /// Whether the address of this socket's peer gets no more connections.
   bool IsFull(int connection) const;
 
-  /// A call begins, and is done; `peer` as gRPC has it: an address and a port. Empty, as it is for
-  /// gRPC's own services: it is not counted.
+  /// A call begins, and is done; `peer` as in gRPC: an address and a port. An empty one, of gRPC's
+  /// own services, is not counted.
   void Enter(const std::string& peer);
   void Leave(const std::string& peer);
 

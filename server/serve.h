@@ -3,18 +3,17 @@
 #include "server/config.h"
 #include "server/model_folder.h"
 
-/// The life of a choreod between its settings and its end. Of a process, so for main alone.
+/// The life of a choreod process from its settings to its end; for main only.
 namespace choreo {
 
-/// From here on SIGTERM, SIGINT and SIGHUP wait for Serve. Call before other threads start: they
+/// From here on SIGTERM, SIGINT and SIGHUP wait for Serve. Call before other threads start, which
 /// inherit it.
 void HoldSignals();
 
-/// Loads the models, says where it listens, serves, and reads a folder of models again at SIGHUP.
-/// Returns after SIGTERM or SIGINT (or SIGHUP without a folder) has had it drain. Leaves the
-/// process at once, with exit code 0, where it is asked to go before it serves, for the second
-/// time, or while a model is being loaded and all calls are over. Throws what ModelFolder, `load`
-/// and Server throw.
+/// Loads the models, reports where it listens, serves, and rereads a folder of models at SIGHUP.
+/// Returns after SIGTERM or SIGINT (or SIGHUP without a folder) and draining. Exits at once, with
+/// code 0, if told to stop before it serves, for the second time, or while it loads a model and all
+/// calls have ended. Throws what ModelFolder, `load` and Server throw.
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load);
 
 }  // namespace choreo

@@ -9,43 +9,42 @@
 
 namespace choreo {
 
-/// choreod without its process: the gRPC server over engines that somebody else has built. Health
-/// checking and reflection are part of it. Thread-safe.
+/// choreod without its process: the gRPC server on given engines, with health checking and
+/// reflection. Thread-safe.
 class Server {
  public:
-  /// The engines of one model, one a device. The first model is the default.
+  /// The engines of one model, one per device. The first model is the default.
   using Samplers = std::vector<std::unique_ptr<Sampler>>;
 
-  /// Listens when it returns. Of `config` only what concerns serving is read: listen, max_waiting,
+  /// Listens when it returns. Uses only the settings about serving: listen, max_waiting,
   /// max_streams, io_threads, outbox_kib, max_file_music_mib, max_network_mib, TLS, tokens,
-  /// reflection, metrics, and what clients may take. Throws Error(kInvalidArgument) for engines
-  /// that do not go together, Error(kUnavailable) naming an address that cannot be listened on.
+  /// reflection, metrics, and limits on clients. Throws Error(kInvalidArgument) for engines that do
+  /// not match, Error(kUnavailable) naming an address that cannot be listened on.
   Server(const ServerConfig& config, std::vector<Samplers> models);
   ~Server();  ///< Drain(0)
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// The port that was chosen.
+  /// The port that it listens on.
   int port() const;
-  /// Where Prometheus finds figures; 0 without.
+  /// The port for Prometheus; 0 without.
   int metrics_port() const;
-  /// Transitions that are being made, or wait, over all
-  /// models.
+  /// Transitions running or waiting, over all models.
   int transitions() const;
-  /// Calls in progress; those without a first message do not count.
+  /// Calls in progress, except those without a first message.
   int calls() const;
 
-  /// Served from now on, the first one as the default: by name models of `fresh`, which are new or
-  /// take the place of one of that name, and models that are served already. Calls in progress
-  /// keep what they began with; a model is freed once nobody is left who dances it. False, and
-  /// nothing happens, after Drain. Throws Error(kInvalidArgument), and changes nothing, for no
-  /// names, a name twice, one that no model has, and engines that do not go together.
+  /// Serves these from now on, the first one as the default: by name, models of `fresh`, which are
+  /// new or replace one of that name, and models already served. Calls in progress keep theirs; a
+  /// model is freed once nobody dances it. Returns false, and does nothing, after Drain. Throws
+  /// Error(kInvalidArgument), and changes nothing, for no names, a duplicate, one without a model,
+  /// and engines that do not match.
   bool SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh);
 
-  /// Health says NOT_SERVING and new calls are UNAVAILABLE from the start on; those in progress may
-  /// go on for `seconds`, then end as UNAVAILABLE; streams at a transition, if one comes in the
-  /// last quarter. Those who come up to a second after the last one are still told so (0 seconds:
-  /// nobody is). When it returns the server is shut down. Idempotent.
+  /// Health is NOT_SERVING and new calls are UNAVAILABLE at once; calls in progress may continue
+  /// for `seconds`, then end as UNAVAILABLE; streams end at a transition, if one comes in the last
+  /// quarter. Callers up to a second after the last call are still told so (0 seconds: nobody is).
+  /// The server is shut down on return. Idempotent.
   void Drain(double seconds);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-/// choreo.v1.Choreography. Its calls may run at any time, from gRPC's threads. Requests of the two
-/// that dance come as bytes: ReadMessage looks at them before they are made into messages.
+/// choreo.v1.Choreography. Its calls run on gRPC's threads at any time. Requests of the two calls
+/// that dance come as bytes, which ReadMessage checks before parsing.
 class ChoreographyService final
     : public v1::Choreography::WithRawCallbackMethod_GenerateTransition<
           v1::Choreography::WithRawCallbackMethod_StreamDance<

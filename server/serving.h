@@ -17,7 +17,7 @@
 
 namespace choreo {
 
-/// What the calls of one server share. Thread-safe after construction; outlives every call.
+/// Shared by the calls of a server. Thread-safe after construction; outlives every call.
 struct Serving {
   Serving(std::vector<std::unique_ptr<SampleQueue>> queues, const CallLimits& limits,
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
@@ -31,7 +31,7 @@ struct Serving {
         decoding(io_threads),
         tasks(io_threads) {}
 
-  /// A seed for those who name none.
+  /// A seed for requests without one.
   static uint64_t FreshSeed();
 
   CallRegistry calls;
@@ -42,8 +42,8 @@ struct Serving {
   MusicBudget file_music;
   // Last: their threads use all of the above.
   Models models;
-  TaskPool decoding;  ///< music files, which take long: nobody else waits for them
-  TaskPool tasks;     ///< what is too long for gRPC's threads, yet takes no more than seconds
+  TaskPool decoding;  ///< music files, which take long; nobody else waits for them
+  TaskPool tasks;     ///< tasks too long for gRPC's threads, but of seconds at most
 };
 
 }  // namespace choreo

@@ -14,8 +14,8 @@
 
 namespace choreo {
 
-/// The reactor of a streaming call: hands what gRPC tells of the wire to the call's session, which
-/// may outlive it. `Grpc` is gRPC's reactor of that kind of call. It deletes itself.
+/// The reactor of a streaming call: passes gRPC's events to the call's session, which may outlive
+/// it. `Grpc` is gRPC's reactor for that kind of call. Deletes itself.
 template <class Grpc, class Response, class Session>
 class SessionReactor : public Grpc, public Outbox<Response>::Wire {
  public:
@@ -48,8 +48,8 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
         session_(std::make_shared<Session>(serving, this, Named(*context))),
         context_(context) {}
 
-  /// Tells the service of the call and runs `begin`; a client without a token, and a service that
-  /// is full, fail the call.
+  /// Registers the call with the service and runs `begin`; fails a client without a token, and when
+  /// the service is full.
   template <class Begin>
   void Enter(Begin begin) {
     if (!session_->Authenticate(HeaderOf(*context_, "authorization"))) return;

@@ -8,16 +8,16 @@
 
 namespace choreo {
 
-/// The one place that maps failures onto gRPC statuses. The status carries google.rpc details:
-/// ErrorInfo always, with the error's field; BadRequest where there is one, whose own is the path
-/// in the message that was sent, and whose description does not repeat it; RetryInfo, `retry_after`
-/// seconds, where trying again helps.
+/// The only place that maps failures to gRPC statuses. The status carries google.rpc details:
+/// always ErrorInfo with the error's field; BadRequest if there is a field, with its path in the
+/// sent message and a description that does not repeat it; RetryInfo, `retry_after` seconds, if
+/// retrying helps.
 grpc::Status ToStatus(const Error& error, double retry_after = 1);
 
-/// Who calls is not known. ErrorInfo goes with it.
+/// For unknown callers. Includes ErrorInfo.
 grpc::Status Unauthenticated(const std::string& message);
 
-/// As people know it: "RESOURCE_EXHAUSTED".
+/// The usual name: "RESOURCE_EXHAUSTED".
 const char* NameOf(grpc::StatusCode code);
 
 }  // namespace choreo

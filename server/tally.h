@@ -16,7 +16,7 @@
 
 namespace choreo {
 
-/// What all calls so far amount to. Thread-safe.
+/// Totals over all calls so far. Thread-safe.
 class Tally {
  public:
   static constexpr const char* kInfoMethod = "GetServerInfo";  ///< which dances nothing
