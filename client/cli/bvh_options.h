@@ -11,14 +11,15 @@
 
 namespace choreo::cli {
 
-/// `--names` and `--unit`, of commands that write motions: as animators' tools take a BVH.
+/// `--names` and `--unit`, for commands that write motions: BVH files as animators' tools expect
+/// them.
 struct BvhOptions {
   std::string names;  ///< empty: SMPL's
   std::string unit;   ///< "m" or "cm"; empty: centimetres
 
   void AddTo(CLI::App& command);
-  /// Throws Error(kInvalidArgument) whose field is the option where one is given and `out` is no
-  /// BVH, and for names that are none of the known.
+  /// Throws Error(kInvalidArgument), whose field is the option, if one is given and `out` is not a
+  /// BVH, and for unknown names.
   void Check(const std::filesystem::path& out) const;
   /// As WriteMotion (motion_file.h), a BVH in this layout.
   void Write(const std::filesystem::path& out, const Skeleton& skeleton, const Motion& motion,

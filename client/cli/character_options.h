@@ -9,19 +9,19 @@
 
 namespace choreo::cli {
 
-/// `--character` and `--map`: a dance on somebody's own character.
+/// `--character` and `--map`: a dance on a user's character.
 struct CharacterOptions {
   std::string character;  ///< .glb or .vrm; empty: none
   std::string map;        ///< bone_map.h; empty: by names
 
   void AddTo(CLI::App& command);
   bool given() const { return !character.empty(); }
-  /// Throws Error(kInvalidArgument) whose field is the option: `--map` alone, a character that is
-  /// no .glb or .vrm, an `out` that is no .glb.
-  /// `of_motion`: without a character the map is of the motion's own bones.
+  /// Throws Error(kInvalidArgument) whose field is the option: `--map` alone, a character other
+  /// than .glb or .vrm, an `out` other than .glb. `of_motion`: without a character the map is for
+  /// the motion's own bones.
   void Check(const std::filesystem::path& out, bool of_motion = false) const;
 
-  /// Writes the character with the dance (formats/character_file.h). Where names tell too little,
+  /// Writes the character with the dance (formats/character_file.h). If names tell too little,
   /// writes OUT.map.json and OUT.map.png, a suggestion, and throws Error(kInvalidArgument) naming
   /// them.
   void Write(const std::filesystem::path& out, const Skeleton& skeleton,

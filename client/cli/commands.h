@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-/// The commands of `choreo`, one file each. Each adds itself to the program, with its help; when
-/// chosen, it runs while the command line is parsed. Failures are thrown as Error.
+/// The commands of `choreo`, one file each. Each adds itself with its help to the program, and runs
+/// while the command line is parsed. Failures are thrown as Error.
 namespace choreo::cli {
 
 void AddDanceCommand(CLI::App& program);
@@ -18,6 +18,6 @@ void AddConvertCommand(CLI::App& program);
 void AddPoseCommand(CLI::App& program);
 void AddPlotCommand(CLI::App& program);
 void AddRenderCommand(CLI::App& program);
-void AddStudioCommand(CLI::App& program);  ///< studio/, which stands above this folder
+void AddStudioCommand(CLI::App& program);  ///< in studio/, above this folder
 
 }  // namespace choreo::cli

@@ -11,7 +11,7 @@
 
 namespace choreo::cli {
 
-/// The options that every command has which needs a server.
+/// The options of all commands that need a server.
 struct ServerOptions {
   std::vector<std::string> addresses;
   bool tls = false;
@@ -21,20 +21,19 @@ struct ServerOptions {
   bool even_draining = false;
 
   void AddTo(CLI::App& command);
-  /// Addresses that were not named are the client's own default.
+  /// Without addresses, the client's default.
   client::Options ForClient() const;
 };
 
-/// The server that was named, or else one of our own for as long as this lives. That one serves
-/// `model` alone ("": the default), so that it loads no other; none: those for every day.
+/// The named server, or else our own for the lifetime of this object, which serves only `model`
+/// ("": the default) to load no other; none: the default ones.
 class Connection {
  public:
   explicit Connection(const ServerOptions& options, const std::optional<std::string>& model = {});
 
   const client::Client& client() const { return *client_; }
   const client::ServerDescription& server() const { return server_; }
-  /// By name; the server's default where it is empty. Throws Error(kNotFound) naming those that
-  /// there are.
+  /// By name; the server's default if empty. Throws Error(kNotFound) naming the existing ones.
   const client::ModelDescription& model(const std::string& name) const;
 
  private:

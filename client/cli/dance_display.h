@@ -8,7 +8,7 @@
 
 namespace choreo::cli {
 
-/// Shows the messages of a dance while they come: a bar, and what went otherwise than asked.
+/// Shows a dance's progress: a bar, and deviations from the request.
 class DanceDisplay {
  public:
   /// `frames`: of the dance, at the model's rate.

@@ -7,18 +7,17 @@
 
 namespace choreo::cli {
 
-/// A dance that a file holds, and the skeleton that it is of.
+/// A dance from a file, and its skeleton.
 struct DanceFile {
   Skeleton skeleton;
   client::FinishedDance dance;
 };
 
-/// A motion (motion_input.h) with the contacts that an npz of ours has. Errors as ReadMotion;
+/// A motion (motion_input.h) with the contacts of our npz files. Errors as ReadMotion;
 /// Error(kInvalidArgument) whose field is PATH:contacts.
 DanceFile ReadDance(const std::filesystem::path& path);
 
-/// The same of this skeleton; one of other bones is refused: retargeted, it would not be the dance
-/// that was to stay as it is.
+/// The same on this skeleton. Refuses other bones: a retargeted dance would not stay as it is.
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

@@ -8,51 +8,50 @@
 
 namespace choreo::cli {
 
-/// Whether `--keyframes none` asks for no keys at all. Throws Error(kInvalidArgument) where others
-/// stand beside it.
+/// Whether `--keyframes none` asks for no keys. Throws Error(kInvalidArgument) if others are given,
+/// too.
 bool SaysNoKeys(const std::vector<std::string>& sources);
-/// The key files and motions among what --keyframes names.
+/// The key files and motions in --keyframes.
 std::vector<std::string> KeySources(const std::vector<std::string>& sources);
 
-/// The key poses of a dance in the order of their times, as they are sent.
+/// A dance's key poses in order of time, as sent.
 struct DanceKeys {
   std::vector<client::KeyPose> poses;
-  /// Of each where it was written, "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
+  /// The origin of each, "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
   std::vector<std::string> places;
 };
 
-/// How long a dance is.
+/// The length of a dance.
 struct DanceLength {
   int64_t frames = 0;
-  double fps = kModelFps;  ///< the model's
+  double fps = kModelFps;  ///< of the model
 };
 
-/// Of something at a frame that the dance does not reach: "at 20 s lies behind the dance's end:
-/// its last frame is at 9.97 s".
+/// Describes a frame after the dance's end: "at 20 s lies behind the dance's end: its last frame is
+/// at 9.97 s".
 std::string SayBehindEnd(int64_t frame, const DanceLength& length);
 
-/// The frame that a key asks for, at the model's rate.
+/// The frame of a key, at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);
 
-/// Whoever asks for second 30 of a dance of 30 seconds means its end: a key there stands on the
-/// last frame. Throws Error(kInvalidArgument), whose field begins with `place`, for one behind
-/// that.
+/// Moves a key at second 30 of a dance of 30 seconds to its last frame, as is meant. Throws
+/// Error(kInvalidArgument), whose field begins with `place`, for a later one.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
 
-/// The id of the key whose pose this one only holds; empty for one that stands for itself.
+/// The id of the key whose pose this one holds; empty if it holds none.
 std::string HeldKey(const DanceKeys& keys, size_t index);
 
-/// In the order in which they are sent: a key that comes after a later one would come too late.
+/// Sorts by time, as they must be sent: an earlier key after a later one would come too late.
 DanceKeys ByTime(DanceKeys keys, double fps);
 
-/// Reads key poses from sources as ReadKeys (key_file.h) takes them. Throws what that does, and
-/// Error(kInvalidArgument), whose field begins with the key's place, for an id that an earlier key
-/// has; each is fitted into the dance.
+/// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws
+/// as ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
+/// duplicate id.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton);
 
-/// An error about "keyframes[i]", numbered as the keys were sent, in terms of where the key was
-/// written; any other error as it is.
+/// Translates an error about "keyframes[i]", numbered as sent, to the place where the key was
+/// written; returns other errors unchanged.
 Error InTermsOf(const DanceKeys& keys, const Error& error);
 
 }  // namespace choreo::cli

@@ -15,7 +15,7 @@
 
 namespace choreo::cli {
 
-/// What `choreo dance` was asked.
+/// The options of `choreo dance`.
 struct DanceOptions {
   ServerOptions server;
   std::string song;
@@ -26,16 +26,16 @@ struct DanceOptions {
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;
-  std::optional<uint64_t> way_seed;  ///< whose way poses of the library keep to
+  std::optional<uint64_t> way_seed;  ///< whose way over the floor library poses keep to
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
   std::optional<double> variation;
   std::string style;
-  std::string style_name = "--style";  ///< where it is said
+  std::string style_name = "--style";  ///< the field of errors about it
   double fps = 0;
   ControlOptions controls;
   std::string model;
-  std::string dancers;  ///< a file (dancers.h); empty: one dances
+  std::string dancers;  ///< a file (dancers.h); empty: a single dancer
   std::string out;
   std::string report;
   std::string vmc;
@@ -44,16 +44,16 @@ struct DanceOptions {
   bool allow_bends = false;
 };
 
-/// A dance, and what is known of it.
+/// A dance and facts about it.
 struct Performance {
   client::DanceResult dance;
   WrittenDance written;
   std::vector<double> beats;  ///< of the music, seconds
 };
 
-/// Dances as the options say to this music, which is their song's. What came of a dance that was
-/// cut off, or interrupted, is written beside `out`. The show, where --vmc asks for one, begins
-/// with it. Errors name the option, or the place in a file.
+/// Dances as the options say, to this music, their song's. Writes what came of a failed or
+/// interrupted dance beside `out`. The show of --vmc starts with the dance. Errors name the option,
+/// or the place in a file.
 Performance Perform(const DanceOptions& options, const std::optional<Music>& music,
                     const Connection& connection, const std::filesystem::path& out,
                     std::optional<VmcShow>* show);

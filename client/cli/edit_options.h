@@ -15,7 +15,7 @@
 
 namespace choreo::cli {
 
-/// What `choreo edit` was asked.
+/// The options of `choreo edit`.
 struct EditOptions {
   ServerOptions server;
   std::string dance;
@@ -23,7 +23,7 @@ struct EditOptions {
   std::vector<double> at_s;
   std::vector<std::pair<std::string, double>> moves;  ///< keys of the report, and seconds
   std::vector<std::string> removed;                   ///< keys of the report
-  /// Phrases: from and until a second, and how much later they come again (counts.h).
+  /// Phrases: start, end, and the delay of their repeat (counts.h).
   std::vector<std::tuple<double, double, std::string>> repeats;
   std::optional<double> hold_s;  ///< of `keys`
   bool in_place = false;
@@ -43,26 +43,26 @@ struct EditOptions {
   std::string model;
   std::string out;
 
-  // Of whole dances (edit_whole.h).
+  // For whole dances (edit_whole.h).
   std::optional<double> from_s, until_s;
   bool mirror = false;
   std::string join, join_report;
   std::optional<double> gap_s;
 };
 
-/// How the options say that new frames are danced, without a song.
+/// The settings for new frames, without a song.
 client::EditOptions HowToDance(const EditOptions& options, const Connection& connection);
-/// The song as far as it sounds before `end_s`, if there is one, for these frames.
+/// Adds the song up to `end_s`, if there is one, for these frames.
 void TakeSong(const EditOptions& options, double end_s, client::EditOptions* edit);
-/// What a dance's report says that edits keep: its keys, by frame, and warnings.
+/// The parts of a dance's report that edits keep: its keys, by frame, and warnings.
 struct KnownDance {
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
 };
-/// From a report, of a dance of so many frames of a model at this rate. Throws
+/// Reads them from a report, for a dance of this many frames of a model at this rate. Throws
 /// Error(kInvalidArgument) whose field begins with the report's name.
 KnownDance ReadKnown(const std::string& report, int64_t frames, double fps);
-/// As a report, for the next edit.
+/// Writes them as a report, for the next edit.
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
                 double fps);
 

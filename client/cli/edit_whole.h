@@ -4,9 +4,9 @@
 
 namespace choreo::cli {
 
-/// Cuts a dance out (--from, --until), mirrors it (--mirror), puts another one behind it (--join),
-/// in this order, and writes it. A server is asked, or started, only where something is danced: on
-/// the way to the other dance. Errors name the option.
+/// Cuts a dance (--from, --until), mirrors it (--mirror) and joins another one (--join), in this
+/// order, and writes it. Uses, or starts, a server only if something is danced: the way to the
+/// other dance. Errors name the option.
 void EditWhole(const EditOptions& options);
 
 }  // namespace choreo::cli

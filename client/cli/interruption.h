@@ -4,9 +4,8 @@
 
 namespace choreo::cli {
 
-/// As long as it lives, a first Ctrl-C or SIGTERM does not end the program: work that leaves
-/// something behind asks for it now and then, and ends in order. A second one ends it at once.
-/// There is one at a time, on the main thread.
+/// While it exists, a first Ctrl-C or SIGTERM does not end the program: long work checks for it and
+/// ends cleanly. A second one ends it at once. One at a time, on the main thread.
 class Interruption {
  public:
   Interruption();
@@ -14,7 +13,7 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// Whether one came while any of these lived.
+  /// Whether one came during the lifetime of any of these.
   static bool Came();
   /// Throws Error(kCancelled) if so.
   static void Check();

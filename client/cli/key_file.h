@@ -8,33 +8,32 @@
 
 #include "client/choreo_client.h"
 
-/// Key poses as people write them down.
+/// Reads key poses that people write.
 namespace choreo::cli {
 
-/// A key file, JSON, as docs/poses.md describes it. Members that it does not know are ignored in
-/// the outermost object, so that a file may describe itself; within a key they are errors.
+/// A key file, JSON, as in docs/poses.md. Ignores unknown members of the outermost object, so that
+/// files may describe themselves; within a key they are errors.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
-/// `name` is the file's. `places`, where it is wanted, becomes the place of each key in the file:
-/// NAME:keyframes[i], of keys that hold a pose NAME:keyframes[i].hold.
+/// `name`: the file's. `places`, if given, becomes the place of each key in the file:
+/// NAME:keyframes[i], for keys that hold a pose NAME:keyframes[i].hold.
 std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                           const Skeleton& skeleton,
                                           std::vector<std::string>* places = nullptr);
 
-/// Keys that keep the pose of this one for so many seconds, behind it, so close together that
-/// nothing else fits between; its time counts, not its frame. Throws Error(kInvalidArgument, field)
-/// for a time of less than 0.1 or more than 60 s.
+/// Keys that hold the pose of this one for `seconds`, so close together that nothing else fits
+/// between; uses its time, not its frame. Throws Error(kInvalidArgument, field) for a time of less
+/// than 0.1 or more than 60 s.
 std::vector<client::KeyPose> Holding(const client::KeyPose& key, double seconds,
                                      const std::string& field);
 
-/// Whether the key at this place only holds the pose of the one before.
+/// Whether the key at this place only holds the previous one's pose.
 bool IsHeld(const std::string& place);
 
-/// The field that says `member` (".time") of the key at `place`: the time of a held one is its
-/// ".hold".
+/// The field of `member` (".time") of the key at `place`: for the time of a held one its ".hold".
 std::string FieldOf(const std::string& place, const std::string& member);
 
-/// The file that such a source names: FILE of FILE@.... One whose name has an @ is a file.
+/// The file that a source names: FILE in FILE@.... A file name with an @ is a file.
 std::filesystem::path FileOf(const std::string& source);
 
 /// Key poses named on a command line:

@@ -8,16 +8,15 @@
 
 namespace choreo::cli {
 
-/// A choreod of our own: started on a free port of this machine, stopped with this object, or when
+/// Our own choreod: started on a free port of this machine, and stopped with this object, or when
 /// this process dies.
 class LocalServer {
  public:
-  /// The choreod that lies beside this program, if any does.
+  /// The choreod beside this program, if any.
   static std::filesystem::path Program();
-  /// Starts the choreod that lies beside this program and returns when it listens. `model`: one
-  /// that ships, to serve alone; any other name: those for every day. Throws Error(kNotFound) if
-  /// there is none, and Error(kUnavailable) if it does not listen within two minutes; it has then
-  /// said why on stderr.
+  /// Starts the choreod beside this program and returns when it listens. `model`: a shipped one, to
+  /// serve alone; any other name: the default ones. Throws Error(kNotFound) if there is none, and
+  /// Error(kUnavailable) if it does not listen within two minutes; its stderr says why.
   static std::unique_ptr<LocalServer> Start(const std::string& model);
   /// `listen`: HOST:PORT; port 0 takes a free one.
   explicit LocalServer(const std::filesystem::path& program,
