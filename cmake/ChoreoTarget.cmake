@@ -3,9 +3,10 @@
 
 add_library(choreo_options INTERFACE)
 # GCC 12 wrongly reports overlaps in std::string's operator+ (bug 105651) and uninitialised values in CLI11's pairs, and
-# treats a source in a unity build as a header.
+# takes a source in a unity build for a header, which must not have types of anonymous namespaces.
 target_compile_options(choreo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized;-Wno-subobject-linkage>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 target_include_directories(choreo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
 # Sources of a target are compiled together, so many at a time: headers cost more than what is in most of them. So names that a source
