@@ -10,9 +10,9 @@
 
 namespace choreo::client {
 
-/// What has been said in a dance, in order, for another server to hear it again: a dance is resumed
-/// by the last continuation and the same messages. Only music that it no longer needs is forgotten.
-/// Not thread-safe.
+/// All requests of a dance, in order, to repeat them to another server: a dance resumes from the
+/// last continuation and the same messages. Forgets only music that is no longer needed. Not
+/// thread-safe.
 class Journal {
  public:
   using Request = std::shared_ptr<const v1::StreamDanceRequest>;
@@ -23,18 +23,17 @@ class Journal {
       : bytes_per_sample_(bytes_per_sample), end_sample_(first_sample) {}
 
   void Append(v1::StreamDanceRequest request);
-  /// Music follows; of a file, samples are bytes.
+  /// Appends music; a file's samples are bytes.
   void AppendMusic(std::string bytes);
-  /// The next request that the present server has not been sent, or null.
+  /// The next request that the present server has not received, or null.
   Request TakeNext();
-  /// There is another server, to which everything must be said again.
+  /// Restarts for another server.
   void Rewind() { next_ = 0; }
-  /// Another server would need the music from this sample on alone.
+  /// Another server would need only the music from this sample on.
   void ForgetMusicBefore(int64_t sample);
-  /// Where the music starts that is still here.
+  /// The first sample still stored.
   int64_t first_sample() const;
-  /// What was said of keys that stood before `frame` then: their ids and frames, in order. Models
-  /// run at `fps`.
+  /// Keys that were before `frame` when sent: their ids and frames, in order. Models run at `fps`.
   std::vector<std::pair<std::string, int64_t>> KeysBefore(int64_t frame, double fps) const;
 
  private:

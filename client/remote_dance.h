@@ -14,9 +14,8 @@
 
 namespace choreo::client {
 
-/// One call to one server. Its own thread sends what the journal holds, so that neither the caller
-/// nor Read waits for it. `mutex` guards the journal and is the owner's; the owner notifies after
-/// appending.
+/// One call to one server. Its own thread sends the journal, so that neither the caller nor Read
+/// waits for it. `mutex`, the owner's, guards the journal; the owner notifies after appending.
 class Attempt {
  public:
   Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
@@ -48,7 +47,7 @@ class Attempt {
   std::thread sender_;
 };
 
-/// What RemoteDance is made of. Next() runs attempt after attempt until the summary.
+/// The implementation of RemoteDance. Next() runs attempt after attempt until the summary.
 struct RemoteDance::Impl {
  public:
   Impl(std::shared_ptr<Replicas> replicas, const DanceConfig& config);
@@ -64,7 +63,7 @@ struct RemoteDance::Impl {
  private:
   void Connect();
   void Recover(const grpc::Status& status);
-  /// What the caller is to see of a response, if anything.
+  /// The part of a response for the caller, if any.
   std::optional<Message> Handle(const v1::StreamDanceResponse& response);
   Message HandleHeader(const v1::Header& header);
   Message HandleSummary(const v1::DanceSummary& summary);
@@ -73,14 +72,15 @@ struct RemoteDance::Impl {
   Patience patience_;
   AudioKind audio_kind_;
   int bytes_per_sample_;
-  v1::DanceConfig config_;  // touched by Next alone
+  v1::DanceConfig config_;  // used by Next alone
 
-  std::mutex mutex_;  // guards what follows, and the attempt's lifetime against Cancel and Send
+  std::mutex
+      mutex_;  // guards the members below, and the attempt's lifetime against Cancel and Send
   Journal journal_;
   std::unique_ptr<Attempt> attempt_;
   bool cancelled_ = false;
 
-  // Of Next alone.
+  // Used by Next alone.
   std::optional<Header> header_;
   std::optional<Seen> seen_;
   std::vector<KeyReached> keys_;

@@ -18,7 +18,7 @@
 
 namespace choreo::client {
 
-/// The servers that may be asked, one at a time, and the one that is asked now. Thread-safe.
+/// The available servers, and the one in use. Thread-safe.
 class Replicas {
  public:
   struct Server {
@@ -28,19 +28,19 @@ class Replicas {
     std::shared_ptr<grpc::health::v1::Health::Stub> health;
   };
 
-  /// Throws Error(kInvalidArgument) for options that cannot be used.
+  /// Throws Error(kInvalidArgument) for unusable options.
   explicit Replicas(Options options);
 
   const Options& options() const { return options_; }
-  /// What each call carries: the token. Throws Error(kNotFound) or Error(kInvalidArgument), field
+  /// Adds the token to a call. Throws Error(kNotFound) or Error(kInvalidArgument), field
   /// "token_file".
   void Prepare(grpc::ClientContext* context) const;
   Server current() const;
-  /// This one failed: go on to the next, unless another caller went on already. False where there
+  /// After a failure moves on to the next server, unless another caller already has. False if there
   /// is no other.
   bool Leave(const Server& failed);
-  /// Lets time pass before the next attempt, or until `stop`, which is asked every now and then;
-  /// connections are made meanwhile.
+  /// Waits before the next attempt, or until `stop`, which is polled, returns true; connections are
+  /// made meanwhile.
   void Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const;
 
  private:
@@ -50,8 +50,7 @@ class Replicas {
   size_t current_ = 0;
 };
 
-/// When a call must be over, whatever its number of attempts; and how long to wait before the next
-/// attempt.
+/// The deadline of a call over all its attempts, and the pauses between them.
 class Patience {
  public:
   using Clock = std::chrono::system_clock;
@@ -59,14 +58,14 @@ class Patience {
   explicit Patience(const Options& options);
 
   std::optional<Clock::time_point> deadline() const { return deadline_; }
-  /// How long to wait after `failed` before trying again, the same server or another one
-  /// (`elsewhere`); none if trying again would not help, or is no longer allowed. Throws what
-  /// Options::before_retry does.
+  /// How long to wait after `failed` before trying again, on the same server or another one
+  /// (`elsewhere`); none if a retry is useless or no longer allowed. Throws what
+  /// Options::before_retry throws.
   std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed, bool elsewhere);
-  /// After Next gave none: what to tell the caller. Why a server that is there would not serve says
-  /// more than that another one is away.
+  /// After Next gave none: the status for the caller. Why a reachable server refused says more than
+  /// that another one is unreachable.
   const grpc::Status& Verdict() const { return verdict_; }
-  /// There was progress: count from the beginning.
+  /// There was progress: start counting again.
   void Reset();
 
  private:
@@ -76,7 +75,7 @@ class Patience {
   std::optional<Clock::time_point> deadline_;
   size_t servers_;
   int failures_ = 0;     // since the last progress
-  size_t refusals_ = 0;  // of servers that would refuse again, one after another
+  size_t refusals_ = 0;  // consecutive servers that would refuse again
   grpc::Status verdict_;
   std::chrono::steady_clock::time_point failing_since_;
   std::minstd_rand jitter_;

@@ -8,22 +8,23 @@
 
 namespace choreo::client {
 
-/// What a failed call means here: its code, and its message, which names the field already.
+/// Converts a failed call's status to an error: its code, and its message, which already names the
+/// field.
 Error ToError(const grpc::Status& status);
 
-/// The same of a server that was asked at this address, with TLS or without: whoever is away is
-/// named, and who may have wanted TLS.
+/// The same for a server at this address, with TLS or without: names an unreachable server, and one
+/// that may require TLS.
 Error ToError(const grpc::Status& status, const std::string& address, bool tls);
 
-/// How a call that failed may be tried again.
+/// How to retry a failed call.
 struct RetryAdvice {
   bool here = false;       ///< at the same server
   bool elsewhere = false;  ///< at another one
   double wait_s = 0;       ///< at least; from the server's RetryInfo
 };
 
-/// A server that is away or full may be asked again. One that broke, is of another fingerprint or
-/// lacks the model would fail again, but another one may do better. Anything else fails everywhere.
+/// An unreachable or full server may be asked again. One that broke, has another fingerprint or
+/// lacks the model would fail again, but another may do better. Anything else fails everywhere.
 RetryAdvice AdviceFor(const grpc::Status& status);
 
 }  // namespace choreo::client

@@ -5,17 +5,17 @@
 
 namespace choreo::client {
 
-/// Of the seconds that a model danced in asked styles: how many a classifier, which has seen the
-/// recordings, takes for the style that was asked for, and how many it would by chance; percent.
+/// Percent of seconds danced in requested styles in which a classifier, trained on the recordings,
+/// recognises the requested style, and by chance.
 struct StyleFigures {
   double recognised, chance;
-  double low;  ///< `recognised` is this much at least, by its 95 % interval
+  double low;  ///< lower end of the 95 % interval of `recognised`
 
   bool shows() const { return low > chance; }
 };
 
-/// What was measured (docs/results.md) of the shipped checkpoint that a model's fingerprint names;
-/// none of others. Thread-safe.
+/// The measurements (docs/results.md) of the shipped checkpoint in a model's fingerprint, or none.
+/// Thread-safe.
 std::optional<StyleFigures> FindStyleFigures(std::string_view fingerprint);
 
 }  // namespace choreo::client

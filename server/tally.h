@@ -19,7 +19,7 @@ namespace choreo {
 /// Totals over all calls so far. Thread-safe.
 class Tally {
  public:
-  static constexpr const char* kInfoMethod = "GetServerInfo";  ///< which dances nothing
+  static constexpr const char* kInfoMethod = "GetServerInfo";  ///< it dances nothing
 
   /// By method and status.
   using Calls = std::map<std::pair<std::string, grpc::StatusCode>, uint64_t>;
@@ -27,7 +27,7 @@ class Tally {
   /// By Refusal.
   using Refusals = std::array<uint64_t, kRefusals.size()>;
 
-  /// A call is over: counts it, and logs it.
+  /// Counts and logs a call that has ended.
   void Count(const CallRecord& call) {
     LogCall(call);
     frames += static_cast<uint64_t>(call.frames);
@@ -45,7 +45,7 @@ class Tally {
     return refusals_;
   }
 
-  /// Of calls that dance: those refused for want of room or of a token, and all others.
+  /// Totals of calls that dance: those refused for lack of capacity or a token, and all others.
   struct Sum {
     uint64_t served = 0, refused = 0;
   };
@@ -61,12 +61,12 @@ class Tally {
     return sum;
   }
 
-  std::atomic<uint64_t> frames = 0;  ///< that calls got which are over
+  std::atomic<uint64_t> frames = 0;  ///< received by ended calls
   Histogram first_frame_s{Histogram::Seconds()};
-  /// How far the model's own frames were off their keys, metres, before arrival steered them there.
+  /// Distance of the model's own frames from their keys, metres, before arrival corrected it.
   Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
   Histogram support{
-      {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99}};  ///< QualityReport's, of each dance
+      {0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.99}};  ///< from each dance's QualityReport
 
  private:
   mutable std::mutex mutex_;

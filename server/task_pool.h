@@ -9,9 +9,8 @@
 
 namespace choreo {
 
-/// A few threads for work that is too long for gRPC's: decoding files, the features of minutes of
-/// music. Every call has at most one task here at a time, so the queue is as bounded as the calls.
-/// Thread-safe.
+/// A few threads for work too long for gRPC's: decoding files, the features of minutes of music. A
+/// call has at most one task here at a time, which bounds the queue. Thread-safe.
 class TaskPool {
  public:
   explicit TaskPool(int threads);

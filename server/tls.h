@@ -8,9 +8,9 @@
 
 namespace choreo {
 
-/// How connections are secured. With TLS the files are read again while the server runs, so that
-/// certificates can be renewed; new connections have the new ones, and fail while the files do not
-/// go together. Throws Error(kInvalidArgument) naming the setting whose file can't be used.
+/// Credentials of connections. With TLS the files are reread while the server runs, so that
+/// certificates can be renewed; new connections use the new ones, and fail while the files do not
+/// match. Throws Error(kInvalidArgument) naming the setting of an unusable file.
 std::shared_ptr<grpc::ServerCredentials> MakeCredentials(const ServerConfig& config);
 
 }  // namespace choreo

@@ -15,27 +15,26 @@
 
 namespace choreo {
 
-/// Who may call: a file of lines "SHA256 NAME", the hash in 64 hexadecimal digits (as sha256sum
-/// writes it) of a token that the client sends as "authorization: Bearer TOKEN". Empty lines and
-/// those that begin with # are none. Tokens themselves are kept nowhere, and never logged. Whatever
-/// happens to the file while it is in use, nobody keeps a token by it that stands there no more.
-/// Thread-safe.
+/// Who may call: a file of lines "SHA256 NAME", with the hash in 64 hexadecimal digits (as by
+/// sha256sum) of a token that the client sends as "authorization: Bearer TOKEN". Ignores empty
+/// lines and those that begin with #. Tokens themselves are neither stored nor logged. Whatever
+/// happens to the file, a token that is no longer in it gives no access. Thread-safe.
 class Tokens {
  public:
   /// An empty path: everybody may call. Throws Error(kInvalidArgument), field "--tokens", naming
-  /// file and line, where it cannot be read or one line is bad.
+  /// file and line, if it is unreadable or a line is bad.
   explicit Tokens(std::filesystem::path file);
 
   bool needed() const { return !file_.empty(); }
   size_t count() const { return holders()->size(); }
 
-  /// Whose token `authorization` carries, the value of that header or empty; nobody's where none is
-  /// needed. Takes equally long for whatever is no token. OK, or UNAUTHENTICATED with words that
-  /// say what to send.
+  /// The holder of the token in `authorization`, that header's value or empty; nobody if no token
+  /// is needed. Takes equally long for all invalid tokens. Returns OK, or UNAUTHENTICATED saying
+  /// what to send.
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
-  /// Looks at the file again; to be called every now and then. Of one with bad lines the good ones
-  /// count; while it cannot be read nobody is let in. Both are logged once.
+  /// Rereads the file; call regularly. Of a file with bad lines the good ones count; while it is
+  /// unreadable nobody is admitted. Logs both once.
   void Refresh();
 
  private:
@@ -58,7 +57,7 @@ class Tokens {
   void Replace(Holders holders);
 
   const std::filesystem::path file_;
-  // Of the file as last read; none: it could not be. Of the thread that refreshes.
+  // The file as last read; none if unreadable. Used by the refreshing thread.
   std::optional<std::string> text_;
   mutable std::mutex mutex_;
   std::shared_ptr<const Holders> holders_ = std::make_shared<Holders>();  // lock: mutex_

@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// Serves one GenerateTransition; deletes itself when the call is over. `request` lives as long.
+/// Serves one GenerateTransition; deletes itself when the call ends. `request` must live as long.
 grpc::ServerWriteReactor<grpc::ByteBuffer>* MakeTransitionReactor(
     Serving& serving, grpc::CallbackServerContext* context, const grpc::ByteBuffer* request);
 

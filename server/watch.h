@@ -11,8 +11,8 @@
 
 namespace choreo {
 
-/// A thread that does something every now and then, from construction to destruction. What it
-/// throws (memory may be out for a moment) is logged, and it is done again the next time.
+/// A thread that does something regularly, from construction to destruction. Logs exceptions
+/// (memory may be out for a moment) and continues.
 class Watch {
  public:
   Watch(std::chrono::milliseconds interval, std::function<void()> action)
@@ -30,7 +30,7 @@ class Watch {
  private:
   std::mutex mutex_;
   std::condition_variable_any wake_;
-  std::jthread thread_;  // last: it uses the above
+  std::jthread thread_;  // last: it uses the members above
 };
 
 }  // namespace choreo

@@ -31,7 +31,7 @@ class LocalServer {
   void RequireRunning();
 
  private:
-  /// Reads the line in which the server says where it listens; empty if it ends or takes too long.
+  /// Reads the line in which the server reports its address; empty if it ends or takes too long.
   static std::string ReadAddress(int from);
   void Stop() noexcept;
 

@@ -5,9 +5,9 @@
 
 namespace choreo::cli {
 
-/// Of an unknown command or option in what `program` has parsed: "danse is no command; did you mean
-/// dance?", "--sead is no option of dance; did you mean --seed?". Empty where no option is near, or
-/// where something else was wrong.
+/// Explains an unknown command or option in what `program` has parsed: "danse is no command; did
+/// you mean dance?", "--sead is no option of dance; did you mean --seed?". Empty if no option is
+/// near, or something else was wrong.
 std::string DescribeMisspelling(const CLI::App& program);
 
 }  // namespace choreo::cli

@@ -11,9 +11,9 @@ namespace choreo::cli {
 
 inline constexpr int kMostInBar = 16;  ///< that people count to
 
-/// What a choreographer knows better than the beat tracker.
+/// Beat settings of people who know better than the tracker.
 struct BeatOptions {
-  std::string beats = "auto";  ///< or a file of them
+  std::string beats = "auto";  ///< or the name of a file
   std::optional<double> tempo_bpm = {};
   bool half_time = false, double_time = false;
   std::optional<double> downbeat_s = {};  ///< of the song
@@ -24,12 +24,12 @@ struct BeatOptions {
 /// --beats, --tempo, --half-time, --double-time, --downbeat.
 void AddBeatOptions(CLI::App& command, BeatOptions* options);
 
-/// The beats of a song from second `start` of it on, found or read, as the options say. Throws
+/// A song's beats from second `start` on, found or read, as the options say. Throws
 /// Error(kInvalidArgument), whose field is an option or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
 
-/// Beats that somebody says, in seconds. Throws Error(kInvalidArgument) of FIELD[i] as the API
-/// does: for one that is not within 0 to 600, or not behind the one before, and for too many.
+/// Checks beats given in seconds. Throws Error(kInvalidArgument) with FIELD[i], like the API, for
+/// one outside 0 to 600, or not after the previous one, and for too many.
 void CheckBeats(std::span<const double> beats, const std::string& field);
 
 }  // namespace choreo::cli

@@ -7,12 +7,11 @@
 
 namespace choreo::cli {
 
-/// A song of any kind: DecodeAudioFile, or, where that does not know the format and the program
-/// ffmpeg is installed, what ffmpeg makes of it. Errors as DecodeAudioFile. Writes its notes to
-/// standard error.
+/// Decodes any song: by DecodeAudioFile or, if that does not know the format and ffmpeg is
+/// installed, by ffmpeg. Errors as DecodeAudioFile. Writes notes to standard error.
 DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start);
 
-/// An existing file, a pipe, or `-`, which is standard input.
+/// An existing file, a pipe, or `-` for standard input.
 CLI::Validator SongFile();
 
 }  // namespace choreo::cli

@@ -11,7 +11,7 @@
 
 #include "client/choreo_client.h"
 
-/// Options that several commands have, and checks whose words people understand.
+/// Options shared by several commands, and checks with readable messages.
 namespace choreo::cli {
 
 /// A number above 0.
@@ -25,7 +25,7 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
 /// `--song-start`, seconds.
 void AddSongStart(CLI::App& command, double& seconds);
-/// Throws CLI::ValidationError where it is given and there is no song.
+/// Throws CLI::ValidationError if it is given without a song.
 void CheckSongStart(const CLI::App& command, const std::string& song);
 
 /// `--allow-bends`.
@@ -46,21 +46,21 @@ void AddTemperature(CLI::App& command, std::optional<double>& temperature);
 void AddModel(CLI::App& command, std::string& model);
 /// `--style`, one that `choreo info` lists.
 void AddStyle(CLI::App& command, std::string& style);
-/// What the help of every option says that chooses among dances.
+/// The end of the help of all options that choose among dances.
 inline const std::string kOfChance =
     "Changes nothing where `choreo info` calls the model deterministic.";
-/// Tells whoever gives such an option, each with whether it is given, to a deterministic model.
+/// Notes to users of such options, each with whether it is given, that a model is deterministic.
 void NoteDeterministic(const client::ModelDescription& model,
                        std::initializer_list<std::pair<std::string_view, bool>> options);
 
 /// `--seed`: a whole number of 64 bits, never negative.
 CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std::string& help);
 
-/// An error of what an option sets, as the library or the server names it, by the option's name.
+/// Replaces the library's or server's name of a setting in an error by its option.
 Error AsTyped(const Error& error);
 
-/// An option that may be given more than once. Each takes one value: what follows is another
-/// argument, such as a song.
+/// An option that may be repeated. Each takes one value: what follows is another argument, such as
+/// a song.
 template <typename Value>
 CLI::Option* AddRepeated(CLI::App& command, const std::string& name, std::vector<Value>& values,
                          const std::string& help) {

@@ -8,9 +8,9 @@
 
 namespace choreo::cli {
 
-/// One of the key poses that ship (client/poses/*.json), made by hand for this project. Touches
-/// the floor unless it is a jump, faces +Z, around the origin; SMPL's 24 joints, or those that it
-/// was retargeted to.
+/// A shipped key pose (client/poses/*.json), made by hand for this project. Touches the floor
+/// unless it is a jump, faces +Z, around the origin; on SMPL's 24 joints, or those that it was
+/// retargeted to.
 struct LibraryPose {
   std::string id;
   std::string description;
@@ -18,19 +18,19 @@ struct LibraryPose {
   Pose pose;
 };
 
-/// What poses are for: standing and travelling on the feet, jump in the air, floor on hands, knees
+/// The tags of poses: standing and travelling on the feet, jump in the air, floor on hands, knees
 /// or the seat. Each pose has exactly one of these.
 const std::vector<std::string>& PoseTags();
 
-/// All of them, by id. They are part of the program: no file is read.
+/// All poses, by id. They are part of the program: no file is read.
 const std::vector<LibraryPose>& PoseLibrary();
 
-/// Those that the keys of a dance are drawn from, all that stand or travel, as this skeleton takes
-/// them (fit/retarget.h). Throws Error(kInvalidArgument) that asks for --keyframes where it has
-/// no joints that they could be retargeted to.
+/// The poses that keys are drawn from, all that stand or travel, on this skeleton (fit/retarget.h).
+/// Throws Error(kInvalidArgument) that asks for --keyframes if the skeleton lacks joints for
+/// retargeting.
 std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton);
 
-/// Throws Error(kNotFound) naming those that there are.
+/// Throws Error(kNotFound) naming the existing ones.
 const LibraryPose& FindLibraryPose(const std::string& id);
 
 }  // namespace choreo::cli

@@ -7,17 +7,17 @@
 
 namespace choreo::cli {
 
-/// One pose that was named on a command line.
+/// A pose named on a command line.
 struct NamedPose {
   client::KeyPose key;
-  bool has_place = true;  ///< false for one of the library: it stands around the origin, facing +Z
-  /// Those that keep it, where a key file says that it is held; of a time from its own on.
+  bool has_place = true;  ///< false for library poses, which are around the origin, facing +Z
+  /// Keys that hold it, if a key file says so, with times relative to its own.
   std::vector<client::KeyPose> held = {};
 };
 
-/// A pose by its name in the library, or what ReadKeys takes (key_file.h): a key file with one
-/// pose, KEYS.json@ID, or MOTION@SECOND. Errors as theirs; Error(kInvalidArgument) for a source of
-/// several poses.
+/// A pose by its name in the library, or a source for ReadKeys (key_file.h): a key file with one
+/// pose, KEYS.json@ID, or MOTION@SECOND. Errors as theirs; Error(kInvalidArgument) for a source
+/// with several poses.
 NamedPose ReadPose(const std::string& source, const Skeleton& skeleton);
 
 }  // namespace choreo::cli

@@ -10,13 +10,13 @@ namespace choreo::cli {
 /// Whether a source is a file.
 bool IsVelocityFile(const std::string& source);
 
-/// How lively parts of the body are: each source as `choreo dance --velocity` takes it
-/// (docs/song.md), of which one may be a file; multipliers and centimetres exclude each other.
-/// Between a file's points values are interpolated, outside the nearest holds. `reference` is what
-/// multipliers refer to; empty: the model's first. Models run at `fps`.
+/// Velocity factors of body parts: sources as for `choreo dance --velocity` (docs/song.md), of
+/// which one may be a file; multipliers and centimetres exclude each other. Interpolates between a
+/// file's points and holds the nearest outside. `reference`: what multipliers refer to; empty: the
+/// model's first. Models run at `fps`.
 ///
 /// Throws Error(kInvalidArgument) whose field is "--velocity", "--velocity-reference" or
-/// NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a file that is not there.
+/// NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
 client::Controls::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
                                                  const std::string& reference, double fps);
 

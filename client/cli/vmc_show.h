@@ -10,16 +10,16 @@
 
 namespace choreo::cli {
 
-/// `--vmc`, for dances that are made faster than they are danced: streams one in real time from its
-/// first frame on.
+/// `--vmc`, for dances made faster than real time: streams a dance in real time from its first
+/// frame on.
 class VmcShow {
  public:
   /// Errors as VmcSender.
   VmcShow(const std::string& address, const Skeleton& skeleton) : sender_(address, skeleton) {}
 
-  /// Each message of the dance, in order.
+  /// Takes each message of the dance, in order.
   void Take(const client::Message& message);
-  /// Whether the last frame is out, if need be after a moment.
+  /// Whether the last frame has been sent, waiting a moment if needed.
   bool Over() { return !player_ || player_->Shown(); }
 
  private:
