@@ -10,9 +10,9 @@
 
 namespace choreo {
 
-/// Calls to a listener, made one at a time and in the order of Post, with no lock held, by
-/// whichever thread comes to Deliver first; the others go on at once. So a listener may call back
-/// what calls it. What is posted after the last call is dropped. Thread-safe.
+/// Calls to a listener, one at a time and in the order of Post, without a lock, on whichever thread
+/// comes to Deliver first; other threads do not wait. So a listener may call its caller back. Drops
+/// posts after the last call. Thread-safe.
 template <typename Listener>
 class Mailbox {
  public:
@@ -24,13 +24,13 @@ class Mailbox {
   void PostError(const Error& error) {
     PostLast([error](Listener& listener) { listener.OnError(error); });
   }
-  /// The last call is posted.
+  /// Whether the last call is posted.
   bool over() const {
     std::lock_guard lock(mutex_);
     return over_;
   }
 
-  /// What a call throws passes through; the others wait for the next Deliver.
+  /// A call's exception passes through; the others wait for the next Deliver.
   void Deliver() {
     std::unique_lock lock(mutex_);
     if (delivering_) return;
@@ -56,8 +56,8 @@ class Mailbox {
     delivering_ = false;
   }
 
-  /// Drops what waits; OnError is the last call. For want of memory: it needs none itself, and if
-  /// the listener does, in vain, that is lost.
+  /// Drops waiting calls; OnError is the last call. For lack of memory: needs none itself; if the
+  /// listener does, the call is lost.
   void GiveUp() noexcept {
     {
       std::lock_guard lock(mutex_);

@@ -8,20 +8,20 @@
 
 namespace choreo {
 
-/// Frames at the rate that a listener asked for. Frame j is the dance at time j / fps.
+/// Frames at the listener's rate. Frame j is the dance at time j / fps.
 struct OutputFrames {
-  int64_t first_frame = 0;  ///< of time 0 on, at the output's rate
+  int64_t first_frame = 0;  ///< from time 0 on, at the output's rate
   std::vector<Pose> poses;
   std::vector<Contacts> contacts;
 };
 
-/// Resamples a dance while it goes by: a frame that falls between two of the model's waits for the
-/// later one and lies on the line (root) and the shortest arcs (joints) between them. At the
-/// model's own rate frames pass through as they are. Not thread-safe.
+/// Resamples a dance while it goes by: a frame between two of the model's waits for the later one
+/// and is on the line (root) and the shortest arcs (joints) between them. At the model's rate
+/// frames pass unchanged. Not thread-safe.
 class OutputRate {
  public:
-  /// `first_frame`: the model's first frame that will come. `before`: the pose right before it,
-  /// where a dance goes on; output frames between the two then belong to this part.
+  /// `first_frame`: the model's first frame. `before`: the pose directly before it, when a dance
+  /// resumes; output frames between the two then belong to this part.
   OutputRate(double model_fps, double output_fps, int64_t first_frame, std::optional<Pose> before);
 
   /// The output frames that the model's next frame completes: none or more.

@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// Whoever did the same less long ago would tremble, not dance.
+/// Repeating sooner would be trembling, not dancing.
 inline constexpr double kLeastReturn_s = 2;
 
 /// Throws Error(kInvalidArgument, "FIELD[3].to") unless passages ascend, none begins before the one
@@ -18,30 +18,30 @@ inline constexpr double kLeastReturn_s = 2;
 /// within the longest music.
 void CheckPassages(std::span<const Passage> passages, const std::string& field);
 
-/// Which frames of a dance come back, as the music does: they have the noise of those that they are
-/// like. Frames are the model's, absolute. Not thread-safe.
+/// Which frames of a dance repeat, as the music does: they share the noise of the earlier ones.
+/// Frames are the model's, absolute. Not thread-safe.
 class Recurrence {
  public:
   Recurrence(double fps, std::span<const Passage> passages);
 
   bool empty() const { return stretches_.empty() && given_.empty(); }
 
-  /// From the first of these on they hold in place of those that were known, for transitions that
-  /// begin at `from` or later; `from` never shrinks from call to call. The passages are checked.
-  /// Throws Error(kInvalidArgument, field) beyond kMostPassages in all.
+  /// From the first of these on they replace known ones, for transitions that begin at `from` or
+  /// later; `from` never decreases between calls. The passages must be checked. Throws
+  /// Error(kInvalidArgument, field) beyond kMostPassages in all.
   void Give(std::span<const Passage> passages, int64_t from, const std::string& field);
 
-  /// The transition from this frame on is the next; frames never shrink.
+  /// The next transition starts at this frame; frames never decrease.
   void Begin(int64_t frame);
-  /// The first frame that this one is like, for that transition; itself where nothing comes back.
+  /// The first frame that this one repeats, for that transition; itself if none.
   int64_t Origin(int64_t frame) const;
-  /// Of each of these frames; empty where none of them comes back.
+  /// The same for each of these frames; empty if none repeats.
   std::vector<int64_t> Origins(int64_t from, int64_t to) const;
 
  private:
   struct Stretch {
     int64_t from, to;  // frames
-    int64_t lag;       // behind the one that it is like
+    int64_t lag;       // frames after the one that it repeats
   };
   struct Given {
     int64_t from;
@@ -55,8 +55,8 @@ class Recurrence {
   std::deque<Given> given_;         // not yet in stretches_
 };
 
-/// Frames where passages, and what they are like, begin and end, ascending: a dance that comes back
-/// is alike the sooner where its transitions begin there, too.
+/// Frames where passages and their originals begin and end, ascending: a repeated dance becomes
+/// similar sooner if its transitions begin there, too.
 std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps);
 
 }  // namespace choreo

@@ -10,7 +10,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/pose_limits.h"
 
-/// What a dance accepts from outside (for audio see audio/format.h). Every function throws
+/// Checks of external input (for audio see audio/format.h). Every function throws
 /// Error(kInvalidArgument) whose field is the sender's path and whose message gives the value and
 /// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
@@ -18,22 +18,21 @@ namespace choreo {
 /// The value; throws unless it is in [least, most].
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
 
-/// What element `index` of a list is called: "frames[3]".
+/// The name of element `index` of a list: "frames[3]".
 std::string At(const std::string& field, int64_t index);
 
 /// A pose of this skeleton: joint count, finite, position within kMaxPosition, every angle at most
-/// kMaxRotation. Degrees of freedom that the mask leaves free are checked alike. `field` is the
-/// path of the pose: "keyframes[3]".
+/// kMaxRotation. Checks also what the mask leaves free. `field` is the path of the pose:
+/// "keyframes[3]".
 void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field);
 
-/// What a key is called: 1 to kMaxIdLength bytes.
+/// A key's id: 1 to kMaxIdLength bytes.
 void ValidateKeyId(const std::string& id, const std::string& field);
 
 /// A mask for this skeleton that asks for something.
 void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field);
 
-/// Poses of a history or continuation. Angles may lie on any branch: they come from a continuous
-/// motion.
+/// Poses of a history or continuation. Angles may be on any branch, as in a continuous motion.
 void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
                      const std::string& field);
 
@@ -46,11 +45,11 @@ void ValidateStyle(const ModelInfo& model, const std::string& style, const std::
 void ValidateShare(double share, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws
-/// Error(kFailedPrecondition) unless `allow_inexact`; what can't be one throws as the rest.
+/// Error(kFailedPrecondition) unless `allow_inexact`; malformed ones throw as above.
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field);
 
-/// A number as messages show it: short, without trailing zeros.
+/// A number for messages: short, without trailing zeros.
 std::string Show(double value);
 
 }  // namespace choreo

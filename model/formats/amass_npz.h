@@ -31,15 +31,14 @@ Eigen::Vector3d SmplRestPelvis();
 /// The same of SMPL-X, whose pelvis is elsewhere.
 Eigen::Vector3d SmplXRestPelvis();
 
-/// A pose of our world (Y up, position of the pelvis) as AMASS states it (Z up, SMPL's translation
-/// in `root_position`), and back. Only the root changes; its angle is in [0, pi] afterwards.
+/// Converts a pose of our world (Y up, position of the pelvis) to AMASS's (Z up, SMPL's translation
+/// in `root_position`), and back. Only the root changes; its angle is then in [0, pi].
 Pose ToAmass(const Pose& pose);
 Pose FromAmass(const Pose& amass);
 
-/// SMPL's 24 joints at the file's own rate (AIST++ 60, others 30 where no key states it); where
-/// several layouts are present, the first of the table counts. All but ours is looked at by
-/// motion_check.h. Throws Error(kInvalidArgument) naming the array and its shape, or the keys that
-/// are absent.
+/// SMPL's 24 joints at the file's own rate (AIST++ 60, others 30 if no key states it); if several
+/// layouts are present, the first in the table counts. motion_check.h checks all but ours. Throws
+/// Error(kInvalidArgument) naming the array and its shape, or the missing keys.
 Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading = {});
 
 /// Adds the arrays of a motion of SMPL's skeleton: AMASS's (poses with 52 joints, trans,

@@ -14,9 +14,9 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Biovision hierarchy files, as written by any tool: channels in any order, position channels at
-/// any joint, End Sites. Angles in files are degrees, lengths whatever their author chose (mostly
-/// centimetres). All functions are pure.
+/// Biovision hierarchy files by any tool: channels in any order, position channels at any joint,
+/// End Sites. Angles in files are degrees, lengths in any unit (mostly centimetres). All functions
+/// are pure.
 namespace choreo {
 
 enum class BvhChannel : uint8_t {
@@ -26,89 +26,88 @@ enum class BvhChannel : uint8_t {
   kXRotation,
   kYRotation,
   kZRotation,
-  kXScale,  ///< read and let be: bones keep their lengths
+  kXScale,  ///< read but ignored: bones keep their lengths
   kYScale,
   kZScale,
 };
 
-/// As files call them, in that order.
+/// Their names in files, in that order.
 inline constexpr std::string_view kBvhChannelNames[] = {"Xposition", "Yposition", "Zposition",
                                                         "Xrotation", "Yrotation", "Zrotation",
                                                         "Xscale",    "Yscale",    "Zscale"};
 
 struct BvhJoint {
   std::string name;  ///< an End Site is named after its parent + "_end"
-  int parent = -1;   ///< -1 for a root; parents stand before their children
+  int parent = -1;   ///< -1 for a root; parents precede their children
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent, file units
   /// In file order. Rotations apply in that order from left to right, R = R_first R_second R_third.
-  /// A position channel replaces the offset's coordinate (which is what the authoring tools write,
-  /// at the root and elsewhere).
+  /// A position channel replaces the offset's coordinate (as authoring tools write it, at the root
+  /// and elsewhere).
   std::vector<BvhChannel> channels;
   bool end_site = false;
-  /// Its position channels are 0, or nearly, in all frames: they are added to the offset.
+  /// Its position channels are (nearly) 0 in all frames: they are added to the offset.
   bool adds = false;
 };
 
 struct BvhFile {
-  std::vector<BvhJoint> joints;         ///< behind each all that hangs from it
+  std::vector<BvhJoint> joints;         ///< each followed by its descendants
   double frame_time = 1.0 / 30;         ///< seconds
   bool states_rate = true;              ///< false: the file's frame time was 0
   Eigen::MatrixXd values;               ///< [channels of all joints, frames] file units and degrees
-  std::vector<std::string> notes = {};  ///< what was read otherwise than the file says
+  std::vector<std::string> notes = {};  ///< deviations from what the file says
 
   int64_t frames() const { return values.cols(); }
-  /// 1 / frame_time, taken as the whole number (or whole number x 1000/1001) that it is a rounding
-  /// of.
+  /// 1 / frame_time, with the file's rounding undone (to a whole number, or whole number x
+  /// 1000/1001).
   double fps() const;
   std::vector<std::string> JointNames() const;
 };
 
-/// As lenient as the tools around: UTF-8 or UTF-16, comments behind # and //, "Frames:30",
-/// "EndSite", decimal commas, a frame time of 0, which states no rate, one of 4 and more, which is
-/// in milliseconds, and more or fewer whole rows than the header counts, which are noted; several
-/// roots. Throws Error(kInvalidArgument) whose field is
-/// "NAME:LINE" and whose message names the token that was found and what was expected. Refused are,
-/// besides other syntax errors: a hierarchy without channels, a channel given twice,
-/// numbers that are not finite, half a row, rows of another length than the channels, a frame time
-/// outside 1e-5 to 4 s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
+/// As lenient as other tools: UTF-8 or UTF-16, comments after # and //, "Frames:30", "EndSite",
+/// decimal commas, several roots, a frame time of 0 (no rate) or of 4 and more (milliseconds), and
+/// a wrong count of whole rows, which is noted. Throws Error(kInvalidArgument) whose field is
+/// "NAME:LINE" and whose message names the token found and what was expected. Besides other syntax
+/// errors refuses: a hierarchy without channels, a duplicate channel, numbers that are not finite,
+/// partial rows, rows of another length than the channels, a frame time outside 1e-5 to 4 s,
+/// lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
-/// As ParseBvh; Error(kNotFound) where the file cannot be opened.
+/// As ParseBvh; Error(kNotFound) if the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);
 
 /// Six decimals.
 std::string BvhText(const BvhFile& file);
-/// The same in a file. Error(kInternal) where it cannot be written.
+/// The same into a file. Error(kInternal) if it cannot be written.
 void WriteBvh(const std::filesystem::path& path, const BvhFile& file);
 
 /// Global places and turns of all joints and end sites in one frame, file units.
 RigPlacement PlaceBvh(const BvhFile& file, int64_t frame);
-/// The same of the offsets alone.
+/// The same from the offsets alone.
 RigPlacement PlaceBvhAtRest(const BvhFile& file);
 
 /// Global positions of all joints and end sites in one frame, [3, joints], file units.
 Eigen::Matrix3Xd BvhPositions(const BvhFile& file, int64_t frame);
 
-/// The whole file as joint positions in metres: what the fit takes. `metres_per_unit`: 0.01 for
+/// The whole file as joint positions in metres, for the fit. `metres_per_unit`: 0.01 for
 /// centimetres.
 PositionClip BvhToPositions(const BvhFile& file, double metres_per_unit);
 
 inline constexpr double kCentimetres = 100, kMetres = 1;  ///< units in a metre
 
-/// How a file of ours is written.
+/// The layout of our files.
 struct BvhLayout {
   JointNames names = JointNames::kSmpl;
   double units_per_metre = kCentimetres;
 };
 
-/// Ours: rest offsets, 6 channels at the root, ZXY Euler angles everywhere, an End Site at each
-/// leaf. The root's offset is the height of the hips at rest, which its position channels replace:
-/// a body at rest stands on the floor. Euler angles are continuous in time where they can be.
-/// Throws Error(kInvalidArgument) for a motion without frames or of another joint count, and for
-/// another skeleton than SMPL's by other names than its own.
+/// Our layout: rest offsets, 6 channels at the root, ZXY Euler angles everywhere, an End Site at
+/// each leaf. The root's offset is the height of the hips at rest, which its position channels
+/// replace: a body at rest stands on the floor. Euler angles are continuous in time where possible.
+/// Throws Error(kInvalidArgument) for a motion without frames or with another joint count, and for
+/// a skeleton other than SMPL's with names other than its own.
 BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLayout& layout = {});
 
-/// The file's own skeleton (own_skeleton.h), in centimetres, or in metres where it is less than 5
-/// units large; none where a joint stands above its root.
+/// The file's own skeleton (own_skeleton.h), in centimetres, or in metres if it is less than 5
+/// units large; none if a joint is above its root.
 std::optional<Skeleton> BvhSkeleton(const BvhFile& file);
 
 /// The inverse of MotionToBvh, whatever the layout; none unless the file has exactly this skeleton:

@@ -16,8 +16,8 @@
 
 namespace choreo {
 
-/// White space separates tokens; lines count for messages alone. What begins with # or // is a
-/// comment up to the end of its line. Private to this folder.
+/// Splits at white space; lines only count for messages. # and // begin comments to the end of
+/// their line. Private to this folder.
 class BvhTokens {
  public:
   BvhTokens(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -35,7 +35,7 @@ class BvhTokens {
     return text_.substr(begin, at_ - begin);
   }
 
-  // "Frames:", "Frames :", or without the colon; what follows may stand right behind it.
+  // "Frames:", "Frames :", or without the colon; more may follow directly.
   void Label(std::string_view word) {
     SkipSpace();
     if (!SameWord(text_.substr(at_, word.size()), word)) {
@@ -80,7 +80,7 @@ class BvhTokens {
   double Number(const char* expected, double limit = std::numeric_limits<double>::infinity()) {
     std::string_view token = Next(expected);
     std::string digits(token.starts_with('+') ? token.substr(1) : token);
-    // As half of Europe writes it.
+    // A decimal comma.
     if (std::ranges::count(digits, ',') == 1 && digits.find('.') == std::string::npos)
       std::ranges::replace(digits, ',', '.');
     double value = 0;

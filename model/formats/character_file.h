@@ -11,17 +11,17 @@
 
 namespace choreo {
 
-/// A character in a binary glTF file (.glb, .vrm): mesh, skin, materials, whatever extensions. Only
-/// its nodes are looked at. Immutable.
+/// A character in a binary glTF file (.glb, .vrm): mesh, skin, materials, any extensions. Only its
+/// nodes are read. Immutable.
 class CharacterFile {
  public:
-  /// Throws Error(kNotFound) where the file cannot be opened; Error(kInvalidArgument) whose field
-  /// begins with the path for what is no binary glTF, keeps its data in other files, has nodes
-  /// that are their own ancestors, have two parents, or stand nowhere.
+  /// Throws Error(kNotFound) if the file cannot be opened; Error(kInvalidArgument) whose field
+  /// begins with the path if it is not a binary glTF, keeps data in other files, or has nodes that
+  /// are their own ancestors, have two parents, or are outside the scene.
   explicit CharacterFile(const std::filesystem::path& path);
 
   const GltfNodes& nodes() const { return nodes_; }
-  /// The same, as those who look for bones see them (fit/find_bones.h); places in the file's unit.
+  /// The same for finding bones (fit/find_bones.h); places in the file's unit.
   const RigNodes& rig() const { return rig_; }
   const Eigen::Matrix3Xd& places() const { return rig_.places; }
 
@@ -31,10 +31,10 @@ class CharacterFile {
   }
 
   /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`.
-  /// All else stays, byte for byte. The dance stands in the file's world as in ours: Y up, +Z
+  /// Everything else stays, byte for byte. The dance keeps our axes in the file's world: Y up, +Z
   /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which is of
-  /// this file. Throws Error(kInvalidArgument) for a motion without frames, scales that are zero,
-  /// or more than 4 GiB; Error(kInternal) where the file cannot be written.
+  /// this file. Throws Error(kInvalidArgument) for a motion without frames, zero scales, or more
+  /// than 4 GiB; Error(kInternal) if the file cannot be written.
   void WriteDance(const std::filesystem::path& out, const CharacterBody& body,
                   const Motion& motion) const;
 

@@ -9,25 +9,25 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// glTF 2.0, binary (.glb): what Blender, three.js, Unity, Unreal and web pages open. Metres, Y up,
+/// glTF 2.0, binary (.glb), for Blender, three.js, Unity, Unreal and web pages. Metres, Y up,
 /// facing +Z: as ours.
 namespace choreo {
 
 /// Writes a skeleton at rest on the floor, the doll of body/skin.h bound to it, and the motion as
-/// an animation: one rotation channel a joint and one translation channel for the root, linear.
-/// Numbers are floats. The animation's extras hold `fps`. The same input gives the same bytes.
-/// Throws Error(kInvalidArgument) for a motion without frames or of another joint count,
-/// Error(kInternal) where the file cannot be written.
+/// an animation: one rotation channel per joint and one translation channel for the root, linear.
+/// Numbers are floats. The animation's extras hold `fps`. Deterministic. Throws
+/// Error(kInvalidArgument) for a motion without frames or with another joint count,
+/// Error(kInternal) if the file cannot be written.
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
 
-/// A dancer of several in one file.
+/// One of several dancers in a file.
 struct NamedMotion {
   std::string name;
   Motion motion;
 };
-/// The same of several dancers of one skeleton, whose nodes are called NAME:JOINT: one body and
-/// skin each, and one animation for all. Throws as above, and Error(kInvalidArgument) for nobody,
-/// and motions of other rates or other numbers of frames.
+/// The same for several dancers on one skeleton, with nodes named NAME:JOINT: one body and skin
+/// each, and one animation for all. Throws as above, and Error(kInvalidArgument) for no dancers,
+/// and for motions with different rates or frame counts.
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
               const std::vector<NamedMotion>& dancers);
 

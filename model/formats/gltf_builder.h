@@ -10,30 +10,30 @@
 
 namespace choreo {
 
-/// The way of a node through a dance, in numbers as glTF has them.
+/// A node's track through a dance, in glTF's numbers.
 struct GltfTrack {
   int node = -1;
   std::vector<float> turns;   ///< x y z w, frame after frame
-  std::vector<float> places;  ///< x y z; empty where it stays in its place
+  std::vector<float> places;  ///< x y z; empty if it stays in place
 
-  /// Of the two signs of a turn the one that is nearer to the frame before: readers interpolate
-  /// along the shorter way between neighbours of one sign.
+  /// Chooses the sign nearer to the frame before, as readers interpolate the shorter way between
+  /// neighbours.
   void AddTurn(Eigen::Quaterniond turn);
   void AddPlace(const Eigen::Vector3d& place);
 };
 
-/// A glTF document and its binary data, to which more is added. Private to this folder.
+/// A glTF document and its binary data, being extended. Private to this folder.
 class GltfBuilder {
  public:
   using Json = nlohmann::ordered_json;
 
   GltfBuilder(Json document, std::string_view binary);
 
-  /// A member that is a list. Throws Error(kInvalidArgument) naming it where it is something else.
+  /// A member that is a list. Throws Error(kInvalidArgument) naming it if it is something else.
   Json& List(const char* name);
 
-  /// Adds an accessor with a view of its own, whose elements are packed, and returns its index.
-  /// `type` as in "VEC3"; `target` is the view's, 0 for none.
+  /// Adds an accessor with its own view of packed elements, and returns its index. `type` such as
+  /// "VEC3"; `target` is the view's, 0 for none.
   template <typename T>
   size_t Add(std::span<const T> values, std::string_view type, bool bounds = false,
              int target = 0) {
@@ -54,11 +54,11 @@ class GltfBuilder {
     return index;
   }
 
-  /// Adds an animation before all others, "dance", whose extras hold `fps`. Tracks of no node are
-  /// left out.
+  /// Adds an animation, "dance", before all others, whose extras hold `fps`. Skips tracks without a
+  /// node.
   void AddDance(double fps, size_t frames, const std::vector<GltfTrack>& tracks);
 
-  /// The whole file, with further chunks behind. Throws as JoinGlb.
+  /// The whole file, followed by further chunks. Throws as JoinGlb.
   std::string Join(std::string_view others = {});
 
  private:

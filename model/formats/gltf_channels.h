@@ -12,7 +12,7 @@ class Model;
 
 namespace choreo {
 
-/// What an animation does to a node.
+/// One channel of an animation.
 struct GltfChannel {
   enum class Path { kTranslation, kRotation, kScale };
   enum class Way { kLinear, kStep, kCubic };
@@ -21,17 +21,17 @@ struct GltfChannel {
   Way way = Way::kLinear;
   Eigen::RowVectorXd times;  ///< [keys] ascending, seconds
   Eigen::MatrixXd values;    ///< [3 or 4, keys]
-  /// [3 or 4, keys] a second, of kCubic: in which way a curve comes to a key, and leaves it
+  /// [3 or 4, keys] per second, for kCubic: the tangents before and after each key
   Eigen::MatrixXd arrives = {}, leaves = {};
 
-  /// Sets what it drives to its value at `time`; before the first and after the last key it holds.
+  /// Sets its property at `time`, holding the first and the last key outside.
   void Drive(double time, GltfPlacement& placement) const;
   /// Whether it has keys that differ.
   bool Moves() const;
 };
 
-/// Of one of the file's animations, what moves nodes. Throws Error(kInvalidArgument) naming the
-/// part that is odd. Private to this folder, as the above.
+/// The channels of one of the file's animations. Throws Error(kInvalidArgument) naming a faulty
+/// part. Private to this folder, as the above.
 std::vector<GltfChannel> ReadGltfChannels(const tinygltf::Model& model, size_t animation);
 
 }  // namespace choreo

@@ -9,8 +9,7 @@
 
 #include "model/core/error.h"
 
-/// What reading a .glb needs of tinygltf, with every index and range checked. Private to this
-/// folder.
+/// Reads .glb with tinygltf, checking every index and range. Private to this folder.
 namespace choreo {
 
 /// "list[3]".

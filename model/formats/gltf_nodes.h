@@ -11,10 +11,10 @@ class Model;
 
 namespace choreo {
 
-/// Places of nodes in frames that are read or written: a gigabyte, whatever a small file claims.
+/// Limit of node positions in frames read or written: a gigabyte, whatever a small file claims.
 inline constexpr double kMaxPlaces = 3e7;
 
-/// Where a node stands in its parent.
+/// A node's transform relative to its parent.
 struct GltfPlacement {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
@@ -30,13 +30,13 @@ Eigen::Matrix3Xd PlacesOf(const std::vector<Eigen::Affine3d>& world);
 
 /// The nodes of a glTF file.
 struct GltfNodes {
-  std::vector<std::string> names;  ///< may be empty or there twice
+  std::vector<std::string> names;  ///< may be empty or duplicate
   std::vector<int> parents;        ///< -1: none
   std::vector<size_t> order;       ///< all nodes, parents first
   std::vector<GltfPlacement> rest;
 
-  /// Where all nodes are in the world. Throws Error(kInvalidArgument) for one that is further away
-  /// than any motion goes.
+  /// World transforms of all nodes. Throws Error(kInvalidArgument) for one farther away than any
+  /// motion goes.
   std::vector<Eigen::Affine3d> Place(const std::vector<GltfPlacement>& local) const;
   std::vector<Eigen::Affine3d> PlaceAtRest() const { return Place(rest); }
 };

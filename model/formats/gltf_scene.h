@@ -14,24 +14,24 @@
 
 namespace choreo {
 
-/// The nodes of a glTF file and how one of its animations moves them. Private to this folder.
+/// The nodes of a glTF file and one of its animations. Private to this folder.
 struct GltfScene {
   GltfNodes nodes;
-  RigNodes rig;  ///< the same, of which those move that the animation moves
-  /// Where the nodes are as the first skin with most of the body's bones was bound; none without.
+  RigNodes rig;  ///< the same; `moves` says what the animation moves
+  /// The nodes' transforms when the first skin with most of the body's bones was bound; none
+  /// without.
   std::optional<std::vector<Eigen::Affine3d>> bound;
   std::vector<GltfChannel> channels;
   double fps = 0;
   double start = 0;  ///< seconds
   int64_t frames = 0;
 
-  /// Where all nodes are in the world.
+  /// World transforms of all nodes.
   std::vector<Eigen::Affine3d> Frame(int64_t frame) const;
 };
 
-/// The animation that `reading` names; else the first that moves most of a body's bones. Throws
-/// Error(kNotFound) naming the path, and Error(kInvalidArgument) naming the part, for what gltf.h
-/// says.
+/// The animation in `reading`, or else the first that moves most of a body's bones. Throws
+/// Error(kNotFound) naming the path, and Error(kInvalidArgument) naming the part, as gltf.h says.
 GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& reading = {});
 
 }  // namespace choreo

@@ -7,21 +7,21 @@
 #include "model/formats/npz.h"
 #include "model/motion/motion.h"
 
-/// Places of SMPL's joints without rotations, as HumanML3D and many networks give them. Private to
-/// this folder.
+/// Positions of SMPL's joints without rotations, as HumanML3D and many networks give them. Private
+/// to this folder.
 namespace choreo {
 
-/// The array joints, joints3d, joint_positions, positions or pred_position of an archive, if there
-/// is one, as [..., joints, 3].
+/// The array joints, joints3d, joint_positions, positions or pred_position of an archive, if any,
+/// as [..., joints, 3].
 std::optional<NpyArray> FindJointArray(const NpzArchive& npz);
 
-/// Whether they are places: [F, 22 or 24, 3], also in a batch of one, whose limbs keep their
-/// lengths. Rotation vectors do not. Of several people, [people, F, ...], the first is looked at.
+/// Whether they are positions: [F, 22 or 24, 3], also in a batch of one, with constant limb
+/// lengths, which rotation vectors lack. Of several people, [people, F, ...], reads the first.
 bool AreJointPlaces(const NpyArray& array);
 
-/// SMPL's body fitted to them (fit/fit_clip.h), in its size and on the floor; how head, hands and
-/// feet are turned is a guess, which is noted. `fps` is the file's. Throws
-/// Error(kInvalidArgument) where AreJointPlaces is false.
+/// SMPL's body fitted to them (fit/fit_clip.h), in its size and on the floor; the rotations of
+/// head, hands and feet are guesses, which is noted. `fps` is the file's. Throws
+/// Error(kInvalidArgument) if AreJointPlaces is false.
 Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& reading);
 
 }  // namespace choreo

@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// Whose names the joints of SMPL's body have in a file.
+/// The naming of SMPL's joints in a file.
 enum class JointNames : uint8_t {
   kSmpl,     ///< pelvis, left_hip, ...
   kMixamo,   ///< mixamorig:Hips, mixamorig:LeftUpLeg, ...
@@ -23,7 +23,7 @@ std::string_view NameOf(JointNames names);
 /// Throws Error(kInvalidArgument) whose field is `field`, naming the four.
 JointNames ParseJointNames(std::string_view text, const std::string& field);
 
-/// What `joint`, one of SMPL's, is called there. A joint that SMPL has not keeps its name.
+/// The name of `joint`, one of SMPL's, in that naming. Other joints keep their names.
 std::string JointName(const std::string& joint, JointNames names);
 
 }  // namespace choreo
