@@ -61,8 +61,8 @@ void WriteAll(const Skeleton& skeleton, const cli::Dancers& stage,
 
 }  // namespace
 
-Response FormCompany(const House& house, const Company& request) {
-  const Skeleton& skeleton = house.model().skeleton;
+Response FormCompany(const StudioContext& context, const Company& request) {
+  const Skeleton& skeleton = context.model().skeleton;
   const std::string& name = request.dancers().name();
   const cli::Dancers stage = cli::ParseDancers(request.dancers().data(), name, "");
   Response response;

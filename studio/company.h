@@ -1,12 +1,12 @@
 #pragma once
 
-#include "studio/house.h"
+#include "studio/studio_context.h"
 
 namespace choreo::studio {
 
 /// Several dancers on one stage, as `choreo dance --dancers` places them, for the page and in
 /// files. Throws Error(kInvalidArgument) that names what was said of the dancers, or the message's
 /// field.
-Response FormCompany(const House& house, const Company& request);
+Response FormCompany(const StudioContext& context, const Company& request);
 
 }  // namespace choreo::studio

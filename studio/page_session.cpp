@@ -95,7 +95,7 @@ void PageSession::TellFaults(uint32_t call, const std::vector<client::KeyPose>& 
   for (const client::Warning& fault :
        cli::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
     Response response;
-    *response.mutable_dance() = ToProto(fault, house_.model().fps);
+    *response.mutable_dance() = ToProto(fault, context_.model().fps);
     Answer(call, std::move(response));
   }
 }
@@ -133,7 +133,7 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
               response.mutable_resumed()->set_reason(said.reason);
               response.mutable_resumed()->set_exact(said.exact);
             } else if constexpr (requires { DanceEvent(said); }) {
-              *response.mutable_dance() = ToProto(said, house_.model().fps);
+              *response.mutable_dance() = ToProto(said, context_.model().fps);
             } else {
               *response.mutable_dance() = ToProto(said);
             }
@@ -202,9 +202,9 @@ void PageSession::Do(const Request& request) {
     case Request::kLandmarks:
       return Answer(call, MakePhotoPose(context_, request.landmarks()));
     case Request::kKeys:
-      return Answer(call, ReadKeys(house_, request.keys()));
+      return Answer(call, ReadKeys(context_, request.keys()));
     case Request::kCompany:
-      return Answer(call, FormCompany(house_, request.company()));
+      return Answer(call, FormCompany(context_, request.company()));
     default:
       throw InvalidArgument("request", "is none that this studio knows");
   }
