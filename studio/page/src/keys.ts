@@ -31,8 +31,9 @@ export async function compose() {
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
-  const wished = wishes(project.value ?? asked);
-  danceFrom({ ...asked, ...wished, beats, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
+  const before = project.value ?? asked;
+  const wished = wishes(before);
+  danceFrom({ ...asked, ...wished, dancers: before.dancers, apart: before.apart, beats, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.
