@@ -27,8 +27,8 @@ using Evaluate = std::vector<Table> (*)(const Evaluation&);
 
 // In the order of the report.
 constexpr Evaluate kPaperControls[] = {EvaluateControls};
-constexpr Evaluate kControls[] = {EvaluateControls, EvaluateMultipliers, EvaluateRepetition,
-                                  EvaluateDrawnPaths};
+constexpr Evaluate kControlTables[] = {EvaluateControls, EvaluateMultipliers, EvaluateRepetition,
+                                       EvaluateDrawnPaths};
 constexpr Evaluate kLiveliness[] = {EvaluateLiveliness, EvaluateStyles, EvaluateNearness};
 constexpr Evaluate kPaper[] = {EvaluatePaperTransitions, EvaluatePaperDances};
 constexpr Evaluate kAll[] = {EvaluateControls,   EvaluateMultipliers, EvaluateRepetition,
@@ -195,7 +195,7 @@ void AddEvalCommand(CLI::App& app) {
           [arguments](const std::string& which) {
             arguments->controls = true;
             arguments->tables = kPaperControls;
-            if (which == "all") arguments->tables = kControls;
+            if (which == "all") arguments->tables = kControlTables;
           },
           "all | paper: only the tables of controls, or only paper C's; they have their own "
           "lengths")
