@@ -169,7 +169,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     cli::FitIntoDance({.frames = *config.frames, .fps = model.fps}, keys.places[i], &keys.poses[i]);
   }
-  config.controls = project.controls.Read(model, {.models = {model}});
+  config.controls = project.controls.Read(model, {.models = {model}, .limits = {}});
   client::Audio audio;
   if (song) {
     config.music_beats = project.beats;

@@ -40,7 +40,7 @@ TEST_F(InbetweenerTileTest, TellsThatItIsDeterministicAndHearsNothing) {
   EXPECT_TRUE(model.deterministic);
   EXPECT_FALSE(model.hears_music);
   EXPECT_FALSE(model.Takes(kRootPath));
-  EXPECT_FALSE(HeededBy(*sampler_).kind);
+  EXPECT_FALSE(SettingsUsedBy(*sampler_).kind);
 }
 
 TEST_F(InbetweenerTileTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
