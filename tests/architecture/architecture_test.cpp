@@ -68,7 +68,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
         {paper_training, {core, audio, motion, flow, networks, training}},
         {metrics, {core, audio, motion}},
         {evaluation, {core, audio, motion, draw, engine, samplers, dance, training, metrics}},
-        {tables, {core, motion, metrics, evaluation}},
+        {tables, {core, motion, draw, metrics, evaluation}},
         {"model/lab",
          {core, audio, engine, samplers, training, paper_training, evaluation, tables}},
         {"tls", {core}},

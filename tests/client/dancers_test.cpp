@@ -6,6 +6,7 @@
 
 #include "client/cli/counts.h"
 #include "client/cli/formation.h"
+#include "model/core/atomic_file.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/mirror.h"

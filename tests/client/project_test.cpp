@@ -60,7 +60,7 @@ TEST_F(ProjectTest, IsDancedAsItSays) {
 
 TEST_F(ProjectTest, ItsFactorsKeepAllTheirDigits) {
   project_["lively"] = {{"left arm", 1.23456789}};
-  EXPECT_EQ(cli::ParseProject(project_, "p.json").controls.velocities,
+  EXPECT_EQ(cli::ParseProject(json::parse(project_.dump()), "p.json").controls.velocities,
             std::vector<std::string>{"left_arm=1.23456789"});
 }
 

@@ -132,7 +132,7 @@ TEST(NpyTest, ForeignAndDamagedBytesAreRefusedByName) {
               HasSubstr("'<c8'"));
   EXPECT_THAT(Refusal(Bytes(1, "{'descr': '|O', 'fortran_order': False, 'shape': (2,)}", "")),
               HasSubstr("'|O'"));
-  EXPECT_THAT(Refusal(Bytes(1, "{'descr': '<f4', 'shape': (2,)}", "")), HasSubstr("absent"));
+  EXPECT_THAT(Refusal(Bytes(1, "{'descr': '<f4', 'shape': (2,)}", "")), HasSubstr("missing"));
   EXPECT_THAT(
       Refusal(Bytes(1, "{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (2,)}", "")),
       HasSubstr("expected a string"));

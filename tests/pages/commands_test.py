@@ -80,7 +80,7 @@ class Reader:
             (folder / "build/release/bin" / name).symlink_to(STAND_IN)
         (folder / "build/example/first_dance").symlink_to(STAND_IN)
         for group in ("scripts", "tests"):
-            for script in (ROOT / group).rglob("*.sh"):
+            for script in [*(ROOT / group).rglob("*.sh"), *(ROOT / group).glob("quote_figures.py")]:
                 stand_in = folder / script.relative_to(ROOT)
                 stand_in.parent.mkdir(parents=True, exist_ok=True)
                 stand_in.symlink_to(STAND_IN)
