@@ -86,7 +86,7 @@ struct DanceConfig {
   std::vector<Passage> music_passages = {};
   /// 0 to 1: how much a dance that comes back differs; default: kUsualVariation
   std::optional<double> variation = {};
-  /// For who edits keys: as RemoteDance::GenerateUntil before all else; keys then grant nothing.
+  /// For editing keys: as RemoteDance::GenerateUntil before all else; keys then grant no frames.
   std::optional<int64_t> generate_until = {};
   Controls controls = {};  ///< from the first frame on
 };

@@ -96,7 +96,7 @@ class CallSession : public Call {
                             .model = model_,
                             .seed = seed_,
                             .refusal = refusal});
-    } catch (const std::bad_alloc&) {  // one call less in log and metrics is nothing to die for
+    } catch (const std::bad_alloc&) {  // a missing log line must not end the server
     }
   }
 
@@ -235,7 +235,7 @@ class CallSession : public Call {
   Caller caller_;  // written before the call has entered
   const Clock::time_point start_ = Clock::now();
   bool admitted_ = false;  // of the sender of messages
-  // Of the same, and of Release behind it.
+  // Written by the sender of messages, later by Release.
   std::string model_;
   std::optional<uint64_t> seed_;
 

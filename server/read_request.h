@@ -21,11 +21,12 @@ KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
 ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
                          uint64_t fresh_seed);
 
-/// For GenerateTransition, but for the samples of encoded files (see EncodedAudio).
+/// For GenerateTransition, without the samples of music files, which are decoded later
+/// (server/music_file.h).
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
                             uint64_t fresh_seed);
 
-/// Throws for no control at all, too. What has a meaning is for ValidateControls to judge.
+/// Also throws where no control is given. ValidateControls judges the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
 
 /// Times of beats, within the longest music and strictly ascending.

@@ -6,7 +6,7 @@
 #include "client/edit.h"
 #include "studio/studio.pb.h"
 
-/// The page's messages (of choreo.v1) as the client library's structs: the inverse of
+/// The page's messages (of choreo.v1) as the client library's structs, the inverse of ToProto in
 /// client/convert.h. Checks values; throws Error(kInvalidArgument) naming the field of an unusable
 /// one.
 namespace choreo::studio {

@@ -39,18 +39,18 @@ class DanceStream {
 
   /// Interleaved samples; `first_sample` (absolute, counted in sample frames) must be the next one:
   /// Error(kOutOfRange) for a gap or an overlap, naming the sample expected.
-  /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without config.audio_format.
+  /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without DanceConfig::audio.
   /// Error(kFailedPrecondition) after EndOfAudio.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// What is found in the whole music before its first sample is pushed, as far as DanceConfig does
-  /// not say it: beats (none, then nothing is listened for either), passages, and which it is.
+  /// What was found in the whole music before its first sample is pushed: beats (without any, the
+  /// dance listens for none), passages, and the music's id. What DanceConfig states has precedence.
   void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
                 const std::vector<Passage>& passages, uint64_t music_id);
 
-  /// What errors call the next message of a kind, "keyframes[i]", i counting those that were taken.
-  /// For who reads a message before handing it over.
+  /// The name of the next message of a kind in errors: "keyframes[i]", where i counts the accepted
+  /// ones. For code that reads a message before handing it over.
   std::string NextKeyframe() const;
   std::string NextControls() const;
   std::string NextMusicBeats() const;

@@ -14,11 +14,10 @@
 
 namespace choreo {
 
-/// Where the music of a dance beats. Beats are given or found; where none are, a dance that is
-/// given none beforehand asks the music for its pulse (HearPulse) at the begin of each transition:
-/// the 12 s before its first frame, and nothing behind, say where its beats are. So the beats of a
-/// transition are a function of the ordered messages and of the samples before it; those of the
-/// transitions before it leave nothing behind but last(). Not thread-safe.
+/// Where the music of a dance beats. Beats are given or found. A dance that starts without any
+/// listens: when a transition begins, the pulse (HearPulse) of the 12 s before its first frame
+/// predicts its beats. So they are a function of the ordered messages and of the samples before
+/// the transition; earlier transitions leave only last(). Not thread-safe.
 class MusicBeats {
  public:
   /// `audio`: of the dance, or null, when there is nothing to hear. `last`: of a dance that goes

@@ -50,9 +50,9 @@ struct Segment {
   int64_t stop = to;
 };
 
-/// Where the transition that begins at `from` ends, before the next key or none: behind that key,
-/// or, where none stands ahead within `longest` frames, after some kUsualFrames. Half the
-/// longest at most, so that what is left before a key after a cut is never shorter than that.
+/// Where the transition that begins at `from` ends: just after the next key or, without one within
+/// `longest` frames, after about kUsualFrames, at most half the longest. So the rest before a key
+/// is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
 /// The keys of one dance, the frozen frontier, and the plan that follows from them. Each call
@@ -136,7 +136,7 @@ class Timeline {
   // First frame that a new key could have now.
   int64_t EarliestFrame() const;
   KeyRejected Reject(const std::string& id, int64_t frame, KeyRejected::Code why,
-                      std::string reason);
+                     std::string reason);
   std::string WhyFrozen() const;
   std::optional<KeyRejected> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);

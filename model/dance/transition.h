@@ -43,7 +43,7 @@ struct Continuation {
   int64_t frame = 0;        ///< first frame that has not been danced; model rate, absolute
   std::vector<Pose> poses;  ///< tau poses before it, oldest first, world; every number is a float's
   std::string fingerprint;  ///< of the model and build that danced
-  /// First sample that who goes on from here has to hear; none: nobody says.
+  /// First sample that a resumed dance needs; none: unknown.
   std::optional<int64_t> audio_from_sample = {};
   std::optional<double> last_beat = {};       ///< MusicBeats::last at this frame
   std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, its height unread
@@ -81,8 +81,8 @@ class TransitionRun {
   const std::vector<DanceFrame>& frames() const { return frames_; }
   /// After the last frame of a transition with a target; its id is for the caller to say.
   const std::optional<KeyReached>& arrival() const { return arrival_result_; }
-  /// TransitionRequest::stage of who goes on behind so many of the frames: a path, and a key that
-  /// says where the root is, move it there.
+  /// TransitionRequest::stage for a dance that continues after so many of the frames. A path, or a
+  /// key that places the root, moves it there.
   Eigen::Vector3d StageAfter(size_t frames) const;
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;

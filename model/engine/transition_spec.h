@@ -29,7 +29,7 @@ struct VelocityReference {
 
 /// Describes a loaded model. Constant for the life of a sampler.
 struct ModelInfo {
-  std::string name;         ///< "default", "paper", ...
+  std::string name;         ///< "default", "paper-f", ...
   std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
   std::string licence;      ///< of the weights
   std::string card;         ///< the model card, JSON

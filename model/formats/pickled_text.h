@@ -8,10 +8,10 @@
 namespace choreo {
 
 /// 'a\x00b' between quotes, as Python writes bytes: \n, \r, \t, \\, quotes and two digits after
-/// \x. Nothing for what is none.
+/// \x. nullopt for anything else.
 std::optional<std::string> ReadPickledString(std::string_view line);
 
-/// Latin-1 with \uXXXX and \UXXXXXXXX, as UTF-8. Nothing for what is none.
+/// Latin-1 with \uXXXX and \UXXXXXXXX, as UTF-8. nullopt for anything else.
 std::optional<std::string> ReadPickledUnicode(std::string_view line);
 
 }  // namespace choreo

@@ -4,8 +4,8 @@
 #include <string>
 #include <variant>
 
-/// What a dance tells on its way, the same for who dances and for who asked from afar. Frames are
-/// absolute, at the model's rate.
+/// What a dance reports while it runs, for server and client alike. Frames are absolute, at the
+/// model's rate.
 namespace choreo {
 
 /// How a key was met. Distances and angles are the largest of any joint that the key asks for.

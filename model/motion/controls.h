@@ -47,7 +47,7 @@ inline constexpr ControlRow kControls[] = {
      ControlFeatures::kLevel, 0, "m a frame"},
 };
 
-/// Numbers of rows, for who needs one of them.
+/// Row numbers of single controls.
 inline constexpr size_t kRootPath = 0, kVelocityFactors = 1;
 
 /// The row of that name, which is one of them.
@@ -58,16 +58,16 @@ std::vector<std::string> ControlNames();
 /// One control over frames.
 struct ControlCurve {
   Eigen::MatrixXd values = {};   ///< [channels, frames], or empty: nobody asks anything
-  std::vector<bool> asked = {};  ///< by channel: somebody asks for it; else it is but a guess
+  std::vector<bool> asked = {};  ///< by channel: it was asked for; otherwise it is a guess
 
   bool IsGiven() const { return values.cols() > 0; }
   bool Asks(int channel) const { return IsGiven() && asked[static_cast<size_t>(channel)]; }
 };
 
 /// A curve for each row of a table. The root's path: where it should be in each frame, from the
-/// history's last root to the target's (dance/path_lead.h bends it there); its heights may be but a
-/// guess. Velocity factors: how lively each part should be (motion/velocity_factors.h); those that
-/// nobody asks for are the model's reference, or unknown. What is left empty, the model chooses.
+/// history's last root to the target's (dance/path_lead.h bends it there); its heights may be a
+/// guess. Velocity factors: how lively each part should be (motion/velocity_factors.h); those not
+/// asked for are the model's reference, or unknown. The model chooses what is left empty.
 class Controls {
  public:
   Controls() : Controls(kControls) {}

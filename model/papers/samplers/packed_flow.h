@@ -18,8 +18,8 @@ namespace choreo {
 /// only; the engines of a process share them.
 ///
 /// Every coupling's network sees [condition of the frame | z_lo | own hidden state], a row of
-/// `input_width` floats. What of a raw condition is known at admission has left the columns: what
-/// `hoisted` makes of it the first product starts from.
+/// `input_width` floats. The part of a raw condition that is known when the transition begins has
+/// no columns here: `hoisted` turns it into the value that the first product starts from.
 struct PackedFlow {
   /// One step of the flow, as its inverse runs it.
   struct Coupling {
