@@ -18,6 +18,7 @@ import { View } from './view';
 const ground = new THREE.Plane(new THREE.Vector3(0, 1, 0), 0);
 const farthest = 9; // metres from where the camera looks: a path may lead there
 const longest = 0.3; // seconds between two looks at the dancer: what is more was a rest
+const alone = 1.65, reach = 0.95; // metres: what is shown of one dancer's floor; from a hip to fingertips, and a little more
 const near = 26; // pixels from a handle that still grab it
 
 export class Stage {
@@ -184,7 +185,7 @@ export class Stage {
     const centre = doll.place().clone();
     const takes = studio.takes.value;
     const marks = this.others.show(time, centre, this.camera, this.middle).map((place) => this.toScreen(place));
-    const width = this.company.show(motion, time, this.middle) || (takes.length + 1) * apart + 0.4;
+    const width = this.company.show(motion, time, this.middle) || (takes.length ? takes.length * apart + 2 * reach : alone);
     this.drawGhost(time);
     this.onion.show(time, takes.length > 0);
     this.dots.show(this.posing);
