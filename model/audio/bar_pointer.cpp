@@ -16,9 +16,8 @@ constexpr double kNothingDb = 0.02;  // mean rise below which a band counts as s
 // An onset counts from a frame before its beat to two after.
 constexpr int kFirstFrame = -1, kFrames = 4;
 constexpr double kBetween = 0.5;  // mean rise between the places, in every pattern
-// Neighbouring frames and bands are correlated, so each counts for a fifth on average. The bass
-// counts for twice the others together: off-beat guitars are as loud as drums on the beat.
-constexpr std::array<double, Onset::kBands> kWeights{0.4, 0.1, 0.1};
+// Neighbouring frames and bands are correlated, so each counts for a fifth.
+constexpr double kWeight = 0.2;
 constexpr double kTempoCost = 100;  // Krebs et al. 2015
 
 int PeriodOf(double bpm) { return static_cast<int>(std::lround(kFramesPerMinute / bpm)); }
@@ -90,10 +89,8 @@ BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limit
     auto& terms = likelihood_.emplace_back();
     for (const BarPattern::Bands& bands : pattern.rise) {
       // Log of the exponential density, relative to that between the places.
-      for (size_t band = 0; band < bands.size(); ++band) {
-        terms.push_back({kWeights[band] * std::log(kBetween / bands[band]),
-                         kWeights[band] * (1 / kBetween - 1 / bands[band])});
-      }
+      for (const double mean : bands)
+        terms.push_back({kWeight * std::log(kBetween / mean), kWeight * (1 / kBetween - 1 / mean)});
     }
     place_score_.emplace_back(pattern.rise.size());
   }

@@ -50,17 +50,6 @@ TEST(BeatsTest, BackbeatsAreCountedAtTheirOwnTempoAlsoWhereItIsFast) {
   }
 }
 
-// Guitars strike between the beats, louder than the drum on them.
-TEST(BeatsTest, TheLowDrumSaysWhichHalfOfABeatIsTheBeat) {
-  for (const double bpm : {100.0, 135.0}) {
-    const double period = 60 / bpm;
-    const std::vector<double> beats = FindBeats(Metal(30, period)).Seconds();
-    ASSERT_GT(beats.size(), 25 / period) << bpm;
-    for (const double beat : beats)
-      EXPECT_LT(std::abs(std::remainder(beat - 0.3, period)), 0.07) << bpm << " at " << beat;
-  }
-}
-
 TEST(BeatsTest, TempoMayChangeAtOnceAndBitByBit) {
   const auto hear = [](std::vector<SongPlan::Tempo> tempo) {
     const MadeSong song = MakeSong({.seed = 9'000'100, .seconds = 40, .tempo = std::move(tempo)});
