@@ -15,6 +15,7 @@
 #include "client/server_description.h"
 #include "model/core/error.h"
 #include "model/core/limits.h"
+#include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
 #include "model/motion/velocity_factors.h"
 
@@ -121,8 +122,7 @@ struct DanceResult {
   int resumes = 0;
 };
 
-/// How to rank candidates: by steering, support and skating, or by likelihood alone.
-enum class RankBy { kQuality, kLikelihood };
+using choreo::RankBy;
 
 /// A request for a single transition.
 struct TransitionRequest {

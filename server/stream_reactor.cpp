@@ -2,7 +2,6 @@
 
 #include <grpcpp/server_context.h>
 
-#include <atomic>
 #include <optional>
 #include <utility>
 #include <variant>

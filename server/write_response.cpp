@@ -48,7 +48,7 @@ ModelDescription DescribeModel(const ModelInfo& model) {
   out.controls = model.controls;
   for (const VelocityReference& reference : model.velocity_references)
     out.velocity_references.push_back(
-        {reference.name, {reference.factors.begin(), reference.factors.end()}});
+        {reference.name, {reference.speeds.begin(), reference.speeds.end()}});
   if (!out.takes_music) return out;
   // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;

@@ -6,9 +6,6 @@ namespace choreo {
 namespace {
 
 constexpr double kHeardDb = 40;  // sound this far below the loudest band is ignored
-// Up to 130 Hz, the bass drum. It decides which of two pulses half a beat apart is the beat, so
-// these few bands weigh as much as all.
-constexpr size_t kBassBands = 4;
 
 }  // namespace
 
@@ -26,6 +23,8 @@ float RowOnset::Add(const MelBandsDb& db) {
     before[band] = db[band];
   }
   ++rows_;
+  // The bass drum decides which of two pulses half a beat apart is the beat, so its few bands weigh
+  // as much as all.
   return static_cast<float>(0.5 * (all / kMelBands + bass / kBassBands));
 }
 

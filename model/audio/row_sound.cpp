@@ -11,7 +11,6 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kBassBands = 4;       // up to 130 Hz
 constexpr double kLeastPower = 1e-12;  // lower bound of logarithms' arguments
 
 // One of BS.1770's two K filters, second order, with its printed coefficients at 48 kHz; gives its

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "model/audio/decode.h"
 #include "model/audio/sound_reader.h"

@@ -103,7 +103,7 @@ void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request
   const Lead floor = LeadPath(way);
 
   ControlCurve& control = request->controls[kRootPath];
-  control.asked[1] = std::ranges::any_of(way.curves, HasHeights);
+  control.asked[kPathHeight] = std::ranges::any_of(way.curves, HasHeights);
   way.axes = {0, 1, 0};
   for (const PathCurve*& curve : way.curves) {
     if (!HasHeights(curve)) curve = nullptr;

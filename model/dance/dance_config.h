@@ -12,6 +12,7 @@
 #include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
+#include "model/messages/quality_report.h"
 
 namespace choreo {
 
@@ -79,9 +80,6 @@ struct DanceConfig : DanceStart {
   /// Error(kUnimplemented) for music that the model can't hear.
   void Validate(const ModelInfo& model) const;
 };
-
-/// What candidates are ranked by: RankCandidates, or likelihood alone, of models that have one.
-enum class RankBy { kQuality, kLikelihood };
 
 /// GenerateTransition: one transition, several candidates of it, ranked.
 struct GroupRequest : DanceStart {

@@ -96,7 +96,7 @@ float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part,
     asked += share * (value(after) - asked);
   }
   if (IsAbsolute(request)) return asked;
-  return asked * FindReference(model, reference)->factors[static_cast<size_t>(part)];
+  return asked * FindReference(model, reference)->speeds[static_cast<size_t>(part)];
 }
 
 }  // namespace choreo

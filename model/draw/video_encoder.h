@@ -3,7 +3,6 @@
 #include <sys/types.h>
 
 #include <filesystem>
-#include <string>
 
 #include "model/core/atomic_file.h"
 #include "model/core/grid.h"

@@ -60,9 +60,9 @@ std::string LicenceOf(const std::string& card) {
   return json.is_object() ? json.value("licence", "") : "";
 }
 
-VelocityReference MedianReference(const std::array<double, kBodyParts>& factors) {
+VelocityReference MedianReference(const std::array<double, kBodyParts>& speeds) {
   VelocityReference median{.name = "median"};
-  std::ranges::copy(factors, median.factors.begin());
+  std::ranges::copy(speeds, median.speeds.begin());
   return median;
 }
 

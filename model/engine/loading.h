@@ -66,6 +66,6 @@ ModelInfo InfoOf(const Checkpoint& checkpoint, const std::string& kernels) {
 }
 
 /// The velocity reference of every model that takes velocity factors.
-VelocityReference MedianReference(const std::array<double, kBodyParts>& factors);
+VelocityReference MedianReference(const std::array<double, kBodyParts>& speeds);
 
 }  // namespace choreo

@@ -146,7 +146,7 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
       asked + ": mean speed of each part over the real dance's.", evaluation, course));
   if (model.velocity_references.empty()) return tables;
   const VelocityReference& reference = model.velocity_references.front();
-  course.AskConstant(reference.factors);
+  course.AskConstant(reference.speeds);
   tables.push_back(
       FactorTable(evaluation.NewTable("constant", "Constant velocity factors", {"method", "times"}),
                   asked + ", the same asked of every frame: " + "a number times the reference \"" +

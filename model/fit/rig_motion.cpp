@@ -23,10 +23,6 @@ Eigen::Matrix3d Turning(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
   return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
 }
 
-Eigen::Matrix3d Blend(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double share) {
-  return Eigen::Quaterniond(a).slerp(share, Eigen::Quaterniond(b)).toRotationMatrix();
-}
-
 // Left is right, and right is left: of the "body", its "arms" or its "legs".
 HumanBones Exchanged(const HumanBones& bones, const std::string& of) {
   HumanBones exchanged{.rig = bones.rig, .bones = {}};
@@ -134,7 +130,8 @@ class RigFitter {
                                  SmplBody().Find("spine3")};
     const double way = 3 * share;
     const int below = std::min(2, static_cast<int>(way));
-    return Blend(ours.rotations[joints[below]], ours.rotations[joints[below + 1]], way - below);
+    return SlerpMatrix(ours.rotations[joints[below]], ours.rotations[joints[below + 1]],
+                       way - below);
   }
 
   // The same for the rig's trunk.
@@ -143,7 +140,7 @@ class RigFitter {
     const auto below = std::min(static_cast<size_t>(way), spine_.size());
     const auto turn = [&](size_t i) { return Turn(theirs, i == 0 ? "pelvis" : spine_[i - 1]); };
     if (below == spine_.size()) return turn(below);
-    return Blend(turn(below), turn(below + 1), way - static_cast<double>(below));
+    return SlerpMatrix(turn(below), turn(below + 1), way - static_cast<double>(below));
   }
 
   // World rotation of our joint for that bone.
@@ -162,7 +159,7 @@ class RigFitter {
         turns[joint] = TheirSpine(theirs, (name.back() - '0') / 3.0);
       } else if (name == "neck") {
         turns[joint] = !necks.empty()      ? Turn(theirs, necks[necks.size() / 2])
-                       : Find("head") >= 0 ? Blend(turns[parent], Turn(theirs, "head"), 0.5)
+                       : Find("head") >= 0 ? SlerpMatrix(turns[parent], Turn(theirs, "head"), 0.5)
                                            : turns[parent];
       } else if (name == "head" && Find("head") < 0 && !necks.empty()) {
         turns[joint] = Turn(theirs, necks.back());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "model/core/error.h"
 #include "model/fit/mapping_builder.h"

@@ -39,10 +39,6 @@ double LegHeight(const Skeleton& skeleton) {
          2;
 }
 
-Eigen::Matrix3d Between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double share) {
-  return Eigen::Quaterniond(a).slerp(share, Eigen::Quaterniond(b)).toRotationMatrix();
-}
-
 /// Which of SMPL's global rotations a character's joint takes.
 class Takes {
  public:
@@ -68,7 +64,7 @@ class Takes {
     const Take& take = takes_[joint];
     return take.share == 0
                ? smpl.rotations[take.from]
-               : Between(smpl.rotations[take.from], smpl.rotations[take.to], take.share);
+               : SlerpMatrix(smpl.rotations[take.from], smpl.rotations[take.to], take.share);
   }
 
  private:

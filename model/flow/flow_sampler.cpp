@@ -94,7 +94,7 @@ struct KnownPath {
     const ControlCurve& path = request.controls[kRootPath];
     if (!path.IsGiven()) return;
     axes = {0, 2};
-    if (path.Asks(1)) axes.push_back(1);
+    if (path.Asks(kPathHeight)) axes.push_back(kPathHeight);
     x = path.values.colwise() - request.history.back().root_position;
     x -= window.mean().topRows<3>();
     z.resize(3, x.cols());

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <list>
+#include <map>
 #include <string>
 
 #include "model/core/error.h"

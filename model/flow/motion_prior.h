@@ -3,11 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
-#include <list>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 

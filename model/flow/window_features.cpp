@@ -35,9 +35,9 @@ void DescribeOff(const ControlCurve& curve, int frame, const Eigen::Vector3d& ro
                  const Eigen::Vector3d& mean, std::span<float> features) {
   Eigen::Vector3d off = curve.values.col(frame) - root;
   off -= mean;
-  if (!curve.Asks(1)) off.y() = 0;
+  if (!curve.Asks(kPathHeight)) off.y() = 0;
   features[0] = 1;
-  features[1] = curve.Asks(1) ? 1 : 0;
+  features[1] = curve.Asks(kPathHeight) ? 1 : 0;
   for (int axis = 0; axis < 3; ++axis)
     features[2 + static_cast<size_t>(axis)] = static_cast<float>(off[axis] / kPathScale);
 }

@@ -14,6 +14,10 @@ struct PartSpeed {
   double danced = 0;
 };
 
+/// How to rank candidates: by steering, support and skating, or by likelihood alone, of models that
+/// have one.
+enum class RankBy { kQuality, kLikelihood };
+
 /// What a dance is worth, in figures. All at the model's rate, before resampling for output.
 struct QualityReport {
   int64_t frames = 0;

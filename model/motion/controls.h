@@ -49,6 +49,7 @@ inline constexpr ControlRow kControls[] = {
 
 /// Row numbers of single controls.
 inline constexpr size_t kRootPath = 0, kVelocityFactors = 1;
+inline constexpr int kPathHeight = 1;  ///< the channel of a root path that is its height
 
 /// The row of that name, which is one of them.
 size_t FindControl(std::string_view name);

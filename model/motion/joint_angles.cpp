@@ -1,6 +1,5 @@
 #include "model/motion/joint_angles.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

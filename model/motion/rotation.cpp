@@ -56,6 +56,10 @@ Eigen::Vector3d Slerp(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double
   return RotationCompose(a, t * RotationDifference(a, b));
 }
 
+Eigen::Matrix3d SlerpMatrix(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double t) {
+  return Eigen::Quaterniond(a).slerp(t, Eigen::Quaterniond(b)).toRotationMatrix();
+}
+
 Eigen::Vector3d RotationDifference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return ExpFromQuaternion(QuaternionFromExp(a).conjugate() * QuaternionFromExp(b));
 }

@@ -33,6 +33,9 @@ Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& p
 /// Shortest-arc interpolation for t in [0, 1]; extrapolates outside.
 Eigen::Vector3d Slerp(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t);
 
+/// Between rotation matrices; t in [0, 1].
+Eigen::Matrix3d SlerpMatrix(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, double t);
+
 /// log(exp(a)^T exp(b)): the rotation that leads from a to b, in a's local frame; angle in [0, pi].
 Eigen::Vector3d RotationDifference(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 

@@ -90,7 +90,7 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
     path.values.resize(3, frames);
     for (int i = 0; i < frames; ++i) path.values.col(i) = way[i].root_position;
     if (random->Uniform() < 0.4) path.values = SmoothRows(path.values, kDrawnSigma);
-    path.asked[1] = random->Uniform() < 0.3;
+    path.asked[kPathHeight] = random->Uniform() < 0.3;
   }
   if (random->Uniform() < variation.stage) request.stage = stage;
   return request;

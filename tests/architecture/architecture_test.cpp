@@ -14,12 +14,12 @@
 
 #include "tests/architecture/includes.h"
 
-// The house's rules (docs/architecture.md), held by its includes.
+// The rules of docs/architecture.md, which includes follow.
 namespace choreo::architecture_test {
 
 using ::testing::IsEmpty;
 
-const Includes& House() {
+const Includes& Sources() {
   static const Includes includes(CHOREO_SOURCE_DIR,
                                  {"model", "tls", "proto", "server", "client", "studio", "bench"});
   return includes;
@@ -96,9 +96,9 @@ TEST(Architecture, EveryRoomStandsAboveWhatItIncludes) {
       EXPECT_TRUE(generated || below.contains(other)) << room << " above " << other;
     }
     below.insert(room);
-    for (const std::string& file : House().files()) {
+    for (const std::string& file : Sources().files()) {
       if (RoomOf(file) != room) continue;
-      for (const std::string& include : House().Of(file)) {
+      for (const std::string& include : Sources().Of(file)) {
         if (include.starts_with('<')) continue;
         const std::string other = RoomOf(include);
         if (other != room && !allowed.contains(other)) wrong.push_back(file + " -> " + include);
@@ -173,7 +173,7 @@ TEST(Architecture, ThePictureHasTheArrows) {
 
 TEST(Architecture, EveryFileHasARoom) {
   std::vector<std::string> homeless;
-  for (const std::string& file : House().files()) {
+  for (const std::string& file : Sources().files()) {
     const bool known =
         std::ranges::any_of(Rooms(), [&](const auto& room) { return room.first == RoomOf(file); });
     if (!known) homeless.push_back(file);
@@ -182,9 +182,9 @@ TEST(Architecture, EveryFileHasARoom) {
 }
 
 TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
-  for (const std::string& file : House().files()) {
+  for (const std::string& file : Sources().files()) {
     if (!file.starts_with("model/")) continue;
-    for (const std::string& include : House().Of(file)) {
+    for (const std::string& include : Sources().Of(file)) {
       EXPECT_FALSE(include.starts_with("<grpc") || include.starts_with("<google/") ||
                    include.ends_with(".pb.h"))
           << file << " -> " << include;
@@ -202,7 +202,7 @@ TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
     installed.insert(at->str());
   EXPECT_TRUE(installed.contains("client/choreo_client.h"));
   for (const std::string& file : installed) {
-    for (const std::string& include : House().Of(file)) {
+    for (const std::string& include : Sources().Of(file)) {
       if (include.starts_with('<')) continue;
       EXPECT_TRUE(installed.contains(include)) << file << " -> " << include;
     }
@@ -217,8 +217,8 @@ TEST(Architecture, TorchStaysInItsRooms) {
       "model/samplers", "model/training",        "model/papers/training",
       "bench"};
   std::set<std::string> found;
-  for (const std::string& file : House().files()) {
-    for (const std::string& include : House().Of(file)) {
+  for (const std::string& file : Sources().files()) {
+    for (const std::string& include : Sources().Of(file)) {
       if (include.starts_with("<torch/") || include.starts_with("<ATen/")) {
         found.insert(RoomOf(file));
         EXPECT_TRUE(rooms.contains(RoomOf(file))) << file << " -> " << include;
@@ -237,7 +237,7 @@ TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
   std::vector<std::string> files = {"model/flow/flow_sampler.cpp", "model/flow/plan_options.h",
                                     "model/flow/footwork_options.h",
                                     "model/engine/continuous_flow_sampler.cpp"};
-  for (const std::string& file : House().files()) {
+  for (const std::string& file : Sources().files()) {
     if (file.starts_with("model/plan/") && file != "model/plan/arrival.cpp") files.push_back(file);
   }
   for (const std::string& file : files) {

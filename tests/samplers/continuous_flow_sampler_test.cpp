@@ -89,7 +89,7 @@ TEST_F(ContinuousFlowSamplerTest, TellsWhatItTakes) {
   EXPECT_EQ(model.controls, ControlNames());
   EXPECT_FALSE(model.deterministic);
   ASSERT_EQ(model.velocity_references.size(), 1U);
-  EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
+  EXPECT_FLOAT_EQ(model.velocity_references[0].speeds[1], 0.02F);
   EXPECT_EQ(model.default_temperature, 1);
   EXPECT_EQ(model.max_temperature, kMaxFlowTemperature);
 }

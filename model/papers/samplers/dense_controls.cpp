@@ -49,7 +49,7 @@ Controls DenseControls(const TransitionSpec& spec, const ModelInfo& model) {
   Controls dense = spec.controls;
   if (!dense[kRootPath].IsGiven()) dense[kRootPath].values = SmoothPath(spec);
   if (!dense[kVelocityFactors].IsGiven()) {
-    const auto& median = model.velocity_references.front().factors;
+    const auto& median = model.velocity_references.front().speeds;
     dense[kVelocityFactors].values =
         Eigen::Map<const Eigen::Vector<float, kBodyParts>>(median.data())
             .cast<double>()

@@ -54,7 +54,7 @@ TEST_F(ControllersSamplerTest, TellsWhatItTakes) {
   EXPECT_EQ(model.controls, ControlNames());
   ASSERT_EQ(model.velocity_references.size(), 1U);
   EXPECT_EQ(model.velocity_references[0].name, "median");
-  EXPECT_FLOAT_EQ(model.velocity_references[0].factors[1], 0.02F);
+  EXPECT_FLOAT_EQ(model.velocity_references[0].speeds[1], 0.02F);
   EXPECT_NE(model.fingerprint.find("controllers-paper/"), std::string::npos);
   EXPECT_EQ(model.default_temperature, 0);
   EXPECT_EQ(sampler_->device(), "cpu");

@@ -40,7 +40,7 @@ TEST_F(DenseControlsTest, LeaveWithTheVelocityOfTheHistoryAndEndAtTheKey) {
       1e-5);
   for (int part = 0; part < kBodyParts; ++part) {
     EXPECT_FLOAT_EQ(dense[kVelocityFactors].values(part, 30),
-                    model_.velocity_references[0].factors[static_cast<size_t>(part)]);
+                    model_.velocity_references[0].speeds[static_cast<size_t>(part)]);
   }
 }
 
