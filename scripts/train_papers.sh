@@ -13,7 +13,9 @@
 set -euo pipefail
 (($# >= 3)) || { echo "train_papers.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
-lab=$(realpath "$1")/choreo-lab
+lab=$1/choreo-lab
+[[ -x $lab ]] || { echo "train_papers.sh: there is no choreo-lab in BIN_DIRECTORY '$1'" >&2; exit 2; }
+lab=$(realpath "$lab")
 recordings=$(realpath "$2")
 mkdir -p "$3"
 run=$(realpath "$3")
@@ -22,10 +24,13 @@ shift $(($# < 4 ? $# : 4))
 # On few cores one thread is fastest.
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 
-prepare() {
+prepare_tang61() {  # paper F's networks and the study alone want it
+  [[ -f $run/data/tang61/report.json ]] || "$lab" prepare tang61 "$recordings/tang61" "$run/data/tang61" \
+    --terms "none stated (Tang et al. 2018); commercial music: internal use only"
+}
+prepare_dancedb() {
   [[ -f $run/data/dancedb/report.json ]] ||
     "$lab" prepare bvh "$recordings/dancedb" "$run/data/dancedb" --terms "none stated (Aristidou et al. 2017)"
-  [[ -f $run/data/tang61/report.json ]] || "$lab" prepare tang61 "$recordings/tang61" "$run/data/tang61"
   # Paper C's test clips are a random fifth, of dancers who train too. Here they are that of the dancers who are in neither of our groups, so
   # that one network is measured on both: `test_random`, and `test`, a dancer whom it never saw.
   /usr/bin/python3 - "$recordings/splits.json" "$run/data/dancedb" >"$run/random_splits.json" <<'PYTHON'
@@ -41,9 +46,9 @@ PYTHON
 
 # The papers train for some 40 hours on a GPU at 1e-4; so few steps want a higher rate. A step of paper F's with roll-outs takes three times as
 # long as one of likelihood alone, and samples are noise at first: the last third has them. Paper C's transitions grow from 5 to 70 frames.
-f_steps=${F_STEPS:-3500} f_batch=${F_BATCH:-16}
+f_steps=${F_STEPS:-7000} f_batch=${F_BATCH:-16}
 c_steps=${C_STEPS:-7500} c_batch=${C_BATCH:-32}
-harvey_steps=${HARVEY_STEPS:-6000} harvey_batch=${HARVEY_BATCH:-32}
+harvey_steps=${HARVEY_STEPS:-1500} harvey_batch=${HARVEY_BATCH:-32}
 
 train() {  # train NAME STEPS OPTION...
   local folder=$run/$1 name=$1 steps=$2
@@ -58,6 +63,7 @@ train() {  # train NAME STEPS OPTION...
 both=(--data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --shortest 10 --longest 90)
 dancedb=(--data "$run/data/dancedb" --splits "$run/random_splits.json")
 flow() {  # flow NAME STEPS OPTION...
+  prepare_tang61
   train "$1" "$2" --preset paper-f "${both[@]}" --batch "$f_batch" --rollout-from $(($2 * 2 / 3)) --device "${DEVICE:-cpu}" "${@:3}"
 }
 controllers() {  # controllers NAME STEPS OPTION...
@@ -85,7 +91,10 @@ one() {
     c-one-decoder) controllers "$1" "$c" --one-decoder ;;
     c-no-velocity-factors) controllers "$1" "$c" --no-velocity-factors ;;
     c-no-key-loss) controllers "$1" "$c" --no-key-loss ;;
-    harvey) train harvey "$harvey_steps" --preset harvey "${both[@]}" --batch "$harvey_batch" ;;
+    harvey)
+      prepare_tang61
+      train harvey "$harvey_steps" --preset harvey "${both[@]}" --batch "$harvey_batch"
+      ;;
     c-harvey) train c-harvey "$harvey_steps" --preset harvey "${dancedb[@]}" --shortest 10 --longest 90 --batch "$harvey_batch" ;;
     *) echo "train_papers.sh: there is no network '$1'; see the head of this file" >&2; exit 2 ;;
   esac
@@ -126,7 +135,8 @@ evaluate() {
 }
 
 study() {
-  prepare
+  prepare_dancedb
+  prepare_tang61
   local name networks=()
   for name in paper-f paper-c; do
     if [[ -f $run/$name/finished ]]; then
@@ -145,15 +155,18 @@ names=("$@")
 ((${#names[@]})) || names=(paper-f paper-c)
 [[ ${names[*]} != all ]] || names=("${all[@]}")
 case $task in
-  prepare) prepare ;;
+  prepare)
+    prepare_dancedb
+    prepare_tang61
+    ;;
   train)
-    prepare
+    prepare_dancedb
     for name in "${names[@]}"; do one "$name"; done
     ;;
   eval) evaluate ;;
   study) study ;;
   everything)
-    prepare
+    prepare_dancedb
     for name in "${names[@]}"; do one "$name"; done
     evaluate
     ;;
