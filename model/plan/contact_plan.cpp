@@ -114,9 +114,12 @@ class FootPlanner {
   }
   double AirCost(int from, int to) const {
     if (IsLast(to) && foot_.end == FootTrack::End::kStands) return kNever;
-    const int fewest = from == 0 && !foot_.stood ? first_step_
-                       : IsLast(to)              ? last_step_
-                                                 : shortest_step_;
+    int fewest = shortest_step_;
+    if (from > 0 || foot_.stood) {
+      if (IsLast(to)) fewest = last_step_;
+    } else {
+      fewest = IsLast(to) ? 1 : first_step_;  // a foot that stays up does not fall
+    }
     const Eigen::Vector4d sum = support_.Of(from, to);
     return sum[1] + sum[2] + kNever * std::max(0, fewest - (to - from + 1));
   }

@@ -108,6 +108,25 @@ TEST(PlanContacts, AFootInTheAirLandsNoSoonerThanItFalls) {
   EXPECT_EQ(stances[0][0].from, 8);  // sqrt(2 0.3 / 9.81) s
 }
 
+// A pose on one leg that is held has keys nearer to each other than the time of a fall.
+TEST(PlanContacts, AFootThatStaysUpDoesNotFall) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) {
+    foot.toes.resize(6);
+    foot.heights.resize(6);
+    foot.unbalanced.resize(6);
+    foot.end = FootTrack::End::kStands;
+  }
+  Lift(&feet[0], 0, 6, 1);
+  feet[0].stood = false;
+  feet[0].height_before = 1;
+  feet[0].end = FootTrack::End::kInAir;
+  const auto stances = PlanContacts(feet, kFps, {});
+  EXPECT_TRUE(stances[0].empty());
+  ASSERT_EQ(stances[1].size(), 1U);
+  EXPECT_EQ(stances[1][0].to, 5);
+}
+
 TEST(PlanContacts, WhereTheSceneLiesChangesNothing) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   for (size_t i = 0; i < kFrames; ++i) feet[0].toes[i].z() += 0.015 * static_cast<double>(i);
