@@ -93,7 +93,9 @@ class PelvisSolver {
           problem.Add({{3 * frame + axis, 1}}, 0, 1 / Square(rules_.options.offset));
         AddReach(frame, &problem);
         if (Leaps(frame)) AddFall(frame, &problem);
-        if (!Flies(frame)) frame + 1 < count_ ? AddBalance(frame, &problem) : AddCapture(&problem);
+        if (Flies(frame)) continue;
+        AddBalance(frame, 0, &problem);
+        frame + 1 < count_ ? AddBalance(frame, Lever(frame), &problem) : AddCapture(&problem);
       }
       offset_.leftCols(moved_) = problem.Solve().reshaped(3, moved_);
     }
@@ -152,26 +154,30 @@ class PelvisSolver {
                  kFirm / Square(rules_.options.acceleration * step_));
   }
 
-  // The zero moment point c - h c'' / (c''_y + g) moves with the body and against its acceleration;
-  // its target is the nearest point at the feet.
-  void AddBalance(int frame, LeastSquares* problem) const {
-    if (rules_.heights_alone) return;
-    const auto step = [&](int axis) {
-      return Offset(frame + 1, axis) - 2 * Offset(frame, axis) + Offset(frame - 1, axis);
-    };
-    const Eigen::Vector3d planned = PlannedStep(frame) / step_;
+  // The acceleration of the offset, per frame squared.
+  double OffsetStep(int frame, int axis) const {
+    return Offset(frame + 1, axis) - 2 * Offset(frame, axis) + Offset(frame - 1, axis);
+  }
+  // h / (c''_y + g) of the zero moment point c - h c'' / (c''_y + g), frames squared.
+  double Lever(int frame) const {
     const double height = Planned(frame).y() + Offset(frame, 1);
-    const double weight = std::max(kLightest * kGravity, kGravity + planned.y() + step(1) / step_);
-    const double lever = height / weight / step_;
+    const double rise = (PlannedStep(frame).y() + OffsetStep(frame, 1)) / step_;
+    return height / std::max(kLightest * kGravity, kGravity + rise) / step_;
+  }
+
+  // The centre of mass (lever 0) and the zero moment point move with the body, the latter against
+  // its acceleration; their target is the nearest point at the feet.
+  void AddBalance(int frame, double lever, LeastSquares* problem) const {
+    if (rules_.heights_alone) return;
     Eigen::Vector2d point;
     for (const int axis : {0, 2}) {
-      point[axis / 2] =
-          Planned(frame)[axis] + Offset(frame, axis) - lever * (planned[axis] * step_ + step(axis));
+      const double step = lever == 0 ? 0 : PlannedStep(frame)[axis] + OffsetStep(frame, axis);
+      point[axis / 2] = Planned(frame)[axis] + Offset(frame, axis) - lever * step;
     }
     const Eigen::Vector2d to = NearestInHull(point, At(frame).support) - point;
     const double share = to.norm() > rules_.options.sole ? 1 - rules_.options.sole / to.norm() : 0;
     for (const int axis : {0, 2}) {
-      const double now = Offset(frame, axis) - lever * step(axis);
+      const double now = Offset(frame, axis) - lever * OffsetStep(frame, axis);
       problem->Add({Term(frame - 1, axis, -lever), Term(frame, axis, 1 + 2 * lever),
                     Term(frame + 1, axis, -lever)},
                    now + share * to[axis / 2], 1 / Square(rules_.options.balance));

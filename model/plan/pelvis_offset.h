@@ -34,8 +34,8 @@ struct PelvisRules {
 };
 
 /// The pelvis's offset from the plan in each frame, [3, frames], metres: the least acceleration and
-/// distance (squares) with which legs reach their feet, the zero moment point stays at the feet,
-/// and leaps (from floor to floor within the plan) fall with 9.81 m/s². `centre_before`: the plan's
+/// distance (squares) with which legs reach their feet, the centre of mass and the zero moment point
+/// stay at the feet, and leaps (from floor to floor within the plan) fall with 9.81 m/s². `centre_before`: the plan's
 /// centre of mass in the frame before the first. Hulls and legs are not linear, so a few rounds
 /// start from their nearest points again; the remaining error never grows. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "model/motion/support.h"
+
 namespace choreo::pelvis_offset_test {
 
 constexpr double kFps = 30, kHeight = 1;
@@ -27,6 +31,19 @@ TEST(PelvisOffset, WhoseFeetAreBesideGoesThere) {
   EXPECT_NEAR(offset.row(2).norm(), 0, 1e-9);
   // The first frame continues the one before, in which nothing was moved.
   EXPECT_LT(offset.col(0).norm(), 0.02);
+}
+
+// An inverted pendulum that topples has its zero moment point at its feet all the way.
+TEST(PelvisOffset, WhoTopplesIsHeld) {
+  std::vector<SupportFrame> frames = Still(0);
+  const auto beside = [](int frame) {
+    return 0.01 * std::cosh(std::sqrt(kGravity / kHeight) * frame / kFps);
+  };
+  for (int i = 0; i < kFrames; ++i) frames[static_cast<size_t>(i)].centre.x() = beside(i);
+  ASSERT_GT(beside(45), 0.4);
+  const Eigen::Matrix3Xd offset =
+      PelvisOffset(frames, {beside(-1), kHeight, 0}, {.returns = true, .fps = kFps});
+  EXPECT_LT(offset(0, 45), -0.1);
 }
 
 TEST(PelvisOffset, LegsThatAreTooShortDrawItDown) {
