@@ -23,8 +23,10 @@ namespace {
 using client::KeyPose;
 using nlohmann::json;
 
-constexpr double kHoldStep = 0.1;    // seconds between the keys that hold a pose
-constexpr double kLongestHold = 60;  // seconds
+// Seconds between the keys that hold a pose, at least: between nearer ones arms and legs tremble,
+// between farther ones they wander.
+constexpr double kHoldStep = 0.2;
+constexpr double kShortestHold = 0.1, kLongestHold = 60;  // seconds
 constexpr const char* kHold = ".hold";
 constexpr size_t kMostNamed = 8;  // keys that a message names
 
@@ -133,12 +135,12 @@ void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose
 }  // namespace
 
 std::vector<KeyPose> Holding(const KeyPose& key, double seconds, const std::string& field) {
-  if (!(seconds >= kHoldStep && seconds <= kLongestHold)) {
+  if (!(seconds >= kShortestHold && seconds <= kLongestHold)) {
     std::ostringstream message;
-    message << seconds << " s, must be " << kHoldStep << " to " << kLongestHold;
+    message << seconds << " s, must be " << kShortestHold << " to " << kLongestHold;
     throw InvalidArgument(field, message.str());
   }
-  const auto steps = static_cast<int>(std::floor(seconds / kHoldStep + 1e-9));
+  const int steps = std::max(1, static_cast<int>(std::floor(seconds / kHoldStep + 1e-9)));
   std::vector<KeyPose> holding(static_cast<size_t>(steps), key);
   for (int step = 1; step <= steps; ++step) {
     KeyPose& held = holding[static_cast<size_t>(step) - 1];

@@ -107,9 +107,9 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, testing::Not(HasSubstr("warning: frame 0")));
   const nlohmann::json report = ReadJson(folder_ / "r.json");
-  EXPECT_EQ(report["keyframes"].size(), 13U);  // of which five hold one
+  EXPECT_EQ(report["keyframes"].size(), 10U);  // of which two hold one
   const auto is_held = [](const auto& key) { return key.value("holds", "") == "strong"; };
-  EXPECT_EQ(std::ranges::count_if(report["keyframes"], is_held), 5);
+  EXPECT_EQ(std::ranges::count_if(report["keyframes"], is_held), 2);
   EXPECT_THAT(outcome.said, HasSubstr("8 key poses, each hit"));
   EXPECT_THAT(outcome.said, HasSubstr("before they were corrected, poses were"));
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];

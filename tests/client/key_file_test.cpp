@@ -313,7 +313,7 @@ TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
 TEST(KeyFileTest, TakesOneKeyOfAFile) {
   const TemporaryFolder folder;
   const std::string path = (folder / "keys.json").string();
-  std::ofstream(path) << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 0.2},
+  std::ofstream(path) << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 0.4},
     {"id": "walk@1.2", "time": 3, "pose": "kick"}]})";
   std::vector<std::string> places;
   const auto held = ReadKeys(path + "@a", Body(), &places);
