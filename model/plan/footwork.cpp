@@ -47,6 +47,7 @@ class PlanStander {
     centres_ = Centres();
     const std::array<FootTrack, 2> feet = {Track(0), Track(1)};
     stances_ = PlanContacts(feet, context_.fps, context_.options);
+    if (context_.has_path) StepUnder();
     for (size_t side = 0; side < 2; ++side) {
       toes_[side] =
           ToesPath(feet[side], stances_[side], toes_rest_[side], context_.keyed, context_.fps);
@@ -132,6 +133,41 @@ class PlanStander {
       track.end = low ? FootTrack::End::kStands : FootTrack::End::kInAir;
     }
     return track;
+  }
+
+  // The way from the feet that stand in a frame to the centre of mass, without the sole.
+  Eigen::Vector2d Beyond(int frame) const {
+    std::vector<Eigen::Vector2d> hull;
+    for (size_t side = 0; side < 2; ++side) {
+      const Stance* stance = StanceAt(stances_[side], frame);
+      if (stance == nullptr) continue;
+      const Eigen::Matrix3Xd& at = planned_[static_cast<size_t>(frame)].positions;
+      const Eigen::Vector3d ankle =
+          stance->place + at.col(legs_[side].ankle) - at.col(legs_[side].toes);
+      hull.emplace_back(stance->place.x(), stance->place.z());
+      hull.emplace_back(ankle.x(), ankle.z());
+    }
+    const Eigen::Vector3d& centre = centres_[static_cast<size_t>(frame) + 1];
+    const Eigen::Vector2d point(centre.x(), centre.z());
+    const Eigen::Vector2d way = point - NearestInHull(point, hull);
+    const double sole = context_.options.sole;
+    return way.norm() > sole ? way * (1 - sole / way.norm()) : Eigen::Vector2d(0, 0);
+  }
+
+  // On a path the pelvis cannot sway to the feet, so the feet go to the body: each stance, but
+  // those of history and key, moves by the mean of these ways.
+  void StepUnder() {
+    for (size_t side = 0; side < 2; ++side) {
+      for (Stance& stance : stances_[side]) {
+        const bool kept = stance.from == 0 || (context_.keyed && stance.to == frames_ - 1);
+        if (kept) continue;
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        for (int frame = stance.from; frame <= stance.to; ++frame) sum += Beyond(frame);
+        sum /= stance.to - stance.from + 1;
+        stance.place.x() += sum.x();
+        stance.place.z() += sum.y();
+      }
+    }
   }
 
   // How much a foot supports in a frame, 0 to 1: it changes within kSettleSeconds, starting from

@@ -30,9 +30,10 @@ struct Footwork {
 };
 
 /// Puts a plan on its feet. Plans for all frames at once which foot stands where (contact_plan.h);
-/// moves toes between stances (toes_path.h); moves the pelvis so that legs reach and the body is
-/// balanced (pelvis_offset.h); legs follow by inverse kinematics. Leaves skeletons without legs or
-/// with unknown masses (motion/body_mass.h) unchanged. Pure, thread-safe.
+/// steps to where the body needs support on a path; moves toes between stances (toes_path.h); moves
+/// the pelvis so that legs reach and the body is balanced (pelvis_offset.h); legs follow by inverse
+/// kinematics. Leaves skeletons without legs or with unknown masses (motion/body_mass.h) unchanged.
+/// Pure, thread-safe.
 Footwork StandOnFeet(const FootworkContext& context, std::vector<Pose>* plan);
 
 }  // namespace choreo

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "model/core/random.h"
+#include "model/motion/body_mass.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/limb.h"
@@ -134,6 +135,29 @@ TEST(StandOnFeet, APathKeepsItsPlaceOnTheFloor) {
     EXPECT_EQ(plan[i].root_position.x(), proposed[i].root_position.x());
     EXPECT_EQ(plan[i].root_position.z(), proposed[i].root_position.z());
   }
+}
+
+// Bowing, the body is far ahead of its feet, and a path does not let it back.
+TEST(StandOnFeet, OnAPathFeetStepUnderTheBody) {
+  std::vector<Pose> plan = Glide(0.01);
+  for (Pose& pose : plan) {
+    for (const char* joint : {"spine1", "spine2", "spine3"})
+      pose.rotations.col(Body().Find(joint)).x() = 0.5;
+  }
+  FootworkContext context = Context();
+  context.has_path = true;
+  const Footwork footwork = StandOnFeet(context, &plan);
+  const Eigen::VectorXd masses = MassWeights(Body());
+  double beyond = 0;
+  for (size_t i = 20; i < 50; ++i) {
+    const Eigen::Matrix3Xd at = JointPositions(Body(), plan[i]);
+    double ahead = -INFINITY;
+    for (const size_t toes : {1, 3}) {
+      if (footwork.contacts[i][toes] > 0) ahead = std::max(ahead, at(2, Body().feet[toes]));
+    }
+    beyond += std::max(0.0, (at * masses).z() - ahead) / 30;
+  }
+  EXPECT_LT(beyond, 0.1);
 }
 
 TEST(StandOnFeet, TurningTheSceneTurnsTheDance) {
