@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "model/core/random.h"
 #include "model/core/safetensors.h"
@@ -43,14 +44,14 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
   const PackedKernels& kernels = *PackedKernelsHere().front();
   const auto flow = std::make_shared<PackedFlow>(model, config, skeleton, kernels, kernels);
   const int width = flow->width;
-  PackedTile tile(flow, kRows);
+  std::vector<PackedStepper> steppers;
   Random random(11);
   Safetensors probe;
   NamedTensor& condition = probe.tensors["static_condition"] =
       Normal(&random, {kRows, kFrames, flow->key_width}, 0.5F);
   for (int row = 0; row < kRows; ++row) {
-    tile.Begin(row, Eigen::Map<const Eigen::MatrixXf>(Row(condition, row).data(), flow->key_width,
-                                                      kFrames));
+    steppers.emplace_back(flow).Begin(
+        Eigen::Map<const Eigen::MatrixXf>(Row(condition, row).data(), flow->key_width, kFrames));
   }
   for (int frame = 0; frame < kFrames; ++frame) {
     const std::string number = "." + std::to_string(frame);
@@ -64,23 +65,20 @@ void WriteFlowProbe(const std::filesystem::path& checkpoint, const std::filesyst
     NamedTensor& noise = add("noise", Zeros({kRows, width}));
     NamedTensor& features = add("features", Zeros({kRows, width}));
     NamedTensor& log_likelihood = add("log_likelihood", Zeros({kRows}));
-    std::vector<FlowRow> rows(kRows);
     for (int row = 0; row < kRows; ++row) {
       has_audio.data[static_cast<size_t>(row)] = row == 1 ? 0.0F : 1.0F;
       const FrameNoise drawn = {
           .seed = 11, .frame = frame, .candidate = static_cast<uint32_t>(row), .spread = 0.5F};
       drawn.Fill(Row(noise, row));
-      rows[static_cast<size_t>(row)] = {.slot = row,
-                                        .frame = frame,
-                                        .past = Row(past, row),
-                                        .audio = Row(audio, row),
-                                        .has_audio = row != 1,
-                                        .noise = drawn,
-                                        .features = Row(features, row)};
+      FlowFrame made = {.frame = frame,
+                        .past = Row(past, row),
+                        .audio = Row(audio, row),
+                        .has_audio = row != 1,
+                        .noise = drawn,
+                        .features = Row(features, row)};
+      steppers[static_cast<size_t>(row)].Step(&made);
+      log_likelihood.data[static_cast<size_t>(row)] = made.log_likelihood.value();
     }
-    tile.Run(rows);
-    for (size_t row = 0; row < kRows; ++row)
-      log_likelihood.data[row] = rows[row].log_likelihood.value();
   }
   WriteSafetensors(out, probe);
 }

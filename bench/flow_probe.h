@@ -4,7 +4,7 @@
 
 namespace choreo {
 
-/// Steps a checkpoint's packed flow a few frames, several rows together, on random inputs, and
+/// Makes a few frames of several transitions with a checkpoint's packed flow, on random inputs, and
 /// writes inputs and outputs as safetensors for checking other implementations
 /// (bench/peer_torch.py). Names: static_condition [rows, frames, static width]; and for each frame
 /// past.N [rows, tau, width], audio.N [rows, tau + 1, audio features], has_audio.N [rows], noise.N,

@@ -14,19 +14,19 @@
 namespace choreo {
 namespace {
 
-/// What the flow sees of a transition: the features of the last tau frames as arrival has steered
-/// them, and the last tau + 1 music rows. Per frame: Advance, FillRow, Finish; nothing allocates
-/// there.
+/// The flow's inputs from a transition: the features of the last tau frames as arrival has steered
+/// them, and the last tau + 1 music rows. Call Advance, Fill and Finish for each frame; they
+/// allocate nothing.
 class TransitionWindow {
  public:
   TransitionWindow(const ModelInfo& model, const TransitionSpec& spec);
 
-  /// Moves the windows on to the next frame, behind what was danced before it (null: nothing).
+  /// Moves on to the next frame. `previous`: the frame danced before it; null for the first.
   void Advance(const Pose* previous);
-  /// What the frame is made of. It looks into this window, until the next Advance.
-  void FillRow(FlowRow* row) const;
-  /// What the model made of that row.
-  const PoseCodec::Decoded& Finish(const FlowRow& row);
+  /// The inputs of the frame; they point into this window and are valid until the next Advance.
+  void Fill(FlowFrame* frame) const;
+  /// The frame as the model has made it.
+  const PoseCodec::Decoded& Finish(const FlowFrame& frame);
 
  private:
   Eigen::Map<Eigen::VectorXf> PastRow(int row) {
@@ -41,9 +41,9 @@ class TransitionWindow {
   Eigen::MatrixXf audio_rows_;
 
   int frame_ = 0;
-  FrameNoise noise_;           // of the frame
+  FrameNoise noise_;           // the frame's
   std::vector<int64_t> like_;  // TransitionSpec::noise_like
-  Pose last_;                  // danced before it
+  Pose last_;                  // the previous frame
   JointPlacement last_placement_;
   ContactDetector contacts_;
 
@@ -72,7 +72,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
   for (const Pose& pose : spec.history)
     placements.push_back(ForwardKinematics(model.skeleton, pose));
   for (int t = 0; t < tau; ++t) {
-    // The first frame takes its speed from the step that follows it.
+    // The first frame takes its speed from the next step.
     const auto before = static_cast<size_t>(std::max(0, t - 1));
     const auto now = static_cast<size_t>(t == 0 ? std::min(1, tau - 1) : t);
     contacts_.Next(placements[before].positions, placements[now].positions, model.fps);
@@ -99,23 +99,23 @@ void TransitionWindow::Advance(const Pose* previous) {
   }
   if (hears_) {
     const int row = model_->audio_features;
-    // The last row was left free for frame 0's.
+    // Before frame 0 the last row is still free.
     if (frame_ > 0) std::copy(audio_.begin() + row, audio_.end(), audio_.begin());
     std::copy_n(audio_rows_.col(frame_).data(), row, audio_.end() - row);
   }
 }
 
-void TransitionWindow::FillRow(FlowRow* row) const {
-  row->frame = frame_;
-  row->past = past_;
-  row->audio = audio_;
-  row->has_audio = hears_;
-  row->noise = noise_;
-  row->noise.like = like_.empty() ? noise_.frame : like_[static_cast<size_t>(frame_)];
+void TransitionWindow::Fill(FlowFrame* frame) const {
+  frame->frame = frame_;
+  frame->past = past_;
+  frame->audio = audio_;
+  frame->has_audio = hears_;
+  frame->noise = noise_;
+  frame->noise.like = like_.empty() ? noise_.frame : like_[static_cast<size_t>(frame_)];
 }
 
-const PoseCodec::Decoded& TransitionWindow::Finish(const FlowRow& row) {
-  codec_.Decode(Eigen::Map<const Eigen::VectorXf>(row.features.data(), codec_.width()), decoded_);
+const PoseCodec::Decoded& TransitionWindow::Finish(const FlowFrame& frame) {
+  codec_.Decode(Eigen::Map<const Eigen::VectorXf>(frame.features.data(), codec_.width()), decoded_);
   ++frame_;
   ++noise_.frame;
   return decoded_;
@@ -124,17 +124,17 @@ const PoseCodec::Decoded& TransitionWindow::Finish(const FlowRow& row) {
 class FlowSampling : public Sampling {
  public:
   FlowSampling(const ModelInfo& model, const FlowConfig& config, const TransitionSpec& spec,
-               std::unique_ptr<FlowTile> tile)
+               std::unique_ptr<FlowStepper> stepper)
       : window_(model, spec),
         arrival_(spec.arrival),
         frames_(static_cast<size_t>(spec.frames)),
-        tile_(std::move(tile)),
+        stepper_(std::move(stepper)),
         features_(static_cast<size_t>(PoseCodec(model.skeleton).width())) {
     const PoseCodec codec(model.skeleton);
-    tile_->Begin(0, KeyConditions(config, codec.joints(), codec.width(), spec.frames,
+    stepper_->Begin(KeyConditions(config, codec.joints(), codec.width(), spec.frames,
                                   spec.target ? &spec.target->pose : nullptr,
                                   spec.target ? spec.target->mask : PoseMask{}));
-    row_.features = features_;
+    frame_.features = features_;
     plan_.poses.reserve(frames_);
     plan_.contacts.reserve(frames_);
     plan_.log_likelihoods.reserve(frames_);
@@ -142,13 +142,13 @@ class FlowSampling : public Sampling {
 
   bool Continue() override {
     window_.Advance(plan_.poses.empty() ? nullptr : &steered_);
-    window_.FillRow(&row_);
-    tile_->Run({&row_, 1});
-    const PoseCodec::Decoded& drawn = window_.Finish(row_);
+    window_.Fill(&frame_);
+    stepper_->Step(&frame_);
+    const PoseCodec::Decoded& drawn = window_.Finish(frame_);
     Contacts& contacts = plan_.contacts.emplace_back();
     for (size_t foot = 0; foot < contacts.size(); ++foot)
       contacts[foot] = std::clamp(drawn.contacts[foot], 0.0F, 1.0F);
-    if (row_.log_likelihood) plan_.log_likelihoods.push_back(*row_.log_likelihood);
+    if (frame_.log_likelihood) plan_.log_likelihoods.push_back(*frame_.log_likelihood);
     plan_.poses.push_back(drawn.pose);
     steered_ = arrival_ ? arrival_->Apply(drawn.pose) : drawn.pose;
     return plan_.poses.size() < frames_;
@@ -158,22 +158,22 @@ class FlowSampling : public Sampling {
   TransitionWindow window_;
   std::optional<Arrival> arrival_;
   size_t frames_;
-  std::unique_ptr<FlowTile> tile_;
+  std::unique_ptr<FlowStepper> stepper_;
   std::vector<float> features_;  // of the frame
-  FlowRow row_;
-  Pose steered_;  // the frame before
+  FlowFrame frame_;
+  Pose steered_;  // the previous frame
 };
 
 }  // namespace
 
 AutoregressiveFlowSampler::AutoregressiveFlowSampler(ModelInfo info, FlowConfig config,
-                                                     std::string device, MakeTile make_tile)
+                                                     std::string device, MakeStepper make_stepper)
     : Sampler(std::move(info), std::move(device)),
       config_(std::move(config)),
-      make_tile_(std::move(make_tile)) {}
+      make_stepper_(std::move(make_stepper)) {}
 
 std::unique_ptr<Sampling> AutoregressiveFlowSampler::BeginValid(const TransitionSpec& spec) {
-  return std::make_unique<FlowSampling>(model_, config_, spec, make_tile_());
+  return std::make_unique<FlowSampling>(model_, config_, spec, make_stepper_());
 }
 
 }  // namespace choreo

@@ -17,11 +17,11 @@ namespace {
 
 using torch::Tensor;
 
-// Positions leave open how arms are turned about themselves; so many frames ahead of a key that
-// goes the key's way, or arrival would have it all to do.
+// Positions do not determine how arms are twisted. From this long before a key the twist follows
+// the key's; otherwise arrival would have to do it all.
 constexpr double kTurnSeconds = 1;
-// How much of its last turn a joint is expected to go on with. Expected to rest, it lags behind
-// what the network draws; to go on with most of it, elbows swing too far.
+// The share of its last turn with which a joint is expected to continue. With 0 it lags behind the
+// network's output; with nearly 1 elbows overshoot.
 constexpr double kCarry = 0.3;
 
 Tensor RowsOf(Eigen::MatrixXf columns) {  // [features, N] -> [1, N, features]
@@ -35,9 +35,10 @@ FrameTensors ToTensors(const FacingPose& pose, const Contacts& contacts) {
           RowsOf(Eigen::Map<const Eigen::Vector4f>(contacts.data()))};
 }
 
-// Hands hardly move on the wrists of those who are recorded, and what a network draws of so short a
-// bone would break them: they are as bent as the keys have them. It is off by centimetres, and no
-// body can be where it draws all joints, so joints keep their usual ways rather than its places.
+// Leaves out hands: in the recordings they hardly move, and the network's output for so short a
+// bone would break wrists, so they keep the keys' bend. No body fits all of the network's
+// positions, which are off by centimetres, so joints prefer their usual rotations to its exact
+// places.
 SourceMapping DrawnPositions(const Skeleton& skeleton) {
   SourceMapping mapping = IdentitySource(skeleton, /*hands=*/0);
   mapping.accuracy_m = 0.02;
@@ -47,7 +48,7 @@ SourceMapping DrawnPositions(const Skeleton& skeleton) {
 constexpr FitOptions kFitOptions = {
     .hinge_side_rad = 0.15, .hinge_limit_rad = 0.1, .recover = false};
 
-/// A transition that the network walks.
+/// Makes a transition frame by frame.
 class Walk : public Sampling {
  public:
   Walk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec);
@@ -61,7 +62,7 @@ class Walk : public Sampling {
   ControlledGiven given_;
   ControllersState state_;
   FrameTensors walked_;  // the lead frames before the next
-  Pose before_, last_;   // the two danced before it
+  Pose before_, last_;   // the two frames danced before it
   std::optional<Pose> target_;
   PositionFitter fitter_;
 };
@@ -85,7 +86,7 @@ Walk::Walk(const ModelInfo& model, ControllersModel network, const TransitionSpe
   const Pose& last = spec.history.back();
   Pose target = last;
   if (spec.target) {
-    // A joint that the key leaves open stays as it is on the way; arrival leaves it open too.
+    // A joint that the key leaves open keeps its rotation; arrival leaves it open, too.
     target = Masked(spec.target->pose, {.root_position = false, .joints = spec.target->mask.joints},
                     last);
   }
@@ -114,8 +115,7 @@ bool Walk::Continue() {
       Eigen::Map<const Eigen::Matrix3Xf>(relative.data_ptr<float>(), 3, relative.size(2))
           .cast<double>();
   positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
-  // Bones that the network draws too long or too short are the fit's to mend: setting each to its
-  // length first would move hands and feet.
+  // The fit corrects bones of wrong length; correcting each before would move hands and feet.
   fitter_.Reset(InterpolatePoses(before_, last_, 1 + kCarry));
   std::optional<Pose> after;
   const int left = frames_ - frame;

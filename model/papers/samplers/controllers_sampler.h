@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// The controllers network (model/papers/networks): a slice is a frame. It is deterministic: seed,
-/// candidate and temperature change nothing, and it hears no music. Made by paper_samplers.h.
+/// The controllers network (model/papers/networks): a slice is a frame. Deterministic: seed,
+/// candidate and temperature change nothing. Hears no music. Made by paper_samplers.h.
 class ControllersSampler : public Sampler {
  public:
   ControllersSampler(ModelInfo info, ControllersModel network);

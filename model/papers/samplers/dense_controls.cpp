@@ -6,8 +6,9 @@
 namespace choreo {
 namespace {
 
-constexpr int kVelocityFrames = 3;  // of history, over which the root's velocity is taken
-constexpr double kStopFrames = 8;   // in which a root without a target loses most of its velocity
+constexpr int kVelocityFrames = 3;  // of history from which the root's velocity is taken
+constexpr double kStopFrames =
+    8;  // after which a root without a target has lost most of its velocity
 
 Eigen::Vector3d RootVelocity(const std::vector<Pose>& history) {
   const auto back = std::min<size_t>(kVelocityFrames, history.size() - 1);
@@ -33,7 +34,7 @@ Eigen::Matrix3Xd SmoothPath(const TransitionSpec& spec) {
   for (int t = 0; t < spec.frames; ++t) {
     Eigen::Vector3d coast = velocity * kStopFrames * (1 - std::exp(-(t + 1) / kStopFrames));
     coast.y() = 0;
-    // Cubic Hermite; it arrives with the mean velocity of the whole way.
+    // Cubic Hermite; arrives with the mean velocity of the way.
     const double u = (t + 1) / frames, v = 1 - u;
     const Eigen::Vector3d mean = end - from;
     const Eigen::Vector3d way =

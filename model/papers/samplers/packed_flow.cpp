@@ -16,7 +16,7 @@ namespace {
 
 using Matrix = RowMajorMatrix;
 
-// One product of what two maps of LibTorch's, [out, in], make of inputs that lie side by side.
+// Two of LibTorch's linear maps, [out, in], as one map of their concatenated inputs.
 Matrix Stacked(const Eigen::Map<const Matrix>& left, const Eigen::Map<const Matrix>& right) {
   Matrix weight(left.cols() + right.cols(), left.rows());
   weight << left.transpose(), right.transpose();
@@ -41,7 +41,7 @@ PackedLinear Unmix(const PackedKernels& kernels, const PackedTensors& tensors,
           -tensors.Get(name + "norm_bias", width)};
 }
 
-// How much likelier a frame becomes where outliers are bent: 2 log cosh of what is beyond the
+// The gain in log-likelihood from bending outliers: the sum of 2 log cosh of the excess over the
 // bound.
 float BendSurprise(std::span<const float> x) {
   double sum = 0;
@@ -68,7 +68,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
       key_width(KeyConditionWidth(config, skeleton.joints(), width)),
       static_width(encoded ? encoding + (aimed > 0 ? 2 * aimed + 1 : 0) : key_width) {
   if (config.innovations && !encoded)
-    throw InvalidArgument("condition_width", "0, but innovations want a shared encoding");
+    throw InvalidArgument("condition_width", "0, but innovations need a shared encoding");
   const PackedTensors tensors(content);
   feature_mean = tensors.Get("feature_mean", width);
   feature_std = tensors.Get("feature_std", width);
@@ -102,7 +102,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
              tensors.Get(lstm + "bias_hh_" + layer, gates);
     };
     Coupling& coupling = couplings.emplace_back();
-    // In checkpoints z_lo comes first, then what of the condition is live, then what is static.
+    // In checkpoints z_lo comes first, then the live part of the condition, then the static one.
     const int fixed = encoded ? 0 : static_width;
     const auto seen = tensors.Get(lstm + "weight_ih_l0", gates, low() + condition + fixed);
     Matrix weight(input_width(), gates);
@@ -131,28 +131,26 @@ Eigen::MatrixXf PackedFlow::WithAims(const Eigen::MatrixXf& encodings,
   all.topRows(encoding) = encodings.topRows(encoding);
   for (int i = 0; i < aimed; ++i) {
     all.row(encoding + i) = (conditions.row(i).array() - feature_mean[i]) * feature_scale[i];
-    // Told joint by joint, the root's place last.
+    // The mask has one row per joint, then one for the root's position.
     all.row(encoding + aimed + i) = conditions.row(aimed + (i < 3 ? joints : i / 3 - 1));
   }
   all.bottomRows(1) = conditions.bottomRows(1);
   return all;
 }
 
-PackedTile::PackedTile(std::shared_ptr<const PackedFlow> flow, int slots)
-    : flow_(std::move(flow)), slots_(static_cast<size_t>(slots)) {
+PackedStepper::PackedStepper(std::shared_ptr<const PackedFlow> flow) : flow_(std::move(flow)) {
   const PackedFlow::Coupling& coupling = flow_->couplings.front();
-  live_.Resize(slots, std::max<long>(flow_->live, flow_->encode.padded()));
-  encoding_.Resize(slots, flow_->encode.padded());
-  input_.Resize(slots, flow_->input_width());
-  wide_.Resize(slots, coupling.first.padded());
-  hidden_.Resize(slots, 2 * flow_->config.hidden);
-  ab_.Resize(slots, coupling.last.padded());
-  z_.Resize(slots, coupling.unmix.padded());
-  mixed_.Resize(slots, coupling.unmix.padded());
+  live_.Resize(1, std::max<long>(flow_->live, flow_->encode.padded()));
+  encoding_.Resize(1, flow_->encode.padded());
+  input_.Resize(1, flow_->input_width());
+  wide_.Resize(1, coupling.first.padded());
+  hidden_.Resize(1, 2 * flow_->config.hidden);
+  ab_.Resize(1, coupling.last.padded());
+  z_.Resize(1, coupling.unmix.padded());
+  mixed_.Resize(1, coupling.unmix.padded());
 }
 
-void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {
-  Slot& slot = slots_[static_cast<size_t>(slot_index)];
+void PackedStepper::Begin(Eigen::MatrixXf conditions) {
   const PackedFlow& flow = *flow_;
   if (flow.encoded) {
     Eigen::MatrixXf encoded(flow.encode_static.padded(), conditions.cols());
@@ -164,129 +162,98 @@ void PackedTile::Begin(int slot_index, Eigen::MatrixXf conditions) {
       conditions = encoded.topRows(flow.encoding);
     }
   }
-  slot.static_condition.assign(conditions.data(), conditions.data() + conditions.size());
-  slot.state.assign(static_cast<size_t>(flow.state_width()), 0.0F);
-  if (!flow.encoded) Hoist(&slot, 0);
+  static_condition_.assign(conditions.data(), conditions.data() + conditions.size());
+  state_.assign(static_cast<size_t>(flow.state_width()), 0.0F);
+  if (!flow.encoded) Hoist(0);
 }
 
-void PackedTile::Hoist(Slot* slot, long frame) {
+void PackedStepper::Hoist(long frame) {
   const long static_width = flow_->static_width, hoisted_width = flow_->hoisted_width();
-  const long frames = static_cast<long>(slot->static_condition.size()) / static_width;
+  const long frames = static_cast<long>(static_condition_.size()) / static_width;
   const long ahead = std::min(kAhead, frames - frame);
-  slot->hoisted_from = frame;
-  slot->hoisted.resize(static_cast<size_t>(ahead * hoisted_width));
-  float* out = slot->hoisted.data();
+  hoisted_from_ = frame;
+  hoisted_.resize(static_cast<size_t>(ahead * hoisted_width));
+  float* out = hoisted_.data();
   for (const PackedFlow::Coupling& coupling : flow_->couplings) {
-    coupling.hoisted.Run(slot->static_condition.data() + frame * static_width, static_width, out,
+    coupling.hoisted.Run(static_condition_.data() + frame * static_width, static_width, out,
                          hoisted_width, ahead);
     out += coupling.hoisted.padded();
   }
 }
 
-// Writes `input_`'s condition columns. `z_` holds the noise.
-void PackedTile::Condition(std::span<const FlowRow> rows) {
+// Writes `input_`'s condition columns.
+void PackedStepper::Condition(const FlowFrame& frame) {
   const PackedFlow& flow = *flow_;
-  const auto count = static_cast<long>(rows.size());
   const long past = flow.config.history_frames * flow.width;
-  for (long i = 0; i < count; ++i) {
-    const FlowRow& row = rows[static_cast<size_t>(i)];
-    Slot& slot = slots_[static_cast<size_t>(row.slot)];
-    if (!flow.encoded && row.frame >= slot.hoisted_from + kAhead) Hoist(&slot, row.frame);
-    float* live = flow.encoded ? live_.Row(i) : input_.Row(i);
-    flow.kernels.standardise(row.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
-                             flow.width, flow.config.history_frames, kFeatureClamp, live);
-    if (row.has_audio) {
-      flow.kernels.standardise(row.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
-                               flow.config.audio_features, flow.config.history_frames + 1,
-                               kFeatureClamp, live + past);
-    } else {
-      std::fill(live + past, live + flow.live, 0.0F);
-    }
-    live[flow.live - 1] = row.has_audio ? 1.0F : 0.0F;
-  }
-  if (!flow.encoded) return;
-  flow.encode_live.Run(live_, &encoding_, count);
-  const auto fixed = [&](long i) {
-    const FlowRow& row = rows[static_cast<size_t>(i)];
-    const Slot& slot = slots_[static_cast<size_t>(row.slot)];
-    return slot.static_condition.data() + row.frame * flow.static_width;
-  };
-  for (long i = 0; i < count; ++i)
-    Eigen::Map<Eigen::VectorXf>(encoding_.Row(i), flow.encoding) +=
-        Eigen::Map<const Eigen::VectorXf>(fixed(i), flow.encoding);
-  flow.kernels.silu(encoding_.Row(0), count * encoding_.stride());
-  // live_ has done its part, and is wider.
-  flow.encode.Run(encoding_, &live_, count);
-  for (long i = 0; i < count; ++i) {
-    flow.kernels.silu(live_.Row(i), flow.encoding);
-    std::copy_n(live_.Row(i), flow.encoding, input_.Row(i));
-    if (flow.aimed > 0)
-      Aim(rows[static_cast<size_t>(i)], fixed(i) + flow.encoding, input_.Row(i) + flow.encoding);
-  }
-}
-
-// From `input_` to `hidden_`, what the last layer sees.
-void PackedTile::Hidden(std::span<const FlowRow> rows, int step) {
-  const PackedFlow& flow = *flow_;
-  const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
-  const auto count = static_cast<long>(rows.size());
-  const long hidden = flow.config.hidden;
-  const auto state = [&](long i) {
-    return slots_[static_cast<size_t>(rows[static_cast<size_t>(i)].slot)].state.data() +
-           step * 4 * hidden;
-  };
-  for (long i = 0; i < count; ++i)
-    std::copy_n(state(i), hidden, input_.Row(i) + flow.condition + flow.low());
-  if (flow.encoded) {
-    coupling.first.Run(input_, &wide_, count);
+  if (!flow.encoded && frame.frame >= hoisted_from_ + kAhead) Hoist(frame.frame);
+  float* live = flow.encoded ? live_.Row(0) : input_.Row(0);
+  flow.kernels.standardise(frame.past.data(), flow.feature_mean.data(), flow.feature_scale.data(),
+                           flow.width, flow.config.history_frames, kFeatureClamp, live);
+  if (frame.has_audio) {
+    flow.kernels.standardise(frame.audio.data(), flow.audio_mean.data(), flow.audio_scale.data(),
+                             flow.config.audio_features, flow.config.history_frames + 1,
+                             kFeatureClamp, live + past);
   } else {
-    for (long i = 0; i < count; ++i) {
-      const FlowRow& row = rows[static_cast<size_t>(i)];
-      const Slot& slot = slots_[static_cast<size_t>(row.slot)];
-      std::copy_n(slot.hoisted.data() + (row.frame - slot.hoisted_from) * flow.hoisted_width() +
-                      step * wide_.stride(),
-                  wide_.stride(), wide_.Row(i));
-    }
-    coupling.first.Add(input_.Row(0), input_.stride(), wide_.Row(0), wide_.stride(), count);
+    std::fill(live + past, live + flow.live, 0.0F);
   }
-  for (long i = 0; i < count; ++i) {
-    float* h = state(i);
-    flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
-    std::copy_n(h, 2 * hidden, hidden_.Row(i));
-  }
-  coupling.second.Run(hidden_, &wide_, count);
-  for (long i = 0; i < count; ++i) {
-    float* h = state(i) + hidden;
-    flow.kernels.lstm(wide_.Row(i), h, h + 2 * hidden, hidden);
-    std::copy_n(h, hidden, hidden_.Row(i));
-  }
+  live[flow.live - 1] = frame.has_audio ? 1.0F : 0.0F;
+  if (!flow.encoded) return;
+  flow.encode_live.Run(live_, &encoding_, 1);
+  const float* fixed =
+      static_condition_.data() + static_cast<long>(frame.frame) * flow.static_width;
+  Eigen::Map<Eigen::VectorXf>(encoding_.Row(0), flow.encoding) +=
+      Eigen::Map<const Eigen::VectorXf>(fixed, flow.encoding);
+  flow.kernels.silu(encoding_.Row(0), encoding_.stride());
+  // live_ is free again, and wide enough for the second layer.
+  flow.encode.Run(encoding_, &live_, 1);
+  flow.kernels.silu(live_.Row(0), flow.encoding);
+  std::copy_n(live_.Row(0), flow.encoding, input_.Row(0));
+  if (flow.aimed > 0) Aim(frame, fixed + flow.encoding, input_.Row(0) + flow.encoding);
 }
 
-// The inverse of one step, z_ -> z_.
-void PackedTile::Couple(std::span<FlowRow> rows, int step) {
+// From `input_` to `hidden_`, the input of the last layer.
+void PackedStepper::Hidden(int frame, int step) {
   const PackedFlow& flow = *flow_;
   const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
-  const auto count = static_cast<long>(rows.size());
-  for (long i = 0; i < count; ++i) {
-    std::copy_n(z_.Row(i), flow.low(), input_.Row(i) + flow.condition);
+  const long hidden = flow.config.hidden;
+  float* h0 = state_.data() + step * 4 * hidden;
+  float* h1 = h0 + hidden;
+  std::copy_n(h0, hidden, input_.Row(0) + flow.condition + flow.low());
+  if (flow.encoded) {
+    coupling.first.Run(input_, &wide_, 1);
+  } else {
+    std::copy_n(
+        hoisted_.data() + (frame - hoisted_from_) * flow.hoisted_width() + step * wide_.stride(),
+        wide_.stride(), wide_.Row(0));
+    coupling.first.Add(input_.Row(0), input_.stride(), wide_.Row(0), wide_.stride(), 1);
   }
-  Hidden(rows, step);
-  coupling.last.Run(hidden_, &ab_, count);
-  for (long i = 0; i < count; ++i) {
-    const double deltas = flow.kernels.coupling({.ab = ab_.Row(i),
-                                                 .high = z_.Row(i) + flow.low(),
-                                                 .width = flow.high(),
-                                                 .delta_bias = kDeltaBias,
-                                                 .delta_floor = kDeltaFloor});
-    *rows[static_cast<size_t>(i)].log_likelihood += static_cast<float>(std::log(deltas));
-  }
-  coupling.unmix.Run(z_, &mixed_, count);
-  std::swap(z_, mixed_);
+  flow.kernels.lstm(wide_.Row(0), h0, h0 + 2 * hidden, hidden);
+  std::copy_n(h0, 2 * hidden, hidden_.Row(0));
+  coupling.second.Run(hidden_, &wide_, 1);
+  flow.kernels.lstm(wide_.Row(0), h1, h1 + 2 * hidden, hidden);
+  std::copy_n(h1, hidden, hidden_.Row(0));
 }
 
-void PackedTile::Aim(const FlowRow& row, const float* fixed, float* aim) const {
+// The inverse of one step, z_ -> z_. Returns the product of the deltas.
+double PackedStepper::Couple(int frame, int step) {
   const PackedFlow& flow = *flow_;
-  const float* last = row.past.last(static_cast<size_t>(flow.width)).data();
+  const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];
+  std::copy_n(z_.Row(0), flow.low(), input_.Row(0) + flow.condition);
+  Hidden(frame, step);
+  coupling.last.Run(hidden_, &ab_, 1);
+  const double deltas = flow.kernels.coupling({.ab = ab_.Row(0),
+                                               .high = z_.Row(0) + flow.low(),
+                                               .width = flow.high(),
+                                               .delta_bias = kDeltaBias,
+                                               .delta_floor = kDeltaFloor});
+  coupling.unmix.Run(z_, &mixed_, 1);
+  std::swap(z_, mixed_);
+  return deltas;
+}
+
+void PackedStepper::Aim(const FlowFrame& frame, const float* fixed, float* aim) const {
+  const PackedFlow& flow = *flow_;
+  const float* last = frame.past.last(static_cast<size_t>(flow.width)).data();
   const float *key = fixed, *asked = fixed + flow.aimed;
   const float left = fixed[2 * flow.aimed];
   for (int i = 0; i < flow.aimed; ++i) {
@@ -299,7 +266,7 @@ void PackedTile::Aim(const FlowRow& row, const float* fixed, float* aim) const {
   }
 }
 
-void PackedTile::AddPrediction(std::span<const float> past, float* x) const {
+void PackedStepper::AddPrediction(std::span<const float> past, float* x) const {
   const PackedFlow& flow = *flow_;
   for (int i = 0; i < flow.width; ++i) {
     float sum = x[i] * flow.drawn_spread[i];
@@ -309,26 +276,22 @@ void PackedTile::AddPrediction(std::span<const float> past, float* x) const {
   }
 }
 
-void PackedTile::Run(std::span<FlowRow> rows) {
+void PackedStepper::Step(FlowFrame* frame) {
   const PackedFlow& flow = *flow_;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    FlowRow& row = rows[i];
-    const std::span<float> noise(z_.Row(static_cast<long>(i)), static_cast<size_t>(flow.width));
-    row.noise.Fill(noise);
-    double squares = 0;
-    for (const float value : noise) squares += static_cast<double>(value) * value;
-    const double base = squares + std::log(2 * std::numbers::pi) * flow.width;
-    row.log_likelihood = static_cast<float>(-0.5 * base) + flow.log_det;
-  }
-  Condition(rows);
-  for (int step = flow.config.flow_steps - 1; step >= 0; --step) Couple(rows, step);
-  for (size_t i = 0; i < rows.size(); ++i) {
-    float* x = z_.Row(static_cast<long>(i));
-    if (flow.config.innovations) AddPrediction(rows[i].past, x);
-    *rows[i].log_likelihood += BendSurprise({x, static_cast<size_t>(flow.width)});
-    flow.kernels.bend(x, flow.feature_mean.data(), flow.feature_std.data(), flow.width,
-                      kSampleBound, rows[i].features.data());
-  }
+  const std::span<float> noise(z_.Row(0), static_cast<size_t>(flow.width));
+  frame->noise.Fill(noise);
+  double squares = 0;
+  for (const float value : noise) squares += static_cast<double>(value) * value;
+  const double base = squares + std::log(2 * std::numbers::pi) * flow.width;
+  float log_likelihood = static_cast<float>(-0.5 * base) + flow.log_det;
+  Condition(*frame);
+  for (int step = flow.config.flow_steps - 1; step >= 0; --step)
+    log_likelihood += static_cast<float>(std::log(Couple(frame->frame, step)));
+  float* x = z_.Row(0);
+  if (flow.config.innovations) AddPrediction(frame->past, x);
+  frame->log_likelihood = log_likelihood + BendSurprise({x, static_cast<size_t>(flow.width)});
+  flow.kernels.bend(x, flow.feature_mean.data(), flow.feature_std.data(), flow.width, kSampleBound,
+                    frame->features.data());
 }
 
 }  // namespace choreo

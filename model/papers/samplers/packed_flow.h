@@ -10,18 +10,18 @@
 #include "model/engine/packed/matrix.h"
 #include "model/motion/skeleton.h"
 #include "model/papers/networks/flow_config.h"
-#include "model/papers/samplers/flow_tile.h"
+#include "model/papers/samplers/flow_stepper.h"
 
 namespace choreo {
 
-/// The flow's weights as PackedTile wants them, read from a checkpoint's tensors by name. Read
-/// only; the engines of a process share them.
+/// The flow's weights in PackedStepper's layout, read from a checkpoint's tensors by name.
+/// Read-only; shared by the engines of a process.
 ///
 /// Every coupling's network sees [condition of the frame | z_lo | own hidden state], a row of
 /// `input_width` floats. The part of a raw condition that is known when the transition begins has
-/// no columns here: `hoisted` turns it into the value that the first product starts from.
+/// no columns there: `hoisted` maps it to the initial value of the first product.
 struct PackedFlow {
-  /// One step of the flow, as its inverse runs it.
+  /// The inverse of one step of the flow.
   struct Coupling {
     PackedLinear first;    ///< [input_width] -> gates of the first LSTM layer
     PackedLinear hoisted;  ///< [static_width] -> the same, bias included; encoded: none
@@ -31,13 +31,13 @@ struct PackedFlow {
   };
 
   /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `products`: for the networks' products, `kernels` or less exact ones of the
-  /// same panel; what leads straight from noise to features is `kernels`'.
+  /// configuration. `products` are for the networks: `kernels`, or less exact ones with the same
+  /// panel. Products between noise and features use `kernels`.
   PackedFlow(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
              const PackedKernels& kernels, const PackedKernels& products);
 
-  /// Of a model of innovations: behind each frame's encoding the standardised key, what of it is
-  /// asked, and the frames left, [static_width(), frames].
+  /// With innovations: appends the standardised key, its mask and the frames left to each frame's
+  /// encoding, [static_width(), frames].
   Eigen::MatrixXf WithAims(const Eigen::MatrixXf& encodings,
                            const Eigen::MatrixXf& conditions) const;
   float Standard(const float* features, int i) const {
@@ -45,9 +45,9 @@ struct PackedFlow {
   }
   int low() const { return width / 2; }
   int high() const { return width - low(); }
-  /// Floats of one slot's recurrent state: for each step h and c of both layers.
+  /// Floats of a transition's recurrent state: for each step h and c of both layers.
   int state_width() const { return config.flow_steps * 4 * config.hidden; }
-  /// Of a frame: what every coupling's first product starts from.
+  /// Floats per frame of the couplings' hoisted values.
   long hoisted_width() const { return config.flow_steps * couplings.front().first.padded(); }
   int input_width() const { return condition + low() + config.hidden; }
 
@@ -55,62 +55,58 @@ struct PackedFlow {
   const FlowConfig config;
   int width;         ///< of a frame's features
   bool encoded;      ///< one shared condition encoding, else the raw condition
-  int live;          ///< floats of past and music that a frame's condition is made of
-  int encoding;      ///< of those the shared encoding, or `live`
-  int aimed;         ///< of a model of innovations, features that aim at the key: a pose's; else 0
-  int condition;     ///< columns of the condition that couplings see: both
+  int live;          ///< floats of past and music in a frame's condition
+  int encoding;      ///< width of the shared encoding, or `live` without one
+  int aimed;         ///< with innovations, the features that aim at the key: the pose's; else 0
+  int condition;     ///< columns of the condition that couplings see: the sum of both
   int key_width;     ///< of a frame's key condition
-  int static_width;  ///< of it behind `encode_static`; the same where nothing is encoded
+  int static_width;  ///< the same after `encode_static`, if encoded
   Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
-  /// Of a model of innovations, standardised: what of each past frame goes on, [width, tau], and
-  /// how far what is drawn spreads; else empty.
+  /// With innovations, standardised: the prediction's weights, [width, tau], and the spread of the
+  /// output; else empty.
   Eigen::MatrixXf predict;
   Eigen::VectorXf drawn_spread;
   Eigen::VectorXf audio_mean, audio_scale;
-  float log_det = 0;  ///< the part that is the same in every frame
+  float log_det = 0;  ///< the part common to all frames
   PackedLinear encode_static, encode_live, encode;
   std::vector<Coupling> couplings;
 };
 
-/// The flow on the CPU that calls it, on one thread. Any number of rows costs what it is: nothing
-/// is padded. A step allocates nothing.
+/// Steps the flow on the calling CPU thread. A step allocates nothing.
 ///
-/// What is known before the loop is computed ahead, in one product over kAhead frames: when a
-/// transition starts, and again each time that many frames have been made, so that long transitions
-/// neither take long to start nor much memory.
-class PackedTile : public FlowTile {
+/// What does not depend on the frames made is computed ahead, in one product over kAhead frames:
+/// when a transition starts, and again whenever these frames have been made. So long transitions
+/// start fast and take little memory.
+class PackedStepper : public FlowStepper {
  public:
-  PackedTile(std::shared_ptr<const PackedFlow> flow, int slots);
+  explicit PackedStepper(std::shared_ptr<const PackedFlow> flow);
 
-  void Begin(int slot, Eigen::MatrixXf conditions) override;
-  void Run(std::span<FlowRow> rows) override;
+  void Begin(Eigen::MatrixXf conditions) override;
+  void Step(FlowFrame* frame) override;
 
  private:
   static constexpr long kAhead = 16;
 
-  struct Slot {
-    std::vector<float> static_condition;  // [N, static_width]
-    std::vector<float> hoisted;           // [kAhead, hoisted_width]; encoded: none
-    long hoisted_from = 0;                // frame of its first row
-    std::vector<float> state;             // [flow_steps, h0 h1 c0 c1, hidden]
-  };
-
-  void Hoist(Slot* slot, long frame);
-  void Condition(std::span<const FlowRow> rows);
-  void Couple(std::span<FlowRow> rows, int step);
-  void Hidden(std::span<const FlowRow> rows, int step);
-  // Of a model of innovations: what would reach the key, and `x` from what was drawn to the
-  // standardised frame.
-  void Aim(const FlowRow& row, const float* fixed, float* aim) const;
+  void Hoist(long frame);
+  void Condition(const FlowFrame& frame);
+  double Couple(int frame, int step);
+  void Hidden(int frame, int step);
+  // With innovations: the value that would reach the key; and `x`, in place, from the flow's output
+  // to the standardised frame.
+  void Aim(const FlowFrame& frame, const float* fixed, float* aim) const;
   void AddPrediction(std::span<const float> past, float* x) const;
 
   std::shared_ptr<const PackedFlow> flow_;
-  std::vector<Slot> slots_;
+  std::vector<float> static_condition_;  // [N, static_width]
+  std::vector<float> hoisted_;           // [kAhead, hoisted_width]; encoded: none
+  long hoisted_from_ = 0;                // frame of its first row
+  std::vector<float> state_;             // [flow_steps, h0 h1 c0 c1, hidden]
+  // Rows of one step.
   RowBuffer live_;      // past and music, standardised
-  RowBuffer encoding_;  // behind the encoding's first layer
+  RowBuffer encoding_;  // after the encoding's first layer
   RowBuffer input_;     // of a coupling: condition, z_lo, own hidden state
   RowBuffer wide_;      // gates
-  RowBuffer hidden_;    // of the last layer; [h0 | h1] before
+  RowBuffer hidden_;    // of the last layer; before it [h0 | h1]
   RowBuffer ab_;
   RowBuffer z_, mixed_;
 };

@@ -8,14 +8,14 @@
 #include "model/papers/networks/inbetweener.h"
 #include "model/papers/samplers/autoregressive_flow.h"
 #include "model/papers/samplers/controllers_sampler.h"
-#include "model/papers/samplers/inbetweener_tile.h"
+#include "model/papers/samplers/inbetweener_stepper.h"
 #include "model/papers/samplers/packed_flow.h"
-#include "model/papers/samplers/torch_tile.h"
+#include "model/papers/samplers/torch_stepper.h"
 
 namespace choreo {
 namespace {
 
-// It is small: whatever samples flows elsewhere, this runs on the CPU.
+// Always on the CPU: the network is small.
 SamplerFactory LoadControllers(const Safetensors& content, const std::string& name) {
   const ControllersCheckpoint checkpoint = ParseControllers(content, name);
   ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
@@ -32,7 +32,7 @@ SamplerFactory LoadControllers(const Safetensors& content, const std::string& na
   };
 }
 
-// As small, and run likewise.
+// Always on the CPU, too.
 SamplerFactory LoadInbetweener(const Safetensors& content, const std::string& name) {
   const InbetweenerCheckpoint checkpoint = ParseInbetweener(content, name);
   ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
@@ -41,7 +41,7 @@ SamplerFactory LoadInbetweener(const Safetensors& content, const std::string& na
   info.deterministic = true;
   return [info, model = checkpoint.model] {
     return std::make_unique<AutoregressiveFlowSampler>(info, model->config(), "cpu", [model] {
-      return std::make_unique<InbetweenerTile>(model, 1);
+      return std::make_unique<InbetweenerStepper>(model);
     });
   };
 }
@@ -51,28 +51,28 @@ SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
   const Checkpoint checkpoint = ParseCheckpoint(content, name);
   FlowModel model = checkpoint.model;
   const FlowConfig& config = model->config();
-  AutoregressiveFlowSampler::MakeTile tile;
+  AutoregressiveFlowSampler::MakeStepper stepper;
   std::string kernels;
   if (const auto set = ChooseKernels(request)) {
     kernels = set->Name();
     const auto packed = std::make_shared<const PackedFlow>(content, config, model->skeleton(),
                                                            *set->exact, *set->products);
-    tile = [packed] { return std::make_unique<PackedTile>(packed, 1); };
+    stepper = [packed] { return std::make_unique<PackedStepper>(packed); };
   } else {
     const torch::Device there(request.device.name());
     model->to(there);
     const auto weights =
         std::make_shared<TorchWeights>(TorchWeights{model, model->InverseWeights(), there});
     kernels = TorchKernels(weights->device);
-    tile = [weights] { return std::make_unique<TorchTile>(weights, 1); };
+    stepper = [weights] { return std::make_unique<TorchStepper>(weights); };
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
   info.audio_features = config.audio_features;
   info.hears_music = config.hears_music;
   info.default_temperature = config.temperature;
   info.likelihood = true;
-  return [info, config, device = request.device.name(), tile] {
-    return std::make_unique<AutoregressiveFlowSampler>(info, config, device, tile);
+  return [info, config, device = request.device.name(), stepper] {
+    return std::make_unique<AutoregressiveFlowSampler>(info, config, device, stepper);
   };
 }
 

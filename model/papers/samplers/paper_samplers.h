@@ -7,9 +7,9 @@
 
 namespace choreo {
 
-/// Makes what samples the papers' networks: paper F's flow, paper C's controllers and the baseline
-/// of both; the checkpoint says which. `name` is what errors call the file; what is no other
-/// network's is read as paper F's. Throws as ParseCheckpoint and ChooseKernels do.
+/// Makes samplers of the papers' networks: paper F's flow, paper C's controllers or the baseline of
+/// both, depending on the checkpoint; files of no other network are read as paper F's. `name` is
+/// what errors call the file. Throws as ParseCheckpoint and ChooseKernels do.
 SamplerFactory LoadPaperModel(const Safetensors& content, const std::string& name,
                               const EngineRequest& request);
 

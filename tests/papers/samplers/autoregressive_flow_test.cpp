@@ -20,14 +20,14 @@ ModelInfo Model(bool hears_music) {
 }
 
 /// Notes what the network is given of the music, frame by frame, and draws zeros.
-class ListeningTile : public FlowTile {
+class ListeningStepper : public FlowStepper {
  public:
-  explicit ListeningTile(std::vector<std::vector<float>>* heard) : heard_(heard) {}
-  void Begin(int, Eigen::MatrixXf) override {}
-  void Run(std::span<FlowRow> rows) override {
-    heard_->emplace_back(rows[0].audio.begin(), rows[0].audio.end());
-    EXPECT_EQ(rows[0].frame, static_cast<int>(heard_->size()) - 1);
-    std::ranges::fill(rows[0].features, 0.0F);
+  explicit ListeningStepper(std::vector<std::vector<float>>* heard) : heard_(heard) {}
+  void Begin(Eigen::MatrixXf) override {}
+  void Step(FlowFrame* frame) override {
+    heard_->emplace_back(frame->audio.begin(), frame->audio.end());
+    EXPECT_EQ(frame->frame, static_cast<int>(heard_->size()) - 1);
+    std::ranges::fill(frame->features, 0.0F);
   }
 
  private:
@@ -38,7 +38,7 @@ class ListeningTile : public FlowTile {
 std::vector<std::vector<float>> Heard(const ModelInfo& model) {
   std::vector<std::vector<float>> heard;
   AutoregressiveFlowSampler sampler(model, {}, "cpu",
-                                    [&] { return std::make_unique<ListeningTile>(&heard); });
+                                    [&] { return std::make_unique<ListeningStepper>(&heard); });
   TransitionSpec spec;
   spec.frames = 2;
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));

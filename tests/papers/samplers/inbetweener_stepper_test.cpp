@@ -1,4 +1,4 @@
-#include "model/papers/samplers/inbetweener_tile.h"
+#include "model/papers/samplers/inbetweener_stepper.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,12 +14,12 @@
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
 
-namespace choreo::inbetweener_tile_test {
+namespace choreo::inbetweener_stepper_test {
 
 // The baseline as a sampler.
-class InbetweenerTileTest : public testing::Test {
+class InbetweenerStepperTest : public testing::Test {
  protected:
-  InbetweenerTileTest() {
+  InbetweenerStepperTest() {
     SetTorchThreads(1);
     FlowConfig config = FlowConfig::Preset(kInbetweenerPreset);
     config.hidden = 16;
@@ -28,13 +28,13 @@ class InbetweenerTileTest : public testing::Test {
     WriteRandomInbetweener(path_, config, Skeleton::Smpl24(), 3);
     sampler_ = MakeSampler(path_, {});
   }
-  ~InbetweenerTileTest() override { std::filesystem::remove(path_); }
+  ~InbetweenerStepperTest() override { std::filesystem::remove(path_); }
 
   std::filesystem::path path_;
   std::unique_ptr<Sampler> sampler_;
 };
 
-TEST_F(InbetweenerTileTest, TellsThatItIsDeterministicAndHearsNothing) {
+TEST_F(InbetweenerStepperTest, TellsThatItIsDeterministicAndHearsNothing) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.name, "harvey");
   EXPECT_TRUE(model.deterministic);
@@ -43,7 +43,7 @@ TEST_F(InbetweenerTileTest, TellsThatItIsDeterministicAndHearsNothing) {
   EXPECT_FALSE(SettingsUsedBy(*sampler_).kind);
 }
 
-TEST_F(InbetweenerTileTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
+TEST_F(InbetweenerStepperTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
   std::vector<TransitionSpec> specs;
   for (uint64_t seed = 1; seed <= 6; ++seed)
     specs.push_back(RandomSpec(sampler_->model(), seed, 8 + static_cast<int>(seed)));
@@ -51,7 +51,7 @@ TEST_F(InbetweenerTileTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
   for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
 }
 
-TEST_F(InbetweenerTileTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikelihood) {
+TEST_F(InbetweenerStepperTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikelihood) {
   TransitionSpec spec = RandomSpec(sampler_->model(), 1);
   const Plan once = sampler_->Sample(spec);
   EXPECT_TRUE(once.log_likelihoods.empty());
@@ -61,7 +61,7 @@ TEST_F(InbetweenerTileTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikelihoo
   ExpectSameBits(once, sampler_->Sample(spec));
 }
 
-TEST_F(InbetweenerTileTest, DancesOnTheServedPipeline) {
+TEST_F(InbetweenerStepperTest, DancesOnTheServedPipeline) {
   TransitionRequest request;
   request.frames = 30;
   Pose there = RestPose(sampler_->model().skeleton);
@@ -73,4 +73,4 @@ TEST_F(InbetweenerTileTest, DancesOnTheServedPipeline) {
   EXPECT_LT(run.arrival()->final_error_m, 0.001);
 }
 
-}  // namespace choreo::inbetweener_tile_test
+}  // namespace choreo::inbetweener_stepper_test

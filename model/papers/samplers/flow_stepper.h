@@ -10,13 +10,13 @@
 
 namespace choreo {
 
-/// Which noise a frame has: whoever steps it draws it.
+/// Identifies the noise of a frame, which FlowStepper draws.
 struct FrameNoise {
   uint64_t seed = 0;
   int64_t frame = 0;  ///< absolute
   uint32_t candidate = 0;
-  float spread = 0;  ///< standard deviation: temperature applied
-  int64_t like = 0;  ///< absolute: the frame that it comes back as, with so much `variation`
+  float spread = 0;  ///< standard deviation, temperature included
+  int64_t like = 0;  ///< absolute: the frame that it repeats, with this much `variation`
   double variation = 0;
 
   /// FillNormalLike's numbers times the spread.
@@ -30,30 +30,27 @@ struct FrameNoise {
   }
 };
 
-/// One slot's share of a step of the flow: FlowModel::Step for one row.
-struct FlowRow {
-  int slot = 0;
-  int frame = 0;                 ///< of the slot's transition
+/// One frame for FlowStepper::Step: what FlowModel::Step takes and gives.
+struct FlowFrame {
+  int frame = 0;                 ///< in the transition
   std::span<const float> past;   ///< [tau, width] features in physical units, oldest first
   std::span<const float> audio;  ///< [tau + 1, audio_features] MFCC rows
   bool has_audio = false;        ///< false: `audio` is ignored
   FrameNoise noise;
   std::span<float> features;  ///< [width], written: physical units
-  /// Written where there is an exact one: nats, standardised space.
+  /// Written if the model has an exact one: nats, standardised space.
   std::optional<float> log_likelihood = {};
 };
 
-/// The flow on one device, with recurrent state and condition of as many transitions as it has
-/// slots. Not thread-safe.
-class FlowTile {
+/// The flow on one device, with the recurrent state and condition of one transition. Not
+/// thread-safe.
+class FlowStepper {
  public:
-  virtual ~FlowTile() = default;
-  /// A transition starts in `slot`, with state zero. `conditions`: [width, frames] as KeyConditions
-  /// has them.
-  virtual void Begin(int slot, Eigen::MatrixXf conditions) = 0;
-  /// Steps these rows together. What comes out for a row depends neither on its place nor on the
-  /// other rows.
-  virtual void Run(std::span<FlowRow> rows) = 0;
+  virtual ~FlowStepper() = default;
+  /// Starts a transition with state zero. `conditions`: [width, frames] from KeyConditions.
+  virtual void Begin(Eigen::MatrixXf conditions) = 0;
+  /// Makes the next frame.
+  virtual void Step(FlowFrame* frame) = 0;
 };
 
 }  // namespace choreo

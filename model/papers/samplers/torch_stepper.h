@@ -1,0 +1,50 @@
+#pragma once
+
+#include <torch/types.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/papers/networks/flow_model.h"
+#include "model/papers/samplers/flow_stepper.h"
+
+namespace choreo {
+
+/// Weights on one device, shared by the engines there. Read-only.
+struct TorchWeights {
+  FlowModel model{nullptr};  ///< in eval mode
+  std::vector<torch::Tensor> inverse_weights;
+  torch::Device device{torch::kCPU};
+};
+
+/// Steps the flow by LibTorch, with inputs and outputs in host memory. The reference for
+/// PackedStepper, and the one that runs on CUDA.
+class TorchStepper : public FlowStepper {
+ public:
+  explicit TorchStepper(std::shared_ptr<TorchWeights> weights);
+
+  void Begin(Eigen::MatrixXf conditions) override;
+  void Step(FlowFrame* frame) override;
+
+ private:
+  /// Two rows, of which the second one is padding, all zeros: LibTorch computes the last elements
+  /// of a tensor one by one and the others as vectors, which may round otherwise.
+  static constexpr int64_t kRows = 2;
+
+  /// Columns of the input.
+  enum Part { kPast, kAudio, kHasAudio, kCondition, kNoise, kParts };
+  std::span<float> Row(Part part);
+  torch::Tensor Input(Part part) const;
+
+  std::shared_ptr<TorchWeights> weights_;
+  std::vector<float> static_condition_;  ///< [frames, static_width]
+  int64_t begin_[kParts + 1];            ///< of each part, in columns
+
+  // What a step reads and writes, here (pinned for CUDA) and on the device; the same on the CPU.
+  torch::Tensor host_input_, input_;  ///< [kRows, begin_[kParts]]
+  torch::Tensor host_output_;         ///< [kRows, width + 1]: features, log-likelihood
+  FlowState state_;                   ///< [kRows, StateWidth()], on the device
+};
+
+}  // namespace choreo
