@@ -5,17 +5,17 @@
 
 #include "model/core/grid.h"
 
-/// Limits of the API, and where it is found: servers and clients agree on them.
+/// The API's limits and default port, shared by servers and clients.
 namespace choreo {
 
-inline constexpr int kMaxTransitionFrames = 1800;                ///< of one transition: a minute
-inline constexpr int64_t kMaxDanceFrames = 108'000;              ///< absolute: an hour
-inline constexpr int kMaxKeys = 1000;                            ///< of one stream at a time
-inline constexpr int kMinKeyDistance = 2;                        ///< frames between two keys
-inline constexpr int kMaxCandidates = 32;                        ///< of one transition
-inline constexpr double kMaxTemperature = 2;                     ///< 0: the mean
-inline constexpr double kUsualDynamics = 0.5;                    ///< of the music, 0 to 1
-inline constexpr double kUsualVariation = 0.3;                   ///< of what comes back, 0 to 1
+inline constexpr int kMaxTransitionFrames = 1800;    ///< of one transition: a minute
+inline constexpr int64_t kMaxDanceFrames = 108'000;  ///< absolute: an hour
+inline constexpr int kMaxKeys = 1000;                ///< of one stream at a time
+inline constexpr int kMinKeyDistance = 2;            ///< frames between two keys
+inline constexpr int kMaxCandidates = 32;            ///< of one transition
+inline constexpr double kMaxTemperature = 2;         ///< 0: the mean
+inline constexpr double kUsualDynamics = 0.5;   ///< how closely energy follows the music, 0 to 1
+inline constexpr double kUsualVariation = 0.3;  ///< of repeated passages, 0 to 1
 inline constexpr double kMinOutputFps = 1, kMaxOutputFps = 120;  ///< frames sent a second
 
 inline constexpr size_t kMostNameBytes = 64;  ///< of a model's name, which metrics and logs repeat

@@ -27,7 +27,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Counts `steps` as done. `note` ("loss 3.21") stands behind the bar until the next call.
+  /// Counts `steps` as done. `note` ("loss 3.21") is shown after the bar until the next call.
   void Advance(int64_t steps = 1, const std::string& note = {});
   /// Prints the total time. May be called again.
   void Finish();

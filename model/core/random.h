@@ -18,8 +18,8 @@ std::array<uint32_t, 4> Philox4x32(const std::array<uint32_t, 4>& counter,
 /// |out[d]| < 6.8.
 void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::span<float> out);
 
-/// The same of a frame that comes back as another one, `like`, with so much `variation`: 0: that
-/// one's numbers, 1: its own, between: correlated with that one's by sqrt(1 - variation²).
+/// The same for a frame that repeats the frame `like` with this much `variation`. 0: that frame's
+/// numbers; 1: its own; between: correlated with that frame's by sqrt(1 - variation²).
 void FillNormalLike(uint64_t seed, uint32_t candidate, int64_t absolute_frame, int64_t like,
                     double variation, std::span<float> out);
 

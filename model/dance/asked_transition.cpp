@@ -5,7 +5,7 @@
 namespace choreo {
 namespace {
 
-// Of the music before a frame.
+// The energy of the music before a frame.
 double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t frame) {
   return start.music_dynamics * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
 }

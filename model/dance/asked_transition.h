@@ -13,31 +13,31 @@
 
 namespace choreo {
 
-/// The clock of SampleJob::Deadline, seconds. It decides who goes first, never what is danced.
+/// The clock of SampleJob::Deadline, in seconds. It decides which job runs first, never what is
+/// danced.
 inline double PlaybackClock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Handed out before others have a turn.
+/// Frames handed out before other dances get a turn.
 inline constexpr int kFramesASlice = 16;
 
 struct AskedTransition {
   TransitionRequest request;
-  std::string key_id;             ///< what warnings call its target
-  std::vector<Warning> warnings;  ///< of its controls
+  std::string key_id;             ///< names its target in warnings
+  std::vector<Warning> warnings;  ///< about its controls
 };
 
-/// What a dance that starts so asks of one of its transitions, but for its stage and its beats.
-/// `recurrence`: of its music.
-/// `before`: what was danced or given before it; empty: ControlTrack::Stance. `audio`: null without
-/// music; rows before `rows_end` must be ready, and a model that hears music hears those behind it
-/// as none.
+/// Builds the request for one transition of a dance, without its stage and beats. `recurrence` is
+/// that of the dance's music. `before` holds the poses danced or given before the transition; if
+/// empty, it starts from ControlTrack::Stance. `audio` is null without music; rows before
+/// `rows_end` must be ready, and the model hears no music in later rows.
 AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
                               const ControlTrack& controls, const Recurrence& recurrence,
                               const AudioFeed* audio, const Segment& segment, int64_t rows_end,
                               std::span<const Pose> before);
 
-/// A warning where the way to the key is too long for its time.
+/// Adds a warning if the key is too far away for the time left.
 void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, AskedTransition* asked);
 
 }  // namespace choreo

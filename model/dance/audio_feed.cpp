@@ -79,7 +79,7 @@ int64_t AudioFeed::EndFrame(double fps) const {
 }
 
 void AudioFeed::Publish() {
-  // Two rows behind the last one whose centre lies within the audio no window reaches it any more.
+  // Windows more than two rows past the last row centred within the audio no longer reach it.
   constexpr int64_t kTail = 3;
   const int64_t computed = features_.final_rows();
   std::lock_guard lock(mutex_);

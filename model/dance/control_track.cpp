@@ -11,9 +11,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kKeyTolerance = 0.05;    // metres that a key may lie off the path unmentioned
-constexpr double kDancerTolerance = 0.5;  // and the dancer, where a path takes over
-// Shares, and metres a frame, by which speeds may miss what was asked unmentioned.
+constexpr double kKeyTolerance = 0.05;    // metres that a key may be off the path without a warning
+constexpr double kDancerTolerance = 0.5;  // the same for the dancer where a path begins
+// How far a speed may miss the one asked for without a warning: a share, and metres a frame.
 constexpr double kSpeedTolerance = 0.15, kLeastMiss = 0.001;
 
 bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_heights(); }
@@ -51,7 +51,7 @@ void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::s
   if (request.velocity_factors) velocities_.push_back({from, *request.velocity_factors});
 }
 
-// In a transition that begins at `first_frame`, or right before it.
+// For a transition that begins at `first_frame`; also for the frame right before it.
 const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const {
   const int64_t known = std::min(frame, first_frame);
   const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {
@@ -63,7 +63,7 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
   Pose stance = RestPose(model_->skeleton);
   const PathCurve* curve = CurveAt(first_frame, first_frame);
-  // Before a key that she stands in, she does not move: feet that glide are never planted.
+  // She stands still before a key on the first frame: gliding feet would never be planted.
   const int64_t there = key_on_it ? first_frame : first_frame - 1;
   if (curve != nullptr) {
     const double height = stance.root_position.y();
@@ -137,7 +137,7 @@ void ControlTrack::WarnOfDistance(const LeadRequest& request,
   const PathCurve* before = CurveAt(request.first_frame - 1, request.first_frame);
   for (size_t i = 0; i < request.curves.size(); before = request.curves[i++]) {
     const PathCurve* curve = request.curves[i];
-    // Frames that no path speaks of lead to the next one.
+    // Frames without a path lead to the next path.
     if (curve == nullptr || curve == before || (i > 0 && before == nullptr)) continue;
     const int64_t frame = request.first_frame + static_cast<int64_t>(i);
     const Eigen::Vector3d dancer = i == 0 ? request.start.position : before->At(frame - 1).position;

@@ -15,46 +15,47 @@ namespace choreo {
 
 struct LeadRequest;
 
-/// Limits of one dance: requests, and the points of all its paths plus the values of all its
-/// velocity factors.
+/// Limits per dance: on requests, and on the points of all paths plus the values of all velocity
+/// factors.
 inline constexpr size_t kMaxControls = 1000;
 inline constexpr size_t kMaxControlValues = 1'000'000;
 
-/// Throws Error(kInvalidArgument) below `field` for bad values and for a control that the model
-/// does not take.
+/// Throws Error(kInvalidArgument) below `field` for bad values and for controls that the model does
+/// not support.
 void ValidateControls(const ControlRequest& request, const ModelInfo& model,
                       const std::string& field);
 
-/// The controls of one dance. Of those set for transitions from a frame on, the last counts: of
-/// root paths the last that speaks of a frame, of velocity factors part by part; parts and frames
-/// that nobody speaks of have the model's first reference. A path is the curve of PathCurve, bent
-/// smoothly to the dancer at a transition's start and to the key at its end (LeadPath): the key
-/// wins, and a warning tells by how much. Heights that nobody asks for lead to the key's: the one
-/// it states, or that at which its pose stands on the floor; a path with heights wins over the
-/// latter. A transition that the path has no frame of is left to the model. Not thread-safe.
+/// The controls of one dance. Later controls override earlier ones: a root path for the frames it
+/// covers, velocity factors part by part. Parts and frames without velocity factors use the model's
+/// first reference. A path is the curve of PathCurve, bent smoothly to the dancer at a transition's
+/// start and to the key at its end (LeadPath); the key wins, and a warning gives the distance.
+/// Where no path sets the height, the root is led to the key's height: the one it states, or the
+/// one at which its pose stands on the floor. A path with heights overrides the latter. Transitions
+/// that no path covers are left to the model. Not thread-safe.
 class ControlTrack {
  public:
   /// The model must outlive the track.
   explicit ControlTrack(const ModelInfo& model) : model_(&model) {}
 
-  /// For transitions that begin at `from` or later. The request is valid; `from` never shrinks from
-  /// call to call. Throws Error(kInvalidArgument) beyond kMaxControls or kMaxControlValues.
+  /// Applies to transitions that begin at `from` or later. The request must be valid; `from` never
+  /// decreases between calls. Throws Error(kInvalidArgument) beyond kMaxControls or
+  /// kMaxControlValues.
   void Set(const ControlRequest& request, int64_t from, const std::string& field);
 
-  /// How a dancer of whom nothing is known stands before `first_frame`: at rest, facing +Z, where a
-  /// path that has this frame goes on from, or else at the origin. What a key on that very frame
-  /// asks, she has done already.
+  /// The pose before `first_frame` of a dancer without a history: at rest, facing +Z, on the path
+  /// if one covers this frame, or else at the origin. A key on that very frame sets the pose.
   Pose Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const;
 
-  /// Fills in the request's controls by its first frame, length, history (at least one pose) and
-  /// target, which warnings call `key_id`; `warnings` tell where what is asked contradicts itself.
+  /// Fills in the request's controls from its first frame, length, history (at least one pose) and
+  /// target, which warnings call `key_id`. Appends `warnings` where controls and keys contradict
+  /// each other.
   void Ask(const std::string& key_id, TransitionRequest* request,
            std::vector<Warning>* warnings) const;
 
-  /// The path that was set last, if frames before `end` are none of its.
+  /// A warning if the last path set begins at `end` or later.
   std::optional<Warning> BehindEnd(int64_t end) const;
-  /// Which of the parts that velocity factors named were 15 % and 1 mm a frame slower or faster
-  /// than they asked, over the dance of this report.
+  /// A warning that names the parts whose speed, over the dance of this report, missed the one
+  /// asked for by more than 15 % and 1 mm a frame.
   std::optional<Warning> SpeedsMissed(const QualityReport& report) const;
 
  private:

@@ -11,12 +11,11 @@ namespace choreo {
 namespace {
 
 const std::vector<Passage> kNoPassages;
-constexpr size_t kMostAhead = 1;  // transitions sampled ahead of the one that is handed out
+constexpr size_t kMostAhead = 1;  // transitions sampled ahead of the one being handed out
 
 }  // namespace
 
-/// One transition of the chain, from the moment that it is asked for until its last frame is handed
-/// out.
+/// One transition of the chain, from its submission until its last frame is handed out.
 class DanceChain::Job : public SampleJob {
  public:
   Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked,
@@ -31,7 +30,7 @@ class DanceChain::Job : public SampleJob {
     warnings_ = std::move(asked.warnings);
   }
 
-  /// Once it is sampled it hands frames out, in slices, too.
+  /// Once sampled, it hands out frames, also in slices.
   bool Continue(Sampler& sampler) override {
     if (is_sampled_) return chain_->HandOut(kFramesASlice);
     if (run_.Continue(sampler)) return true;
@@ -51,11 +50,11 @@ class DanceChain::Job : public SampleJob {
   int frames() const override { return run_.spec().frames; }
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
 
-  /// Nobody needs it any more.
+  /// Marks it as no longer needed.
   void Retire() { retired_ = true; }
   void Fail(const Error& failure) { failure_ = failure; }
 
-  /// Of what follows all but constants is the chain's, under its mutex.
+  /// The chain's mutex guards what the functions below read, except constants.
   bool sampled() const { return sampled_; }
   const std::optional<Error>& failure() const { return failure_; }
   const Segment& segment() const { return segment_; }
@@ -63,7 +62,7 @@ class DanceChain::Job : public SampleJob {
   const std::vector<Beat>& beats() const { return beats_; }
   /// The last tau poses before its first frame.
   const std::vector<Pose>& before() const { return before_; }
-  /// Once it is sampled.
+  /// Valid once it is sampled.
   const TransitionRun& run() const { return run_; }
   Eigen::Vector3d StageBefore(int64_t frame) const {
     return run_.StageAfter(static_cast<size_t>(frame - segment_.from));
@@ -71,10 +70,10 @@ class DanceChain::Job : public SampleJob {
   const DanceFrame& FrameAt(int64_t frame) const {
     return run_.frames()[static_cast<size_t>(frame - segment_.from)];
   }
-  /// The last tau poses before a frame of it, or behind its last one.
+  /// The last tau poses before a frame of it, or after its last one.
   std::vector<Pose> HistoryBefore(int64_t frame) const {
     std::vector<Pose> history = before_;
-    for (int64_t at = segment_.from; at < frame; ++at) MoveOn(FrameAt(at).pose, &history);
+    for (int64_t at = segment_.from; at < frame; ++at) PushPose(FrameAt(at).pose, &history);
     return history;
   }
 
@@ -86,7 +85,7 @@ class DanceChain::Job : public SampleJob {
   const std::vector<Pose> before_;
   const std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
-  bool is_sampled_ = false;  // of the worker's thread
+  bool is_sampled_ = false;  // used by the worker's thread
   bool sampled_ = false;
   std::optional<Error> failure_;
   std::atomic<bool> retired_ = false;
@@ -144,7 +143,7 @@ void DanceChain::SetControls(const ControlRequest& request, const std::string& f
     if (!request.root_path) return;
     const int64_t last = request.root_path->frames.back();
     timeline.Disturb(request.root_path->frames.front(), last);
-    // What lies before the first frame was danced before a resume.
+    // Frames before the first were danced before a resume.
     if (last < from && last >= first_frame_) Post(ControlsTooLate(last, from));
   });
 }
@@ -182,7 +181,7 @@ void DanceChain::SetPaused(bool paused) {
 
 void DanceChain::Cancel() noexcept {
   cancelled_ = true;
-  queue_.LookForCancelled();
+  queue_.CheckCancelled();
   Act([this] { mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled")); });
 }
 
@@ -202,7 +201,7 @@ void DanceChain::Act(const std::function<void()>& act) noexcept {
   }
 }
 
-// They keep the chain alive.
+// Breaks the cycle: jobs keep the chain alive.
 void DanceChain::DropJobs() {
   for (const std::shared_ptr<Job>& job : jobs_) job->Retire();
   jobs_.clear();
@@ -230,9 +229,10 @@ bool DanceChain::HandOut(int most) {
 
 void DanceChain::Fail(Job& job, const Error& failure) {
   if (!job.sampled()) {
-    job.Fail(failure);  // told when all before it is handed out
+    job.Fail(failure);  // reported once all frames before it are handed out
   } else if (failure.code() != ErrorCode::kUnavailable) {
-    mailbox_.PostError(failure);  // the sink's. A queue that closes takes back no sampled frames.
+    mailbox_.PostError(
+        failure);  // thrown by the sink; a closing queue does not take back sampled frames
   }
 }
 
@@ -260,13 +260,13 @@ bool DanceChain::HandOutNext() {
   }
   Job& job = *jobs_.front();
   if (IsOver(*timeline_.Planned())) {
-    if (!job.sampled()) job.Retire();  // else it may be what hands frames out
+    if (!job.sampled()) job.Retire();  // a sampled one may be handing out frames
     timeline_.Finish();
     if (next_frame_ > job.segment().from) PostContinuation();
     jobs_.pop_front();
-    // Behind the end nothing is danced.
+    // After the end nothing is danced.
     if (const std::optional<int64_t> end = timeline_.End(); end && next_frame_ >= *end) DropJobs();
-    queue_.LookForCancelled();
+    queue_.CheckCancelled();
     AskNext();
     return true;
   }
@@ -282,19 +282,20 @@ bool DanceChain::HandOutNext() {
 
 void DanceChain::AskNext() {
   if (over() || cancelled_ || failure_ || jobs_.size() > kMostAhead) return;
-  if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // nobody knows where it leads to
+  if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
   const Segment* segment = timeline_.Planned(jobs_.size());
   const std::optional<int64_t> end = timeline_.End();
   if (segment == nullptr || (end && segment->from >= *end) || !timeline_.Certain(segment->from))
     return;
   int64_t rows_end = segment->from;
   if (model_.hears_music) rows_end = std::min(segment->to, config_.end_frame.value_or(segment->to));
-  // Who finds the beats of the whole music does before its first row is there.
+  // Whoever finds the beats of the whole music does so before its first row is ready.
   if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1)) Ask(*segment, rows_end);
 }
 
 void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
-  // Who waited for itself is due from now on: no right to be first grows out of waiting.
+  // A dance that waited for its own messages is due from now on: it must not overtake others for
+  // that.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   recurrence_.Begin(segment.from);
   try {
@@ -308,7 +309,7 @@ void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(asked), std::move(beats));
     queue_.Submit(job);
-    jobs_.push_back(std::move(job));  // it waits for mutex_ before it tells anything
+    jobs_.push_back(std::move(job));  // it waits for mutex_ before it reports anything
   } catch (const Error& error) {
     failure_ = error;
   }
@@ -321,11 +322,11 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
     for (const Warning& warning : job.warnings()) Post(warning);
     history_ = job.before();
     beats_.Begin(job.beats(), segment.from);
-    // Who goes on from here may begin a frame later.
+    // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(segment.from - model_.history_frames);
   }
   const int64_t emitted = next_frame_++;
-  MoveOn(frame.pose, &history_);
+  PushPose(frame.pose, &history_);
   stage_ = job.StageBefore(next_frame_);
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);

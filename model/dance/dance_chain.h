@@ -24,22 +24,22 @@
 
 namespace choreo {
 
-/// The chain of transitions behind a DanceStream: has what the timeline plans sampled one
-/// transition after the other, each as soon as it is known where it begins, and hands frames out as
-/// they are granted, as their music comes and as the sink takes them. Thread-safe. Lock order: the
-/// chain's before the queue's and the audio feed's; the sink is called under none. Kept alive by
-/// its jobs.
+/// The chain of transitions behind a DanceStream. It has the transitions of the timeline sampled
+/// one after the other, each as soon as its start is known, and hands out frames once they are
+/// granted, their music has come and the sink takes them. Thread-safe. Lock order: the chain's
+/// before the queue's and the audio feed's; the sink is called without a lock. Its jobs keep it
+/// alive.
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
   DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_ptr<DanceSink> sink);
 
-  /// What there is to say before the first message.
+  /// Posts what the sink must know before the first message.
   void Begin();
 
-  /// Applies a change (of the keys, or of what is known of the music) and goes on from there. What
-  /// the change throws passes through and leaves the chain as it was. Without effect once the dance
-  /// is over.
+  /// Applies a change (of keys or of facts about the music) and continues from there. If the change
+  /// throws, the exception passes through and the chain stays as it was. Does nothing once the
+  /// dance is over.
   void Change(const std::function<void(Timeline&)>& change);
 
   /// The request is valid.
@@ -51,7 +51,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Tells the sink of an event; only inside a change.
   void Post(const DanceEvent& event);
 
-  /// The last call to the sink is made or under way.
+  /// Whether the last call to the sink has been made or is under way.
   bool over() const { return mailbox_.over(); }
 
   /// Null for a dance without music. Only one thread at a time may push.
@@ -60,7 +60,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Ascending; at least one.
   void GivePassages(const std::vector<Passage>& passages, const std::string& field);
 
-  /// Of the whole music, before its first sample.
+  /// What is known about the whole music; before its first sample.
   void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
                 const std::vector<Passage>& passages, uint64_t music_id);
   void SetPaused(bool paused);
@@ -69,17 +69,16 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
-  // Called without mutex_: acts with it held, then goes on with the dance.
+  // Call without mutex_: runs `act` with it held, then continues the dance.
   void Act(const std::function<void()>& act) noexcept;
-  // Hands out what may go out, and tells the sink: `most` frames and ends of transitions at most.
-  // One thread at a time does; what others come for it hands out, too. True where there may be
-  // more.
+  // Hands out at most `most` frames and ends of transitions, and calls the sink. Only one thread at
+  // a time does so, on behalf of all others. Returns true if there may be more.
   bool HandOut(int most);
 
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
 
-  // Those below are called with mutex_ held.
-  // A frame, or the end of a transition or of the dance; false where nothing may go out now.
+  // The functions below require mutex_. Hands out a frame, or the end of a transition or of the
+  // dance; false if nothing may go out now.
   bool HandOutNext();
   void AskNext();
   void Ask(const Segment& segment, int64_t rows_end);
@@ -92,25 +91,25 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   SampleQueue& queue_;
   const ModelInfo& model_;
-  DanceConfig config_;  // but for music_id constant
+  DanceConfig config_;  // constant except for music_id
   const int64_t first_frame_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
   Mailbox<DanceSink> mailbox_;
   const std::unique_ptr<AudioFeed> audio_;
 
-  mutable std::mutex mutex_;  // of what follows
-  double start_time_;         // of the playback: frames are due by it
+  mutable std::mutex mutex_;  // guards the members below
+  double start_time_;         // of the playback; frames are due relative to it
   Timeline timeline_;
   ControlTrack controls_;
-  // Of the timeline's transitions the first ones: the one that is handed out, and one ahead of it.
-  // All but the last are sampled.
+  // The first transitions of the timeline: the one being handed out, and the next. All but the last
+  // are sampled.
   std::deque<std::shared_ptr<Job>> jobs_;
-  std::optional<Error> failure_;  // for which no transition can be asked for behind them
+  std::optional<Error> failure_;  // why no transition can follow them
   // The last tau poses handed out; empty until the first frame of a dance that is given none.
   std::vector<Pose> history_;
-  std::optional<Eigen::Vector3d> stage_;  // where the dance keeps to, from the first transition on
-  int64_t next_frame_;                    // to be handed out
+  std::optional<Eigen::Vector3d> stage_;  // where the dance stays; from the first transition on
+  int64_t next_frame_;                    // the next to hand out
   bool handing_out_ = false, look_again_ = false;
   QualityMeter meter_;
   OutputRate output_;

@@ -76,7 +76,7 @@ void DanceConfig::Validate(const ModelInfo& model) const {
     if (continuation && continuation->audio_from_sample &&
         audio->first_sample > *continuation->audio_from_sample) {
       throw Error(ErrorCode::kOutOfRange, "config.audio_format.first_sample",
-                  std::to_string(audio->first_sample) + " is behind " +
+                  std::to_string(audio->first_sample) + " is after " +
                       std::to_string(*continuation->audio_from_sample) +
                       ", the first that the continuation needs");
     }
@@ -125,7 +125,7 @@ int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelIn
 }
 
 bool TakesMusic(const ModelInfo& model) {
-  // Rows come at 30 a second (FeatureStream).
+  // FeatureStream makes 30 rows a second.
   return model.audio_features == kMfccCount && model.fps == kModelFps;
 }
 

@@ -16,48 +16,50 @@
 
 namespace choreo {
 
-/// What a dance and a single transition have in common: how they are danced, and from where.
+/// Common to a dance and a single transition: how to dance, and from where.
 struct DanceStart {
   uint64_t seed = 0;
-  /// Which music it is (MusicId): a part of the seed, so that two songs are danced as two seeds
-  /// are. 0: nobody says.
+  /// Identifies the music (MusicId). It is part of the seed: two songs differ as two seeds do. 0:
+  /// unknown.
   uint64_t music_id = 0;
-  std::optional<float> temperature;        ///< 0..2; none: the model's default
-  std::string style;                       ///< one of the model's, or empty: any
-  double music_dynamics = kUsualDynamics;  ///< 0..1: how far HearEnergy's is the dance's
+  std::optional<float> temperature;  ///< 0..2; none: the model's default
+  std::string style;                 ///< one of the model's, or empty: any
+  double music_dynamics =
+      kUsualDynamics;  ///< 0..1: how closely the dance's energy follows the music's (HearEnergy)
   double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
   /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
   /// if that stands on it. Excludes `continuation`.
   std::vector<Pose> history;
   std::optional<Continuation> continuation;  ///< start at its frame
-  /// Go on from a continuation of another fingerprint, with a warning, instead of
+  /// Resume from a continuation of another fingerprint with a warning instead of
   /// Error(kFailedPrecondition).
   bool allow_inexact_resume = false;
-  /// Seconds, ascending: the dance is timed to them. None: to what a dance hears of the music.
+  /// Seconds, ascending: the dance is timed to them. Empty: to the beats that it hears in the
+  /// music.
   std::vector<double> music_beats;
-  std::vector<double> music_downbeats;  ///< those of them that begin a bar: told, not danced
-  /// Where the music comes back, as CheckPassages wants them, and so does the dance, with so much
-  /// `variation`: 0: the same noise, 1: as if nothing came back.
+  std::vector<double> music_downbeats;  ///< those that begin a bar; reported, not danced
+  /// Passages that repeat earlier ones (see CheckPassages). The dance repeats, too, with this much
+  /// `variation`; 0: the same noise, 1: no repetition.
   std::vector<Passage> music_passages;
   double variation = kUsualVariation;
 
   struct Audio {
     double sample_rate = 0;  ///< 8000..192000
     int channels = 0;        ///< 1..8, interleaved
-    /// The first sample frame that comes, absolute: at most LatestFirstSample, and 0 for a fresh
+    /// The first sample frame to be sent, absolute: at most LatestFirstSample, and 0 for a new
     /// dance. Nothing before it is heard.
     int64_t first_sample = 0;
   };
   std::optional<Audio> audio;  ///< none: the model dances without music
 
-  /// The poses before the first frame, wherever they are told.
+  /// The poses before the first frame, from the continuation or the history.
   const std::vector<Pose>& Before() const { return continuation ? continuation->poses : history; }
 
   bool ResumesInexactly(const ModelInfo& model) const {
     return continuation && continuation->fingerprint != model.fingerprint;
   }
-  /// What to tell before the first frame, `first_frame`.
+  /// Warnings to send before the first frame, `first_frame`.
   std::vector<Warning> Warnings(const ModelInfo& model, int64_t first_frame) const;
 
   /// Throws Error(kInvalidArgument), and Error(kFailedPrecondition) for a continuation of another
@@ -104,7 +106,7 @@ struct GroupRequest : DanceStart {
   void Validate(const ModelInfo& model) const;
 };
 
-/// What is asked, checked against the model that is to dance it: nothing behind it checks again.
+/// A request that has been checked against its model; code that takes one does not check again.
 template <class Asked>
 class Valid {
  public:

@@ -19,12 +19,12 @@ class DanceSink {
   /// Output rate; `first_frame` counts output frames from time 0. The spans live for the call.
   virtual void OnFrames(int64_t first_frame, std::span<const Pose> poses,
                         std::span<const Contacts> contacts) = 0;
-  /// A key is reached in the frames delivered just before.
+  /// Events belong to the frames delivered just before.
   virtual void OnEvent(const DanceEvent& event) = 0;
   /// At each transition's end, after its frames and events.
   virtual void OnContinuation(const Continuation& continuation) = 0;
   virtual void OnSummary(const QualityReport& report) = 0;
-  /// kCancelled after Cancel, else what failed.
+  /// kCancelled after Cancel, else the failure.
   virtual void OnError(const Error& error) = 0;
 };
 

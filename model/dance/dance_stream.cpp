@@ -21,7 +21,7 @@ void DanceStream::FinishAudio() {
   AudioFeed& audio = Audio("end_of_audio");
   if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
   if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
-  // Where the music ends is known before the rows behind its end can be danced.
+  // Sets the end of the music before rows after it can be danced.
   chain_->Change([&](Timeline& timeline) { timeline.SetAudioEnd(audio.EndFrame(model_.fps)); });
   audio.Finish();
   chain_->Change([](Timeline&) {});

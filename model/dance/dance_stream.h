@@ -19,14 +19,14 @@ namespace choreo {
 class AudioFeed;
 class DanceChain;
 
-/// A dance in progress. What is danced is a function of the config, of the order of SetKey,
-/// RemoveKey, SetControls, GiveBeats, GenerateUntil and KeysComplete among themselves (see
-/// Timeline), of the samples, and of where the music ends. A new stream with the last continuation
-/// and the same config and messages (but those that were rejected) goes on bit for bit; audio
-/// starts at ResumeSample, and frames behind that continuation come again.
+/// A dance in progress. The dance is a function of the config, the order of SetKey, RemoveKey,
+/// SetControls, GiveBeats, GenerateUntil and KeysComplete (see Timeline), the samples, and the end
+/// of the music. A new stream with the last continuation, the same config and the same messages,
+/// except rejected ones, continues bit for bit; its audio starts at ResumeSample, and frames after
+/// that continuation are sent again.
 ///
-/// A message that throws leaves the stream as it was; after the last callback it is ignored.
-/// Thread-safe. Destruction cancels. The queue must outlive the last callback and all jobs.
+/// A message that throws leaves the stream as it was. Messages after the last callback are ignored.
+/// Thread-safe. The destructor cancels. The queue must outlive the last callback and all jobs.
 class DanceStream {
  public:
   /// `config`: for the queue's model.
@@ -44,50 +44,50 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// What was found in the whole music before its first sample is pushed: beats (without any, the
-  /// dance listens for none), passages, and the music's id. What DanceConfig states has precedence.
+  /// Sets what was found in the whole music: beats (if empty, the dance does not listen for beats),
+  /// passages, and the music's id. Call before the first sample. DanceConfig has precedence.
   void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
                 const std::vector<Passage>& passages, uint64_t music_id);
 
-  /// The name of the next message of a kind in errors: "keyframes[i]", where i counts the accepted
-  /// ones. For code that reads a message before handing it over.
+  /// What errors call the next message of a kind: "keyframes[i]", where i counts accepted ones. For
+  /// code that parses messages.
   std::string NextKeyframe() const;
   std::string NextControls() const;
   std::string NextMusicBeats() const;
   std::string NextMusicPassages() const;
 
-  /// See Timeline. A key too late is answered by a KeyRejected event. Errors name NextKeyframe().
+  /// See Timeline. A key that comes too late causes a KeyRejected event. Errors name
+  /// NextKeyframe().
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {});
   void RemoveKey(const std::string& id);
   /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
   /// none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
-  /// Seconds, ascending, at least one: see MusicBeats::Give. Those in frozen frames are left out,
-  /// and told of by a Warning. Errors name the times of NextMusicBeats(); none may come after
-  /// KeysComplete.
+  /// Seconds, ascending, at least one: see MusicBeats::Give. Beats in frozen frames are dropped
+  /// with a Warning. Errors name the times of NextMusicBeats(); none may come after KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
-  /// As CheckPassages wants them, at least one: from the first of them on they hold in place of
-  /// those that were known, for transitions that begin behind the frozen frames. Errors name those
-  /// of NextMusicPassages(); none may come after KeysComplete.
+  /// At least one, valid by CheckPassages. From the first on they replace known passages, for
+  /// transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may come
+  /// after KeysComplete.
   void GivePassages(const std::vector<Passage>& passages);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
   void KeysComplete();
 
-  /// A client's half-close: EndOfAudio and KeysComplete, as far as they have not come.
+  /// A client's half-close: EndOfAudio and KeysComplete, unless they have come already.
   void HalfClose();
 
-  /// Back-pressure: while paused no frame is handed out (one that is under way may still come).
-  /// Never changes the dance.
+  /// Back-pressure: a paused stream hands out no frames, except one under way. Never changes the
+  /// dance.
   void SetPaused(bool paused);
 
   /// The sink gets OnError(kCancelled) unless it has had its last call. Idempotent.
   void Cancel() noexcept;
 
-  /// By how many frames of output the dance lags behind the music: the audio window, the
-  /// resampling, and, of a model that hears music, the usual transition, of which it hears all
-  /// before it dances (one that leads to a key is as long as its way).
+  /// The lag behind the music, in output frames: the audio window, the resampling and, for a model
+  /// that hears music, one transition of the usual length, because the model hears all of a
+  /// transition's music first (a transition to a key may be longer).
   static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
 
  private:
@@ -96,8 +96,8 @@ class DanceStream {
 
   const ModelInfo& model_;
   std::shared_ptr<DanceChain> chain_;
-  std::mutex messages_;  // they are taken one at a time; before the chain's lock
-  // Taken so far:
+  std::mutex messages_;  // one message at a time; locked before the chain's
+  // Accepted so far:
   std::atomic<int> keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0, passages_ = 0;
 };
 

@@ -56,8 +56,8 @@ class Mailbox {
     delivering_ = false;
   }
 
-  /// Drops waiting calls; OnError is the last call. For lack of memory: needs none itself; if the
-  /// listener does, the call is lost.
+  /// Drops waiting calls; OnError is the last call. For when memory is out: allocates nothing
+  /// itself; if the listener does and fails, the call is lost.
   void GiveUp() noexcept {
     {
       std::lock_guard lock(mutex_);

@@ -13,9 +13,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kOnsetOverMedian = 2;  // an onset is so much above what the music mostly has
+constexpr double kOnsetOverMedian = 2;  // an onset exceeds the median by this factor
 
-// Of the rows before one, as far as a pulse is heard in them.
+// The onsets of the rows before `row`, as many as HearPulse uses.
 std::vector<float> Onsets(const AudioFeed& audio, int64_t row) {
   std::vector<float> onsets;
   for (const RowSound& sound : audio.Sounds(row, kPulseMemory)) onsets.push_back(sound.onset);
@@ -30,7 +30,7 @@ bool HasOnset(const AudioFeed& audio, int64_t frame) {
   return here > kOnsetOverMedian * Median(onsets);
 }
 
-// How far a beat is from the nearer one beside it; 0 where it stands alone.
+// The distance from a beat to its nearer neighbour; 0 without neighbours.
 double StepAt(std::span<const double> seconds, size_t i) {
   double step = std::numeric_limits<double>::infinity();
   if (i > 0) step = seconds[i] - seconds[i - 1];
@@ -61,7 +61,7 @@ void MusicBeats::Replace(double begin, std::span<const double> seconds,
   const auto at = [&](double time) {
     return std::ranges::lower_bound(known_, time, {}, &Beat::time_s);
   };
-  // A beat that was given a little earlier is the first of these.
+  // A beat given a little earlier is the same as the first of these.
   double step = StepAt(seconds, 0);
   if (const auto before = at(begin); step == 0 && before - known_.begin() > 1)
     step = (before - 1)->time_s - (before - 2)->time_s;
@@ -117,11 +117,12 @@ void MusicBeats::Begin(std::span<const Beat> beats, int64_t from) {
   const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;
-  const auto behind =
+  const auto first =
       static_cast<size_t>(std::ranges::lower_bound(seconds, Seconds(from)) - seconds.begin());
-  // Where beats were told before, the last one before this transition may have been left out.
-  for (size_t i = last && behind > 0 ? behind - 1 : behind; i < beats.size(); ++i) {
-    if (last && seconds[i] - *last <= 0.5 * StepAt(seconds, i)) continue;  // told a little earlier
+  // Includes the last beat before this transition: the previous one may have left it out.
+  for (size_t i = last && first > 0 ? first - 1 : first; i < beats.size(); ++i) {
+    if (last && seconds[i] - *last <= 0.5 * StepAt(seconds, i))
+      continue;  // reported a little earlier
     ahead_.push_back(beats[i]);
     last = seconds[i];
   }
@@ -132,8 +133,8 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) con
   if (!pulse.Certain()) return;
   const auto frames = static_cast<double>(to - from);
   const double slack = 0.5 * pulse.period / fps_;
-  // From one before the history's last frame to one behind the last. The last row heard is that
-  // before `from`.
+  // From one frame before the history's last to one after the transition's last. The last row heard
+  // is the one before `from`.
   double at = pulse.next - 1;
   while (at > -1) at -= pulse.period;
   for (bool is_behind = false; !is_behind; at += pulse.period) {

@@ -14,58 +14,60 @@
 
 namespace choreo {
 
-/// Where the music of a dance beats. Beats are given or found. A dance that starts without any
-/// listens: when a transition begins, the pulse (HearPulse) of the 12 s before its first frame
-/// predicts its beats. So they are a function of the ordered messages and of the samples before
-/// the transition; earlier transitions leave only last(). Not thread-safe.
+/// The beats of a dance's music. They are given by the client or found in the whole music. A dance
+/// that starts without any listens: when a transition begins, the pulse (HearPulse) of the 12 s
+/// before its first frame predicts its beats. So beats are a function of the ordered messages and
+/// the samples before the transition; only last() carries over from earlier transitions. Not
+/// thread-safe.
 class MusicBeats {
  public:
-  /// `audio`: of the dance, or null, when there is nothing to hear. `last`: of a dance that goes
-  /// on, last() at its first frame.
+  /// `audio`: the dance's, or null if there is nothing to hear. `last`: for a resumed dance, last()
+  /// at its first frame.
   MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
              const AudioFeed* audio, std::span<const double> downbeats = {});
 
-  /// In the whole music; in place of all, and nothing is heard any more. Here as elsewhere
-  /// downbeats are some of the beats.
+  /// Replaces all beats by those found in the whole music, and stops listening. Downbeats are
+  /// always a subset of the beats.
   void Find(const std::vector<double>& seconds, std::span<const double> downbeats = {});
 
-  /// Ascending. From the first of them to the last they hold in place of what was given or heard,
-  /// and none given before lies behind them or less than half a beat before the first, for
-  /// transitions that begin at `from` or later; `from` never shrinks from call to call. Those
-  /// before `from` are late, and left out; returns how many. Throws Error(kInvalidArgument) beyond
+  /// Gives beats, ascending, for transitions that begin at `from` or later. From the first to the
+  /// last they replace beats given or heard. Beats given earlier are dropped if they are after the
+  /// last, or less than half a beat before the first. Beats before `from` are late and are dropped;
+  /// returns how many. `from` never decreases between calls. Throws Error(kInvalidArgument) beyond
   /// kMostBeats.
   int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field,
                std::span<const double> downbeats = {});
 
-  /// All that is known for a transition of the frames [from, to), ascending; transitions are asked
-  /// for in order of time, each once. Rows before `from` must be ready.
+  /// The known beats for a transition of the frames [from, to), ascending. Call once per
+  /// transition, in order of time. Rows before `from` must be ready.
   std::vector<Beat> For(int64_t from, int64_t to);
-  /// Of those the ones that the transition is timed to, as TransitionRequest::beats.
+  /// The subset that the transition is timed to, as TransitionRequest::beats.
   std::vector<double> Around(std::span<const Beat> beats, int64_t from, int64_t to) const;
 
-  /// The frames of the transition that has these beats come next, from `from` on.
+  /// Starts handing out the transition that begins at `from` and has these beats.
   void Begin(std::span<const Beat> beats, int64_t from);
 
-  /// What is told with a frame of that transition whose row is ready; each frame is asked for once,
-  /// in order. Every beat is told once, also where two transitions put it on either side of their
-  /// boundary; one that each leaves to the other comes with the first frame behind it.
+  /// The beats to report with a frame of that transition. Call once per frame, in order; its row
+  /// must be ready. Every beat is reported once, even if two transitions place it on different
+  /// sides of their boundary; a beat that each leaves to the other comes with the first frame after
+  /// it.
   std::vector<Beat> Of(int64_t frame);
 
-  /// The last one told, in seconds: all that a dance which is to go on from here has to know.
+  /// The last beat reported, in seconds: all the state that resuming a dance here needs.
   const std::optional<double>& last() const { return last_; }
 
-  /// All that were told, seconds, ascending.
+  /// All beats reported, seconds, ascending.
   const std::vector<double>& told() const { return told_; }
 
  private:
-  // What one Give said.
+  // The beats of one Give.
   struct Given {
     int64_t from;
     double begin;                 // its first beat, late or not
-    std::vector<double> seconds;  // those that are not late
+    std::vector<double> seconds;  // without late ones
     std::vector<double> downbeats;
   };
-  // Seconds in which only given beats count; one begins where the one before has ended, or later.
+  // Seconds in which only given beats count. Spans ascend and do not overlap.
   struct Span {
     double begin, end;
   };
@@ -78,11 +80,11 @@ class MusicBeats {
   double fps_;
   const AudioFeed* audio_;
   bool hears_;
-  std::vector<Beat> known_;  // given or found, for the transition and those behind it
+  std::vector<Beat> known_;  // given or found, for this transition and later ones
   std::vector<Span> spans_;
   std::deque<Given> given_;  // not yet in known_
-  size_t count_ = 0;         // of all that was given
-  std::deque<Beat> ahead_;   // of the transition, still to be told
+  size_t count_ = 0;         // given in all
+  std::deque<Beat> ahead_;   // of the transition, not yet reported
   std::optional<double> last_;
   std::vector<double> told_;
 };

@@ -11,7 +11,8 @@ OutputRate::OutputRate(double model_fps, double output_fps, int64_t first_frame,
                        std::optional<Pose> before)
     : model_fps_(model_fps), output_fps_(output_fps), next_input_(first_frame) {
   if (first_frame == 0) return;
-  // The first output frame later than the model's frame before, which the part before has given.
+  // The first output frame after the preceding model frame; earlier ones belong to the part before
+  // the resume.
   const double before_at = static_cast<double>(first_frame - 1) * output_fps_ / model_fps_;
   next_output_ = static_cast<int64_t>(std::floor(before_at + kOnFrame)) + 1;
   last_ = std::move(before);

@@ -8,23 +8,23 @@
 
 namespace choreo {
 
-/// Frames at the listener's rate. Frame j is the dance at time j / fps.
+/// Frames at the output rate. Frame j is the dance at time j / fps.
 struct OutputFrames {
-  int64_t first_frame = 0;  ///< from time 0 on, at the output's rate
+  int64_t first_frame = 0;  ///< counted from time 0 at the output rate
   std::vector<Pose> poses;
   std::vector<Contacts> contacts;
 };
 
-/// Resamples a dance while it goes by: a frame between two of the model's waits for the later one
-/// and is on the line (root) and the shortest arcs (joints) between them. At the model's rate
-/// frames pass unchanged. Not thread-safe.
+/// Resamples a dance in progress. A frame between two model frames waits for the later one and
+/// interpolates: the root linearly, joints along the shortest arcs. At the model's rate frames pass
+/// unchanged. Not thread-safe.
 class OutputRate {
  public:
   /// `first_frame`: the model's first frame. `before`: the pose directly before it, when a dance
   /// resumes; output frames between the two then belong to this part.
   OutputRate(double model_fps, double output_fps, int64_t first_frame, std::optional<Pose> before);
 
-  /// The output frames that the model's next frame completes: none or more.
+  /// The output frames, zero or more, that the model's next frame completes.
   OutputFrames Push(const DanceFrame& frame);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
 constexpr double kLeastDetour = 0.5;  // seconds
-constexpr double kPushOff = 10;       // m/s^2; nobody pushes off much harder than she weighs
+constexpr double kPushOff = 10;       // m/s^2: people push off with little more than their weight
 
 double Smooth(double s) { return SmoothStep(std::clamp(s, 0.0, 1.0)); }
 
@@ -41,19 +41,19 @@ class Leader {
   PathPoint Led(const PathPoint& point) const {
     return {point.position.cwiseProduct(request_.axes), point.velocity.cwiseProduct(request_.axes)};
   }
-  /// What the curve of `of_frame` says of a frame.
+  /// The point of `of_frame`'s curve at a frame.
   PathPoint Asked(int of_frame, int frame) const {
     return Led(Curve(of_frame)->At(request_.first_frame + frame));
   }
 
   double DetourFrames(const Eigen::Vector3d& offset, int available) const {
-    // A smooth step is at its fastest half as fast again as on average.
+    // A smooth step's peak speed is 1.5 times its average.
     const double seconds = std::max(1.5 * offset.norm() / kDetourSpeed, kLeastDetour);
     return std::min(seconds * request_.fps, static_cast<double>(available));
   }
 
   void Follow(int from, int to) {
-    // A bridge ends on the curve.
+    // A bridge to a curve ends on it.
     const bool on_it = from > 0 && Curve(from - 1) == nullptr;
     const Eigen::Vector3d offset =
         on_it ? Eigen::Vector3d(0, 0, 0)
@@ -76,7 +76,7 @@ class Leader {
       goal = Led(*request_.end);
     }
     const PathPoint leaving = here_;
-    // A dancer in full run turns before she has swung out far.
+    // Limits the velocity so that a running dancer turns without swinging out far.
     const double most = 3 * (goal.position - here_.position).norm() / duration;
     if (here_.velocity.norm() > most) here_.velocity *= most / here_.velocity.norm();
     if (to == frames_ && from > 0 && PushOff(goal, duration) > kPushOff) return GoOn(from, leaving);
@@ -88,7 +88,7 @@ class Leader {
     here_ = point;
   }
 
-  /// The largest acceleration on the cubic from here, m/s^2: at one of its ends.
+  /// The largest acceleration on the cubic from here, m/s^2; it is at one of the ends.
   double PushOff(const PathPoint& goal, double duration) const {
     const Eigen::Vector3d leg = 6 * (goal.position - here_.position);
     const Eigen::Vector3d leave = 2 * duration * here_.velocity;
@@ -98,8 +98,8 @@ class Leader {
     return largest * request_.fps * request_.fps / (duration * duration);
   }
 
-  /// Where the end is too near in time to be led to from the last curve: as if that curve had gone
-  /// straight on, and were bent to it. An end on the way there needs no bending: she comes so far.
+  /// For an end too soon after the last curve: extends the curve straight and bends it to the end.
+  /// An end on the straight line needs no bending.
   void GoOn(int from, const PathPoint& leaving) {
     if (!request_.end_wins) {
       lead_.path.rightCols(frames_ - from).colwise() = leaving.position;
@@ -125,7 +125,7 @@ class Leader {
 
   const LeadRequest& request_;
   const int frames_;
-  PathPoint here_;  // at the frame before the one to come
+  PathPoint here_;  // at the frame before the next
   Lead lead_;
 };
 

@@ -26,11 +26,11 @@ struct Lead {
   Eigen::Vector3d missed = Eigen::Vector3d::Zero();  ///< from the curves to `end`
 };
 
-/// Follows the curves without a jump. Where a curve begins beside the dancer, or ends beside `end`,
-/// it bends there smoothly: the detour is walked at 1 m/s if there is time, and takes at least half
-/// a second. Frames without a curve follow a cubic to the next curve or to `end`; with neither, the
-/// place is held. An `end` too soon after the last curve to be led to wins like one on the curve,
-/// or is given up. Pure.
+/// Follows the curves without a jump. If a curve begins away from the dancer, or ends away from
+/// `end`, the path bends to it smoothly: at 1 m/s if there is time, and over at least half a
+/// second. Frames without a curve follow a cubic to the next curve or to `end`; with neither, the
+/// root stays in place. An `end` too soon after the last curve is treated like one on the curve: it
+/// wins or is given up (end_wins). Pure.
 Lead LeadPath(const LeadRequest& request);
 
 }  // namespace choreo

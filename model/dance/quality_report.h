@@ -15,16 +15,16 @@
 
 namespace choreo {
 
-/// Gathers a QualityReport while a dance goes by, in a few numbers a frame. Frames come in order.
+/// Gathers a QualityReport frame by frame, keeping a few numbers per frame. Frames come in order.
 /// Not thread-safe.
 class QualityMeter {
  public:
   QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame);
 
   void Add(const DanceFrame& frame);
-  /// The key at the frame that was added last.
+  /// The key at the last frame added.
   void AddKey(KeyReached key);
-  /// `music_beats`: seconds, ascending; empty: no beat figures. Those outside the dance do not
+  /// `music_beats`: seconds, ascending; empty: no beat figures. Beats outside the dance do not
   /// count.
   QualityReport Report(std::span<const double> music_beats = {}) const;
 
@@ -36,19 +36,19 @@ class QualityMeter {
   double fps_;
   int64_t first_frame_;
   std::vector<KeyReached> keys_;
-  std::optional<double> log_likelihood_sum_ = 0;  // none once a frame came without
+  std::optional<double> log_likelihood_sum_ = 0;  // none once a frame had none
   int64_t skating_steps_ = 0;
   std::optional<SupportMeter> support_;
   std::deque<Eigen::Matrix3Xd> last_positions_;  // [3, joints] of the last two frames
   std::vector<float> speed_;         // mean joint speed of step i (frame i -> i + 1), m/s
   std::vector<float> acceleration_;  // largest joint acceleration at frame i + 1, m/s^2
   int64_t frames_ = 0;
-  std::optional<BodyPartWeights> weights_;  // once a frame has asked speeds
+  std::optional<BodyPartWeights> weights_;  // once a frame asks for speeds
   std::array<PartSpeed, kBodyParts> speed_sums_ = {};
   int64_t speed_frames_ = 0;
 };
 
-/// Shorthand for whole motions (evaluation). Contacts, likelihood and beats are not judged.
+/// Measures a whole motion (for evaluation), without contacts, likelihood and beats.
 QualityReport MeasureMotion(const Skeleton& skeleton, const Motion& motion);
 
 }  // namespace choreo

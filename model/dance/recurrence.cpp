@@ -70,7 +70,7 @@ int64_t Recurrence::Origin(int64_t frame) const {
   for (size_t left = stretches_.size(); left > 0;) {
     const Stretch& stretch = stretches_[--left];
     if (frame < stretch.from || frame >= stretch.to) continue;
-    // What it is like may have come back itself, within the same stretch, too.
+    // The original may be a repetition itself, even within the same stretch.
     frame -= stretch.lag;
     if (frame >= stretch.from) ++left;
   }

@@ -67,7 +67,7 @@ PathCurve::PathCurve(const RootPath& path)
     return;
   }
   for (size_t point = 0; point <= end; ++point) {
-    // The first of the two legs of its parabola; at an end those of the neighbour's.
+    // The first of the parabola's two legs; at an end, the neighbour's parabola.
     const size_t leg = std::clamp<size_t>(point, 1, end - 1) - 1;
     const double d0 = duration(leg), d1 = duration(leg + 1);
     const Eigen::Vector3d bend = (slope(leg + 1) - slope(leg)) / (d0 + d1);

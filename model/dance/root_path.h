@@ -9,19 +9,19 @@
 
 namespace choreo {
 
-/// Metres above the floor: a metre more than standing, which nobody leaps.
+/// Metres above the floor. A root at standing height is a metre lower, and nobody leaps that high.
 inline constexpr double kMaxRootHeight = 2;
 
-/// As a client says it: points in time, world frame, metres. A dense path has a point in each
-/// frame; of a sparse one the smooth curve through its points is meant.
+/// A path as the client sends it: points in time, world frame, metres. A dense path has a point in
+/// each frame; a sparse one means the smooth curve through its points.
 using RootPath = ControlRequest::RootPath;
 
 /// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not ascend
 /// or lie outside a dance, points that are not finite or further than kMaxPosition from the origin,
-/// heights of other points or outside [0, kMaxRootHeight].
+/// a number of heights other than that of points, or heights outside [0, kMaxRootHeight].
 void ValidatePath(const RootPath& path, const std::string& field);
 
-/// A place and how it moves on.
+/// A position and its velocity.
 struct PathPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< metres a frame
@@ -30,10 +30,10 @@ struct PathPoint {
 /// The cubic that leads from `from` to `to` in `duration` frames, `t` frames after its start.
 PathPoint CubicBetween(const PathPoint& from, const PathPoint& to, double duration, double t);
 
-/// The curve through a path's points: cubic in time between two points, its velocity continuous.
-/// At a point its velocity is that of the parabola through it and its neighbours, and at most three
-/// times the slower of the two legs', so that the curve stands still between equal points and does
-/// not swing out far. Moving or turning the points moves and turns the curve. Immutable.
+/// The curve through a path's points: cubic in time between two points, its velocity continuous. At
+/// a point its velocity is that of the parabola through it and its neighbours, limited to three
+/// times the slower adjacent leg's, so that the curve rests between equal points and does not
+/// overshoot far. Moving or turning the points moves and turns the curve. Immutable.
 class PathCurve {
  public:
   /// The path must be valid.
@@ -43,7 +43,7 @@ class PathCurve {
   int64_t last() const { return frames_.back(); }
   bool Covers(int64_t frame) const { return frame >= first() && frame <= last(); }
   bool has_heights() const { return has_heights_; }
-  /// Before the first and after the last point it goes straight on. y is 0 without heights.
+  /// Before the first and after the last point the curve is straight. y is 0 without heights.
   PathPoint At(int64_t frame) const;
 
  private:

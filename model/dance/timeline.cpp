@@ -19,7 +19,7 @@ double FiniteSeconds(double seconds, const std::string& field) {
   return seconds;
 }
 
-/// The path of what says when a key stands, as its sender said it.
+/// The field that gives a key's moment, as its sender names it.
 std::string PathOf(const KeyMoment& when, const std::string& field) {
   static constexpr const char* kMembers[] = {".frame", ".time", ".interval_after_previous"};
   return field + kMembers[when.index()];
@@ -88,7 +88,7 @@ KeyRejected Timeline::Reject(const std::string& id, int64_t frame, KeyRejected::
   return {id, frame, EarliestFrame(), std::move(reason), code};
 }
 
-// Who edits, and did not say so, hears what would have helped.
+// A hint for clients that edit keys without GenerateUntil.
 std::string Timeline::WhyFrozen() const {
   return explicit_grants_ ? "" : ": without generate_until each key freezes what lies before it";
 }
@@ -185,7 +185,7 @@ void Timeline::GenerateUntil(int64_t frame) {
                               Frames(kMaxDanceFrames) + "]: it may only grow");
   }
   granted_ = frame;
-  // All is granted then, and with music whose end is unknown there is no last transition to plan.
+  // All is granted, and while the end of the music is unknown there is no last transition to plan.
   if (complete_) return;
   explicit_grants_ = true;
   Grant(frame);
@@ -220,7 +220,7 @@ Segment Timeline::From(int64_t frame) const {
   if (!is_reached) {
     const auto cut =
         std::ranges::lower_bound(cuts_, frame + std::lround(kShortestToCut_s * options_.fps));
-    // What would be left behind the usual end is never shorter than half of it.
+    // The rest is never shorter than half the usual length.
     if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
         *cut - frame <= options_.max_transition_frames)
       to = *cut;
@@ -236,7 +236,7 @@ void Timeline::PlanTo(int64_t frame) {
   }
 }
 
-// The last planned transition may reach over the frontier.
+// The last planned transition may extend past the frontier.
 void Timeline::CutIfChanged() {
   const bool changed = std::exchange(disturbed_, false);
   if (planned_.empty() || planned_.back().stop <= frontier_) return;
@@ -253,7 +253,7 @@ void Timeline::Grant(int64_t frame) {
 }
 
 const Segment* Timeline::Planned(size_t ahead) {
-  // When all is granted nothing can change any more, so when to plan no longer matters.
+  // Once all is granted nothing can change, so it does not matter when to plan.
   if (planned_.size() == ahead && complete_) PlanTo(planned_to_ + 1);
   return planned_.size() <= ahead ? nullptr : &planned_[ahead];
 }

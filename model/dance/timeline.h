@@ -15,7 +15,7 @@
 #include "model/messages/dance_event.h"
 #include "model/motion/motion.h"
 
-/// Keys on the grid of the model's frames, and how they cut a dance into transitions.
+/// Keys on the model's frame grid, and how they divide a dance into transitions.
 namespace choreo {
 
 /// When a key is due. Times round to the nearest frame; the frame and its time are reported with
@@ -26,7 +26,7 @@ struct AtFrame {
 struct AtTime {
   double seconds = 0;  ///< absolute
 };
-/// After the key of the keyframe message before this one (after frame 0 for the first).
+/// Relative to the key of the previous keyframe message (to frame 0 for the first).
 struct AfterPrevious {
   int64_t frames = 0;
 };
@@ -41,8 +41,8 @@ struct Key {
   bool operator==(const Key& other) const;
 };
 
-/// One transition to dance: frames [from, to). With a key, its frame is to - 1. Of these, the
-/// frames before `stop` are danced: `to`, or where a change cut it off.
+/// One transition to dance: frames [from, to). A key is at frame to - 1. Only frames before `stop`
+/// are danced; `stop` is `to` unless a change cut the transition short.
 struct Segment {
   int64_t from = 0;
   int64_t to = 0;
@@ -55,25 +55,25 @@ struct Segment {
 /// is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
-/// The keys of one dance, the frozen frontier, and the plan that follows from them. Each call
-/// plans, before it returns, every transition (TransitionEnd) of which a frame is granted by then,
-/// so the plan depends on the order of the calls alone. GenerateUntil and Complete grant; where
-/// nobody grants, each accepted key does, up to and with itself. A transition that reaches over the
-/// frontier goes on as long as it is the one that would be planned from its first frame now, and
-/// nobody said Disturb; else it stops at the frontier. A dance that goes on is told the same again:
-/// keys before its first frame stand where they stood, and are answered by a rejection. Not
+/// The keys of one dance, the frozen frontier, and the plan that follows from them. Before it
+/// returns, each call plans every transition (TransitionEnd) with a granted frame, so the plan
+/// depends only on the order of calls. GenerateUntil and Complete grant frames; without them each
+/// accepted key grants the frames up to and including its own. A transition across the frontier
+/// continues as long as planning from its first frame would give it again and Disturb has not been
+/// called; otherwise it stops at the frontier. A resumed dance receives the same messages again:
+/// keys before its first frame keep their places and are answered with a rejection. Not
 /// thread-safe.
 class Timeline {
  public:
   struct Options {
     double fps = kModelFps;
-    int64_t first_frame = 0;  ///< where the dance starts (a continuation's frame)
-    /// The dance is frames [first_frame, end_frame); no key at or after it.
+    int64_t first_frame = 0;  ///< where the dance starts (the continuation's frame)
+    /// The dance is frames [first_frame, end_frame), and keys must be in them.
     std::optional<int64_t> end_frame = {};
     bool has_music = false;
-    /// As by GenerateUntil, before all messages; none: keys grant.
+    /// As if by GenerateUntil before all messages; none: keys grant.
     std::optional<int64_t> granted = {};
-    int max_transition_frames = kMaxTransitionFrames;  ///< of the model
+    int max_transition_frames = kMaxTransitionFrames;  ///< the model's
   };
   explicit Timeline(Options options);
 
@@ -81,7 +81,7 @@ class Timeline {
   /// as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, stands in frozen
   /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame that
   /// another id has, one closer than kMinKeyDistance to another key, for more than kMaxKeys, and
-  /// after Complete. The pose is taken as it is: see validation.h.
+  /// after Complete. The pose must be valid (validation.h).
   std::optional<KeyRejected> Set(const std::string& id, const KeyMoment& when, const Pose& pose,
                                  const PoseMask& mask, const std::string& field);
 
@@ -89,42 +89,43 @@ class Timeline {
   /// Complete.
   std::optional<KeyRejected> Remove(const std::string& id, const std::string& field);
 
-  /// Where what is said now holds from: the frontier. Throws Error(kInvalidArgument) after
+  /// The first frame that a message can still change. Throws Error(kInvalidArgument) after
   /// Complete, when all is frozen.
   int64_t Frontier(const std::string& field) const;
 
-  /// Something else than keys changes for frames of [first, last].
+  /// Something other than keys has changed for frames of [first, last].
   void Disturb(int64_t first = 0, int64_t last = std::numeric_limits<int64_t>::max());
 
-  /// Grants, and freezes, the frames before this one: keys there are late from now on. Changes
-  /// nothing after Complete. Throws Error(kInvalidArgument) if it shrinks or is out of range.
+  /// Grants and freezes the frames before this one; keys there are late from now on. Does nothing
+  /// after Complete. Throws Error(kInvalidArgument) if the frame decreases or is out of range.
   void GenerateUntil(int64_t frame);
 
-  /// No more keys; all is granted. Throws Error(kInvalidArgument) the second time, and where the
-  /// dance would have no end: no end_frame, no music, no key, not even a late one, no grant.
+  /// Says that no more keys come, and grants all. Throws Error(kInvalidArgument) if called twice,
+  /// and if the dance would have no end: without end_frame, music, grant or any key, even a late
+  /// one.
   void Complete();
 
-  /// Where transitions without a key should end, ascending: one whose usual end is near the next of
-  /// these ends there, if that is half a second away at least. Before anything is danced.
+  /// Frames where transitions without a key should end, ascending. A transition that would end near
+  /// one ends on it if it is then at least half a second long. Call before anything is danced.
   void SetCuts(std::vector<int64_t> frames);
 
   /// The music ends before `frame`.
   void SetAudioEnd(int64_t frame);
 
-  /// The transition to be danced now (0), and those behind it; null while none may start. The
-  /// `stop` of the last one may change until it is done; others are frozen. After Complete with
-  /// music that has not ended they never run dry.
+  /// The current transition (0) or a later one; null while none may start. The `stop` of the last
+  /// may change until it is done; others are frozen. After Complete, while the music has not ended,
+  /// there is always another.
   const Segment* Planned(size_t ahead = 0);
-  /// The current transition is danced up to its stop.
+  /// Marks the current transition as danced up to its stop.
   void Finish();
 
-  /// Where the dance ends (exclusive), once known: given end_frame, there. Else after Complete (and
-  /// with music after SetAudioEnd) at the end of the music or the last key, whichever is later;
-  /// without music at the last key, or where frames were granted to by then if that is further.
+  /// The end of the dance (exclusive), once known: end_frame if given. Else, after Complete (and,
+  /// with music, SetAudioEnd): with music its end or the last key, whichever is later; without
+  /// music the last key or the end of the granted frames, whichever is later.
   std::optional<int64_t> End() const;
 
-  /// True if this frame is granted and the dance has it for certain. Past the end of the music it
-  /// is open whether the dance goes on as long as a key may still come or not.
+  /// True if this frame is granted and certain to be danced. After the end of the music frames are
+  /// uncertain as long as a key may still come.
   bool Certain(int64_t frame) const;
 
   bool complete() const { return complete_; }
@@ -133,7 +134,7 @@ class Timeline {
   int64_t Resolve(const KeyMoment& when, const std::string& field) const;
   void CheckOpen(const std::string& field) const;
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
-  // First frame that a new key could have now.
+  // The first frame that a new key may have now.
   int64_t EarliestFrame() const;
   KeyRejected Reject(const std::string& id, int64_t frame, KeyRejected::Code why,
                      std::string reason);
@@ -147,17 +148,17 @@ class Timeline {
   Options options_;
   std::map<int64_t, Key> keys_;  // by frame; danced ones included
   std::unordered_map<std::string, int64_t> frame_of_;
-  std::unordered_map<std::string, int64_t> rejected_;  // ids that only ever came late, and where
+  std::unordered_map<std::string, int64_t> rejected_;  // ids of keys that only came late -> frame
   int64_t previous_frame_ = 0;  // of the last keyframe message, for AfterPrevious
   int64_t granted_ = 0;         // by GenerateUntil
   int64_t frontier_ = 0;        // frames before it are frozen
   bool explicit_grants_ = false;
-  bool disturbed_ = false;  // the transition that reaches over the frontier
+  bool disturbed_ = false;  // whether the transition across the frontier must stop there
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
   std::vector<int64_t> cuts_;
   int64_t planned_to_;
-  std::deque<Segment> planned_;  // the first one is the current
+  std::deque<Segment> planned_;  // the first is the current one
 };
 
 }  // namespace choreo

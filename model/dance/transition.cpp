@@ -12,8 +12,8 @@
 namespace choreo {
 namespace {
 
-// On the shortest vectors for the last pose, continuous backwards from there: what motion of the
-// training data looks like, however many turns a dance has made by then.
+// Uses the shortest vectors for the last pose and continues backwards from there, as in training
+// data, however many turns the dance has made.
 std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<Pose>& world) {
   std::vector<Pose> local(world.size());
   Pose near{{}, Eigen::Matrix3Xd::Zero(3, world.back().rotations.cols())};
@@ -24,7 +24,7 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
-// Where a key leaves its place open, a path says where it is.
+// Takes the position that a key leaves open from the path.
 std::optional<Target> Placed(std::optional<Target> target, const Controls& controls) {
   const ControlCurve& path = controls[kRootPath];
   if (target && !target->mask.root_position && path.IsGiven()) {
@@ -34,7 +34,7 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   return target;
 }
 
-constexpr int kFootworkFrames = 300;  // put on their feet at once
+constexpr int kFootworkFrames = 300;  // per run of footwork
 
 // GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in Eigen's
 // cast<float>().cast<double>() of a Vector3d at -O3); it can't see through a volatile.
@@ -58,7 +58,7 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
   return history;
 }
 
-void MoveOn(const Pose& newest, std::vector<Pose>* history) {
+void PushPose(const Pose& newest, std::vector<Pose>* history) {
   std::rotate(history->begin(), history->begin() + 1, history->end());
   history->back() = newest;
 }
@@ -125,7 +125,7 @@ bool TransitionRun::Continue(Sampler& sampler) {
   }
   PutOnFeet();
   if (frames_.size() < plan_.size()) return true;
-  TellArrival();
+  MeasureArrival();
   return false;
 }
 
@@ -162,8 +162,8 @@ void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const 
                   whose + ", is not a finite pose");
 }
 
-// The frames that come next. A long plan is put on its feet piece by piece, so that nobody waits
-// for all of it.
+// Handles the next frames only: a long plan is put on its feet piece by piece, so that no other
+// dance waits for all of it.
 void TransitionRun::PutOnFeet() {
   const auto from = plan_.begin() + std::ssize(frames_);
   const bool ends = std::distance(from, plan_.end()) <= kFootworkFrames;
@@ -205,7 +205,7 @@ DanceFrame TransitionRun::Finish(size_t at) {
   return frame;
 }
 
-void TransitionRun::TellArrival() {
+void TransitionRun::MeasureArrival() {
   if (!spec_.target) return;
   const PoseMask& mask = spec_.target->mask;
   const PoseError raw =
@@ -232,7 +232,7 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
   const Target& target = *spec_.target;
   const double seconds = spec_.frames / model_->fps;
   RequiredSpeed speed;
-  // What a path asks for is told of the path.
+  // A position from the path is reported with the path, not the key.
   if (target.mask.root_position && !spec_.controls[kRootPath].IsGiven()) {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }

@@ -17,7 +17,7 @@ namespace choreo {
 void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by) {
   constexpr double kSteeredStep = 0.01;  // metres
   constexpr double kSkateStep = 0.01;
-  constexpr double kSupportStep = 0.05;  // three frames of two seconds
+  constexpr double kSupportStep = 0.05;  // three frames in two seconds
   std::ranges::sort(candidates, {}, [by](const CandidateReport& report) {
     const QualityReport& quality = report.quality;
     const double unlikely = -quality.log_likelihood.value_or(0);
@@ -51,7 +51,7 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   const SampleQueue::Reservation room_;
   const ModelInfo& model_;
   const int64_t first_frame_;
-  GroupRequest request_;  // without its samples, once they are heard
+  GroupRequest request_;  // without its samples once they have been heard
   std::unique_ptr<AudioFeed> audio_;
   ControlTrack controls_;
   Mailbox<GroupSink> mailbox_;
@@ -59,14 +59,14 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   std::atomic<bool> paused_ = false;
 
   std::mutex mutex_;                        // of what follows
-  std::vector<std::shared_ptr<Job>> jobs_;  // until all are done, or cancelled
+  std::vector<std::shared_ptr<Job>> jobs_;  // until all are done or cancelled
   std::vector<CandidateReport> reports_;
 };
 
 class TransitionGroup::Impl::Job : public SampleJob {
  public:
-  /// `run`: of the first candidate, which has looked at what all ask for; the others begin theirs
-  /// when it is their turn: they are many, and may be cancelled before.
+  /// `run`: the first candidate's, which has checked the common request. The others make theirs
+  /// when their turn comes: they are many, and may be cancelled first.
   Job(std::shared_ptr<Impl> group, const TransitionRequest& request,
       std::optional<TransitionRun> run)
       : group_(std::move(group)),
@@ -92,14 +92,14 @@ class TransitionGroup::Impl::Job : public SampleJob {
     } catch (...) {
       group_->mailbox_.GiveUp();
     }
-    group_->Cancel();  // one candidate short the ranking means nothing
+    group_->Cancel();  // a ranking with a candidate missing is worthless
   }
 
   double Deadline() const override { return deadline_; }
   int frames() const override { return request_.frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
-  /// The next frames, once it is sampled, unless the group is paused. True while there are more.
+  /// Hands out the next frames once sampled, unless the group is paused. True while there are more.
   bool HandOut() {
     for (int count = 0; count < kFramesASlice; ++count) {
       bool any = false;
@@ -119,7 +119,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
       return false;
     const DanceFrame& frame = run_->frames()[static_cast<size_t>(handed_out_++)];
     meter_.Add(frame);
-    MoveOn(frame.pose, &history_);
+    PushPose(frame.pose, &history_);
     const bool is_last = handed_out_ == frames();
     if (is_last && run_->arrival()) {
       KeyReached reached = *run_->arrival();
@@ -150,7 +150,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   const std::shared_ptr<Impl> group_;
   const TransitionRequest request_;
   const double deadline_ = PlaybackClock();
-  std::optional<TransitionRun> run_;  // of the worker's thread until it is sampled
+  std::optional<TransitionRun> run_;  // the worker's until it is sampled
   std::atomic<bool> is_sampled_ = false;
 
   std::mutex mutex_;  // of what follows
@@ -163,14 +163,14 @@ class TransitionGroup::Impl::Job : public SampleJob {
 TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
                             std::shared_ptr<GroupSink> sink)
     : queue_(queue),
-      room_(queue.ReserveBulk(request.candidates)),  // first: who finds none costs nothing else
+      room_(queue.ReserveBulk(request.candidates)),  // first, so that a refusal costs nothing else
       model_(queue.model()),
       first_frame_(request.FirstFrame()),
       request_(std::move(request)),
       controls_(model_),
       mailbox_(std::move(sink)) {
   if (!request_.audio) return;
-  // Of a long song only what the transition hears.
+  // Keeps only the part of a long song that the transition hears.
   const std::vector<float> samples = std::exchange(request_.samples, {});
   const auto& [rate, channel_count, first_sample] = *request_.audio;
   const int64_t first = ResumeSample(request_, first_frame_, model_, /*beats=*/false);
@@ -207,7 +207,7 @@ void TransitionGroup::Impl::Begin() {
   if (path && path->frames.back() < first_frame_)
     asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
 
-  // All candidates ask for the same: what is wrong with it, or worth a warning, the first one says.
+  // All candidates have the same request, so the first one checks it and warns.
   std::optional<TransitionRun> run(std::in_place, model_, transition);
   WarnOfSpeed(model_, *run, &asked);
   for (const Warning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
@@ -224,7 +224,7 @@ void TransitionGroup::Impl::Begin() {
   try {
     for (auto& job : jobs) queue_.SubmitBulk(std::move(job));
   } catch (...) {
-    mailbox_.PostLast([](GroupSink&) {});  // the caller hears of it; the sink stays silent
+    mailbox_.PostLast([](GroupSink&) {});  // the caller gets the exception; the sink stays silent
     Cancel();
     throw;
   }
@@ -252,7 +252,7 @@ void TransitionGroup::Impl::SetPaused(bool paused) {
 
 void TransitionGroup::Impl::Cancel() noexcept {
   if (cancelled_.exchange(true)) return;
-  queue_.LookForCancelled();
+  queue_.CheckCancelled();
   try {
     mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled"));
     mailbox_.Deliver();
@@ -263,7 +263,7 @@ void TransitionGroup::Impl::Cancel() noexcept {
 }
 
 void TransitionGroup::Impl::Done(CandidateReport report) {
-  std::vector<std::shared_ptr<Job>> done;  // after the lock
+  std::vector<std::shared_ptr<Job>> done;  // destroyed after the lock is released
   std::lock_guard lock(mutex_);
   reports_.push_back(std::move(report));
   if (std::ssize(reports_) < request_.candidates) return;

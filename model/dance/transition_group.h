@@ -12,10 +12,10 @@
 
 namespace choreo {
 
-/// How one candidate came out.
+/// The result of one candidate.
 struct CandidateReport {
   int candidate = 0;
-  QualityReport quality;  ///< keys: one if there was a target
+  QualityReport quality;  ///< its keys: one if there was a target
   Continuation continuation;
 };
 
@@ -27,26 +27,27 @@ class GroupSink {
   virtual void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
                         std::span<const Contacts> contacts) = 0;
   virtual void OnWarning(const Warning& warning) = 0;
-  /// Last: the candidates, best first.
+  /// Last call: the candidates, best first.
   virtual void OnDone(std::span<const CandidateReport> ranked) = 0;
-  /// Last, instead.
+  /// Last call, instead of OnDone.
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Best first. By quality: how far arrival steered it (KeyReached::correction_m, which a miss of
-/// the key is part of) in steps of 1 cm, then the share of frames without support in steps of 5 %,
-/// then skate ratio in steps of 1 %, then likelihood, of models that have one, then the candidate's
-/// number. Without a target nothing is steered. By likelihood: that alone (it favours calm motion),
+/// Sorts, best first. kQuality compares the steering (KeyReached::correction_m, which includes a
+/// miss of the key; 0 without a target) in steps of 1 cm, then the share of frames without support
+/// in steps of 5 %, then the skate ratio in steps of 1 %, then the likelihood if the model has one,
+/// then the candidate's number. kLikelihood compares the likelihood (which favours calm motion),
 /// then the number.
 void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy::kQuality);
 
-/// GenerateTransition: has the candidates of one transition sampled, as bulk, and hands their
-/// frames out as the sink takes them. Candidate 0 is what DanceStream dances for the same interval.
-/// Destruction cancels. Thread-safe. The queue must outlive it.
+/// GenerateTransition: has the candidates of one transition sampled as bulk work, and hands out
+/// their frames as the sink takes them. Candidate 0 is what DanceStream dances for the same
+/// interval. The destructor cancels. Thread-safe. The queue must outlive it.
 class TransitionGroup {
  public:
-  /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if not all candidates
-  /// find room (SampleQueue::ReserveBulk); they have it until all of this is gone.
+  /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if the queue has no room
+  /// for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs are
+  /// gone.
   TransitionGroup(SampleQueue& queue, ValidTransition request, std::shared_ptr<GroupSink> sink);
   TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink)
       : TransitionGroup(queue, ValidTransition(std::move(request), queue.model()),

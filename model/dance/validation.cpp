@@ -101,7 +101,7 @@ void ValidateOutputFps(double fps, const std::string& field) {
 
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field) {
-  // One more: a key may stand in the last frame of all, and the dance then ends behind it.
+  // One more than the last frame: a key may be in the last frame, and the dance ends after it.
   CheckedIn(continuation.frame, 0, kMaxDanceFrames + 1, field + ".frame");
   if (static_cast<int>(continuation.poses.size()) != model.history_frames) {
     throw InvalidArgument(field + ".poses", std::to_string(continuation.poses.size()) +
@@ -111,7 +111,7 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
   ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
   if (continuation.stage) {
     for (const double value : *continuation.stage) {
-      if (std::abs(value) <= kMaxPosition) continue;  // NaN is not, either
+      if (std::abs(value) <= kMaxPosition) continue;  // false for NaN, too
       throw InvalidArgument(field + ".stage", Show(value) + " m is not within " +
                                                   Show(kMaxPosition) + " m of the origin");
     }

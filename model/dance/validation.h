@@ -15,21 +15,21 @@
 /// the limit, as in "keyframes[3].rotations[16]: 7.9 rad exceeds 2π".
 namespace choreo {
 
-/// The value; throws unless it is in [least, most].
+/// Returns the value; throws unless it is in [least, most].
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
 
 /// The name of element `index` of a list: "frames[3]".
 std::string At(const std::string& field, int64_t index);
 
 /// A pose of this skeleton: joint count, finite, position within kMaxPosition, every angle at most
-/// kMaxRotation. Checks also what the mask leaves free. `field` is the path of the pose:
+/// kMaxRotation; also for joints that the mask leaves free. `field` is the path of the pose:
 /// "keyframes[3]".
 void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field);
 
 /// A key's id: 1 to kMaxIdLength bytes.
 void ValidateKeyId(const std::string& id, const std::string& field);
 
-/// A mask for this skeleton that asks for something.
+/// A mask for this skeleton that is not empty.
 void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field);
 
 /// Poses of a history or continuation. Angles may be on any branch, as in a continuous motion.
@@ -49,7 +49,7 @@ void ValidateOutputFps(double fps, const std::string& field);
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field);
 
-/// A number for messages: short, without trailing zeros.
+/// Formats a number for messages: short, without trailing zeros.
 std::string Show(double value);
 
 }  // namespace choreo

@@ -9,18 +9,18 @@
 
 namespace choreo {
 
-/// How lively parts of the body should be, as a client says it.
+/// How lively parts of the body should be, as the client sends it.
 using VelocityRequest = ControlRequest::VelocityFactors;
 
-/// Throws Error(kInvalidArgument) below `field` for rows and columns that are none, numbers outside
-/// [0, kMaxVelocityFactor], or, of speeds, [0, kMaxVelocity], and a reference that the model has
-/// not.
+/// Throws Error(kInvalidArgument) below `field` for bad numbers of rows and columns, for factors
+/// outside [0, kMaxVelocityFactor] or speeds outside [0, kMaxVelocity], and for a reference that
+/// the model lacks.
 void ValidateVelocities(const VelocityRequest& request, const ModelInfo& model,
                         const std::string& field);
 
 bool Names(const VelocityRequest& request, BodyPart part);
 
-/// The velocity factor that it asks of a part that it names, metres a frame. It must be valid.
+/// The speed that a valid request asks for in a part that it names, metres a frame.
 float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part, const ModelInfo& model);
 
 }  // namespace choreo

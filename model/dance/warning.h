@@ -8,25 +8,25 @@
 
 namespace choreo {
 
-/// For the transition of `frames` frames from `first_frame` on to the key `id`.
+/// About the transition of `frames` frames from `first_frame` to the key `id`.
 Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
                          int64_t frames, const RequiredSpeed& speed);
 
 Warning InexactResume(const Continuation& continuation, const ModelInfo& model);
 
-/// `frame`: the dance's first.
+/// `frame`: the first of the dance.
 Warning TemperatureTooHigh(int64_t frame, double asked, double most);
 
 Warning PathTooFast(int64_t frame, double m_per_s);
 Warning PathAway(int64_t frame, double metres);
 Warning KeyOffPath(const std::string& id, int64_t frame, double metres);
-/// Root heights of the standing key and of the path, metres.
+/// `standing`, `height`: root heights of the standing key and of the path, metres.
 Warning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
 /// `earliest`: the first frame that is not frozen.
 Warning ControlsTooLate(int64_t last_frame, int64_t earliest);
 Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);
 Warning PathBehindEnd(int64_t first_frame, int64_t end);
-/// `misses`: "left_leg 1.69 instead of 0.70", of at least one part, centimetres a frame.
+/// `misses`: "left_leg 1.69 instead of 0.70", for at least one part, centimetres a frame.
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses);
 
 }  // namespace choreo

@@ -13,9 +13,9 @@
 namespace choreo {
 namespace {
 
-constexpr int kRounds = 3;       // in which energy is asked for
-constexpr double kAnswer = 0.6;  // of what is missing comes of as much more
-constexpr double kFarthest = 1;  // logarithm of what is asked for over what is wanted
+constexpr int kRounds = 3;       // rounds of requesting energy
+constexpr double kAnswer = 0.6;  // share of additional energy that shows up in the motion
+constexpr double kFarthest = 1;  // bound of the logarithm of requested over wanted energy
 
 WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
   WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
@@ -38,14 +38,14 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
 
 class PlanSampling : public Sampling {
  public:
-  /// The spec is valid; model, parts and network must outlive it.
+  /// The spec must be valid. Model, parts and network must outlive it.
   PlanSampling(const ModelInfo& model, const FlowModelParts& parts, const FlowNetwork& network,
                const TransitionSpec& spec);
 
   bool Continue() override;
 
  private:
-  /// Takes what a round has come to; true while another one is to be sampled.
+  /// Evaluates a round; true if another one follows.
   bool EndRound();
   void Finish();
   ControlCurve& Energy() { return request_.controls[kVelocityFactors]; }
@@ -53,22 +53,22 @@ class PlanSampling : public Sampling {
   const ModelInfo* model_;
   const FlowModelParts* parts_;
   const FlowNetwork* network_;
-  // Of the spec:
+  // From the spec:
   std::vector<Pose> history_;
   std::vector<double> beats_;
   bool keyed_, has_path_, has_heights_;
 
   WindowRequest request_;
   FlowNoise noise_;
-  std::optional<TransitionSampler> sampler_;  // of this round; none: they are over
+  std::optional<TransitionSampler> sampler_;  // of this round; none after the last one
 
-  // The network answers energy that is asked for, but by less. So what came of it is measured and,
-  // as far as it missed, asked for again; the nearest is danced.
+  // The network responds to requested energy, but too weakly. So each round measures the energy of
+  // its result and corrects the request; the nearest result is danced.
   bool in_rounds_;
   int round_ = 0;
-  Eigen::MatrixXd wanted_;                    // energy, as it was asked for
-  std::array<double, kBodyParts> more_ = {};  // logarithms of what is asked for over that
-  double least_;                              // by how much the nearest missed
+  Eigen::MatrixXd wanted_;                    // energy, as requested
+  std::array<double, kBodyParts> more_ = {};  // logarithms of requested over wanted energy
+  double least_;                              // the error of the nearest result
 };
 
 PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
@@ -89,7 +89,7 @@ PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
              .variation = spec.variation,
              .temperature = spec.temperature},
       sampler_(std::in_place, parts, network, request_, noise_),
-      // The mean way is as lively as it is.
+      // The mean way's energy cannot be changed.
       in_rounds_(noise_.temperature > 0 && Energy().IsGiven() &&
                  std::ranges::count(Energy().asked, true) > 0),
       wanted_(Energy().values),

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-// What this machine and this engine have, fastest first.
+// The kernel sets of this machine and this engine, fastest first.
 std::vector<KernelSet> KernelSetsHere(EngineKind kind) {
   std::vector<KernelSet> sets;
   if (kind != EngineKind::kPacked) {

@@ -279,7 +279,7 @@ SampleQueue::Reservation SampleQueue::ReserveBulk(int transitions) {
   return reservation;
 }
 
-void SampleQueue::LookForCancelled() {
+void SampleQueue::CheckCancelled() {
   const std::lock_guard lock(impl_->mutex);
   for (const auto& worker : impl_->workers) worker->looks = true;
   impl_->work.notify_all();

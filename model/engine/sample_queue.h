@@ -90,7 +90,7 @@ class SampleQueue {
   void SubmitBulk(std::shared_ptr<SampleJob> job);
 
   /// Looks for cancelled jobs. Cheap, from any thread.
-  void LookForCancelled();
+  void CheckCancelled();
 
   /// Refuses new jobs; queued ones end now with kUnavailable. Returns at once (see WaitUntilIdle).
   void Stop() noexcept;

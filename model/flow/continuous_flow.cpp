@@ -221,7 +221,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
                                     .reshape({batch, tokens * kFramesAToken, 2 * dimensions})
                                     .narrow(1, tokens * kFramesAToken - window, window)
                                     .chunk(2, -1);
-  // Calmer or livelier than usual means, first of all, z times another factor.
+  // Calm or lively windows mainly differ by a factor of z.
   return f[0] + f[1] * z;
 }
 

@@ -15,7 +15,7 @@ TransitionSampler::TransitionSampler(const FlowModelParts& model, const FlowNetw
       windows_((request_.frames + model.config.window_frames - 1) / model.config.window_frames),
       emitted_(request_.history) {
   if (request_.turning) return;
-  // Behind the numbers that the first frame is made of, and those of its energy.
+  // Skips the random numbers used by the first frame and its energy.
   std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts + 1));
   noise.Fill(0, normal);
   request_.turning = model.turns.Sample(model.skeleton, request_, normal.back(), noise.temperature);

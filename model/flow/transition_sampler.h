@@ -7,13 +7,13 @@
 
 namespace choreo {
 
-/// A transition of any length on its way: windows of at most config.window_frames, sampled one
-/// after another, each in its own canonical frame; their key is the transition's, however far it
-/// is. Model and network must outlive it.
+/// Samples a transition of any length as windows of at most config.window_frames, one after
+/// another, each in its own canonical frame. Every window's key is the transition's, however far
+/// away. Model and network must outlive it.
 class TransitionSampler {
  public:
-  /// `request` is of the whole transition (frames == to_key where there is a key); at least a
-  /// frame. Which way round to turn to the key the model's TurnPrior says, unless the request does.
+  /// `request` covers the whole transition, of at least one frame (frames == to_key if there is a
+  /// key). The model's TurnPrior chooses the way round to the key, unless the request does.
   TransitionSampler(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
                     const FlowNoise& noise);
 
@@ -30,15 +30,15 @@ class TransitionSampler {
   const FlowNetwork* network_;
   WindowRequest request_;
   FlowNoise noise_;
-  int windows_;                // in all
-  std::vector<Pose> emitted_;  // behind the history
-  int sampled_ = 0;            // windows that are done
-  int frames_ = 0;             // of those
-  GroundFrame ground_;         // of the window that is under way
+  int windows_;                // in total
+  std::vector<Pose> emitted_;  // after the history
+  int sampled_ = 0;            // finished windows
+  int frames_ = 0;             // of these windows
+  GroundFrame ground_;         // of the current window
   std::optional<WindowSampler> window_;
 };
 
-/// All of it at once.
+/// Samples the whole transition.
 std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                    const WindowRequest& request, const FlowNoise& noise);
 

@@ -11,15 +11,17 @@
 namespace choreo {
 namespace {
 
-constexpr double kUpright = 0.95;  // cosine of what a turn's axis is off the vertical at most
-// Units of the inputs, and where more counts as so much.
-constexpr double kAheadFrames = 15;                // that a dancer is seen to go on turning
+constexpr double kUpright =
+    0.95;  // cosine of the largest angle between a turn's axis and the vertical
+// Units and bounds of the inputs.
+constexpr double kAheadFrames = 15;                // for which a dancer is expected to keep turning
 constexpr double kFarthest = 3;                    // metres in two seconds
-constexpr double kUsualSpeed = 0.02;               // of joints, metres a frame
-constexpr double kSlowest = 0.05;                  // of that
-constexpr size_t kTurnFrames = 2, kWayFrames = 5;  // of the history
+constexpr double kUsualSpeed = 0.02;               // mean joint speed, metres a frame
+constexpr double kSlowest = 0.05;                  // as a share of that
+constexpr size_t kTurnFrames = 2, kWayFrames = 5;  // frames of the history
 
-// How far the chest is turned against the hips, about the vertical, radians; 0 of a body without.
+// The chest's turn relative to the hips about the vertical, radians; 0 for a skeleton without these
+// joints.
 double TwistOf(const Skeleton& skeleton, const Pose& pose) {
   const int chest = skeleton.Find("spine3");
   if (chest < 0) return 0;
@@ -29,7 +31,7 @@ double TwistOf(const Skeleton& skeleton, const Pose& pose) {
       2 * std::numbers::pi);
 }
 
-// The logarithm of how fast joints are, of what is usual.
+// The logarithm of mean joint speed over the usual one.
 double LivelinessOf(const Skeleton& skeleton, const std::vector<Pose>& history) {
   double sum = 0;
   for (size_t i = 1; i < history.size(); ++i) {
@@ -52,11 +54,11 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
                                                      const WindowRequest& request) {
   if (!request.key || !request.mask.Asks(0) || request.to_key < 1) return std::nullopt;
   const Eigen::Vector3d shorter = ShorterTurn(request), other = OtherWayRound(shorter);
-  if (shorter == other) return std::nullopt;  // next to no turn
+  if (shorter == other) return std::nullopt;  // almost no turn
   const std::vector<Pose>& history = request.history;
   const Pose &last = history.back(), &key = *request.key;
   const Eigen::Vector3d up = ExpMap(last.rotations.col(0)).transpose() * Eigen::Vector3d::UnitY();
-  // About another axis the longer way is a somersault.
+  // About other axes the longer way would be a somersault.
   if (std::abs(shorter.dot(up)) < kUpright * shorter.norm()) return std::nullopt;
   const double longer = std::log2(request.to_key / double{kUsualFrames});
   const auto before = [&](size_t frames) -> const Pose& {
@@ -65,7 +67,7 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
   const double turns =
       RotationDifference(before(kTurnFrames).rotations.col(0), last.rotations.col(0)).dot(up);
   const double ahead = std::clamp(turns / kTurnFrames * kAheadFrames / std::numbers::pi, -1.0, 1.0);
-  // The canonical frame is the last pose's: its x leads to her side.
+  // The canonical frame is the last pose's, so x is sideways.
   const double goes = last.root_position.x() - before(kWayFrames).root_position.x();
   const Eigen::Vector3d way = request.mask.root_position
                                   ? Eigen::Vector3d((key.root_position - last.root_position) *
@@ -93,7 +95,7 @@ std::optional<Eigen::Vector3d> TurnPrior::Sample(const Skeleton& skeleton,
                                                  double temperature) const {
   const std::optional<Inputs> inputs = known() ? Describe(skeleton, request) : std::nullopt;
   if (!inputs) return std::nullopt;
-  // Above the normal number's share of all numbers: at 0 that is half of them.
+  // The normal number as a uniform one: 0 becomes a half.
   const double drawn = 0.5 * std::erfc(-std::min(temperature, 1.0) * normal / std::numbers::sqrt2);
   const Eigen::Vector3d shorter = ShorterTurn(request);
   return ChanceOfOther(*inputs) > drawn ? OtherWayRound(shorter) : shorter;

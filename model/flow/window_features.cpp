@@ -16,8 +16,8 @@ constexpr double kUsualBeat = 15;    // frames
 constexpr double kPathScale = 0.3;   // metres
 constexpr int kBeatFeatures = 6;
 
-// Places in a frame's features: those of the controls stand in the order of their rows, and behind
-// them how far it is from the start and to the key.
+// Offsets in a frame's features. The controls' features follow in the order of their rows, then the
+// distances to the start and to the key.
 constexpr int kIsHistory = 0, kBeat = 1, kFirstControl = kBeat + kBeatFeatures;
 
 int FeaturesOf(const ControlRow& row) {
@@ -30,7 +30,8 @@ int ControlsWidth(std::span<const ControlRow> rows) {
   return width;
 }
 
-// Of a place that is `mean` away from the history's last root, as far as nobody asks anything else.
+// Fills in the features of a place control. `mean`: the mean way's offset from the history's last
+// root.
 void DescribeOff(const ControlCurve& curve, int frame, const Eigen::Vector3d& root,
                  const Eigen::Vector3d& mean, std::span<float> features) {
   Eigen::Vector3d off = curve.values.col(frame) - root;
@@ -77,7 +78,7 @@ int FrameFeatures(std::span<const ControlRow> controls) {
 
 int WholeFeatures(const Skeleton& skeleton, const ContinuousFlowConfig& config) {
   const int joints = skeleton.joints(), dimensions = 3 + 3 * joints;
-  // Rotations in 6D, height; velocity, way to the key, what it fixes; whether there is one, when.
+  // Rotations in 6D, height; velocity, way to the key, its mask; whether there is a key, and when.
   return 6 * joints + 1 + 3 * dimensions + 1 + kTimeWidth + static_cast<int>(config.styles.size());
 }
 

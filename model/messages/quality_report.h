@@ -8,41 +8,42 @@
 
 namespace choreo {
 
-/// How fast a part of the body is (VelocityFactors), metres a frame.
+/// The speed of a body part (VelocityFactors), metres a frame.
 struct PartSpeed {
   double asked = 0;
   double danced = 0;
 };
 
-/// How to rank candidates: by steering, support and skating, or by likelihood alone, of models that
-/// have one.
+/// How to rank candidates: by steering, support and skating, or by likelihood alone, if the model
+/// has one.
 enum class RankBy { kQuality, kLikelihood };
 
-/// What a dance is worth, in figures. All at the model's rate, before resampling for output.
+/// Figures of quality of a dance. All at the model's rate, before resampling for output.
 struct QualityReport {
   int64_t frames = 0;
   std::vector<KeyReached> keys = {};
-  int64_t measured_from = 0;  ///< the first frame that the figures below speak of
-  /// Of what the model proposed, nats a frame, in its own standardised space; absent where a model
-  /// has no exact likelihood.
+  int64_t measured_from = 0;  ///< the first frame that the figures below cover
+  /// Log-likelihood of what the model proposed, nats a frame, in its own standardised space; absent
+  /// if the model has no exact likelihood.
   std::optional<double> log_likelihood = {};
   /// Share of the steps (pairs of successive frames) in which either foot skates: its toe joint is
   /// below 5 cm in both frames and moves faster than 0.2 m/s over the floor.
   double skate_ratio = 0;
-  /// Share of the frames in which something bears the body (Balance::Supported). Absent for a
+  /// Share of the frames in which something supports the body (Balance::Supported). Absent for a
   /// skeleton whose mass is unknown.
   std::optional<double> support = {};
-  /// Paper F, 4.5.1: of the kinematic beats (KinematicBeats), the share with a music beat at most
-  /// two frames away. Absent without music beats, or without kinematic ones.
+  /// Paper F, 4.5.1: the share of kinematic beats (KinematicBeats) with a music beat at most two
+  /// frames away. Absent if there are no music beats or no kinematic beats.
   std::optional<double> beat_hit_rate = {};
   /// Kinematic beats / music beats, over the dance's frames. Absent without music beats.
   std::optional<double> beat_coverage = {};
   double max_key_acceleration = 0;  ///< over all keys, m/s^2
-  /// 95th percentile over the frames of the largest joint acceleration, m/s^2: what to hold
-  /// max_key_acceleration against.
+  /// 95th percentile over the frames of the largest joint acceleration, m/s^2; compare
+  /// max_key_acceleration with it.
   double p95_acceleration = 0;
-  double max_acceleration = 0;  ///< the largest of any frame and joint, m/s^2; servers don't tell
-  /// By BodyPart, means over the frames of which velocity factors asked something; empty without.
+  double max_acceleration =
+      0;  ///< the largest of any frame and joint, m/s^2; servers do not send it
+  /// By BodyPart, means over the frames with velocity factors; empty without any.
   std::vector<PartSpeed> part_speeds = {};
 };
 

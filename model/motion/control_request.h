@@ -8,22 +8,23 @@
 
 namespace choreo {
 
-/// Wishes beside key poses and music, for models that take them, as a client asks for them and a
-/// server dances them: a member for each row of kControls (motion/controls.h). Frames are counted
-/// at the model's rate. What is no control is refused where it is danced (dance/control_track.h).
+/// Controls beside key poses and music, for models that support them; shared by client and server.
+/// It has one member per row of kControls (motion/controls.h). Frames are at the model's rate.
+/// dance/control_track.h validates them.
 struct ControlRequest {
-  /// Where the root goes: points in time, at least 2, metres, in the world. One in each frame, or
-  /// few, which a smooth curve leads through. Keys win over it.
+  /// Where the root goes: at least 2 points in time, metres, world frame. Either one in every
+  /// frame, or a few with a smooth curve through them. Keys override it.
   struct RootPath {
     std::vector<int64_t> frames = {};          ///< ascending
     std::vector<Eigen::Vector2d> points = {};  ///< (x, z) at each
-    std::vector<double> heights = {};          ///< of the root, at each; empty: as the model likes
+    std::vector<double> heights = {};          ///< of the root at each; empty: the model chooses
   };
-  /// How lively parts of the body are. Either factors or speeds. Between rows values are
-  /// interpolated, outside the nearest holds.
+  /// How lively parts of the body are, as factors or as speeds. Interpolated between rows; outside,
+  /// the nearest row holds.
   struct VelocityFactors {
-    std::vector<int64_t> frames = {};  ///< of each row, ascending; empty: one row, for always
-    /// Of each column, of kBodyPartNames, none twice; empty: one, for all.
+    std::vector<int64_t> frames = {};  ///< of each row, ascending; empty: one row for all frames
+    /// The part of each column, one of kBodyPartNames, without repetition; empty: one column for
+    /// all parts.
     std::vector<std::string> parts = {};
     std::vector<double> factors = {};  ///< [rows, columns] multipliers of the reference, 0 to 10
     std::vector<double> speeds = {};   ///< [rows, columns] metres a frame, 0 to 0.5

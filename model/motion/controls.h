@@ -11,26 +11,28 @@
 #include "model/motion/canonical.h"
 #include "model/motion/velocity_factors.h"
 
-/// What may be asked of each frame beside its key, a row a control. Server, engines, networks,
-/// training, client and studio walk these rows; docs/extending.md says what a new one needs beside.
+/// The table of controls: what a request may ask of each frame beside its key, one row per control.
+/// Server, engines, networks, training, client and studio iterate over these rows;
+/// docs/extending.md says what else a new control needs.
 namespace choreo {
 
-/// How a control's numbers change with the scene.
+/// How a control's numbers change when the scene turns or is mirrored.
 enum class ControlSpace {
-  kPlace,    ///< x, y, z in metres: turned into the canonical frame, mirrored as a place is
-  kPerPart,  ///< one for each BodyPart: no frame changes them, a mirror swaps left and right
-  kPlain,    ///< neither changes them
+  kPlace,    ///< x, y, z in metres: turned and mirrored as positions are
+  kPerPart,  ///< one per BodyPart: turns change nothing, mirrors swap left and right
+  kPlain,    ///< never change
 };
 
-/// What a network is told of a control in each frame (flow/window_features.h).
+/// The network's inputs for a control in each frame (flow/window_features.h).
 enum class ControlFeatures {
-  kOffMean,  ///< of a place: whether it is asked for, its height too, how far the mean way is off
-  kLevel,    ///< EnergyLevel over the training clips' medians, and of each whether it is asked for
-  kPlain,    ///< the numbers, of order one, and of each whether it is asked for
+  kOffMean,  ///< for positions: whether asked for, whether with a height, and the offset from the
+             ///< mean way
+  kLevel,    ///< EnergyLevel over the training clips' medians, and whether each is asked for
+  kPlain,    ///< the numbers, of order one, and whether each is asked for
 };
 
 struct ControlRow {
-  /// As the API's Controls, errors and `choreo info` call it; its Control is 1 + the row's number.
+  /// Its name in the API's Controls, errors and `choreo info`; its Control is 1 + the row's number.
   std::string_view name;
   std::string_view label;   ///< for people
   std::string_view option;  ///< of the commands that dance
@@ -47,28 +49,28 @@ inline constexpr ControlRow kControls[] = {
      ControlFeatures::kLevel, 0, "m a frame"},
 };
 
-/// Row numbers of single controls.
+/// Row numbers of the controls.
 inline constexpr size_t kRootPath = 0, kVelocityFactors = 1;
-inline constexpr int kPathHeight = 1;  ///< the channel of a root path that is its height
+inline constexpr int kPathHeight = 1;  ///< the height's channel in a root path
 
-/// The row of that name, which is one of them.
+/// The row with this name, which must exist.
 size_t FindControl(std::string_view name);
-/// The names of all of them: what a model takes that takes each.
+/// The names of all controls, for models that support them all.
 std::vector<std::string> ControlNames();
 
 /// One control over frames.
 struct ControlCurve {
-  Eigen::MatrixXd values = {};   ///< [channels, frames], or empty: nobody asks anything
-  std::vector<bool> asked = {};  ///< by channel: it was asked for; otherwise it is a guess
+  Eigen::MatrixXd values = {};   ///< [channels, frames], or empty: nothing is asked for
+  std::vector<bool> asked = {};  ///< by channel: whether asked for; otherwise a guess
 
   bool IsGiven() const { return values.cols() > 0; }
   bool Asks(int channel) const { return IsGiven() && asked[static_cast<size_t>(channel)]; }
 };
 
-/// A curve for each row of a table. The root's path: where it should be in each frame, from the
+/// One curve per row of a table. The root path: where the root should be in each frame, from the
 /// history's last root to the target's (dance/path_lead.h bends it there); its heights may be a
-/// guess. Velocity factors: how lively each part should be (motion/velocity_factors.h); those not
-/// asked for are the model's reference, or unknown. The model chooses what is left empty.
+/// guess. Velocity factors: how lively each part should be (motion/velocity_factors.h); parts not
+/// asked for have the model's reference or are unknown. The model chooses what is left empty.
 class Controls {
  public:
   Controls() : Controls(kControls) {}
@@ -79,16 +81,16 @@ class Controls {
   ControlCurve& operator[](size_t row) { return curves_[row]; }
   const ControlCurve& operator[](size_t row) const { return curves_[row]; }
 
-  /// Throws Error(kInvalidArgument) for what is not one of `taken`, naming `model`, has not as many
-  /// channels and `frames` frames as it should, is not finite or less than its least. The field is
-  /// "controls.NAME".
+  /// Throws Error(kInvalidArgument), field "controls.NAME", for a control that is not in `taken`
+  /// (the message names `model`), has a wrong number of channels or not `frames` frames, or has
+  /// values that are not finite or below the least.
   void Check(std::span<const std::string> taken, const std::string& model, int frames) const;
 
-  /// What is asked of the frames [from, from + count).
+  /// The controls of frames [from, from + count) alone.
   Controls Part(int from, int count) const;
-  /// The same in another frame of the floor, which stands in this one.
+  /// Converts to the floor frame `ground`, which is given in the present one.
   void ToLocal(const GroundFrame& ground);
-  /// The same of a dancer whose left is its right.
+  /// Exchanges left and right.
   void Mirror();
 
  private:

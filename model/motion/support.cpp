@@ -85,8 +85,8 @@ BalanceGauge::BalanceGauge(const Skeleton& skeleton, double fps, double floor)
   for (double& weight : smooth_) weight /= sum;
   const int last = 2 * kReach;
   for (int i = 0; i <= last; ++i) {
-    const double before = i > 0 ? smooth_[i - 1] : 0, behind = i < last ? smooth_[i + 1] : 0;
-    bend_[i] = (before - 2 * smooth_[i] + behind) * fps * fps;
+    const double before = i > 0 ? smooth_[i - 1] : 0, after = i < last ? smooth_[i + 1] : 0;
+    bend_[i] = (before - 2 * smooth_[i] + after) * fps * fps;
   }
 }
 

@@ -81,7 +81,7 @@ TEST_F(ControlTrackTest, APathMayComeInPieces) {
 TEST_F(ControlTrackTest, WhatIsNeverDancedChangesNothing) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 50}, {9, 9}), 60, "controls");     // over before it counts
-  track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // behind all that is danced
+  track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // after all that is danced
   EXPECT_NEAR(For(60, 140).controls[kRootPath].values(0, 139), 1.99, 1e-9);
 }
 
@@ -200,7 +200,7 @@ TEST_F(ControlTrackTest, OneOfWhomNothingIsKnownStandsWhereThePathBegins) {
   EXPECT_NEAR(track_.Stance(30, target_).root_position.y(), 0.5, 1e-9);
 }
 
-TEST_F(ControlTrackTest, NamesAPathThatBeginsBehindTheEnd) {
+TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
   EXPECT_FALSE(track_.BehindEnd(60));
   track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
   EXPECT_FALSE(track_.BehindEnd(101));
@@ -232,12 +232,12 @@ TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(0, 89), 0.89, 1e-9);
 }
 
-TEST_F(ControlTrackTest, AKeyRightBehindThePathsEndIsOffThePathAndNotTooFast) {
+TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
   track_.Set(Way({0, 88}, {0, 2}), 0, "controls");
   AimAt(2.5);
   for (const int frames : {90, 91}) {
     const Asked asked = For(0, frames);
-    ASSERT_EQ(asked.warnings.size(), 1u) << "a key right behind the end";
+    ASSERT_EQ(asked.warnings.size(), 1u) << "a key right after the end";
     EXPECT_EQ(asked.warnings[0].code, Warning::Code::kKeyOffPath);
     EXPECT_THAT(asked.warnings[0].message, HasSubstr("key \"landing\" lies 0.4"));
     const Eigen::Matrix3Xd& path = asked.controls[kRootPath].values;

@@ -76,7 +76,7 @@ TEST_F(ControlledDanceTest, BeginsWhereThePathBegins) {
   }
 }
 
-TEST_F(ControlledDanceTest, APathThatBeginsBehindTheEndIsToldOf) {
+TEST_F(ControlledDanceTest, APathThatBeginsAfterTheEndIsToldOf) {
   const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(120, 240, 0, 1)); }, 120);
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.warnings.size(), 1u);
@@ -100,7 +100,7 @@ TEST_F(ControlledDanceTest, ControlsHoldFromTheFirstFrameThatIsNotFrozen) {
   EXPECT_NEAR(LeftArm(dance.poses[299]), 0.08, 1e-6);
 }
 
-TEST_F(ControlledDanceTest, WithoutGenerateUntilTheyHoldBehindTheLastKey) {
+TEST_F(ControlledDanceTest, WithoutGenerateUntilTheyHoldAfterTheLastKey) {
   const Recording dance = Perform([](DanceStream& s) {
     s.SetKey("a", AtFrame{80}, KeyAt(0, 0));
     s.SetControls(Factor(BodyPart::kLeftArm, 5));

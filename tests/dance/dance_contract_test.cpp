@@ -155,7 +155,7 @@ TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
   EXPECT_EQ(sink->Snapshot().calls_after_end, 0);
 }
 
-TEST_F(DanceContract, StoppingTheQueueEndsDancesBehindWhatIsSampled) {
+TEST_F(DanceContract, StoppingTheQueueEndsDancesAfterWhatIsSampled) {
   const Dance dance = RandomDance(31);
   const auto queue = FakeQueue();
   auto sink = std::make_shared<Recorder>();

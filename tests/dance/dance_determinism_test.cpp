@@ -82,7 +82,7 @@ TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
   }
 }
 
-TEST(DanceStream, OrderOfKeysDoesNotMatterBehindTheFrontier) {
+TEST(DanceStream, OrderOfKeysDoesNotMatterAfterTheFrontier) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(15);
   const Recording expected = Perform(*queue, dance);

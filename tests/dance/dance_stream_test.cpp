@@ -101,7 +101,7 @@ TEST(DanceStream, EndsWithTheMusic) {
   }
 }
 
-TEST(DanceStream, KeysBehindTheMusicAreReachedInSilence) {
+TEST(DanceStream, KeysAfterTheMusicAreReachedInSilence) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(17, 1.0);
   const Recording recording = Perform(*queue, dance);

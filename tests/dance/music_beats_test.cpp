@@ -141,17 +141,17 @@ TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
   EXPECT_EQ(recording.warnings[0].code, Warning::Code::kBeatsTooLate);
   EXPECT_EQ(recording.warnings[0].frame, 219);
   std::vector<double> given, downbeats;
-  double heard_behind = 0;
+  double heard_after = 0;
   for (const Beat& beat : recording.beats) {
     if (beat.downbeat) downbeats.push_back(beat.time_s);
     if (beat.source == Beat::Source::kGiven)
       given.push_back(beat.time_s);
     else if (!given.empty())
-      heard_behind = beat.time_s;
+      heard_after = beat.time_s;
   }
   EXPECT_EQ(given, (std::vector<double>{8.3, 8.8, 9.3, 9.8, 10.3, 10.8, 11.3}));
   EXPECT_EQ(downbeats, (std::vector<double>{9.3, 11.3}));
-  EXPECT_GT(heard_behind, 14) << "behind the last one it listens again";
+  EXPECT_GT(heard_after, 14) << "after the last one it listens again";
   EXPECT_TRUE(SameDance(recording, play(dance.config, false)));
   for (const Continuation& continuation : recording.continuations) {
     if (continuation.frame >= 480) break;
@@ -201,7 +201,7 @@ TEST(MusicBeats, AreToldOnceEach) {
   }
 }
 
-// Until the first one given and behind the last: what was said ahead silences nothing before it.
+// Until the first one given and after the last: what was said ahead silences nothing before it.
 // A program that says its grid again and again, each time a few milliseconds elsewhere, as a MIDI
 // clock is heard, tells of the same beats.
 TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {

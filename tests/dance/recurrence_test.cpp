@@ -31,7 +31,7 @@ TEST(Recurrence, ALoopIsLikeItsFirstRound) {
   EXPECT_EQ(recurrence.Origin(60 * 5 + 7), 7);
 }
 
-TEST(Recurrence, WhatIsGivenLaterHoldsForTransitionsBehindTheFrozenFrames) {
+TEST(Recurrence, WhatIsGivenLaterHoldsForTransitionsAfterTheFrozenFrames) {
   const std::vector<Passage> first{{10, 20, 0}}, later{{12, 30, 4}};
   Recurrence recurrence(30, first);
   recurrence.Give(later, 450, "p");

@@ -133,8 +133,8 @@ TEST(Resume, GoesOnBitForBitAfterEdits) {
   });
 }
 
-// A server that is lost behind the last frame of all hands on a dance that only wants its summary.
-TEST(Resume, GoesOnBehindAKeyInTheLastFrameOfAll) {
+// A server that is lost after the last frame of all hands on a dance that only wants its summary.
+TEST(Resume, GoesOnAfterAKeyInTheLastFrameOfAll) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(10);
   dance.config.continuation = Continuation{.frame = kMaxDanceFrames - 20,

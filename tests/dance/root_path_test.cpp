@@ -173,8 +173,8 @@ TEST_F(LeadTest, BridgesWhatNoCurveSpeaksOf) {
   EXPECT_TRUE(lead.missed.isZero());  // nobody said where to be there
 }
 
-// A key right behind the curve's end is no reason to jump, and asks what one on its end would.
-TEST_F(LeadTest, BendsTheCurveToAnEndTooSoonBehindIt) {
+// A key right after the curve's end is no reason to jump, and asks what one on its end would.
+TEST_F(LeadTest, BendsTheCurveToAnEndTooSoonAfterIt) {
   const Eigen::Vector3d beside(0.3, 0, -0.4);
   for (const int gap : {1, 2, 9}) {
     std::fill(request_.curves.end() - gap, request_.curves.end(), nullptr);

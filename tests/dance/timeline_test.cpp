@@ -94,7 +94,7 @@ TEST(Timeline, EachKeyGrantsUpToItself) {
 }
 
 // A client that paces itself may go on after its last key; nobody knows yet where the music ends.
-TEST(Timeline, GrantsBehindTheLastKeyChangeNothing) {
+TEST(Timeline, GrantsAfterTheLastKeyChangeNothing) {
   Timeline timeline({.has_music = true});
   timeline.Complete();
   timeline.GenerateUntil(0);
@@ -124,7 +124,7 @@ TEST(Timeline, AnIntervalMayBeLongerThanATransition) {
   EXPECT_EQ(timeline.End(), 30 + 2 * kMaxTransitionFrames + 1);
 }
 
-TEST(Timeline, KeysAreEditedBehindTheFrontier) {
+TEST(Timeline, KeysAreEditedAfterTheFrontier) {
   Timeline timeline({});
   timeline.GenerateUntil(0);
   Set(timeline, "c", AtFrame{150});
@@ -304,7 +304,7 @@ TEST(Timeline, AChangeAheadStopsTheTransitionAtTheFrontier) {
   timeline.GenerateUntil(30);
   Set(timeline, "a", AtFrame{79});   // moved
   Set(timeline, "a", AtFrame{99});   // and back: nothing changed
-  Set(timeline, "b", AtFrame{150});  // behind it
+  Set(timeline, "b", AtFrame{150});  // after it
   timeline.GenerateUntil(40);
   Set(timeline, "a", AtFrame{79});
   Set(timeline, "c", AtFrame{60});
@@ -319,7 +319,7 @@ TEST(Timeline, AChangeAheadStopsTheTransitionAtTheFrontier) {
 
 TEST(Timeline, WhatDisturbsATransitionStopsIt) {
   Timeline timeline({.has_music = true, .granted = 30});
-  timeline.Disturb(60, 90);  // behind it
+  timeline.Disturb(60, 90);  // after it
   timeline.Disturb(0, 29);   // danced
   timeline.GenerateUntil(35);
   timeline.Disturb(59, 90);

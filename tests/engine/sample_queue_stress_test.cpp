@@ -36,7 +36,7 @@ TEST(SampleQueueStress, EveryJobEndsOnce) {
         is_bulk ? queue.SubmitBulk(job) : queue.Submit(job);
         if (random() % 3 == 0) {
           job->cancelled = true;
-          queue.LookForCancelled();
+          queue.CheckCancelled();
         }
         const std::optional<Error> failure = job->Result();
         if (!failure) {

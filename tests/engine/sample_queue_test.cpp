@@ -113,7 +113,7 @@ TEST_F(SampleQueueTest, CancelledJobsEndWhereverTheyAre) {
   entered.get_future().wait();
   queue.Submit(waiting);
   begun->cancelled = waiting->cancelled = true;
-  queue.LookForCancelled();
+  queue.CheckCancelled();
   gate.set_value();
   for (const auto& job : {begun, waiting}) {
     const std::optional<Error> failure = job->Result();

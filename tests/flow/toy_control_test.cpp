@@ -54,7 +54,7 @@ TEST(ToyControl, IsCutTurnedAndMirrored) {
   EXPECT_EQ(mirrored.controls[kWeight].values, request.controls[kWeight].values);
 }
 
-TEST(ToyControl, BecomesFeaturesBehindTheOthers) {
+TEST(ToyControl, BecomesFeaturesAfterTheOthers) {
   const FlowModelParts parts = Parts();
   WindowRequest request = Toy();
   request.controls[kRootPath].values = Eigen::Matrix3Xd::Ones(3, 30);

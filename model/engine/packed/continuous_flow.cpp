@@ -12,7 +12,7 @@ namespace {
 
 long RoundUp(long count, long unit) { return (count + unit - 1) / unit * unit; }
 
-// A column in, a column out.
+// Maps columns to columns.
 Eigen::MatrixXf Run(const PackedLinear& linear, const Eigen::MatrixXf& x) {
   Eigen::MatrixXf y(linear.padded(), x.cols());
   linear.Run(x.data(), x.rows(), y.data(), y.rows(), x.cols());
@@ -22,13 +22,13 @@ Eigen::MatrixXf Run(const PackedLinear& linear, const Eigen::MatrixXf& x) {
 }  // namespace
 
 struct PackedFlowNetwork::Workspace {
-  RowBuffer x;             // [tokens, width], what blocks add to
+  RowBuffer x;             // [tokens, width], the residual stream
   RowBuffer normal;        // normalised, shifted and scaled
   RowBuffer qkv;           // [tokens, 3 width]
   RowBuffer keys, values;  // of one head, laid out for products
   RowBuffer shares;        // [tokens, tokens] of one head's attention
-  RowBuffer mixed;         // [tokens, width] and a panel, into which the last head may write
-  RowBuffer added;         // [tokens, width], what a half block adds
+  RowBuffer mixed;         // [tokens, width] plus a panel for the last head to write into
+  RowBuffer added;         // [tokens, width], the output of a half block
   RowBuffer wide;          // [tokens, kMlpRatio width]
 };
 
@@ -73,8 +73,8 @@ PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const Continuou
   }
 }
 
-// Of each time, one after another: the blocks' modulations, the head's, what embedded tokens get.
-// All times together, as weights are read once for all.
+// For each time, one after another: the blocks' modulations, the head's, and the offset of embedded
+// tokens. Computes all times together, so that weights are read once.
 Eigen::MatrixXf PackedFlowNetwork::Condition(const Eigen::VectorXf& whole,
                                              std::span<const float> times) const {
   Eigen::MatrixXf known(whole.size() + kFlowTimeWidth, std::ssize(times));
@@ -115,7 +115,7 @@ void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work)
   work->values.Resize(1, value_panels * panel * tokens);
   work->shares.Resize(tokens, key_panels * panel);
   for (long h = 0; h < heads_; ++h) {
-    // Panels beside tokens and heads hold what is multiplied and never read.
+    // Padding beyond tokens and heads is multiplied but never read.
     for (long i = 0; i < tokens; ++i) {
       const float* key = work->qkv.Row(i) + width_ + h * head;
       float* out = work->keys.Row(0) + i / panel * panel * head + i % panel;
@@ -131,7 +131,7 @@ void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work)
                        .b = work->keys.Row(0),
                        .depth = head,
                        .panels = key_panels,
-                       // Of the token i tokens on all others are i tokens farther behind.
+                       // Relative to token i all others are i tokens further back.
                        .init = block.bias.row(h).data() + most_tokens_,
                        .init_stride = -1,
                        .c = work->shares.Row(0),
@@ -197,7 +197,7 @@ Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eige
   Normalise(work.x, modulation + width_, modulation, tokens, &work.normal);
   Eigen::MatrixXf out(head_.padded(), tokens);
   head_.Run(work.normal.Row(0), work.normal.stride(), out.data(), out.rows(), tokens);
-  // Of a token two frames, of a frame what stands alone and what z is multiplied with.
+  // A token has two frames; a frame has an offset and a factor for z.
   const Eigen::MatrixXf pairs = out.topRows(head_.columns())
                                     .reshaped(2 * z.rows(), kFramesAToken * tokens)
                                     .rightCols(z.cols());
