@@ -58,7 +58,7 @@ Tensor Steps(const FrameTensors& frames) {
 }
 
 Tensor FactorsOf(const Tensor& steps, const Tensor& shares) {
-  // The small constant keeps the gradient finite where nothing moves.
+  // The small constant keeps the gradient finite for joints at rest.
   const Tensor speeds = (steps.square().sum(-1) + 1e-10).sqrt();
   return torch::matmul(speeds, shares.transpose(0, 1));
 }

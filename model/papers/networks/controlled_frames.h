@@ -21,12 +21,12 @@ struct FrameTensors {
 };
 FrameTensors Join(const FrameTensors& a, const FrameTensors& b);
 
-/// What is known of a batch of equally long transitions before their first frame.
+/// The inputs of a batch of equally long transitions.
 struct ControlledTransition {
   int64_t frames = 0;           ///< N
   FrameTensors history;         ///< tau frames; the last one stands above the origin and faces +Z
   torch::Tensor target_joints;  ///< [batch, joints - 1, 3]
-  torch::Tensor target_turn;    ///< [batch] heading of the target, the way round that it is reached
+  torch::Tensor target_turn;    ///< [batch] heading of the target, including the way round
   torch::Tensor has_target;     ///< [batch, 1] in {0, 1}
   torch::Tensor path;           ///< [batch, N, 3] where the root should be
   torch::Tensor factors;        ///< [batch, N, 5] velocity factors, metres a frame

@@ -9,12 +9,11 @@
 #include "model/motion/velocity_factors.h"
 #include "model/papers/networks/controllers_model.h"
 
-/// Checkpoints of the controllers network, as those of the other networks
-/// (model/flow/checkpoint.h): one safetensors file that has everything, guarded by a content hash.
+/// Checkpoints of the controllers network (see model/flow/checkpoint.h).
 namespace choreo {
 
 struct ControllersCheckpoint : CheckpointOf<ControllersModel> {
-  std::array<double, kBodyParts> median_factors = {};  ///< of the training clips, metres a frame
+  std::array<double, kBodyParts> median_factors = {};  ///< over the training clips, metres a frame
 };
 
 /// Whether this file holds a controllers network (by its metadata).

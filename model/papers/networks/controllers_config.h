@@ -14,23 +14,25 @@ struct ControllersConfig {
   int history_frames = kHistoryFrames;     ///< tau
   int max_transition_frames = 600;
 
-  /// Both controllers: window u, heads, width and layers of encoder and decoder, hidden width of
-  /// their feed-forward networks, width of what they say.
+  /// Both controllers: window u; heads, width and layers of encoder and decoder; hidden width of
+  /// their feed-forward networks; width of their output.
   int window = 7, heads = 8, width = 32, layers = 2, feed_forward = 256, controller = 256;
-  int encoder_hidden = 512, encoding = 256;  ///< state and velocity encoder, target controller
-  int lstm = 256;                            ///< each of the two
-  int decoder_hidden = 512;                  ///< of the first hidden layer; the second has half
+  int encoder_hidden = 512,
+      encoding = 256;        ///< of state encoder, velocity encoder and target controller
+  int lstm = 256;            ///< each of the two
+  int decoder_hidden = 512;  ///< of the first hidden layer; the second has half
 
-  /// False: the network draws each frame as it is, which is the paper's form. True: what it adds to
-  /// interpolation on the path, which a ramp holds at both ends, so that keys and path are met
+  /// False (the paper): the network outputs whole frames. True: it outputs what to add to
+  /// interpolation on the path; a ramp forces this to 0 at both ends, so that keys and path are met
   /// whatever it has learnt.
   bool residual = false;
-  /// What tells it how far a transition is (Eq. 2): the place on the path, the share of the frames.
+  /// How it knows the progress of a transition (Eq. 2): by the place on the path, by the share of
+  /// frames.
   bool absolute_position = true, relative_position = true;
 
   /// Switches of the ablations (paper C, Section 4.2).
   bool two_lstms = true;
-  bool transformers = true;  ///< false: two fully connected layers instead of each
+  bool transformers = true;  ///< false: two fully connected layers in place of each
   bool root_decoder = true;
   bool velocity_factors = true;
   bool key_loss = true;

@@ -15,7 +15,7 @@ using torch::Tensor;
 
 namespace {
 
-constexpr int64_t kEmbedding = 32;  // numbers of a count of frames
+constexpr int64_t kEmbedding = 32;  // width of an embedded frame count
 constexpr double kRampFrames = 6;   // over which the residual grows from a fixed end
 constexpr double kStep = 0.02;      // metres a frame that count as one
 constexpr double kHeight = 0.2;     // metres of height that count as one
@@ -35,7 +35,7 @@ torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidde
   if (activated) {
     layers->push_back(torch::nn::PReLU());
   } else {
-    // A decoder starts by adding nothing.
+    // Decoders start with zero output.
     auto last = layers[layers->size() - 1]->as<torch::nn::Linear>();
     torch::nn::init::zeros_(last->weight);
     torch::nn::init::zeros_(last->bias);
@@ -43,8 +43,8 @@ torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidde
   return layers;
 }
 
-// Windows of `size` frames around each of N, [batch, N, size, features]: `before` holds the frames
-// ahead of the first; behind the last one, it stays.
+// Windows of `size` frames around each of N, [batch, N, size, features]. `before` holds the frames
+// before the first; the last frame is repeated.
 Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
   const int64_t half = size / 2;
   const Tensor last = given.narrow(1, given.size(1) - 1, 1);
@@ -100,7 +100,7 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
   second_ = lstm("second_lstm", into);
   if (!config.residual && !config.absolute_position && !config.relative_position)
     throw InvalidArgument("relative_position", "without it, the absolute position is wanted");
-  // AP and RP: the frame's place on the path and how far the transition is.
+  // AP and RP: the frame's place on the path and the progress of the transition.
   const int64_t code =
       config.residual ? 3 + 1 + 1 + kEmbedding
                       : (config.absolute_position ? 3 : 0) + (config.relative_position ? 1 : 0);
@@ -183,7 +183,7 @@ ControlledGiven ControllersModelImpl::Prepare(const ControlledTransition& transi
 
 FrameTensors ControllersModelImpl::Compose(const ControlledGiven& given, const Tensor& joints,
                                            const Tensor& turn, const Tensor& root) const {
-  // The heading's distance from `ahead` as a vector: (0, 1) is none.
+  // The heading relative to `ahead`, as a vector: (0, 1) is none.
   const Tensor none = torch::tensor({0.0F, 1.0F}, turn.options());
   const Tensor away = none + given.ramp * turn;
   const Tensor unit = away / (away.square().sum(-1, true) + 1e-6).sqrt();
@@ -191,7 +191,7 @@ FrameTensors ControllersModelImpl::Compose(const ControlledGiven& given, const T
           torch::zeros({joints.size(0), joints.size(1), kContacts}, joints.options())};
 }
 
-// The target's posture, heading and place: of a residual network, how far they are from `now`.
+// The target's posture, heading and place; for a residual network, relative to `now`.
 Tensor ControllersModelImpl::EncodeTarget(const ControlledGiven& given, const FrameTensors* now) {
   Tensor joints, facing, place;
   if (now != nullptr) {
@@ -215,7 +215,7 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
   const int64_t half = config_.window / 2;
   const FrameTensors now = walked.Narrow(half, frames), before = walked.Narrow(half - 1, frames);
 
-  // The mixture segments: past as it was walked, future as it is given.
+  // The mixture segments: the past as walked, the future as given.
   const auto decode = [&](const WindowController& controller, const Tensor& memory,
                           const Tensor& past, const Tensor& window) {
     const Tensor mixture =
@@ -251,7 +251,7 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
 
   const auto run = [](torch::nn::LSTM& lstm, const Tensor& in, auto* memory) {
     if (torch::GradMode::is_enabled() && in.is_cpu() && !*memory) {
-      // Training goes all the way at once, and needs no state behind it.
+      // Training runs the whole sequence at once and needs no final state.
       const std::vector<Tensor> weights = lstm->parameters();
       const Tensor none = torch::zeros({in.size(0), weights[1].size(1)}, in.options());
       LstmState start{none, none};

@@ -18,38 +18,38 @@
 
 namespace choreo {
 
-/// Everything about a transition that does not depend on what came out so far, of all N frames.
-/// Tensors are [batch, N, ...]; Narrow gives some of the frames.
+/// Everything about a transition's N frames that does not depend on frames already made. Tensors
+/// are [batch, N, ...]; Narrow selects frames.
 ///
-/// A frame is what the decoders say, added to `root`, `ahead` and `joints`: the canonical frame's
-/// origin at the pelvis' height, its heading and the mean posture; of a residual network the path
-/// and interpolation.
+/// A frame is the decoders' output added to `root`, `ahead` and `joints`. These are the canonical
+/// frame's origin at pelvis height, its heading and the mean posture, or, for a residual network,
+/// the path and interpolation.
 struct ControlledGiven {
   torch::Tensor root;           ///< [batch, N, 3]
   torch::Tensor ahead;          ///< [batch, N, 2]
-  torch::Tensor ramp;           ///< [batch, N, 1] how much of what they say counts, [0, 1]
+  torch::Tensor ramp;           ///< [batch, N, 1] factor of the decoders' output, [0, 1]
   torch::Tensor joints;         ///< [batch, N, joints - 1, 3]
   torch::Tensor path_window;    ///< [batch, N, window, 3]
   torch::Tensor factor_window;  ///< [batch, N, window, 5]
-  torch::Tensor path_memory, factor_memory;  ///< what the controllers' encoders make of them
-  torch::Tensor code;                        ///< [batch, N, width] what is added at the second LSTM
+  torch::Tensor path_memory, factor_memory;  ///< encoded by the controllers
+  torch::Tensor code;                        ///< [batch, N, width] added at the second LSTM
   torch::Tensor target_joints;               ///< [batch, 1, joints - 1, 3]
   torch::Tensor target_facing;               ///< [batch, 1, 2]
   torch::Tensor end;                         ///< [batch, 1, 3] of the path
   torch::Tensor has_target;                  ///< [batch, 1, 1]
-  torch::Tensor target;  ///< [batch, 1, encoding] of the target, unless it is residual
+  torch::Tensor target;  ///< [batch, 1, encoding] the encoded target, unless residual
 
   ControlledGiven Narrow(int64_t first, int64_t count) const;
 };
 
-/// Frames of the network, and the velocities it states beside them: [batch, n, joints, 3], the
-/// root's and the others' from the root, metres a frame, axes the scene's.
+/// The network's frames, and the velocities that it predicts beside them: [batch, n, joints, 3],
+/// the root's and the others' relative to the root, metres a frame, in the scene's axes.
 struct ControlledOutput {
   FrameTensors frames;
   torch::Tensor velocities;
 };
 
-/// Hidden and cell state of both LSTMs; none stands for zeros.
+/// Hidden and cell state of both LSTMs; none means zeros.
 struct ControllersState {
   torch::optional<std::tuple<torch::Tensor, torch::Tensor>> first, second;
 };
@@ -61,7 +61,7 @@ class ControllersModelImpl : public torch::nn::Module {
 
   const ControllersConfig& config() const { return config_; }
   const Skeleton& skeleton() const { return skeleton_; }
-  /// Frames before the first one that Walk looks at.
+  /// The number of frames before the first that Walk needs.
   int lead() const { return config_.window / 2 + 1; }
   /// [5, joints], as FactorsOf takes them.
   const torch::Tensor& shares() const { return shares_; }
@@ -71,11 +71,11 @@ class ControllersModelImpl : public torch::nn::Module {
                         const torch::Tensor& factor_std);
 
   ControlledGiven Prepare(const ControlledTransition& transition);
-  /// n frames. `walked`: the lead() frames before the first of them, then all but the last one of
-  /// them, as they were taken to be (real ones, emitted ones).
+  /// Makes n frames. `walked`: the lead() frames before the first of them, then all of them but the
+  /// last, either real or as emitted.
   ControlledOutput Walk(const ControlledGiven& given, const FrameTensors& walked,
                         ControllersState* state);
-  /// Each frame seeing what came out before it, from the history on.
+  /// Makes all frames, each from those made before it.
   FrameTensors RollOut(const ControlledTransition& transition);
 
  private:

@@ -52,8 +52,8 @@ class FlowStepImpl : public torch::nn::Module {
                         torch::Tensor* log_det);
   /// (W^-1)^T of the invertible linear layer, [width, width]; in float64 inside.
   torch::Tensor InverseWeight() const;
-  /// Data-dependent start of ActNorm: `x` leaves with zero mean and unit variance. Returns x after
-  /// the whole step.
+  /// Data-dependent initialisation of ActNorm, so that `x` leaves it with zero mean and unit
+  /// variance. Returns x after the whole step.
   void InitialiseActNorm(const torch::Tensor& x);
   int StateWidth() const { return network_->StateWidth(); }
 
@@ -82,7 +82,7 @@ class CouplingFlowImpl : public torch::nn::Module {
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights, FlowState* state,
                         torch::Tensor* log_det);
-  /// The same, of states that lie apart; `log_det` may be null.
+  /// The same for states in separate tensors; `log_det` may be null.
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights,
                         std::vector<CouplingState>* states, torch::Tensor* log_det);

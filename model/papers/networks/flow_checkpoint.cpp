@@ -8,7 +8,7 @@ namespace {
 // Raised when the meaning of a stored tensor or field changes.
 constexpr const char* kFlowFormat = "choreo-flow-1";
 
-// Refuses by name what is danced no more.
+// Refuses a former network by name.
 struct NoFormerFlow {};
 void from_json(const nlohmann::json& config, NoFormerFlow& /*none*/) {
   if (config.contains("planner") && config["planner"].value("width", 0) > 0) {

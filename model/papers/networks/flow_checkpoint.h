@@ -6,21 +6,21 @@
 #include "model/flow/checkpoint.h"
 #include "model/papers/networks/flow_model.h"
 
-/// Checkpoints of paper F's flow, as those of the other networks (model/flow/checkpoint.h).
+/// Checkpoints of paper F's flow (see model/flow/checkpoint.h).
 namespace choreo {
 
 using Checkpoint = CheckpointOf<FlowModel>;
 
-/// Of a file that has been read; `name` is what errors call it. Throws Error(kInvalidArgument) for
+/// Parses a file's content; `name` is what errors call it. Throws Error(kInvalidArgument) for
 /// another format version, a wrong hash, or tensors that do not fit the configuration; the message
 /// says which.
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 
-/// Writes atomically; returns the content hash. `card` is JSON. `weights`: what the network's
-/// tensors are to be.
+/// Writes atomically; returns the content hash. `card` is JSON. `weights` replace the network's
+/// tensors.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
                            const nlohmann::json& card);
-/// The network as it is.
+/// The same with the network's own tensors.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
                            const nlohmann::json& card);
 

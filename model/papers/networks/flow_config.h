@@ -8,14 +8,13 @@
 
 namespace choreo {
 
-/// delta of a coupling → 0 would make the inverse explode and the likelihood unbounded (paper F,
-/// Eq. 7 leaves it open): it starts near 1, and keeps a floor.
+/// A coupling's delta near 0 would make the inverse explode and the likelihood unbounded (paper F,
+/// Eq. 7, does not say how to avoid it), so it starts near 1 and has a floor.
 inline constexpr double kDeltaBias = 2.0, kDeltaFloor = 0.05;
-/// Past frames and music beyond this many standard deviations are outliers that training never saw:
-/// they are kept in range.
+/// Past frames and music are clamped to this many standard deviations; training saw nothing beyond.
 inline constexpr double kFeatureClamp = 6.0;
-/// Sampled frames beyond this many standard deviations bend softly towards one more: what they feed
-/// back can't run away, and a roll-out that tries to still has a gradient.
+/// Sampled frames beyond this many standard deviations are softly limited to one more, so that
+/// feedback cannot diverge and roll-outs that try to keep a gradient.
 inline constexpr double kSampleBound = 3.0;
 /// The preset of the baseline without a flow (inbetweener.h).
 inline constexpr const char* kInbetweenerPreset = "harvey";
@@ -25,16 +24,16 @@ inline constexpr const char* kInbetweenerPreset = "harvey";
 struct FlowConfig {
   std::string name = "paper";           ///< as servers list the model; a preset's is its own
   int history_frames = kHistoryFrames;  ///< tau
-  int audio_features = kMfccCount;      ///< MFCCs a row
-  bool hears_music = true;  ///< false: no training clip had music, which is then not listened to
-  int flow_steps = 16;      ///< K, at least 1
-  int hidden = 512;         ///< width of each coupling's network, a 2-layer LSTM
+  int audio_features = kMfccCount;      ///< MFCCs per row
+  bool hears_music = true;              ///< false: no training clip had music, and music is ignored
+  int flow_steps = 16;                  ///< K, at least 1
+  int hidden = 512;                     ///< width of each coupling's network, a 2-layer LSTM
   int condition_width = 0;  ///< 0: the raw condition goes to every coupling (the paper); else one
                             ///< shared encoding of this width
-  /// false: the flow draws a frame's features (the paper). true: it draws what is left of them
-  /// beyond a linear prediction of each from its own past, and is told besides, in that measure,
-  /// the acceleration that would reach the key (AccelerationTo). A small network learns late to go
-  /// on as bodies do, and to bend towards a pose. Wants a shared encoding.
+  /// False (the paper): the flow draws a frame's features. True: it draws the residual of a linear
+  /// prediction of each feature from its own past, and also gets, in the same units, the
+  /// acceleration that would reach the key (AccelerationTo), because small networks learn inertia
+  /// and reaching for a pose late. Requires a shared encoding.
   bool innovations = false;
   int max_transition_frames = kMaxTransitionFrames;
   double temperature = 1.0;  ///< served by default
@@ -49,11 +48,11 @@ struct FlowConfig {
   double history_noise =
       0.0;  ///< standard deviation added to past frames in training, in standardised units
 
-  /// Numbers of music that a frame is made of: the rows of its past, and its own.
+  /// How many numbers of music a frame depends on: the rows of its past, and its own.
   int HeardWidth() const { return (history_frames + 1) * audio_features; }
 
-  /// `paper` as printed, 99 M weights | `paper-f`, its twentieth: one shared encoding of the
-  /// condition, narrower LSTMs | `ablation`, smaller still | `harvey`. Throws
+  /// `paper`: as printed, 99 M weights; `paper-f`: a twentieth of that, with a shared encoding of
+  /// the condition and narrower LSTMs; `ablation`: smaller still; `harvey`. Throws
   /// Error(kInvalidArgument) for another name.
   static FlowConfig Preset(const std::string& name);
 };

@@ -15,7 +15,7 @@ using torch::Tensor;
 
 namespace {
 
-constexpr double kRidge = 1e-6;  // of a fit of standardised features
+constexpr double kRidge = 1e-6;  // in fits of standardised features
 
 Tensor BoundSample(const Tensor& x) {
   const Tensor inside = x.clamp(-kSampleBound, kSampleBound);
@@ -75,7 +75,7 @@ Tensor FlowModelImpl::Begin(const TransitionTensors& transition) {
 Tensor FlowModelImpl::Encode(const Tensor& conditions) {
   if (config_.condition_width == 0) return conditions;
   if (!config_.innovations) return encode_static_(conditions);
-  // Behind the encoding: the standardised key, what of it is asked, and the frames left.
+  // After the encoding: the standardised key, its mask, and the frames left.
   const int64_t pose = pose_width(), joints = skeleton_.joints(), told = key_width() - 1;
   const Tensor key = (conditions.narrow(-1, 0, pose) - feature_mean_.narrow(0, 0, pose)) /
                      feature_std_.narrow(0, 0, pose);
@@ -95,7 +95,7 @@ Tensor FlowModelImpl::Aim(const Tensor& past, const Tensor& static_condition) co
   const Tensor last = past.select(-2, config_.history_frames - 1).narrow(-1, 0, pose);
   const Tensor before = past.select(-2, config_.history_frames - 2).narrow(-1, 0, pose);
   const Tensor way = key - last;
-  // Without a count of the frames left, the way alone.
+  // With an unknown number of frames left, only the way.
   const Tensor aim = torch::where(left > 0,
                                   AccelerationTo<Tensor>(way, last - before, left.clamp_min(1)) /
                                       drawn_spread_.narrow(0, 0, pose),
@@ -164,13 +164,13 @@ std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const T
   const int64_t tau = config_.history_frames, batch = features.size(0);
   const int64_t frames = features.size(1) - tau;
   const Tensor standard = Standardise(features);
-  // unfold: [batch, N + 1, width, tau], of which the last window has no frame behind it.
+  // unfold: [batch, N + 1, width, tau]; drop the last window, which has no frame after it.
   const Tensor past = standard.unfold(1, tau, 1).narrow(1, 0, frames).transpose(2, 3);
   Tensor seen = past.clamp(-kFeatureClamp, kFeatureClamp);
   if (is_training()) {
     if (config_.history_noise > 0) seen = seen + config_.history_noise * torch::randn_like(seen);
-    // Whole frames are dropped, and the rest is not scaled up: at sampling time all are there (the
-    // encoder sees both).
+    // Drops whole frames without scaling up the rest: at sampling time all are there, and the
+    // encoder sees both cases.
     const Tensor keep =
         (torch::rand({batch, frames, tau, 1}, seen.options()) >= config_.history_dropout)
             .to(seen.dtype());
@@ -226,7 +226,7 @@ void FlowModelImpl::SetFeatureNormalisation(const Tensor& mean, const Tensor& st
 void FlowModelImpl::FitPrediction(const Tensor& windows, const Tensor& floor) {
   torch::NoGradGuard no_grad;
   const int64_t tau = config_.history_frames;
-  // [width, n, tau] and [width, n, 1]; what never moves is predicted to stay.
+  // [width, n, tau] and [width, n, 1]; features that never move are predicted to stay.
   const Tensor standard = Standardise(windows).to(torch::kFloat64).permute({2, 0, 1});
   const Tensor past = standard.narrow(2, 0, tau), now = standard.narrow(2, tau, 1);
   const Tensor across = past.transpose(1, 2);

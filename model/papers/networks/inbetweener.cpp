@@ -19,7 +19,7 @@ constexpr const char* kInbetweenerFormat = "choreo-inbetweener-1";
 
 constexpr double kVeil = 0.5;                       // standard deviation, Section 3.4
 constexpr double kNoVeilBelow = 5, kFullVeil = 30;  // frames left
-constexpr double kStepScale = 0.125;  // an output of one is a step of an eighth of a spread
+constexpr double kStepScale = 0.125;  // deviations that an output of 1 moves a feature
 constexpr int64_t kFootContacts = 4;
 
 // lambda_target of Section 3.4.
@@ -84,7 +84,7 @@ Tensor InbetweenerImpl::Step(const Tensor& past, const Tensor& condition, const 
   const Tensor steps = (poses - standard.narrow(1, 0, known)) / kStepScale;
   const Tensor contacts = past.narrow(1, 1, known).narrow(2, width_ - kFootContacts, kFootContacts);
 
-  // What the key does not name is neither seen nor missing.
+  // Masks degrees of freedom that the key leaves open, in the key and in the difference to it.
   const Tensor asked = condition.narrow(1, pose_, joints + 1);
   const Tensor mask = torch::cat({asked.narrow(1, joints, 1), asked.narrow(1, 0, joints)}, 1)
                           .repeat_interleave(3, 1);

@@ -18,10 +18,10 @@
 namespace choreo {
 
 /// The baseline of both papers, after Harvey et al. 2020, "Robust Motion In-Betweening": a
-/// recurrent network goes frame by frame from the last pose, told at each where the key is, what is
-/// missing to it and, added to all encodings, how many frames are left (their Section 3.3). Noise
-/// hides the key in training as long as it is far away (Section 3.4). Deterministic; it hears
-/// nothing. Their adversarial losses are left out, and it is a quarter as wide.
+/// recurrent network goes frame by frame from the last pose. Its inputs are the key, the difference
+/// to it and, added to all encodings, the number of frames left (their Section 3.3). In training,
+/// noise hides the key while it is far away (Section 3.4). Deterministic; hears no music. It has no
+/// adversarial losses and is a quarter as wide as theirs.
 ///
 /// Features and key conditions are those of paper F (PoseCodec, key_condition.h), of which it draws
 /// poses and contacts; velocities are zeros, which nothing reads.
@@ -35,16 +35,16 @@ class InbetweenerImpl : public torch::nn::Module {
 
   /// Zeros.
   LstmState InitialState(int64_t batch) const;
-  /// The features [batch, width] of the frame behind `past` [batch, n + 1, width], whose last n
-  /// frames are new to `state`. `condition`: [batch, KeyConditionWidth]. `veil`: what is added to
-  /// all that it knows of the key, [batch, 2 * width], or undefined.
+  /// The features [batch, width] of the frame after `past` [batch, n + 1, width], whose last n
+  /// frames are new to `state`. `condition`: [batch, KeyConditionWidth]. `veil`: noise added to its
+  /// encodings of the key, [batch, 2 * width], or undefined.
   torch::Tensor Step(const torch::Tensor& past, const torch::Tensor& condition,
                      const torch::Tensor& veil, LstmState* state);
-  /// N frames on its own history: [batch, N, width] of `history` [batch, tau, width] and
-  /// conditions [batch, N, KeyConditionWidth]. In training mode behind the veil. Differentiable.
+  /// N frames made autoregressively, [batch, N, width], from `history` [batch, tau, width] and
+  /// conditions [batch, N, KeyConditionWidth]. Adds the veil in training mode. Differentiable.
   torch::Tensor Rollout(const torch::Tensor& history, const torch::Tensor& conditions);
 
-  /// By which features are standardised, [width] each.
+  /// Mean and deviation of features, [width] each.
   void SetNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
 
  private:
@@ -52,7 +52,7 @@ class InbetweenerImpl : public torch::nn::Module {
 
   FlowConfig config_;
   Skeleton skeleton_;
-  int width_, pose_;  ///< numbers of a frame's features, and of those its pose's
+  int width_, pose_;  ///< sizes of a frame's features and of its pose among them
   torch::Tensor mean_, std_;
   torch::nn::Sequential state_encoder_{nullptr}, offset_encoder_{nullptr}, target_encoder_{nullptr},
       decoder_{nullptr};
@@ -60,7 +60,7 @@ class InbetweenerImpl : public torch::nn::Module {
 };
 TORCH_MODULE(Inbetweener);
 
-/// Checkpoints of it, as those of the other networks.
+/// Its checkpoints (see model/flow/checkpoint.h).
 using InbetweenerCheckpoint = CheckpointOf<Inbetweener>;
 bool HoldsInbetweener(const Safetensors& content);
 /// `name` is what errors call it. Throws as ParseCheckpoint does.

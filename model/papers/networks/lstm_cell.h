@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-/// The elementwise half of an LSTM layer, free of torch so that it is compiled for speed. Rows of
+/// The elementwise half of an LSTM layer, without torch so that it compiles to fast code. Rows of
 /// `hidden` numbers; gates are rows of 4 * hidden, in LibTorch's order: input, forget, cell,
 /// output.
 namespace choreo {
@@ -11,14 +11,14 @@ namespace choreo {
 /// serves all four.
 void DoubleCellGate(float* gates, size_t rows, size_t hidden);
 
-/// c = f c' + i g. `gates`: behind that sigmoid. The three may not overlap.
+/// c = f c' + i g. `gates`: after the sigmoid. The three may not overlap.
 void UpdateCell(const float* gates, const float* before, float* cell, size_t rows, size_t hidden);
 
 /// h = o tanh(c). `squashed` is tanh(c).
 void EmitHidden(const float* gates, const float* squashed, float* out, size_t rows, size_t hidden);
 
-/// Back through one step: `hidden_gradient` is that of h, `cell_gradient` that of c from what
-/// follows, which is replaced by that of c'; `gate_gradients` is written, of the gates before
+/// Backpropagates one step. `hidden_gradient` is that of h. `cell_gradient` is that of c from later
+/// steps, and is replaced by that of c'. Writes `gate_gradients`, those of the gates before
 /// DoubleCellGate.
 void BackThroughCell(const float* gates, const float* before, const float* squashed,
                      const float* hidden_gradient, float* cell_gradient, float* gate_gradients,

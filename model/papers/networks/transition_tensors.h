@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// A batch of transitions of equal length as a network sees them; canonical frame, metres, radians,
+/// A network's input: a batch of transitions of equal length; canonical frame, metres, radians,
 /// float32.
 struct TransitionTensors {
   int64_t frames = 0;              ///< N
@@ -25,19 +25,19 @@ struct TrajectoryTensors {
 };
 
 /// Interpolation from the last history pose to the key (lerp and slerp, the field's first
-/// baseline); what the key does not name stays as it is. Frame N-1 is the key.
+/// baseline); degrees of freedom outside the key's mask stay unchanged. Frame N-1 is the key.
 TrajectoryTensors Interpolate(const TransitionTensors& transition);
 
-/// Poses of features [batch, N, width], which may be a network's own (motion/pose_codec.h).
+/// Features [batch, N, width], which may be a network's output, → poses (motion/pose_codec.h).
 /// Differentiable.
 TrajectoryTensors DecodePoses(const Skeleton& skeleton, const torch::Tensor& features);
 
-/// KeyConditions of each transition (key_condition.h), [batch, N, KeyConditionWidth], where the
-/// transition is.
+/// KeyConditions of each transition (key_condition.h), [batch, N, KeyConditionWidth], on its
+/// device.
 torch::Tensor KeyConditionTensors(const FlowConfig& config, const Skeleton& skeleton,
                                   const TransitionTensors& transition);
 
-/// EmbedCountAt of each, all places: `counts` [...] → [..., width].
+/// EmbedCountAt for all places: `counts` [...] → [..., width].
 torch::Tensor TimeEmbedding(const torch::Tensor& counts, int64_t width);
 
 }  // namespace choreo

@@ -9,19 +9,20 @@
 namespace choreo {
 
 /// The root trajectory controller and the velocity factor controller of paper C (Section 3.2,
-/// Figure 3): what is given around a frame, and the same window with the past as it came out.
+/// Figure 3): they see the controls around a frame, and the same window with its past replaced by
+/// frames made.
 class WindowControllerImpl : public torch::nn::Module {
  public:
   virtual ~WindowControllerImpl() = default;
-  /// The half that knows only what is given: [M, window, features] -> [M, window, width]. Of all
-  /// frames at once.
+  /// The half that depends only on the controls: [M, window, features] -> [M, window, width]. For
+  /// all frames at once.
   virtual torch::Tensor Encode(const torch::Tensor& given) = 0;
   /// `memory` of Encode and the mixture segment [M, window, features] -> [M, controller].
   virtual torch::Tensor Decode(const torch::Tensor& memory, const torch::Tensor& mixture) = 0;
 };
 using WindowController = std::shared_ptr<WindowControllerImpl>;
 
-/// Transformers, or two fully connected layers where config.transformers is off.
+/// Transformers, or two fully connected layers if config.transformers is false.
 WindowController MakeWindowController(int features, const ControllersConfig& config);
 
 }  // namespace choreo

@@ -13,7 +13,7 @@
 namespace choreo {
 namespace {
 
-// Each method, and before it what its network draws alone.
+// Each method, preceded by its network alone.
 std::vector<Method> WithRaw(const std::vector<Method>& methods) {
   std::vector<Method> all;
   for (const Method& method : methods) {
@@ -31,7 +31,7 @@ bool HasMusic(const ClipSet& set) {
   return std::ranges::any_of(set.clips, [](const auto& clip) { return clip.audio.cols() > 0; });
 }
 
-// Of each long dance: who it was danced beside, how it met beats and keys.
+// How a long dance met beats and keys.
 struct LongScore {
   size_t clip = 0;
   BeatFigures beats;

@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// Paper F's tables, of every method raw (without arrival and footwork) and as served, each at
-/// its own temperature unless one is asked for:
+/// Paper F's tables for every method, raw (without arrival and footwork) and as served, at its
+/// default temperature unless one is given:
 ///   paper_l2p_SET     Table 2: mean of EvalOptions::best_of samples
 ///   paper_dances_SET  Table 1: long dances with keys each 100 frames
 ///   paper_beats_SET   Table 4; of sets with music

@@ -61,7 +61,8 @@ std::vector<std::string> Ranking(const std::filesystem::path& file, const Json& 
   return ranking;
 }
 
-/// What one method came to, by who answered (or by clip): sums of ranks, of firsts, and how many.
+/// One method's results by person (or clip): sums of ranks and of firsts, and the number of
+/// answers.
 struct Sums {
   std::vector<double> ranks, firsts, counts;
 
@@ -106,7 +107,7 @@ void WriteStudy(std::span<const StudyMethod> methods, const std::string& questio
   Random random(seed);
   Shuffle(&clips, &random);
   Json whose_films = Json::array(), shown = Json::array();
-  Safetensors copied;  // for its hash alone: a study is its films, under the names that they have
+  Safetensors copied;  // only for its hash, which identifies a study by its films and their names
   for (size_t clip = 0; clip < clips.size(); ++clip) {
     std::vector<size_t> order(methods.size());
     std::iota(order.begin(), order.end(), size_t{0});

@@ -29,7 +29,7 @@ double MusicStart(const PreparedClip& clip) {
   return nlohmann::json::parse(told->second).value("music_start_s", 0.0);
 }
 
-// A dance in the middle of each clip: at its ends dancers stand.
+// A dance in the middle of each clip, because dancers stand at its ends.
 std::vector<LongPlan> MiddlePlans(const ModelInfo& model, const ClipSet& set, int frames) {
   const auto clips = static_cast<int>(set.clips.size());
   EvalOptions options;
@@ -53,7 +53,7 @@ std::vector<StudyMethod> FilmDances(const ClipSet& set, std::span<const Method> 
                                     const std::filesystem::path& folder) {
   const ModelInfo& model = methods.back().sampler->model();
   const std::vector<LongPlan> plans = MiddlePlans(model, set, frames);
-  for (const LongPlan& plan : plans) SongOf(set.clips[plan.clip], songs);  // before the long work
+  for (const LongPlan& plan : plans) SongOf(set.clips[plan.clip], songs);  // fails early
   std::vector<StudyMethod> films;
   const auto filmed = [](const Method& method) {
     return method.kind != Method::Kind::kInterpolation;

@@ -9,12 +9,11 @@
 
 namespace choreo {
 
-/// Dances beside the middle of each clip, through the clip's own poses each 100 frames, as every
-/// method is served, and films them, METHOD/CLIP.mp4 in `folder`: real motion as it was danced;
-/// interpolation that nobody put on its feet has no film. `songs`: a folder with CLIP.ogg (.wav,
-/// .mp3), which the films play; silent if empty. `frames`: how long; less where a clip's music
-/// ends. Keys are not marked: real motion has none. Throws Error(kNotFound) for a clip without a
-/// song, and as VideoEncoder.
+/// Has every method dance the middle of each clip as served, through the clip's own poses every 100
+/// frames, and films the dances and the real motion as METHOD/CLIP.mp4 in `folder`. Leaves out raw
+/// interpolation. `songs`: a folder with the films' music, CLIP.ogg (.wav, .mp3); silent if empty.
+/// `frames`: the length; less if a clip's music ends earlier. Keys are not marked, because real
+/// motion has none. Throws Error(kNotFound) for a clip without a song, and as VideoEncoder.
 std::vector<StudyMethod> FilmDances(const ClipSet& set, std::span<const Method> methods, int frames,
                                     const std::filesystem::path& songs,
                                     const std::filesystem::path& folder);

@@ -103,7 +103,7 @@ bool IsPicture(const std::filesystem::path& path) { return HasExtension(path, {"
 
 std::string StudyPage(const std::string& question, const nlohmann::ordered_json& shown) {
   std::string page = kPage;
-  // Films first: nothing in them is a mark.
+  // Films first: they contain no placeholder.
   Put("SHOWN", ForScript(shown), &page);
   Put("QUESTION", ForScript(question), &page);
   return page;

@@ -19,19 +19,19 @@ namespace {
 using torch::Tensor;
 
 constexpr double kControlTempi[] = {1.0, 0.75, 1.33};
-constexpr double kHandSmoothness = 9;  // frames: what a drawn path leaves out
+constexpr double kHandSmoothness = 9;  // frames: the smoothness of a drawn path
 constexpr double kLeastScale = 0.5, kMostScale = 1.5;
-constexpr float kScaledWeight = 0.15F;  // of real motion where the factors are not its own
+constexpr float kScaledWeight = 0.15F;  // weight of real motion if factors were changed
 
-// Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, its weights' sum one
-// near both ends too.
+// Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, normalised at the
+// ends, too.
 Tensor SmoothInTime(const Tensor& x, double sigma) {
   const Tensor at = torch::arange(x.size(-2), x.options());
   const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / sigma;
   return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
 }
 
-// The path [N, 3] blurred, its ends where they were; it starts from `before` [3].
+// Blurs the path [N, 3] and keeps its ends; it starts from `before` [3].
 Tensor DrawnPath(const Tensor& path, const Tensor& before) {
   const Tensor all = torch::cat({before.unsqueeze(0), path}, 0);
   const int64_t last = all.size(0) - 1;
@@ -83,7 +83,7 @@ ControlClips::Track ControlClips::MakeTrack(const PreparedClip& clip, double tem
     append(&track.joints, facing.joints.reshaped());
     append(&track.factors, factors);
     for (int foot = 0; foot < 4; ++foot) {
-      // Contacts stand left then right; a mirrored dancer swaps them.
+      // Contacts are left, then right; mirroring swaps them.
       track.contacts.push_back(clip.contacts(mirrored ? (foot + 2) % 4 : foot, first));
     }
   }

@@ -11,35 +11,35 @@
 
 namespace choreo {
 
-/// A batch of windows of real motion with the controls that it would have been asked for by.
+/// A batch of windows of real motion, with controls that describe it.
 struct ControlBatch {
   ControlledTransition transition;
-  FrameTensors truth;     ///< the N frames
-  torch::Tensor factors;  ///< [batch, N, 5] that the windows should have: the real ones, scaled
-                          ///< where the controls are
-  torch::Tensor weight;   ///< [batch] how far the real motion is the answer to these controls
+  FrameTensors truth;  ///< the N frames
+  torch::Tensor
+      factors;           ///< [batch, N, 5] wanted: the real ones, scaled if the controls are scaled
+  torch::Tensor weight;  ///< [batch] how well the real motion fits these controls
 };
 
-/// Clips as the controllers network sees them, in memory: turned, at several tempi, and mirrored.
+/// Clips in the controllers network's form, in memory: turned, at several tempi, and mirrored.
 /// Immutable after construction.
 class ControlClips {
  public:
   explicit ControlClips(const std::vector<PreparedClip>& clips);
 
-  /// What training varies, each a probability. All zero: real windows with their own controls.
+  /// Probabilities of variations in training. All zero: real windows with their own controls.
   struct Variation {
     double mirror = 0;
     double tempo = 0;  ///< danced faster or slower
     double no_target = 0;
-    double smooth_path = 0;     ///< the path is only what a hand would draw of it
-    double smooth_factors = 0;  ///< the factors are their means over a while
+    double smooth_path = 0;     ///< the path is smoothed, as if drawn by hand
+    double smooth_factors = 0;  ///< the factors are averaged over time
     double scale_factors = 0;   ///< the factors are 0.5 to 1.5 times the real ones
   };
-  /// Draws `batch` windows of N = `frames` behind `history` frames.
+  /// Draws `batch` windows of N = `frames` after `history` frames.
   ControlBatch Draw(int batch, int history, int frames, const Variation& variation,
                     Random* random) const;
 
-  /// Frames of the longest window that Draw finds at the clips' own tempo.
+  /// The longest window that Draw finds at the clips' own tempo, in frames.
   int64_t Longest() const;
   /// The median of each velocity factor over all frames, metres a frame.
   std::array<double, kBodyParts> MedianFactors() const;

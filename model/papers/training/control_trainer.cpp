@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kNormalisationWindows = 512;
 constexpr int kControlValidationWindows = 48;
-constexpr int kOwnPasses = 2;                // of scheduled sampling: each costs a third of a step
+constexpr int kOwnPasses = 2;  // passes of scheduled sampling; each costs a third of a step
 constexpr int kRaisedEvery = 5, kRaise = 4;  // epochs, frames of the curriculum's shortest
 
 ControllersConfig ConfigOf(const PaperOptions& options) {
@@ -109,8 +109,8 @@ class ControlRun : public PaperRun {
   }
 
  private:
-  // The paper's curriculum: in each epoch one frame more at most, every five epochs four more at
-  // least. The run's steps are dealt out to the epochs alike.
+  // The paper's curriculum: the maximum length grows by one frame per epoch, the minimum by four
+  // every five epochs. All epochs have equally many steps.
   ControlBatch Draw(Random* random) const {
     const int shortest = options().shortest, longest = options().longest;
     const int64_t epoch = step() * (longest - shortest + 1) / options().steps;
@@ -126,9 +126,9 @@ class ControlRun : public PaperRun {
                        random);
   }
 
-  // Scheduled sampling: what a frame sees before it is the real one with a probability of
-  // `truth_share`, else the network's own. That is found all frames at once instead of one after
-  // the other (Duckworth et al. 2019): behind real frames first, then behind what came of that.
+  // Scheduled sampling: the frame before each is the real one with probability `truth_share`, else
+  // the network's own. The network's frames are made in parallel (Duckworth et al. 2019): first
+  // from real frames, then from the result.
   LossTerms Walk(const ControlBatch& batch, const ControlledGiven& given, double truth_share) {
     const int64_t lead = model_->lead(), frames = batch.transition.frames;
     const FrameTensors& history = batch.transition.history;
@@ -147,7 +147,7 @@ class ControlRun : public PaperRun {
     return ControlLoss(*model_, batch, walk());
   }
 
-  // Truth where `real` is one, the network's own where it is zero.
+  // Takes `truth` where `real` is 1, the network's frames where it is 0.
   static FrameTensors Mix(const FrameTensors& truth, const FrameTensors& own,
                           const torch::Tensor& real) {
     const auto mix = [&](const torch::Tensor& a, const torch::Tensor& b) {

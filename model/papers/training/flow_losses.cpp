@@ -47,7 +47,7 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
   const TrajectoryTensors poses = DecodePoses(model->skeleton(), sampled);
   LossTerms terms;
   if (weights.key > 0) {
-    // Windows without a whole key have nothing to arrive at.
+    // Windows without a whole key do not count.
     const Tensor whole = batch.transition.target_mask.amin(1);
     const Tensor distance = JointDistance(kinematics, LastFrame(poses), LastFrame(batch.truth));
     const Tensor key = kDecimetresPerMetre * (distance * whole).sum() / whole.sum().clamp_min(1);

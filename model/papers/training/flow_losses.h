@@ -10,16 +10,16 @@
 /// Training losses of paper F's flow and the baseline.
 namespace choreo {
 
-/// Features plus noise of `share` of their spread, so that binary contacts, derived velocities and
-/// joints that never move can't make the density unbounded.
+/// Adds noise of `share` of the features' spread, so that binary contacts, derived velocities and
+/// joints that never move cannot make the density unbounded.
 torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features, double share);
 
-/// L_flows of one batch (Eq. 6), nats a frame, mean over frames; of features that are
-/// dequantised by `noise`.
+/// L_flows of one batch (Eq. 6), nats a frame, mean over frames, for features dequantised by
+/// `noise`.
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                          const torch::Tensor& static_condition, double noise);
 
-/// What counts how much of a sampled roll-out (Eq. 8); a term of no weight is left out.
+/// Weights of the terms for a sampled roll-out (Eq. 8); a term with weight 0 is not computed.
 struct RolloutWeights {
   double key = 0.5, feet = 0.1;
   double way = 0;  ///< ours
@@ -32,7 +32,7 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
                       const torch::Tensor& static_condition, double temperature,
                       const RolloutWeights& weights);
 
-/// Of N frames the last alone.
+/// The last frame alone.
 TrajectoryTensors LastFrame(const TrajectoryTensors& poses);
 
 /// L2P of paper F's Table 2: distance of global joint positions, mean over joints and frames,

@@ -16,7 +16,7 @@ constexpr int kValidationWindows = 64;
 // Standardised features keep at least these spreads: metres, radians, m/s and rad/s, contacts.
 constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
                  kContactFloor = 0.1;
-constexpr double kInnovationFloor = 0.1;  // of those
+constexpr double kInnovationFloor = 0.1;  // as a share of those
 constexpr double kAudioVarianceFloor = 1e-4;
 
 FlowConfig ConfigOf(const PaperOptions& options, const std::vector<PreparedClip>& clips) {
@@ -46,7 +46,7 @@ void NormaliseAudio(const std::vector<PreparedClip>& clips, FlowModel& model) {
     square += clip.audio.cast<double>().array().square().matrix().rowwise().sum();
     count += static_cast<double>(clip.audio.cols());
   }
-  if (count == 0) return;  // no music to learn from
+  if (count == 0) return;  // no clip has music
   torch::Tensor mean = torch::empty({width}), std = torch::empty({width});
   for (int i = 0; i < width; ++i) {
     const double m = sum[i] / count;
@@ -56,8 +56,8 @@ void NormaliseAudio(const std::vector<PreparedClip>& clips, FlowModel& model) {
   model->SetAudioNormalisation(mean, std);
 }
 
-// The flow's features, of the last frames of `windows` of real motion [n, tau + 1, width]. Spreads
-// have floors, so that constant joints can't make the density unbounded.
+// Normalises features by the last frames of `windows` of real motion [n, tau + 1, width]. Spreads
+// have floors, so that constant joints cannot make the density unbounded.
 void NormaliseFeatures(const torch::Tensor& windows, FlowModel& flow) {
   const int64_t joints = flow->skeleton().joints(), width = flow->feature_width();
   torch::Tensor floor = torch::full({width}, kRotationFloor);
@@ -91,7 +91,7 @@ class FlowRun : public PaperRun {
   }
 
  protected:
-  // Features and ActNorm, by the data.
+  // Initialises normalisation and ActNorm from data.
   void Prepare() override {
     if (!options().from.empty()) return;
     torch::NoGradGuard no_grad;
@@ -169,7 +169,7 @@ class FlowRun : public PaperRun {
     Safetensors weights;
     ExportTensors(*model_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
-      // Half the bytes. What is inverted exactly stays exact.
+      // Halves the file. Tensors that are inverted stay exact.
       if (name.find("weight") != std::string::npos) RoundToBfloat16(&tensor);
     }
     return SaveCheckpoint(path, model_, std::move(weights), card);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kInbetweenValidationWindows = 64;
 constexpr int kSpreadBatches = 8;
-constexpr double kLeastSpread = 0.02;  // metres, radians: of joints that hardly move
-// Of the losses: rotations and contacts beside positions in decimetres.
+constexpr double kLeastSpread = 0.02;  // metres, radians: for joints that hardly move
+// Weights of rotations and contacts relative to positions in decimetres.
 constexpr double kTurnWeight = 1, kContactWeight = 0.1;
 
 FlowConfig ConfigOfInbetweener(const PaperOptions& options) {
@@ -51,7 +51,7 @@ class InbetweenRun : public PaperRun {
     model_->SetNormalisation(all.mean(0), all.std(0).clamp_min(kLeastSpread));
   }
 
-  // L1 of joint positions and rotations over all of a roll-out, and of contacts.
+  // L1 of joint positions, rotations and contacts over a roll-out.
   void TrainStep() override {
     Random random = RandomOf(step());
     model_->train();

@@ -53,7 +53,7 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
     const PreparedClip& clip = clips[index];
     const bool mirrored = variation.mirror && random->Uniform() < 0.5;
     int64_t start = drawn;
-    double rate = 1;  // frames of the clip a frame
+    double rate = 1;  // frames of the clip per frame
     if (random->Uniform() < variation.tempo) {
       const double other = std::exp(random->Uniform(-kMostTempo, kMostTempo));
       const auto taken = static_cast<int64_t>(std::ceil(window * other)) + 1;
@@ -84,7 +84,7 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
       const Pose pose = frame.ToLocal(poses[t + 1]);
       Contacts contacts;
       for (int foot = 0; foot < 4; ++foot) {
-        // Contacts stand left then right; a mirrored dancer swaps them.
+        // Contacts are left, then right; mirroring swaps them.
         contacts[foot] =
             clip.contacts(mirrored ? (foot + 2) % 4 : foot, std::lround(source(t + 1)));
       }

@@ -9,37 +9,37 @@
 
 namespace choreo {
 
-/// A batch of windows of real motion, tau history frames and then N, in the canonical frame of the
-/// last history frame.
+/// A batch of windows of real motion: tau history frames, then N frames, in the canonical frame of
+/// the last history frame.
 struct MotionBatch {
   TransitionTensors transition;
   TrajectoryTensors truth;  ///< the N frames
-  torch::Tensor features;   ///< [batch, tau + N, width] absolute, as PoseCodec has them
+  torch::Tensor features;   ///< [batch, tau + N, width] absolute, by PoseCodec
   torch::Tensor audio;      ///< [batch, tau + N, audio_features], zeros where there is none
   torch::Tensor has_audio;  ///< [batch, 1]
 
-  MotionBatch First(int64_t windows) const;  ///< some of them, at least one
+  MotionBatch First(int64_t windows) const;  ///< the first ones, at least one
 };
 
-/// What training varies. Everything off: plain windows with their key and music.
+/// Variations in training. All zero: plain windows with their key and music.
 struct MotionVariation {
   bool mirror = false;
   double drop_key = 0;     ///< probability that a window has no key
   double drop_audio = 0;   ///< probability that its music is masked
-  double partial_key = 0;  ///< probability that joints or the root's position are not in the key
+  double partial_key = 0;  ///< probability that the key leaves joints or the root's position open
   double tempo = 0;        ///< probability that it is danced up to a third faster or slower
-  /// Probability that only the last few poses are known, the earliest being held.
+  /// Probability that only the last few poses are known and the earliest of them is held.
   double hold_history = 0;
 };
-/// Draws `batch` windows of N = `frames` behind `history` frames, of clips of one skeleton, onto
-/// `device`. Throws Error(kInvalidArgument, "frames") where none is long enough.
+/// Draws `batch` windows of N = `frames` after `history` frames, of clips of one skeleton, onto
+/// `device`. Throws Error(kInvalidArgument, "frames") if none is long enough.
 MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int history, int frames,
                        const MotionVariation& variation, torch::Device device, Random* random);
 
-/// How many frames a step's windows have, from shortest to longest. Short transitions are common in
-/// use and cheap: half of the draws are quadratic towards the short end.
+/// Draws the length of a step's windows, from shortest to longest. Half of the draws are quadratic
+/// towards the short end, because short transitions are common in use and cheap.
 int DrawnLength(const PaperOptions& options, Random* random);
-/// What is varied where paper F's flows learn, and who is compared with them.
+/// Variations for paper F's flows and for the networks compared with them.
 MotionVariation VariationOf(const PaperOptions& options, bool keys);
 
 }  // namespace choreo

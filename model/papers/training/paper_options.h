@@ -9,22 +9,23 @@
 
 namespace choreo {
 
-/// Of paper F's flows, the presets `paper`, `paper-f` and `ablation`.
+/// Options of paper F's flows, the presets `paper`, `paper-f` and `ablation`.
 struct FlowOptions {
   int flow_steps = 0, hidden = 0;  ///< K, width of the LSTMs; 0: the preset's
   int condition_width = -1;        ///< of the shared encoding, 0: none; -1: the preset's
-  double rollout_share = 1;        ///< of a step's windows, that are sampled for L_key and L_feet
-  int64_t rollout_from = 0;  ///< step at which L_key and L_feet begin; before it samples are noise
-  double rollout_loss = 0;   ///< weight of the sampled way's distance from the real one, ours
-  double temperature = 1;    ///< at which it is served unless asked otherwise
-  double dequantise = 0.05;  ///< noise of the likelihood's features, share of their spread
+  double rollout_share = 1;        ///< share of a step's windows sampled for L_key and L_feet
+  int64_t rollout_from = 0;        ///< first step with L_key and L_feet; samples are noise before
+  double rollout_loss = 0;         ///< weight of the roll-out's distance from the real motion; ours
+  double temperature = 1;          ///< default in serving
+  double dequantise =
+      0.05;  ///< noise added to the likelihood's features, as a share of their spread
   bool no_innovations = false;  ///< draws features as the paper does, whatever the preset
   bool no_keys = false, no_time_embedding = false, forward_embedding = false;  ///< Table 1
 };
 
-/// Of paper C's network, the preset `controllers-paper`: what is left out (Tables 2-4).
+/// Options of paper C's network, the preset `controllers-paper`: ablations (Tables 2-4).
 struct ControllersOptions {
-  double truth_decay = 0.99995;  ///< of the real frames' share of what is fed back, a step
+  double truth_decay = 0.99995;  ///< decay per step of the share of real frames fed back
   bool residual = false;         ///< ControllersConfig::residual, ours
   bool no_absolute_position = false, no_relative_position = false;
   bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
@@ -44,8 +45,8 @@ struct PaperOptions : TrainOptions {
   void Validate() const override;
 };
 
-/// VisitFixed of what only the papers' presets have: `visit(option, value, is_used, what)`;
-/// `is_used`: the preset's network has a use for it.
+/// VisitFixed for options that only the papers' presets have: `visit(option, value, is_used,
+/// what)`; `is_used`: the preset's network uses it.
 void VisitFixedOfPapers(auto& options, auto&& visit) {
   const bool controllers = options.IsControllers(), inbetweener = options.IsInbetweener();
   const bool flow = !controllers && !inbetweener;
@@ -89,9 +90,9 @@ void VisitFixedOfPapers(auto& options, auto&& visit) {
 
 /// Trains paper F's flow (`paper`, `paper-f`, `ablation`), as TrainContinuousFlow does.
 void TrainFlow(const PaperOptions& options);
-/// The same of the baseline of both papers, on the windows of TrainFlow and on the CPU.
+/// The same for the baseline of both papers, with TrainFlow's windows, on the CPU.
 void TrainInbetweener(const PaperOptions& options);
-/// The same of paper C's network, on a curriculum of lengths.
+/// The same for paper C's network, with a curriculum of lengths.
 void TrainControllers(const PaperOptions& options);
 
 }  // namespace choreo

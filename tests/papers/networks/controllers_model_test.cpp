@@ -85,7 +85,7 @@ TEST_F(ControllersModelTest, FactorsAreThoseOfTheWholeHouse) {
   EXPECT_LT(Difference(mine, batch.factors.narrow(1, 1, 7)), 2e-5);
 }
 
-// Windows of 7 frames around each, ahead of the first the history's, behind the last the last: what
+// Windows of 7 frames around each, ahead of the first the history's, after the last the last: what
 // shipped checkpoints were trained on.
 TEST_F(ControllersModelTest, IsToldOfControlsAroundEachFrame) {
   const ControlledTransition asked = Draw(20).transition;
