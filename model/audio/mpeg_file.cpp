@@ -87,11 +87,11 @@ std::optional<int64_t> FindSync(const ByteSource& source, int64_t from, int64_t 
 
 /// The first sync at or after `at`, past the tag that begins there if its length leads to one: a
 /// tag may contain sound.
-std::optional<int64_t> FindSyncBehindTag(const ByteSource& source, int64_t at) {
+std::optional<int64_t> FindSyncAfterTag(const ByteSource& source, int64_t at) {
   const int64_t end = TagEnd(source, at);
   if (end > at && end < source.size) {
-    if (const auto behind = FindSync(source, end, std::min(end + kSearched, source.size)))
-      return behind;
+    if (const auto found = FindSync(source, end, std::min(end + kSearched, source.size)))
+      return found;
   }
   return FindSync(source, at, source.size);
 }
@@ -118,7 +118,7 @@ struct Walk {
 
 Walk WalkFrames(const ByteSource& source) {
   Walk walk;
-  std::optional<int64_t> at = FindSyncBehindTag(source, 0);
+  std::optional<int64_t> at = FindSyncAfterTag(source, 0);
   if (at) walk.left_out = *at;
   if (at && source.Has(0, "ID3")) walk.left_out = 0;
   while (at && *at < source.size) {
@@ -127,7 +127,7 @@ Walk WalkFrames(const ByteSource& source) {
       const bool is_tag = source.Has(*at, "TAG") || source.Has(*at, "ID3") ||
                           source.Has(*at, "APETAGEX") || source.Has(*at, "LYRICSBEGIN");
       const std::optional<int64_t> next = source.Has(*at, "ID3")
-                                              ? FindSyncBehindTag(source, *at)
+                                              ? FindSyncAfterTag(source, *at)
                                               : FindSync(source, *at + 1, source.size);
       if (!is_tag) walk.left_out += next.value_or(source.size) - *at;
       at = next;
@@ -261,7 +261,7 @@ class MpegReader final : public SoundReader {
 
 }  // namespace
 
-// Its length is in four bytes of seven bits, behind ten that it does not count.
+// Four bytes of seven bits hold its length, not counting the ten bytes of its header.
 int64_t TagEnd(const ByteSource& source, int64_t at) {
   if (!source.Has(at, "ID3")) return at;
   const uint32_t size = __builtin_bswap32(source.Word(at + 6));

@@ -95,14 +95,14 @@ bool IsBurst(const ByteSource& source, int64_t body) {
   return false;
 }
 
-/// Where the chunk behind one of `size` bytes begins: some leave out the byte that pads it.
-int64_t Behind(const ByteSource& source, int64_t body, int64_t size) {
+/// Where the chunk after one of `size` bytes begins: some leave out the byte that pads it.
+int64_t After(const ByteSource& source, int64_t body, int64_t size) {
   const int64_t padded = body + size + size % 2;
   return IsChunk(source, padded) || !IsChunk(source, body + size) ? padded : body + size;
 }
 
-/// The samples alone behind a header of our own, which takes the place of what stands before them:
-/// libsndfile looks for them otherwise than others where chunks are odd, or lengths are wrong.
+/// The samples with a new header in place of the file's, because libsndfile searches differently
+/// from other readers if chunks are odd or lengths wrong.
 ByteSource Plain(const ByteSource& source, const std::string& format, int64_t body, int64_t size) {
   const std::string head = "WAVE" + format + "data" + FourBytes(static_cast<uint32_t>(size));
   const auto all = std::min<int64_t>(std::ssize(head) + size, UINT32_MAX);
@@ -119,7 +119,7 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
   std::vector<std::string> notes;
   const auto as_it_is = [&] { return std::make_unique<WavReader>(source, name, notes); };
   if (source.Has(0, "RIFX")) return as_it_is();  // numbers the other way round
-  // RF64's and BW64's lengths stand in a chunk of their own.
+  // RF64 and BW64 have their lengths in a chunk of their own.
   const bool is_long = !source.Has(0, "RIFF");
   int64_t long_size = 0;
   std::string format_chunk;
@@ -137,13 +137,13 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     }
     if (!source.Has(at, "data")) {
       odd = odd || size % 2 != 0;
-      at = Behind(source, body, size);
+      at = After(source, body, size);
       continue;
     }
     if (is_long && size == UINT32_MAX) size = long_size;
-    // Programs that write into a pipe can't know the length beforehand, and state what they like.
+    // Programs that write into a pipe cannot know the length and state any number.
     const int64_t held = source.size - body;
-    const bool is_right = size > 0 && size <= held && IsChunk(source, Behind(source, body, size));
+    const bool is_right = size > 0 && size <= held && IsChunk(source, After(source, body, size));
     if (format == kMpegLayer3)
       return ReadMpeg(PartOf(source, body, is_right ? body + size : source.size), name);
     if (format == kPcm && IsBurst(source, body)) {

@@ -112,8 +112,8 @@ std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
     const size_t first = patch->positions.size();
     AddCapsule(*patch, parts[i].shape, doll[i].a.joint, Carrier(skeleton, doll[i]));
     const std::vector<const PlacedPart*> around = SkinAround(parts, i);
-    // Two bones that share a ball turn against each other, and both show there in dots. So the ball
-    // is round for either; else the rest shade of each would show through the other's.
+    // Two bones that share a ball move relative to each other, and both show there in dots. So both
+    // have the ball's round normals; otherwise each one's rest shading would show through.
     std::vector<const PlacedPart*> of_bone;
     std::ranges::copy_if(around, std::back_inserter(of_bone), [&](const PlacedPart* other) {
       const DollPart& part = doll[other - parts.data()];

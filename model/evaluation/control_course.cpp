@@ -25,7 +25,7 @@ std::vector<Method> WaysOf(const std::vector<Method>& methods) {
 
 namespace {
 
-std::vector<Pose> Behind(const Pose& before, const std::vector<Pose>& danced) {
+std::vector<Pose> WithStart(const Pose& before, const std::vector<Pose>& danced) {
   std::vector<Pose> poses = {before};
   poses.insert(poses.end(), danced.begin(), danced.end());
   return poses;
@@ -36,12 +36,12 @@ std::vector<Pose> Behind(const Pose& before, const std::vector<Pose>& danced) {
 FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
                           const std::vector<Pose>& danced) {
   return TrackVelocityFactors(WeighBodyParts(skeleton),
-                              TrackJoints(skeleton, Behind(before, danced)));
+                              TrackJoints(skeleton, WithStart(before, danced)));
 }
 
 double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
                     const std::vector<Pose>& danced) {
-  return MeasureMotion(skeleton, {.fps = fps, .frames = Behind(before, danced)}).skate_ratio;
+  return MeasureMotion(skeleton, {.fps = fps, .frames = WithStart(before, danced)}).skate_ratio;
 }
 
 ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)

@@ -154,7 +154,7 @@ void TurnRound(const Eigen::Matrix3Xd& places, HumanBones* found) {
   found->bones = std::move(turned);
 }
 
-// How much of a body stands as bodies do.
+// The number of conditions on a plausible body that hold.
 int Plausible(const HumanBones& found, const Eigen::Matrix3Xd& places) {
   constexpr double kAlike = 0.1;  // of a bone's length, which it may differ from the other side's
   int points = 0;

@@ -7,11 +7,11 @@
 
 namespace choreo {
 
-/// A rig whose names say nothing, as people mostly build them: a guess from where its joints stand,
-/// for somebody to look at. `parents` (-1: none) and `places` [3, nodes] at rest, whichever axis is
-/// up; toes say what is ahead, +Z without them. Nodes that are no `joints` are left out. Empty
-/// where it looks like no body, and for more than 5,000 nodes. `upright`, where wanted: what turns
-/// it so that Y is up, and its left and right lie along X. Pure.
+/// Guesses the bones of a rig with meaningless names from the usual positions of joints; people
+/// should check the guess. `parents` (-1: none); `places` [3, nodes] at rest with any axis up. Toes
+/// determine the front; without them it is +Z. Ignores nodes that are not `joints`. Returns nothing
+/// for rigs that do not look like a body, and for more than 5,000 nodes. `upright`, if given,
+/// becomes the rotation that makes Y up and puts left and right along X. Pure.
 HumanBones GuessBones(const std::vector<int>& parents, const Eigen::Matrix3Xd& places,
                       const std::vector<bool>& joints, Eigen::Matrix3d* upright = nullptr);
 

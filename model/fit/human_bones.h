@@ -18,7 +18,7 @@ struct HumanBones {
 
   /// The bone's joint index, or -1.
   int Find(const std::string& bone) const;
-  /// spine1, spine2, ... and neck, neck2, ..., as far as it has them, from below.
+  /// spine1, spine2, ... and neck, neck2, ..., if present, from below.
   std::vector<std::string> Spine() const;
   std::vector<std::string> Neck() const;
 };
@@ -41,7 +41,7 @@ const std::vector<std::string>& AllHumanBones();
 /// A rig's name of a bone, without prefix, or "". `rig` is a HumanBones::rig.
 std::string NameInRig(std::string_view rig, const std::string& bone);
 
-/// Needed on both sides: nobody dances without them.
+/// Bones required on both sides.
 inline constexpr const char* kNeededLimbBones[] = {"hip",      "knee",  "ankle",
                                                    "shoulder", "elbow", "wrist"};
 

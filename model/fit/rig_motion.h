@@ -40,8 +40,8 @@ struct RigFit {
   bool rest = true;   ///< false: its rest pose is no body's, what bones are at rest is a guess
   bool turns = true;  ///< false: its rotations do not carry its joints, positions alone were fitted
   std::vector<std::string> missing;  ///< "neck", "head", "collars", "toes": what it has not
-  /// Whose left is on the right, as in a mirror, or "": "body", "arms" or "legs". They were taken
-  /// by where they stand.
+  /// The part whose left and right were exchanged in the file: "body", "arms", "legs", or "" for
+  /// none. Its sides were assigned by position.
   std::string exchanged = {};
 };
 

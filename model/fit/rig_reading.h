@@ -9,13 +9,13 @@
 #include "model/fit/character_body.h"
 #include "model/fit/rig_motion.h"
 
-/// What a recording says about its rig before fitting. Private to this folder.
+/// What a recording reveals about its rig before fitting. Private to this folder.
 namespace choreo {
 
-/// What so many frames show is a rule.
+/// The share of frames that makes a rule.
 inline constexpr double kMostFrames = 0.9;
 
-/// The bones whose ends say where they point: by SMPL's names, which are HumanBones', too.
+/// The bones whose direction is that to their end: by SMPL's names, which HumanBones uses, too.
 struct LimbSegment {
   std::string from, to;
 };

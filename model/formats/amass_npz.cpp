@@ -22,7 +22,7 @@
 namespace choreo {
 namespace {
 
-constexpr int kBodyJoints = 22;   // what SMPL, SMPL-H and SMPL-X share, in the same order
+constexpr int kBodyJoints = 22;   // common to SMPL, SMPL-H and SMPL-X, in the same order
 constexpr int kSmplHJoints = 52;  // AMASS: the body and 15 joints a hand
 constexpr int kSmplXJoints = 55;  // and jaw and eyes between body and hands
 constexpr int kBetas = 16;
@@ -88,8 +88,8 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   return otherwise;
 }
 
-// The one dict within that holds a motion, or "". Of several the one that --body names, which has
-// then done its work.
+// The name of the nested dict that holds a motion, or "". Of several, the one that --body names;
+// this uses up --body.
 std::string DictWithin(const NpzArchive& npz, MotionReading* reading) {
   std::vector<std::string> holding;
   for (const std::string& name : npz.NestedNames()) {
@@ -102,7 +102,7 @@ std::string DictWithin(const NpzArchive& npz, MotionReading* reading) {
                                 ListBodies(holding) + ": choreo convert --body reads one");
 }
 
-// Poses as they stand in the file, with the 22 joints of the body or SMPL's 24.
+// Poses in the file's axes, with the body's 22 joints or SMPL's 24.
 Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, double fps,
                 const std::string& key) {
   const int joints = Skeleton::Smpl24().joints();
@@ -117,7 +117,7 @@ bool IsSmplX(const NpzArchive& npz, Eigen::Index joints) {
   try {
     return npz.Has("surface_model_type") && npz.Text("surface_model_type").starts_with("smplx");
   } catch (const Error&) {
-    return false;  // no text: says nothing
+    return false;  // not text: tells nothing
   }
 }
 
@@ -128,7 +128,7 @@ bool HasBetas(const NpzArchive& npz) {
       if (std::abs(beta) > kNoBeta) return true;
     }
   } catch (const Error&) {
-    // Of a kind that is not read: as if they were not there.
+    // Unreadable kinds count as missing.
   }
   return false;
 }
@@ -139,7 +139,7 @@ std::vector<int64_t> JointsOf(const Layout& layout) {
   return {24, kSmplHJoints, kSmplXJoints, kBodyJoints};
 }
 
-// Of arrays of several people those of one.
+// One person's arrays from arrays of several people.
 NpzArchive PersonOf(const NpzArchive& npz, const Layout& layout, int64_t people, int64_t person) {
   NpzArchive one = npz;
   for (const char* key : {layout.root, layout.body, layout.trans}) {
@@ -164,7 +164,7 @@ Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout) {
   return all;
 }
 
-// Whether a joint of most frames goes round twice, which as degrees it would not.
+// Whether most frames have a joint turned by more than two whole turns, as degrees have.
 bool AreDegrees(const Eigen::MatrixXd& turns) {
   constexpr double kTwiceRound = 4 * M_PI;
   std::vector<double> most;
@@ -280,7 +280,7 @@ void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, 
   }
   npz.SetArray("trans", {{frames, 3}, std::move(trans)});
   npz.SetArray("poses", {{frames, 3 * kSmplHJoints}, std::move(poses)});
-  // SMPL-H's files have the one name, SMPL-X's the other.
+  // SMPL-H's files have the first name, SMPL-X's the second.
   for (const char* rate : {"mocap_framerate", "mocap_frame_rate"})
     npz.SetArray(rate, {{}, std::vector<double>{motion.fps}});
   npz.SetArray("betas", {{kBetas}, std::vector<double>(kBetas, 0.0)});

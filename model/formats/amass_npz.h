@@ -7,7 +7,7 @@
 #include "model/motion/contacts.h"
 #include "model/motion/motion.h"
 
-/// SMPL motion in npz files, as AMASS, AIST++ and EDGE lay it out, and our own arrays beside them.
+/// SMPL motion in npz files in the layouts of AMASS, AIST++ and EDGE, and our own arrays.
 ///
 /// | file    | keys                                                   | up | trans           |
 /// |---------|--------------------------------------------------------|----|-----------------|
@@ -28,7 +28,7 @@ namespace choreo {
 
 /// Rest position of the neutral body's pelvis in SMPL's own coordinates, metres.
 Eigen::Vector3d SmplRestPelvis();
-/// The same of SMPL-X, whose pelvis is elsewhere.
+/// The same for SMPL-X.
 Eigen::Vector3d SmplXRestPelvis();
 
 /// Converts a pose of our world (Y up, position of the pelvis) to AMASS's (Z up, SMPL's translation

@@ -13,18 +13,18 @@
 namespace choreo {
 namespace {
 
-constexpr double kMetresBelow = 5;  // a body of less units than these is in metres
+constexpr double kMetresBelow = 5;  // units: a smaller body is in metres
 
 constexpr BvhChannel kRotations[] = {BvhChannel::kZRotation, BvhChannel::kXRotation,
                                      BvhChannel::kYRotation};
 
-/// Where a joint stands in its parent, file units, and how it is turned there.
+/// A joint's position, in file units, and rotation relative to its parent.
 struct BvhPlacement {
   Eigen::Vector3d position;
   Eigen::Matrix3d rotation;
 };
 
-/// Of the joint's channels, `values` are those of one frame.
+/// `values`: the joint's channels in one frame.
 BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
   BvhPlacement local{joint.offset, Eigen::Matrix3d::Identity()};
   for (const BvhChannel channel : joint.channels) {
@@ -42,7 +42,7 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
 // Angles z, x, y (radians) with R = Rz Rx Ry, of the two solutions (and their whole turns) the one
 // nearest to `previous`.
 Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previous) {
-  // Where x is a quarter turn, z and y are one angle: y stays what it was.
+  // At a quarter turn about x, z and y are one angle; y keeps its value.
   const bool locked = std::hypot(r(2, 0), r(2, 2)) < 1e-9;
   const double y = locked ? previous.z() : std::atan2(-r(2, 0), r(2, 2));
   const Eigen::Matrix3d zx = r * Eigen::AngleAxisd(-y, Eigen::Vector3d::UnitY()).matrix();
@@ -81,7 +81,7 @@ void AppendBlocks(const Skeleton& skeleton, const BvhLayout& layout, int index, 
     if (skeleton.parents[child] == index) AppendBlocks(skeleton, layout, child, block, blocks);
   }
   if (blocks.ours.back() != index) return;
-  // A leaf's bone goes on for half of its length.
+  // A leaf's end is half of its bone's length further.
   blocks.joints.push_back({.name = joint.name + "_end",
                            .parent = block,
                            .offset = joint.offset / 2,
@@ -90,8 +90,8 @@ void AppendBlocks(const Skeleton& skeleton, const BvhLayout& layout, int index, 
   blocks.ours.push_back(-1);
 }
 
-/// Of each joint of a file, which of ours it is in this layout, -1 for an End Site; none where the
-/// file has another skeleton.
+/// Maps each joint of a file to ours in this layout, -1 for an End Site; none if the file has
+/// another skeleton.
 std::optional<std::vector<int>> FindJoints(const BvhFile& file, const Skeleton& skeleton,
                                            const BvhLayout& layout) {
   std::vector<std::string> names;

@@ -35,14 +35,14 @@ std::optional<std::string> FromCodePage(const char* page, std::string text) {
   return whole ? std::optional(std::move(utf8)) : std::nullopt;
 }
 
-// Names may be written as Windows does in Japan, or in the West.
+// Names may be in Windows's Japanese or Western encoding.
 std::string FromAnyBytes(std::string text) {
   for (const char* page : {"UTF-8", "CP932", "ISO-8859-1"})
     if (auto utf8 = FromCodePage(page, text)) return *std::move(utf8);
   return text;
 }
 
-// What Windows calls "Unicode": UTF-16, with a byte order mark or without.
+// Windows's "Unicode" is UTF-16, with or without a byte order mark.
 std::string ToUtf8(std::string_view text, const std::string& name) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const bool little = text.size() > 1 && (text.starts_with("\xFF\xFE") || text[1] == '\0');
@@ -95,7 +95,7 @@ std::vector<BvhJoint> ReadHierarchy(BvhTokens& tokens) {
   };
   begin_root();
   while (!open.empty() || tokens.NextIs("ROOT")) {
-    if (open.empty()) begin_root();  // of a partner, or of a prop
+    if (open.empty()) begin_root();  // another person or a prop
     const std::string_view word = tokens.Next("'}'");
     if (word == "}") {
       open.pop_back();
@@ -119,8 +119,8 @@ std::vector<BvhJoint> ReadHierarchy(BvhTokens& tokens) {
   return joints;
 }
 
-// Joints with six channels of which three are 0 throughout, or tell of small changes, would all
-// stand in their parents' places.
+// Joints whose position channels are 0 or small throughout would all be in their parents' places;
+// such channels are added to the offset.
 void FindAdding(BvhFile& file) {
   constexpr double kNearly = 0.25;  // of the offset
   Eigen::Index row = 0;
@@ -168,7 +168,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   file.frame_time = tokens.Number("a frame time");
   file.states_rate = file.frame_time != 0;
   if (!file.states_rate) file.frame_time = 1 / kModelFps;
-  // Some write milliseconds: as such these are 250 frames a second and fewer.
+  // Some programs write milliseconds: 4 and more are at most 250 frames a second.
   if (const double seconds = file.frame_time / 1000;
       file.frame_time >= kMaxFrameTime && seconds < 1) {
     file.notes.push_back("its frame time is " + Rounded(file.frame_time) +
@@ -179,8 +179,8 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
     tokens.Fail("a frame time of 1e-5 to 4 s, or as many milliseconds",
                 std::to_string(file.frame_time));
   }
-  std::vector<double> values;  // grown as they come: the header's count may be anything
-  // A row that is complete counts, whatever the header says.
+  std::vector<double> values;  // not reserved: the header's count may be anything
+  // Complete rows count, whatever the header says.
   int64_t lines = 0, line = -1;
   while (!tokens.AtEnd()) {
     if (std::exchange(line, tokens.line()) != tokens.line()) ++lines;
@@ -189,7 +189,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
                                           : tokens.Number("a number of degrees", kMaxDegrees));
   }
   const int64_t frames = std::ssize(values) / channels;
-  // The last number of a file that was cut off may be cut off, too.
+  // In a truncated file the last number may be truncated, too.
   const bool cut = frames < stated && (frames == 0 || !utf8.ends_with('\n'));
   const bool other_rows = frames != stated && lines == stated;
   if (std::ssize(values) % channels != 0 || cut || other_rows) {

@@ -50,9 +50,9 @@ class BvhTokens {
 
   bool NextIs(std::string_view word) {
     SkipSpace();
-    const size_t behind = at_ + word.size();
+    const size_t end = at_ + word.size();
     return SameWord(text_.substr(at_, word.size()), word) &&
-           (behind == text_.size() || IsSpace(text_[behind]));
+           (end == text_.size() || IsSpace(text_[end]));
   }
 
   bool NextIs(char letter) {

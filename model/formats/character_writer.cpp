@@ -15,9 +15,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kFlattest = 1e-6;  // of a node's largest scale: below it is zero
+constexpr double kFlattest = 1e-6;  // share of a node's largest scale that counts as zero
 
-/// The nodes that a body moves, through a dance.
+/// The tracks of the nodes that a body moves.
 class DrivenNodes {
  public:
   DrivenNodes(const GltfNodes& nodes, const CharacterBody& body)
@@ -27,7 +27,7 @@ class DrivenNodes {
         rest_(nodes.PlaceAtRest()),
         world_(rest_),
         joint_of_(nodes.names.size(), -1) {
-    // What stands below the pelvis or beside it, as far as there are bones.
+    // The nodes of the bones and all their ancestors.
     std::vector<bool> needed(nodes.names.size());
     for (size_t joint = 0; joint < body.nodes.size(); ++joint) {
       if (body.nodes[joint] >= 0) joint_of_[body.nodes[joint]] = static_cast<int>(joint);
@@ -43,7 +43,7 @@ class DrivenNodes {
   }
 
   size_t size() const { return order_.size(); }
-  /// Whether a joint's node changes its place in its parent.
+  /// Whether a joint's node moves relative to its parent.
   bool moves(size_t joint) const { return moves_[joint]; }
   const GltfPlacement& local(size_t joint) const { return local_[body_.nodes[joint]]; }
 
@@ -59,7 +59,7 @@ class DrivenNodes {
         const Eigen::Matrix3d turned = placement_.rotations[joint] * body_.turns[joint] * rest;
         const Eigen::Matrix3d inside =
             above.linear().inverse() * turned * local.scale.cwiseInverse().asDiagonal();
-        // Under scales that differ by axis the nearest turn.
+        // The nearest rotation, as scales may differ by axis.
         local.rotation = Eigen::Quaterniond(Eigen::Affine3d(inside).rotation());
         if (moves_[joint])
           local.translation = above.inverse() * Eigen::Vector3d(placement_.positions.col(joint));
@@ -77,7 +77,7 @@ class DrivenNodes {
     throw InvalidArgument(GltfItem("nodes", node), "has a scale of zero");
   }
 
-  // The pelvis does, and a bone that hangs elsewhere than on the bone above it.
+  // True for the pelvis, and for a bone whose parent node is not the bone above it.
   bool Moves(size_t joint) const {
     const int above = body_.skeleton.parents[joint];
     if (above < 0) return true;
@@ -97,7 +97,7 @@ class DrivenNodes {
   JointPlacement placement_;
 };
 
-// A node that is animated has no matrix.
+// Animated nodes must not have a matrix.
 void StateParts(ordered_json& node, const GltfPlacement& rest) {
   if (!node.is_object() || node.erase("matrix") == 0) return;
   const auto list = [](const auto& values) {

@@ -19,7 +19,7 @@
 namespace choreo {
 namespace {
 
-enum class Place : uint8_t { kPelvis, kSmpl, kSmplX };  // what a row's place is of
+enum class Place : uint8_t { kPelvis, kSmpl, kSmplX };  // the point that a row's place gives
 
 struct Kind {
   int64_t width;
@@ -61,7 +61,7 @@ double Rate(int64_t width, const char* of, double fps, const MotionReading& read
 using Rows = Eigen::Map<const Eigen::MatrixXd>;  // [width, frames]
 
 Motion ReadKind(const Kind& kind, const Rows& rows, const MotionReading& reading) {
-  // As an array of its own, for which rotation_rows.h knows what is a rotation.
+  // As an array of its own, so that rotation_rows.h can parse it.
   NpzArchive npz;
   const Eigen::MatrixXd stated = rows.middleRows(kind.turns, kind.joints * kind.each);
   const std::string key = "[:, " + std::to_string(kind.turns) + ":]";
@@ -82,8 +82,8 @@ Motion ReadKind(const Kind& kind, const Rows& rows, const MotionReading& reading
   return Settle(std::move(file), reading);
 }
 
-// Guo et al. 2022: the root's turn about Y by half its angle, its way seen from it, its height,
-// then the other joints seen from it.
+// Guo et al. 2022: half the root's turn about Y, its travel in its own frame, its height, then the
+// other joints relative to it.
 Motion ReadHumanMl(const Rows& rows, const MotionReading& reading) {
   NpyArray places{{rows.cols(), kRowJoints, 3}, {}};
   std::vector<double> values;

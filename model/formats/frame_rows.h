@@ -7,8 +7,8 @@
 #include "model/formats/motion_reading.h"
 #include "model/motion/motion.h"
 
-/// One array that holds a whole motion of SMPL's body, a row a frame, as networks and data sets of
-/// dance write it. How wide a row is says what it holds. Private to this folder.
+/// Reads a motion of SMPL's body from one array with a row per frame, as dance networks and data
+/// sets write it. The width of a row tells its kind. Private to this folder.
 ///
 /// | numbers   | of        | are                                                              |
 /// |-----------|-----------|------------------------------------------------------------------|
@@ -19,12 +19,13 @@
 /// | 322       | Motion-X  | turns of SMPL-X's body, hands and jaw, a face, place and betas   |
 /// | 263       | HumanML3D | how the root moves, places seen from it, 6D, speeds, contacts    |
 ///
-/// Of the last the places alone are read (joint_arrays.h): its 6D are no turns of SMPL's bones.
+/// Of HumanML3D only the positions are read (joint_arrays.h), because its 6D are not rotations of
+/// SMPL's bones.
 namespace choreo {
 
-/// The motion, at the rate that its kind has, or at `reading.fps`; what it was taken for is noted.
-/// Nothing where no kind is so wide. Throws Error(kInvalidArgument) for one whose numbers cannot be
-/// of that kind, as where they are normalised.
+/// Reads the motion at its kind's rate or `reading.fps`, and notes the kind. None if no kind has
+/// this width. Throws Error(kInvalidArgument) for numbers that cannot be of that kind, such as
+/// normalised ones.
 std::optional<Motion> ReadFrameRows(const NpyArray& array, const MotionReading& reading);
 
 /// "135, 139, ...", for messages.

@@ -30,7 +30,7 @@ void AppendWord(uint32_t word, std::string& bytes) {
 
 Error NoGlb(const std::string& why) { return InvalidArgument("", "is no binary glTF: " + why); }
 
-// The chunk that `bytes` begins with, if it is of this type; takes it off.
+// Removes and returns the first chunk of `bytes` if it has this type.
 std::string_view TakeChunk(std::string_view& bytes, uint32_t type) {
   if (bytes.size() < kChunkHeader || Word(bytes, 4) != type) return {};
   const uint32_t length = Word(bytes, 0);
@@ -67,7 +67,7 @@ std::string Unescaped(const std::string& uri) {
   return name;
 }
 
-// The bytes of a file that another names.
+// The bytes of a file that another file refers to.
 std::string ReadBeside(const std::filesystem::path& path, const std::string& uri) {
   const std::filesystem::path name = Unescaped(uri);
   const auto up = std::ranges::find(name, "..");

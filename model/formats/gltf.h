@@ -10,7 +10,7 @@
 #include "model/motion/skeleton.h"
 
 /// glTF 2.0, binary (.glb), for Blender, three.js, Unity, Unreal and web pages. Metres, Y up,
-/// facing +Z: as ours.
+/// facing +Z, like our motions.
 namespace choreo {
 
 /// Writes a skeleton at rest on the floor, the doll of body/skin.h bound to it, and the motion as
@@ -31,20 +31,20 @@ struct NamedMotion {
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
               const std::vector<NamedMotion>& dancers);
 
-/// Writes SMPL's body as VRM's avatars take a motion (.vrma, VRMC_vrm_animation 1.0): glTF binary
-/// with nodes, the table of its human bones and the animation, without a mesh. At rest arms are
-/// held out and it faces +Z, as VRM 1.0 has it; programs turn VRM 0.x round themselves. Errors as
-/// above, and Error(kInvalidArgument) for another skeleton than SMPL's.
+/// Writes a motion of SMPL's body for VRM avatars (.vrma, VRMC_vrm_animation 1.0): binary glTF with
+/// nodes, the table of human bones and the animation, without a mesh. At rest it faces +Z with arms
+/// held out, as VRM 1.0 requires; programs turn VRM 0.x avatars themselves. Errors as above, and
+/// Error(kInvalidArgument) for another skeleton than SMPL's.
 void WriteVrma(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
 
-/// An animation of a file, the one that `reading` names or the first that moves most of a body's
-/// bones: of `wanted`, if any, of SMPL's skeleton or of the file's own (own_skeleton.h), where
-/// names, parents and rest offsets (kSameBone) are theirs; any other skeleton is read as SMPL's
-/// (node_motion.h). At the rate of extras.fps, else of the channel with most keys, or 30 where that
-/// is below 20: few keys are poses to pass. Throws Error(kNotFound) where the file cannot be
-/// opened, Error(kInvalidArgument) whose field is the path and whose message names the part: no
-/// glTF, no animation, sparse accessors, compressed ones, data outside its buffer, files beside
-/// this one, more than a million frames; UnknownBones where its names tell too little.
+/// Reads an animation: the one named by `reading`, or the first that moves most of a body's bones.
+/// The skeleton is `wanted`, if given, SMPL's or the file's own (own_skeleton.h), if names, parents
+/// and rest offsets (kSameBone) match; any other rig is read as SMPL's body (node_motion.h). The
+/// rate is extras.fps, else that of the channel with most keys, or 30 if that is below 20, as few
+/// keys are poses to pass through. Throws Error(kNotFound) if the file cannot be opened;
+/// Error(kInvalidArgument), whose field is the path and whose message names the part, if it is no
+/// glTF or has no animation, compressed accessors, data outside its buffer, data in other files, or
+/// more than a million frames; UnknownBones if its names tell too little.
 SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted = nullptr,
                        const MotionReading& reading = {});
 

@@ -43,7 +43,7 @@ size_t GltfBuilder::AddBytes(std::string_view bytes, int component, size_t count
   Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
   if (target != 0) view["target"] = target;
   binary_ += bytes;
-  // A list that is new may move the others.
+  // A new list may move the others in memory.
   Json& views = List("bufferViews");
   views.push_back(std::move(view));
   const size_t view_index = views.size() - 1;

@@ -65,7 +65,7 @@ std::vector<GltfChannel> ReadGltfChannels(const tinygltf::Model& model, size_t a
   std::vector<GltfChannel> channels;
   for (const tinygltf::AnimationChannel& channel : model.animations[animation].channels) {
     const std::string& moved = channel.target_path;
-    // Shapes that morph, and extensions, move no joint.
+    // Morph targets and extensions move no joints.
     if (channel.target_node >= 0 &&
         (moved == "translation" || moved == "rotation" || moved == "scale"))
       channels.push_back(ReadGltfChannel(model, animation, channel));
@@ -76,7 +76,7 @@ std::vector<GltfChannel> ReadGltfChannels(const tinygltf::Model& model, size_t a
 void GltfChannel::Drive(double time, GltfPlacement& placement) const {
   const auto* const begin = times.data();
   const auto* const end = begin + times.size();
-  // A third of a second is another number in 32 bits than in 64.
+  // Tolerance for times that were rounded to 32 bits.
   constexpr double kSameTime = 1e-4;
   const Eigen::Index after = std::upper_bound(begin, end, time + kSameTime) - begin;
   const Eigen::Index a = std::max<Eigen::Index>(0, after - 1);

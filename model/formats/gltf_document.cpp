@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Of nodes, the names that VRM's extensions give to them.
+// The bone names that VRM's extensions give to nodes.
 std::vector<std::string> VrmNames(const ordered_json& document, size_t nodes) {
   std::vector<std::string> names(nodes);
   const auto name = [&](const std::string& bone, const ordered_json& value) {
@@ -44,7 +44,7 @@ std::vector<std::string> VrmNames(const ordered_json& document, size_t nodes) {
   return names;
 }
 
-/// Copies lists of objects, of each object some members.
+/// Copies lists of objects with only some of their members.
 class BareCopy {
  public:
   explicit BareCopy(const ordered_json& document) : document_(document) {}
@@ -62,7 +62,7 @@ class BareCopy {
     }
   }
 
-  // KHR_animation_pointer's way to say what glTF itself can.
+  // Converts a target of KHR_animation_pointer to glTF's own form, if possible.
   static void ResolvePointer(ordered_json* target) {
     if (target->value("path", ordered_json()) != "pointer" || !target->contains("extensions"))
       return;
@@ -81,7 +81,7 @@ class BareCopy {
     *target = {{"node", node}, {"path", std::string(rest + 1, end)}};
   }
 
-  // Channels that move something else than a node mean nothing here.
+  // Drops channels that do not move nodes.
   void DropOtherChannels() {
     if (!bare_.contains("animations")) return;
     for (ordered_json& animation : bare_["animations"]) {
@@ -98,7 +98,7 @@ class BareCopy {
     }
   }
 
-  // What a compressing extension would fill has no data of its own.
+  // Buffers that a compression extension would fill have no data of their own.
   void FillEmptyBuffers() {
     if (!bare_.contains("buffers")) return;
     for (size_t i = 1; i < bare_["buffers"].size(); ++i) {

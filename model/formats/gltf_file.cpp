@@ -15,7 +15,7 @@ std::string GltfItem(const char* list, size_t index) {
 tinygltf::Model ParseGlb(std::string_view bytes) {
   CheckJsonDepth(SplitGlb(bytes).json, "");
   tinygltf::TinyGLTF gltf;
-  // A motion comes from one file: no others are opened, and pictures are not looked at.
+  // Opens no other files and decodes no pictures.
   gltf.SetFsCallbacks(
       {[](const std::string&, void*) { return false; },
        [](const std::string& name, void*) { return name; },
@@ -43,7 +43,7 @@ tinygltf::Model ParseGlb(std::string_view bytes) {
 
 namespace {
 
-/// A number of a buffer as it lies.
+/// Reads a number from a buffer.
 double Component(const unsigned char* at, int type) {
   const auto as = [at]<typename T>(T value) {
     std::memcpy(&value, at, sizeof(T));
@@ -65,7 +65,7 @@ double Component(const unsigned char* at, int type) {
   }
 }
 
-// What 1 is of a normalized kind; 0: of no such kind.
+// The integer that represents 1 in a normalised type; 0 for other types.
 double One(int type) {
   switch (type) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -81,7 +81,7 @@ double One(int type) {
   }
 }
 
-/// Elements of a buffer view: an accessor's, or what one says of some of its elements.
+/// Elements in a buffer view: an accessor's, or those of its sparse part.
 struct Elements {
   int view;
   uint64_t offset;
@@ -123,7 +123,7 @@ Eigen::MatrixXd ReadElements(const tinygltf::Model& model, const Elements& eleme
   return values;
 }
 
-// Some elements in place of those that are there.
+// Replaces the elements given by a sparse accessor.
 void ReadSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
                 const std::string& name, Eigen::MatrixXd* values) {
   const auto& sparse = accessor.sparse;
@@ -169,7 +169,8 @@ Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int ty
   const int rows = tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type));
   Eigen::MatrixXd values;
   if (accessor.sparse.isSparse && accessor.bufferView < 0) {
-    // Zeros, of which a hostile file may claim any number: keys have times, of four bytes each.
+    // A hostile file may claim any number of zeros, so limit it by the times, which take four bytes
+    // each.
     uint64_t available = 0;
     for (const tinygltf::Buffer& buffer : model.buffers) available += buffer.data.size();
     if (accessor.count < 1 || accessor.count > available)

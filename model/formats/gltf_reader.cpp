@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-// The nodes that are our joints, or nothing if the file's skeleton is another one.
+// The nodes that are our joints; none if the file has another skeleton.
 std::optional<std::vector<int>> FindOurs(const GltfNodes& file, const Skeleton& skeleton) {
   const Eigen::Matrix3Xd rest = PlacesOf(file.PlaceAtRest());
   std::vector<int> nodes;
@@ -59,7 +59,7 @@ Motion TakeOurs(const GltfScene& scene, const std::vector<int>& nodes, const Ske
 RigPlacement PlacementOf(const std::vector<Eigen::Affine3d>& world) {
   RigPlacement placement{PlacesOf(world), {}};
   for (const Eigen::Affine3d& node : world) {
-    // A mirrored node turns as its image in its own x does: there is none in a rotation.
+    // A rotation cannot mirror, so a mirrored node turns like its image in its own x.
     Eigen::Affine3d turned = node;
     if (node.linear().determinant() < 0) turned.linear().col(0) *= -1;
     placement.turns.emplace_back(turned.rotation());

@@ -18,14 +18,14 @@
 namespace choreo {
 namespace {
 
-constexpr double kSparseRate = 20;  // keys a second below which they are no frames
+constexpr double kSparseRate = 20;  // keys a second; fewer are not frames
 constexpr double kMaxFrames = 1e6;
-constexpr size_t kMostAnimations = 64;  // that are looked at, of a hostile file's
+constexpr size_t kMostAnimations = 64;  // limit for hostile files
 constexpr size_t kMostNamed = 8;
 
 std::string AnimationName(size_t animation) { return GltfItem("animations", animation); }
 
-// The animation of this name, or of this number.
+// The animation with this name or number.
 size_t NamedAnimation(const tinygltf::Model& model, const std::string& name) {
   std::string names;
   for (size_t i = 0; i < model.animations.size(); ++i) {
@@ -38,7 +38,7 @@ size_t NamedAnimation(const tinygltf::Model& model, const std::string& name) {
                                            " animations, " + names);
 }
 
-// What an animation moves: keys that differ or, where none do, keys.
+// The nodes that an animation moves: those with differing keys or, if none differ, with keys.
 std::vector<bool> MovedBy(const std::vector<GltfChannel>& channels, size_t nodes) {
   std::vector<bool> moves(nodes), keyed(nodes);
   for (const GltfChannel& channel : channels) {
@@ -53,8 +53,8 @@ int CountBones(const HumanBones& bones, const std::vector<bool>& nodes) {
       std::ranges::count_if(bones.bones, [&](const auto& bone) { return nodes[bone.second]; }));
 }
 
-// Takes all animations together, as some exporters write one for each node or limb: no node is
-// moved by two, and none of them moves most of the body. False: they are not such.
+// Combines all animations if each moves only a part of the body and no node is moved by two,
+// because some exporters write one per node or limb. Otherwise returns false.
 bool TakeParts(const tinygltf::Model& model, const MotionReading& reading, GltfScene* scene) {
   std::vector<int> part(scene->nodes.names.size(), -1);
   std::vector<GltfChannel> channels;
@@ -83,7 +83,7 @@ bool TakeParts(const tinygltf::Model& model, const MotionReading& reading, GltfS
   return true;
 }
 
-// Sets the scene's channels, and says what else there is. Returns the animation's number.
+// Sets the scene's channels and notes other animations. Returns the animation's number.
 size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& reading,
                        GltfScene* scene) {
   if (model.animations.empty()) throw InvalidArgument("animations", "there is none");
@@ -103,7 +103,7 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
     std::vector<GltfChannel> channels = ReadGltfChannels(model, i);
     RigNodes rig = scene->rig;
     rig.moves = MovedBy(channels, nodes);
-    // One that moves goes before one that holds a pose, whatever has keys there.
+    // Prefers an animation that moves to one that holds a pose.
     const bool still = std::ranges::none_of(channels, &GltfChannel::Moves);
     const int moved = channels.empty() ? -1
                                        : CountBones(FindBones(rig), rig.moves) +
@@ -125,12 +125,12 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
   return chosen;
 }
 
-// Where a skin's joints, and with them the other nodes, were when the mesh was bound to them.
+// The positions of a skin's joints, and of the other nodes with them, when the mesh was bound.
 std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& model,
                                                         const GltfNodes& nodes,
                                                         const HumanBones& body) {
   const tinygltf::Skin* largest = nullptr;
-  std::ptrdiff_t most = 0;  // of the body's bones: hair may have more joints
+  std::ptrdiff_t most = 0;  // counts only the body's bones: hair may have more joints
   for (const tinygltf::Skin& skin : model.skins) {
     const auto bones = std::ranges::count_if(body.bones, [&](const auto& bone) {
       return std::ranges::find(skin.joints, bone.second) != skin.joints.end();
@@ -142,7 +142,7 @@ std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& m
   try {
     inverse = ReadGltfAccessor(model, largest->inverseBindMatrices, TINYGLTF_TYPE_MAT4);
   } catch (const Error&) {
-    return std::nullopt;  // compressed, say: the nodes' own rest pose will do
+    return std::nullopt;  // for example compressed; use the nodes' own rest pose
   }
   const std::vector<Eigen::Affine3d> rest = nodes.PlaceAtRest();
   std::vector<Eigen::Affine3d> bound = rest;
@@ -158,7 +158,7 @@ std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& m
     bound[static_cast<size_t>(largest->joints[i])] = place;
     is_joint[static_cast<size_t>(largest->joints[i])] = true;
   }
-  // What is no joint goes along with a joint below it, else with the one above it.
+  // Other nodes move with a joint below them or else with the one above.
   const auto follow = [&](int node, int other) {
     bound[node] = bound[other] * rest[other].inverse() * rest[node];
     is_joint[node] = true;
@@ -177,8 +177,8 @@ std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& m
   return finite ? std::optional(bound) : std::nullopt;
 }
 
-// Some write milliseconds: keys throughout that are no more than 250 a second as such.
-void MendTimes(const MotionReading& reading, GltfScene* scene) {
+// Some programs write milliseconds. Assumes so if keys are then at most 250 a second.
+void CorrectTimes(const MotionReading& reading, GltfScene* scene) {
   constexpr double kFewKeys = 10, kFarApart = 4;
   double most_keys = 0, apart = 0;
   for (const GltfChannel& channel : scene->channels) {
@@ -222,7 +222,7 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, const MotionReadin
     scene.fps = CheckRate(AnimationName(number) + ".extras.fps",
                           animation.extras.Get("fps").GetNumberAsDouble());
   }
-  // Times are floats: the last frame may lie a little behind the end.
+  // Times are floats: the last frame may lie a little after the end.
   const double frames = std::floor((end - scene.start) * scene.fps + 0.01) + 1;
   if (!(frames <= kMaxFrames)) {
     throw InvalidArgument(AnimationName(number), std::to_string(end - scene.start) + " s at " +
@@ -258,7 +258,7 @@ GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& 
   MotionReading quietly = reading;
   quietly.notes = nullptr;
   scene.bound = BoundPlaces(model, scene.nodes, FindBody(scene.rig, quietly));
-  MendTimes(reading, &scene);
+  CorrectTimes(reading, &scene);
   ChooseTimes(model, animation, reading, scene);
   return scene;
 }

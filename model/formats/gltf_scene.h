@@ -17,7 +17,7 @@ namespace choreo {
 /// The nodes of a glTF file and one of its animations. Private to this folder.
 struct GltfScene {
   GltfNodes nodes;
-  RigNodes rig;  ///< the same; `moves` says what the animation moves
+  RigNodes rig;  ///< the same; `moves`: the nodes that the animation moves
   /// The nodes' transforms when the first skin with most of the body's bones was bound; none
   /// without.
   std::optional<std::vector<Eigen::Affine3d>> bound;

@@ -18,7 +18,7 @@ using Json = GltfBuilder::Json;
 constexpr double kRoughness = 0.75;
 constexpr int kVertices = 34962, kTriangles = 34963, kTriangleMode = 4;  // glTF's numbers
 
-// A colour as glTF wants it: linear light.
+// A colour in linear light, as in glTF.
 double Linear(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
@@ -82,7 +82,7 @@ Json AddPatch(const SkinPatch& patch, GltfBuilder* gltf) {
           {"mode", kTriangleMode}};
 }
 
-// The doll and where its joints are at rest: a mesh and the accessor of a skin's matrices.
+// Adds the doll's mesh and the skin's inverse rest matrices; returns their accessor.
 size_t AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
   Json primitives = Json::array();
   for (const SkinPatch& patch : MakeSkin(skeleton)) primitives.push_back(AddPatch(patch, gltf));
@@ -97,7 +97,7 @@ size_t AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
   return gltf->Add<float>(inverse_bind, "MAT4");
 }
 
-// The body once more, bound to the joints that are the nodes from `first` on; returns its nodes.
+// Adds a body bound to the joints, which are the nodes from `first` on; returns its nodes.
 Json AddSkin(const Skeleton& skeleton, size_t matrices, size_t first, const std::string& prefix,
              GltfBuilder* gltf) {
   Json joints = Json::array();
@@ -109,7 +109,7 @@ Json AddSkin(const Skeleton& skeleton, size_t matrices, size_t first, const std:
                    {"inverseBindMatrices", matrices}});
   Json& nodes = gltf->List("nodes");
   nodes.push_back({{"name", prefix + "body"}, {"mesh", 0}, {"skin", skins.size() - 1}});
-  // The skinned mesh stands beside its skeleton: what is above it would not move it anyway.
+  // The skinned mesh is a sibling of its skeleton: parents do not move skinned meshes.
   return {first, nodes.size() - 1};
 }
 
@@ -170,7 +170,7 @@ void WriteVrma(const std::filesystem::path& path, const Skeleton& skeleton, cons
   Json document = NewDocument();
   Json bones;
   for (int joint = 0; joint < skeleton.joints(); ++joint) {
-    // SMPL's hands are no bone of VRM's: palms, which go along.
+    // SMPL's hands are palms, which VRM does not have.
     const std::string name = NameInRig(kVrmRig, skeleton.joint_names[joint]);
     if (!name.empty() && !skeleton.joint_names[joint].ends_with("_hand"))
       bones[name] = {{"node", joint}};

@@ -19,9 +19,9 @@ namespace {
 constexpr const char* kPlacesNames[] = {"joints",    "joints3d",      "joint_positions",
                                         "positions", "pred_position", "motion"};
 constexpr int64_t kPlacedBody = 22;
-// Of a limb's mean length: networks stretch bones a little.
+// Tolerance for limb lengths, as networks stretch bones a little.
 constexpr double kStretch = 0.1;
-// Hands that are not given go on where forearms point: of these, and how little they count.
+// Missing hands extend the forearms by this share of their length, with a small weight.
 constexpr double kHand = 0.33, kHandWeight = 0.05;
 
 const Skeleton& PlacedBody() { return Skeleton::Smpl24(); }
@@ -30,7 +30,7 @@ bool IsPlacedFrame(int64_t width) {
   return width == 3 * kPlacedBody || width == 3 * PlacedBody().joints();
 }
 
-/// Joints of all frames, [3, joints] each; none where the shape is another.
+/// The joints of all frames, [3, joints] each; none for other shapes.
 std::vector<Eigen::Matrix3Xd> PlacesOfFrames(const NpyArray& array) {
   std::vector<int64_t> shape = array.shape;
   if (shape.size() == 4 && shape[0] == 1) shape.erase(shape.begin());
@@ -73,8 +73,7 @@ bool KeepLengths(const std::vector<Eigen::Matrix3Xd>& frames) {
   return true;
 }
 
-// Whether toes point backwards in most frames, as of a body in a mirror whose left has become its
-// right.
+// Whether toes point backwards in most frames, as if left and right were exchanged.
 bool IsMirrored(const std::vector<Eigen::Matrix3Xd>& frames) {
   const Skeleton& body = PlacedBody();
   size_t backwards = 0;
@@ -109,7 +108,7 @@ std::optional<NpyArray> FindJointArray(const NpzArchive& npz) {
     NpyArray array = npz.Array(name);
     if (array.shape.size() == 4 && array.shape[2] == 3 && IsPlacedFrame(3 * array.shape[1]))
       array = FramesFirst(array);
-    // Flat, as Bailando's.
+    // Flat rows, like Bailando's.
     if (array.shape.size() > 1 && array.shape.back() > 3 && array.shape.back() % 3 == 0) {
       array.shape.back() /= 3;
       array.shape.push_back(3);
@@ -122,7 +121,7 @@ std::optional<NpyArray> FindJointArray(const NpzArchive& npz) {
 bool AreJointPlaces(const NpyArray& array) {
   if (PeopleIn(array, IsPlacedFrame) > 1) return AreJointPlaces(PersonOf(array, 0));
   const std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
-  // Those of a single frame keep theirs, whatever they are.
+  // A single frame cannot show whether lengths are constant.
   return frames.size() > 1 && KeepLengths(frames);
 }
 

@@ -19,23 +19,23 @@
 namespace choreo {
 namespace {
 
-// A body stands where its trunk is within 45 degrees of the vertical.
+// A body stands if its trunk is within 45 degrees of the vertical (cosine).
 constexpr double kStands = 0.7;
 constexpr double kMostly = 0.9;  // share of frames that make a rule
-// Frames below which a body may lie for its own reasons: a pose, a fall.
+// In fewer frames a body may be lying on purpose: a pose, a fall.
 constexpr size_t kFewFrames = 10;
-// Metres. No pelvis is so high: the unit is another.
+// Metres. A higher pelvis means another unit.
 constexpr double kTooHigh = 20;
-constexpr double kOnFloor = 0.25;  // of a joint: bodies are thick, and others as ours
-constexpr double kLying = 0.05;    // of the pelvis above the floor that a body lies on
+constexpr double kOnFloor = 0.25;  // metres of a joint: bodies are thick and differ
+constexpr double kLying = 0.05;    // height of a lying body's pelvis
 constexpr double kLowPelvis = 0.3, kHighPelvis = 2;
-// Metres: less under the floor may be a shoe's, or a fit's.
+// Metres. Less below the floor may be a shoe or a fit's error.
 constexpr double kSunken = 0.05;
-// Nobody hangs so high above the floor for so long, metres and seconds.
+// No jump stays this high above the floor for this long: metres and seconds.
 constexpr double kHangs = 0.15, kHangsFor = 2;
 constexpr double kStill = 1e-4;      // metres and radians
 constexpr double kFloorShare = 0.1;  // quantile of the lowest points that is the floor
-constexpr double kSlack = 0.02;      // metres of another body's floor that are let be
+constexpr double kSlack = 0.02;      // metres tolerated for other bodies
 
 std::string Share(double share) {
   return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
@@ -82,7 +82,7 @@ double LowestAlong(const FileMotion& file, const Eigen::Vector3d& up, double sha
   return Quantile(std::move(lowest), share);
 }
 
-/// Whether the body is on the file's floor, and its pelvis above it, if `up` is up.
+/// Whether, with this `up`, the body is on the file's floor and its pelvis above it.
 bool IsOnFloor(const FileMotion& file, const Eigen::Vector3d& up) {
   std::vector<double> heights;
   for (const Pose& pose : file.motion.frames)
@@ -90,7 +90,7 @@ bool IsOnFloor(const FileMotion& file, const Eigen::Vector3d& up) {
   return std::abs(LowestAlong(file, up)) < kOnFloor && Median(std::move(heights)) > kLying;
 }
 
-/// Of the axes beside `axis` the one on whose floor the body is; none where that is on `axis`',
+/// The axis other than `axis` on whose floor the body is; none if it is on the floor of `axis`,
 /// too.
 std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::Vector3d& axis) {
   if (IsOnFloor(file, file.up) || IsOnFloor(file, axis)) return std::nullopt;
@@ -104,11 +104,12 @@ std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::
   return beside;
 }
 
-/// The file's own up, or the axis along which the body stands in nearly all frames.
+/// The file's up axis, or else the one along which the body stands in nearly all frames.
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
   const std::vector<Eigen::Vector3d> trunks = Trunks(file);
-  // A body that bends or lies for long says less than its rest pose, and the floor more than both.
+  // The rest pose is better evidence than a body that bends or lies for long, and the floor better
+  // than both.
   if (file.rest_up && *file.rest_up != file.up &&
       (ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up) ||
        (IsOnFloor(file, *file.rest_up) && !IsOnFloor(file, file.up)))) {
@@ -129,7 +130,7 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
                    " stands it on its head");
       return *beside;
     }
-    // Who lies on the file's floor, and would stand in the air, lies.
+    // A body that is on the file's floor when lying, and would be in the air if it stood, is lying.
     const bool lies = std::abs(LowestAlong(file, file.up)) < kOnFloor &&
                       std::abs(LowestAlong(file, axis, 0)) > kOnFloor;
     if (lies || trunks.size() < kFewFrames || axis == -file.up) {
@@ -171,7 +172,7 @@ double Unit(const Motion& motion, const MotionReading& reading) {
   return 1;
 }
 
-void TellOfStillness(const Motion& motion, const MotionReading& reading) {
+void NoteStillness(const Motion& motion, const MotionReading& reading) {
   if (motion.frames.size() < 2) return;
   const Pose& first = motion.frames.front();
   for (const Pose& pose : motion.frames) {
@@ -183,7 +184,7 @@ void TellOfStillness(const Motion& motion, const MotionReading& reading) {
                " frames: is the movement in another animation or on other bones?");
 }
 
-void TellOfBends(const Skeleton& skeleton, const Motion& motion, const MotionReading& reading) {
+void NoteBends(const Skeleton& skeleton, const Motion& motion, const MotionReading& reading) {
   std::string example;
   const double share = ShareOfFaults(skeleton, motion, &example);
   if (share > 1 - kMostly) {
@@ -192,8 +193,8 @@ void TellOfBends(const Skeleton& skeleton, const Motion& motion, const MotionRea
   }
 }
 
-// Puts a rig on the floor, as a whole: who steps onto a stage, or is lifted, stays up there. It is
-// the file's own where the body comes down to that.
+// Puts a rig on the floor as a whole, so that a dancer on a stage or lifted by another stays up.
+// Keeps the file's floor if the body comes down to it.
 void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights, hips;
   for (const Pose& pose : motion->frames) {
@@ -208,7 +209,7 @@ void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* 
     reading.Note("moved by " + Metres(-floor) + " in height onto the floor");
 }
 
-// Puts the clip as a whole where its floor is.
+// Moves the whole clip so that its floor is y = 0.
 void FindFloor(const FileMotion& file, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights;
   for (const Pose& pose : motion->frames) heights.push_back(HeightAboveFloor(file.skeleton, pose));
@@ -254,8 +255,8 @@ Motion Settle(FileMotion file, const MotionReading& reading) {
     PutOnFloor(file.skeleton, reading, &motion);
   }
   MakeContinuous(motion);
-  TellOfStillness(motion, reading);
-  TellOfBends(file.skeleton, motion, reading);
+  NoteStillness(motion, reading);
+  NoteBends(file.skeleton, motion, reading);
   return motion;
 }
 

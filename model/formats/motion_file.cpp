@@ -34,7 +34,7 @@ SkeletonMotion ReadPickled(std::string_view pickle, const std::filesystem::path&
   return {Skeleton::Smpl24(), ReadSmplMotion(ParsePickledArrays(pickle, path.string()), reading)};
 }
 
-// Objects among arrays: a number, a dict, or what says nothing of the motion.
+// Objects among arrays: numbers, dicts, or things unrelated to the motion.
 void TakePickled(const std::string& key, const std::string& pickle, NpzArchive* npz) {
   try {
     npz->SetArray(key, ParsePickledArray(pickle, key));
@@ -42,7 +42,7 @@ void TakePickled(const std::string& key, const std::string& pickle, NpzArchive* 
     try {
       npz->SetNested(key, ParsePickledArrays(pickle, key));
     } catch (const Error&) {
-      // Is refused if it is asked for.
+      // Refused on access.
     }
   }
 }
@@ -68,7 +68,7 @@ SkeletonMotion ReadPickle(const std::filesystem::path& path, const Skeleton*,
   return ReadPickled(ReadFile(path), path, reading);
 }
 
-// A dict that numpy.save wrote, or joints' places alone.
+// A dict written by numpy.save, or joint positions.
 SkeletonMotion ReadObjects(const std::filesystem::path& path, const Skeleton*,
                            const MotionReading& reading) {
   const std::string bytes = ReadFile(path);
@@ -102,7 +102,7 @@ void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const
   npz.Write(path);
 }
 
-// What moves: channels whose values differ or, where none do, channels.
+// The joints that move: those with differing values or, if none differ, with channels.
 std::vector<bool> MovedJoints(const BvhFile& file) {
   std::vector<bool> moves, has;
   Eigen::Index row = 0;
@@ -130,9 +130,9 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
   return FitNodes(std::move(nodes), motion, reading);
 }
 
-// From radians to degrees, where they may be: none is beyond a turn, some are a limb's.
+// Converts radians to degrees if they may be radians: none exceeds a turn, and some exceed 1.
 std::optional<BvhFile> FromRadians(const BvhFile& file) {
-  constexpr Eigen::Index kFewest = 10;  // a pose or two prove nothing
+  constexpr Eigen::Index kFewest = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
   if (file.frames() < kFewest) return std::nullopt;
   BvhFile turned = file;
@@ -172,7 +172,7 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
     MotionReading quietly = reading;
     quietly.notes = &notes;
     SkeletonMotion read = TakeBvh(*turned, wanted, quietly);
-    // Who sways a little in degrees would bend knees and elbows backwards in radians.
+    // A dancer who sways a little in degrees would bend knees and elbows backwards in radians.
     if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
       reading.Note(
           "its angles are taken as radians: none is above 6.28, and as degrees no joint would turn "
@@ -184,13 +184,13 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
   return TakeBvh(file, wanted, reading);
 }
 
-// What a motion file may be. One more is a row.
+// A format of motion files. A new one is a new row below.
 struct Format {
   const char* extension;
   // `wanted`: a skeleton to try first, or none.
   SkeletonMotion (*read)(const std::filesystem::path& path, const Skeleton* wanted,
                          const MotionReading& reading);
-  // Null for what is only read.
+  // Null if it can only be read.
   void (*write)(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                 const std::vector<Contacts>* contacts);
 };
@@ -213,7 +213,7 @@ constexpr Format kFormats[] = {
     {".npy", ReadObjects, nullptr},
 };
 
-// What people bring, too, and where it becomes one of these.
+// Other formats that people try, and how to convert them.
 constexpr std::pair<const char*, const char*> kOtherFormats[] = {
     {".fbx", "Blender imports it, and exports .glb or .bvh"},
     {".dae", "Blender imports it, and exports .glb or .bvh"},

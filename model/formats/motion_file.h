@@ -21,23 +21,23 @@ std::string SmallExtension(const std::filesystem::path& path);
 /// amass_npz.h), which is only read.
 bool IsMotionFile(const std::filesystem::path& path);
 
-/// ".npz, .bvh, .glb, ...": those that are read, for help and messages.
+/// ".npz, .bvh, .glb, ...": the readable ones, for help and messages.
 std::string MotionFileExtensions();
 
 /// Throws Error(kInvalidArgument) whose field is the path, naming the formats, unless IsMotionFile.
 void RequireMotionFile(const std::filesystem::path& path);
-/// The same of those that are written.
+/// The same for formats that can be written.
 void RequireWrittenMotionFile(const std::filesystem::path& path);
 
-/// A motion from a file, and the skeleton that it is of: SMPL's, or the one that an npz holds
-/// (own_arrays.h) or that a BVH or glTF has (own_skeleton.h); any other rig is read as SMPL's body
-/// (node_motion.h): sized by its legs, turned as its bones turn, put on the floor. At the file's
-/// own rate. Throws Error(kInvalidArgument) whose field begins with the path for other extensions,
-/// files without frames, values beyond motion/pose_limits.h and what the formats refuse;
-/// UnknownBones where names tell too little; Error(kNotFound) where the file cannot be opened.
+/// Reads a motion and its skeleton at the file's own rate. The skeleton is SMPL's, or one stored in
+/// an npz (own_arrays.h), BVH or glTF (own_skeleton.h). Any other rig is read as SMPL's body
+/// (node_motion.h): scaled by its legs, with its bones' rotations, put on the floor. Throws
+/// Error(kInvalidArgument), whose field begins with the path, for other extensions, files without
+/// frames, values beyond motion/pose_limits.h and what the formats refuse; UnknownBones if names
+/// tell too little; Error(kNotFound) if the file cannot be opened.
 SkeletonMotion ReadMotion(const std::filesystem::path& path, const MotionReading& reading = {});
 
-/// What becomes of a motion of other bones: it is retargeted (fit/retarget.h), or refused with
+/// How to treat a motion with other bones: retarget it (fit/retarget.h), or refuse it with
 /// Error(kInvalidArgument) naming both skeletons.
 enum class OtherSkeleton : uint8_t { kRetarget, kRefuse };
 
@@ -46,8 +46,8 @@ Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
                   OtherSkeleton other = OtherSkeleton::kRetarget,
                   const MotionReading& reading = {});
 
-/// Writes a file, in the format of its extension; an npz is SMPL's or holds its skeleton, as above.
-/// `contacts`, one a frame, go into an npz alone. Errors as above, and Error(kInternal) where the
+/// Writes a file in the format of its extension; an npz of another skeleton than SMPL's contains
+/// it. Only an npz stores `contacts`, one per frame. Errors as above, and Error(kInternal) if the
 /// file cannot be written.
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts = nullptr);

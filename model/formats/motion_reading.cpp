@@ -34,7 +34,7 @@ std::string UpName(const Eigen::Vector3d& up) {
 }
 
 Eigen::Matrix3d TurnToYUp(const Eigen::Vector3d& up) {
-  if (up == -Eigen::Vector3d::UnitY())  // there is no shortest one: about X
+  if (up == -Eigen::Vector3d::UnitY())  // there is no shortest turn; use X
     return Eigen::Vector3d(1, -1, -1).asDiagonal();
   return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitY()).toRotationMatrix();
 }

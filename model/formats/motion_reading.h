@@ -9,38 +9,39 @@
 
 namespace choreo {
 
-/// How a motion file is to be read, where it does not say so itself or says it wrongly. All is
+/// Options for reading a motion file that leaves something open or states it wrongly. All are
 /// optional.
 struct MotionReading {
-  /// The file's axis that points up, as in "z" or "-y"; empty: as its format has it, unless the
-  /// body would lie.
+  /// The file's axis that points up, as in "z" or "-y"; empty: that of its format, unless the body
+  /// would lie.
   std::string up = {};
-  double scale = 0;  ///< metres in the file's unit of length; 0: as its format has it
+  double scale = 0;  ///< metres per unit of the file; 0: that of its format
   double fps = 0;    ///< for a file that states no rate; 0: 30
   std::string animation =
-      {};                 ///< of a glTF: its name, or its number from 0 on; empty: one that moves
-  std::string body = {};  ///< of several: its name, or its number from 0 on; empty: the first
-  std::vector<BoneChoice> bones = {};  ///< which node is which bone, before what their names say
-  /// Where it is wanted: what was read otherwise than the file says, and what looks wrong, a line
-  /// each.
+      {};  ///< of a glTF: its name, or its number from 0 on; empty: one that moves
+  std::string body =
+      {};  ///< of several bodies: its name, or its number from 0 on; empty: the first
+  std::vector<BoneChoice> bones = {};  ///< which node is which bone; overrides their names
+  /// If given, receives one line for each deviation from the file and for each thing that looks
+  /// wrong.
   std::vector<std::string>* notes = nullptr;
 
-  /// Whether it says which bones are read.
+  /// Whether it chooses bones.
   bool chooses() const { return !bones.empty() || !body.empty(); }
-  /// Throws Error(kInvalidArgument) where --body is given, for a file of one.
+  /// Throws Error(kInvalidArgument) if --body is given; call for files with one body.
   void RefuseBody() const;
   void Note(const std::string& text) const {
     if (notes != nullptr) notes->push_back(text);
   }
-  /// That a file states no rate, and is read at this one.
+  /// Notes that a file states no rate and is read at this one.
   void NoteRate(double taken) const;
 };
 
-/// The number that `text` is, if it is one and below `limit`.
+/// `text` as a number, if it is one and below `limit`.
 std::optional<size_t> NumberBelow(const std::string& text, size_t limit);
 
-/// Of several bodies that which --body names: by its name, if no other has that, or by its number.
-/// Throws Error(kInvalidArgument) whose field is --body.
+/// The body that --body chooses, by its name if unique or by its number. Throws
+/// Error(kInvalidArgument) whose field is --body.
 size_t ChooseBody(const std::string& body, const std::vector<std::string>& names);
 
 /// `0 "A:Hips", 1 "B:Hips"`, for messages.

@@ -16,7 +16,7 @@
 namespace choreo {
 namespace {
 
-// The bones' columns alone.
+// Keeps only the bones' columns.
 RigPlacement Keep(const RigPlacement& all, const std::vector<int>& nodes) {
   RigPlacement kept;
   kept.places.resize(3, std::ssize(nodes));
@@ -27,8 +27,8 @@ RigPlacement Keep(const RigPlacement& all, const std::vector<int>& nodes) {
   return kept;
 }
 
-// Whose turn is the pelvis': what carries both legs, where something above it carries the trunk,
-// too, as MMD's lower body does.
+// The node whose rotation is the pelvis's: the one that carries both legs, if a node above it
+// carries the trunk, too, as in MMD.
 int TurningPelvis(const HumanBones& found, const std::vector<int>& parents) {
   const int pelvis = found.Find("pelvis"), left = found.Find("left_hip");
   int node = parents[static_cast<size_t>(left)];
@@ -65,10 +65,10 @@ void Tell(const RigFit& fit, const MotionReading& reading) {
     reading.Note("has no " + Joined(fit.missing) + ": our own go along with what carries them");
 }
 
-// Files made at home have bones in centimetres and the root's places in metres.
-void TellOfUnits(const RigMotion& rig, const RigFit& fit, const MotionReading& reading) {
+// Notes a mix of units: some files have bones in centimetres and the root's positions in metres.
+void NoteUnits(const RigMotion& rig, const RigFit& fit, const MotionReading& reading) {
   constexpr double kLowest = 0.5,
-                   kHighest = 2;  // of the pelvis above the floor, in lengths of legs
+                   kHighest = 2;  // height of the pelvis, in leg lengths
   const Eigen::Vector3d up = fit.up.value_or(Eigen::Vector3d::UnitY());
   const auto place = [&](const RigPlacement& at, const char* bone) -> Eigen::Vector3d {
     return at.places.col(rig.bones.Find(bone));
@@ -115,7 +115,7 @@ HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
 Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
   HumanBones found = FindBody(nodes, reading);
   if (const std::string missing = MissingBone(found); !missing.empty()) {
-    // A rest pose that is no body tells less than the first frame.
+    // Without a usable rest pose the first frame is better evidence.
     const bool guessable =
         MissingBone(GuessBones(nodes.parents, nodes.places, nodes.joints)).empty();
     if (!guessable) nodes.places = motion.frame(0).places;
@@ -141,7 +141,7 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
   RigFit fit = FitRig(rig, reading.scale);
   CheckMotionLimits(fit.motion);
   Tell(fit, reading);
-  TellOfUnits(rig, fit, reading);
+  NoteUnits(rig, fit, reading);
   return Settle({.skeleton = Skeleton::Smpl24(),
                  .motion = std::move(fit.motion),
                  .rest_up = fit.up,

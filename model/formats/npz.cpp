@@ -32,8 +32,8 @@ std::string ErrorText(int code) {
   return text;
 }
 
-// Exactly `size` bytes, whose checksum libzip verifies where they end. In pieces: memory goes with
-// what is there, not with what a directory claims.
+// Reads exactly `size` bytes; libzip verifies their checksum at the end. Reads in pieces, so that
+// memory depends on the data, not on the directory's claim.
 bool ReadAll(zip_file_t* file, uint64_t size, std::string* bytes) {
   constexpr uint64_t kPiece = 1 << 20;
   while (bytes->size() < size) {
@@ -163,7 +163,7 @@ std::string_view NpzArchive::Pickle(const std::string& key) const {
   return parts.descr == kNpyObjects ? parts.values : std::string_view();
 }
 
-// By names that no program gives its arrays: "name.key".
+// Stored as "name.key", which no program uses for arrays.
 void NpzArchive::SetNested(const std::string& name, const NpzArchive& archive) {
   for (const auto& [key, bytes] : archive.members_) members_[name + '.' + key] = bytes;
 }

@@ -12,19 +12,19 @@ namespace choreo {
 
 /// NumPy's `.npz`: a zip of named arrays, and of texts (zero-dimensional arrays of characters, such
 /// as AMASS's gender or our meta data). Written uncompressed with a fixed date, so that equal
-/// content gives equal bytes; read whether compressed or not. Members are looked up when asked
-/// for: an array of a kind that we cannot read (pickled objects) does no harm unless it is wanted.
+/// content gives equal bytes; read whether compressed or not. Members are parsed on demand, so
+/// arrays that we cannot read (pickled objects) do no harm unless requested.
 class NpzArchive {
  public:
   /// Throws Error(kNotFound) for a file that cannot be opened, Error(kInvalidArgument) for one that
   /// is no zip, is damaged, or holds more than 4 GiB.
   static NpzArchive Read(const std::filesystem::path& path);
-  /// Error(kInternal) where the file cannot be written. Replaces the file at once or not at all.
+  /// Replaces the file atomically. Throws Error(kInternal) if it cannot be written.
   void Write(const std::filesystem::path& path) const;
 
   bool Has(const std::string& key) const { return members_.contains(key); }
-  /// Throws Error(kInvalidArgument) for a key that is absent, naming those that are there, and for
-  /// an array of another kind.
+  /// Throws Error(kInvalidArgument) for a missing key, listing the existing ones, and for an array
+  /// of another kind.
   NpyArray Array(const std::string& key) const;
   std::string Text(const std::string& key) const;
   /// Whether it is an array of characters.
@@ -33,10 +33,10 @@ class NpzArchive {
   /// The pickle of an array of objects (pickle.h); empty for an array of another kind.
   std::string_view Pickle(const std::string& key) const;
 
-  /// Of what file it is, for messages.
+  /// Sets the file's name, for messages.
   void SetName(const std::string& name) { name_ = name; }
 
-  /// Another archive's arrays, as of a dict within a dict; the names of all such; one of them.
+  /// Arrays of a nested dict: adds them; lists the names of nested dicts; returns one.
   void SetNested(const std::string& name, const NpzArchive& archive);
   std::vector<std::string> NestedNames() const;
   NpzArchive Nested(const std::string& name) const;

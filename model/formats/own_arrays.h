@@ -11,8 +11,8 @@
 #include "model/motion/skeleton.h"
 #include "model/motion/skeleton_motion.h"
 
-/// Motion of any skeleton in npz files, array by array, and what every writer asks of a motion.
-/// What has SMPL's skeleton is written as amass_npz.h says, so that SMPL's tools can read it.
+/// Motions of any skeleton in npz files, and the checks of all writers. Motions of SMPL's skeleton
+/// are written as in amass_npz.h, so that SMPL's tools can read them.
 namespace choreo {
 
 /// Throws Error(kInvalidArgument) for no frames, a frame of another joint count than the skeleton's
@@ -27,16 +27,16 @@ void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
 /// The inverse, without contacts. Throws Error(kInvalidArgument) naming the array.
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 
-/// An array as [columns, F], finite; the shape [F, a, b] is accepted where a x b is one of
-/// `columns`, and [1, F, a] or, of a single frame, [a].
+/// A finite array as [columns, F]. Also accepts the shapes [F, a, b], if a x b is one of `columns`,
+/// [1, F, a], and [a] for a single frame.
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns);
-/// A number, or a text that is one.
+/// A number, possibly written as text.
 double NpzNumber(const NpzArchive& npz, const std::string& key);
 inline constexpr double kMinFileFps = 1, kMaxFileFps = 1000;
-/// Throws Error(kInvalidArgument, key) unless a rate lies within these, frames a second.
+/// Throws Error(kInvalidArgument, key) unless the rate, frames a second, is within these limits.
 double CheckRate(const std::string& key, double fps);
-/// Poses of `joints` joints, whose rotations are those of each column and zero beyond.
+/// Poses of `joints` joints from columns of rotations; missing joints have none.
 Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int joints,
                     double fps, const std::string& key);
 

@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-// Where hips and shoulders come together, or -1.
+// The joint from which hips and shoulders branch, or -1.
 int FindRoot(const std::vector<std::string>& names, const std::vector<int>& parents) {
   const int limbs[] = {IndexOf(names, "left_hip"), IndexOf(names, "right_hip"),
                        IndexOf(names, "left_shoulder"), IndexOf(names, "right_shoulder")};
@@ -23,8 +23,8 @@ int FindRoot(const std::vector<std::string>& names, const std::vector<int>& pare
   return node;
 }
 
-// Whether it stands as ours do at rest: y up, facing +Z, of a person's size. Another program's rig
-// that calls its joints as we do need not.
+// Whether it rests like our skeletons: y up, facing +Z, of a person's size. Other programs' rigs
+// with our joint names may not.
 bool StandsAsOurs(const Skeleton& skeleton) {
   constexpr double kUpright = 0.8;                            // cosine
   constexpr double kShortestLegs = 0.45, kLongestLegs = 1.4;  // metres

@@ -10,11 +10,10 @@ namespace choreo {
 /// Reads a Python pickle (protocols 0 to 5) of one dict whose keys are texts or numbers, such as
 /// AIST++'s motions, or of such a dict in an array of objects, as numpy.save writes it: NumPy
 /// arrays, numbers (arrays without dimensions here), texts, lists of one of these, dicts of them
-/// (NpzArchive::Nested). Values of other kinds
-/// are left out. A pickle is a program; nothing of it is run: of its opcodes and of what they may
-/// name we know those that build such a dict, and refuse the others. Arrays as NpyArray has them.
-/// Throws Error(kInvalidArgument), which names `name`, the opcode and its place, for everything
-/// else.
+/// (NpzArchive::Nested). Ignores values of other kinds. A pickle is a program, but nothing of it is
+/// run: knows only the opcodes and globals that build such a dict, and refuses others. Arrays are
+/// as in NpyArray. Throws Error(kInvalidArgument), which names `name`, the opcode and its place,
+/// for everything else.
 NpzArchive ParsePickledArrays(std::string_view bytes, const std::string& name);
 
 /// The same, of a pickle of one array or number, or of such in an array of objects.

@@ -7,7 +7,7 @@
 namespace choreo {
 namespace {
 
-// So many hexadecimal digits at the beginning, which are taken away.
+// Removes and parses this many hexadecimal digits at the beginning.
 std::optional<uint32_t> TakeHex(std::string_view* text, size_t digits) {
   uint32_t value = 0;
   const std::string_view taken = text->substr(0, digits);

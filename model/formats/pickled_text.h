@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// How the protocols of text, 0 and 1, write what is not printable. Private to this folder.
+/// Unescapes strings of the text protocols, 0 and 1. Private to this folder.
 namespace choreo {
 
 /// 'a\x00b' between quotes, as Python writes bytes: \n, \r, \t, \\, quotes and two digits after

@@ -12,14 +12,14 @@
 namespace choreo {
 namespace {
 
-constexpr double kNoRotation = 0.05;  // of a matrix's product with its transpose from 1
-constexpr double kNoSixD = 0.5;       // of Skew, in the mean: networks miss it by far less
+constexpr double kNoRotation = 0.05;  // deviation of a matrix times its transpose from identity
+constexpr double kNoSixD = 0.5;       // mean Skew; networks deviate far less
 
-/// An array seen as frames of values.
+/// An array as frames of values.
 struct Rows {
   std::vector<int64_t> shape;  ///< as stated
   int64_t frames = 0, width = 0;
-  int64_t last = 0, last_but_one = 0;  ///< extents, 0 where there is none
+  int64_t last = 0, last_but_one = 0;  ///< extents, 0 if missing
   Eigen::MatrixXd values;              ///< [width, frames]
 };
 
@@ -81,14 +81,16 @@ Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {
 
 using SixD = Eigen::Matrix<double, 6, 1>;
 
-// How far six numbers are from two vectors of length 1 at right angles, `step` apart in each.
+// The deviation of six numbers from two orthonormal vectors; `step`: the distance of a vector's
+// numbers.
 double Skew(const SixD& six, Eigen::Index step) {
   const Eigen::Index next = step == 1 ? 3 : 1;
   const Eigen::Vector3d a = six(Eigen::seqN(0, 3, step)), b = six(Eigen::seqN(next, 3, step));
   return std::abs(a.dot(b)) + std::abs(a.squaredNorm() - 1) + std::abs(b.squaredNorm() - 1);
 }
 
-// Vectors one after the other are rows or columns; number by number, as [.., 3, 2] lies, columns.
+// Vectors one after the other may be rows or columns; interleaved ones, as in [.., 3, 2], are
+// columns.
 Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   Eigen::MatrixXd turns(rows.width / 2, rows.frames);
   double in_turn = 0, mixed = 0;
@@ -119,8 +121,8 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
     }
   }
   if (is_mixed) return turns;
-  // By how much hinges bend, backwards below 0. `first` is that of the body's joints which the
-  // array begins with.
+  // Sum of the hinges' bends, negative for backwards. `first`: the body joint with which the array
+  // begins.
   const Skeleton& smpl = Skeleton::Smpl24();
   const Eigen::Index first = rows.width / 6 == 21 || rows.width / 6 == 23 ? 1 : 0;
   double bend = 0;
@@ -133,7 +135,7 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   return bend < 0 ? Eigen::MatrixXd(-turns) : turns;
 }
 
-// The real part stands first or last: where most of it is, as joints turn by less than half a turn.
+// The real part is first or last: the larger one, as joints turn by less than half a turn.
 Eigen::MatrixXd FromQuaternions(const Rows& rows, const std::string& key) {
   double first = 0, last = 0;
   for (Eigen::Index at = 0; at + 4 <= rows.values.size(); at += 4) {
@@ -165,7 +167,7 @@ bool IsWidthOf(int64_t width, int64_t values, const std::vector<int64_t>& joints
 
 bool AreRotations(int64_t width, const std::vector<int64_t>& joints) {
   return std::ranges::any_of(std::initializer_list<int64_t>{3, 4, 6, 9}, [&](int64_t values) {
-    // The root alone does not say where a quaternion has its real part.
+    // The root alone does not show where a quaternion's real part is.
     return width != 4 && IsWidthOf(width, values, joints);
   });
 }

@@ -56,7 +56,7 @@ void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
     for (const int frames : lengths) {
       if (!ChooseWindows(set, history, frames, 1).empty()) continue;
       std::fprintf(stderr,
-                   "choreo-lab: --lengths: no clip of %s has %d frames behind a history of %d, so "
+                   "choreo-lab: --lengths: no clip of %s has %d frames after a history of %d, so "
                    "there are no rows\n",
                    set.name.c_str(), frames, history);
     }

@@ -65,7 +65,7 @@ class PlanStander {
       plan_ = proposed;
       PlaceLegs();
     }
-    Footwork result{.contacts = TellContacts()};
+    Footwork result{.contacts = FinalContacts()};
     result.offset.col(0) = context_.offset_before.col(1);
     result.offset.rightCols(std::min(2, frames_)) = offset_.rightCols(std::min(2, frames_));
     return result;
@@ -191,13 +191,13 @@ class PlanStander {
       return std::max(0.0, ankle_rest_[side] - at(1, leg.ankle));
     };
     const double before = sunk(JointPositions(skeleton_, context_.history.back()));
-    const double behind = context_.keyed ? sunk(planned_.back().positions) : 0;
+    const double after = context_.keyed ? sunk(planned_.back().positions) : 0;
     for (int frame = 0; frame < frames_; ++frame) {
       if (IsKey(frame)) return;
       const auto i = static_cast<size_t>(frame);
       const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / settle)); };
       const double least =
-          ankle_rest_[side] - fade(frame + 1) * before - fade(frames_ - 1 - frame) * behind;
+          ankle_rest_[side] - fade(frame + 1) * before - fade(frames_ - 1 - frame) * after;
       JointPlacement& at = planned_[i];
       const Eigen::Vector3d ankle = at.positions.col(leg.ankle);
       const Eigen::Vector3d foot = at.positions.col(leg.toes) - ankle;
@@ -257,7 +257,7 @@ class PlanStander {
   }
 
   // The foot keeps its rotation, so its ankle moves with its toes.
-  std::vector<Contacts> TellContacts() const {
+  std::vector<Contacts> FinalContacts() const {
     std::vector<Contacts> contacts(plan_.size());
     for (int frame = 0; frame < frames_; ++frame) {
       const auto i = static_cast<size_t>(frame);

@@ -61,17 +61,17 @@ class PathMaker {
   void Fly(int from, int to) {
     const bool leaves = from > 0 || foot_.stood;
     const Stance* next = to < last_ ? StanceAt(stances_, to + 1) : nullptr;
-    const int before = from - 1, behind = next != nullptr ? to + 1 : to;
+    const int before = from - 1, after = next != nullptr ? to + 1 : to;
     const Eigen::Vector3d start = from > 0 ? path_.back() : foot_.before;
-    const Eigen::Vector3d goal = next != nullptr ? Standing(*next, behind) : Planned(to);
+    const Eigen::Vector3d goal = next != nullptr ? Standing(*next, after) : Planned(to);
     const Eigen::Vector3d far = goal - start;
     const double arc = std::min(kHighestArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
     // Beside the straight way the plan is free, except near a standing end.
     const auto free = [](double u) { return SmoothStep(std::min(1.0, 3 * u)); };
     for (int frame = from; frame <= to; ++frame) {
-      const double u = static_cast<double>(frame - before) / (behind - before);
+      const double u = static_cast<double>(frame - before) / (after - before);
       const double eased = Smootherstep(u);
-      const Eigen::Vector3d planned = Planned(before) + eased * (Planned(behind) - Planned(before));
+      const Eigen::Vector3d planned = Planned(before) + eased * (Planned(after) - Planned(before));
       const double loose = (leaves ? free(u) : 1) * (next != nullptr ? free(1 - u) : 1);
       Eigen::Vector3d at = start + eased * far + loose * (Planned(frame) - planned);
       const double lift = leaves && next != nullptr ? arc * 8 * std::pow(u * (1 - u), 1.5) : 0;

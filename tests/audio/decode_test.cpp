@@ -208,9 +208,9 @@ TEST_P(DecodeFormatTest, APartFromTheMiddleIsThatPart) {
   ASSERT_EQ(part.samples(), whole.samples() - GetParam().rate / 2);
   const auto from = whole.interleaved.end() - std::ssize(part.interleaved);
   EXPECT_TRUE(std::equal(part.interleaved.begin(), part.interleaved.end(), from));
-  const DecodedAudio behind = DecodeAudioFile(path, 1000, 3);
-  EXPECT_TRUE(behind.interleaved.empty());
-  EXPECT_DOUBLE_EQ(behind.end_s, 2.0);
+  const DecodedAudio after = DecodeAudioFile(path, 1000, 3);
+  EXPECT_TRUE(after.interleaved.empty());
+  EXPECT_DOUBLE_EQ(after.end_s, 2.0);
 }
 
 TEST_P(DecodeFormatTest, NoSamplesAreRefused) {

@@ -19,7 +19,7 @@ TEST(LimbTravel, IsTheChordsLengthForWhoGoesStraight) {
   EXPECT_NEAR(travel.path, travel.chord, 1e-9);
 }
 
-TEST(LimbTravel, CountsEveryDetourBetweenKeysAndNothingBehindTheLast) {
+TEST(LimbTravel, CountsEveryDetourBetweenKeysAndNothingAfterTheLast) {
   // Half a circle a span: path over chord is half of pi.
   const JointTrack track = Carried(150, [](double s) {
     return Eigen::Vector3d(std::cos(M_PI * s / 2), 0, std::sin(M_PI * s / 2));

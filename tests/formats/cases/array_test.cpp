@@ -178,7 +178,7 @@ TEST_F(CasesTest, ArraysWhoseAxesOrUnitAreOthers) {
 }
 
 // Rows as networks and data sets of dance write them: what a turn is stated as, how many are there,
-// what stands before the place and behind the turns.
+// what stands before the place and after the turns.
 TEST_F(CasesTest, RowsOfTheTrade) {
   const SmplArrays smpl;
   struct Row {

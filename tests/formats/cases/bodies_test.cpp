@@ -13,8 +13,8 @@ using namespace cases_test;
 
 const Eigen::Matrix3d kZUp{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 
-RigNames With(const std::string& before, const RigNames& names, const std::string& behind = "") {
-  return [=](const std::string& bone) { return before + names(bone) + behind; };
+RigNames With(const std::string& before, const RigNames& names, const std::string& after = "") {
+  return [=](const std::string& bone) { return before + names(bone) + after; };
 }
 
 BvhFile Dancing(const RigNames& names, const RigTurn& turn = Expressive) {
@@ -98,7 +98,7 @@ TEST_F(CasesTest, TheLogOfBodiesInBvh) {
             Expressive, "holds 2 bodies that move"},
            {"a still twin of another namespace first",
             BvhText(Together(Still(With("Dummy:", names)), Dancing(With("Actor:", names))))},
-           {"a still twin first, numbers behind the names of the one that moves",
+           {"a still twin first, numbers after the names of the one that moves",
             BvhText(Together(Still(names), Dancing(With("", names, ".001"))))},
            {"a prop first", BvhText(Together(Stick(), Dancing(names)))},
            {"names that all end alike", BvhText(Dancing(With("c_", names, "_bind_jnt")))},
@@ -139,7 +139,7 @@ TEST_F(CasesTest, TheLogOfBodiesInGltf) {
         {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/" + node + "/" + path}}}}}};
   };
   for (const GlbRow& row : std::vector<GlbRow>{
-           {"a still twin first, numbers behind the names of the one that moves",
+           {"a still twin first, numbers after the names of the one that moves",
             [&](GlbRigs&glb, const RigNames&names) {
               glb.AddSkin(glb.AddBody(names, 2));
               glb.AddSkin(dance(glb, With("", names, ".001")));

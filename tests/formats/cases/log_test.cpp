@@ -41,10 +41,10 @@ Eigen::Matrix3d HangingArms(const std::string& bone) {
   return arm ? About(0, 0, 1, bone.starts_with("left_") ? -88 : 88) : About(0, 1, 0, 0);
 }
 
-// Channels before and behind the rotations of every joint but the root, with the same values
+// Channels before and after the rotations of every joint but the root, with the same values
 // throughout.
 BvhFile WithChannels(const BvhFile& file, const std::vector<BvhChannel>& before, double position,
-                     const std::vector<BvhChannel>& behind, double scale) {
+                     const std::vector<BvhChannel>& after, double scale) {
   BvhFile more = file;
   std::vector<Eigen::RowVectorXd> rows;
   Eigen::Index from = 0;
@@ -56,10 +56,10 @@ BvhFile WithChannels(const BvhFile& file, const std::vector<BvhChannel>& before,
     const bool adds = !file.joints[i].end_site && file.joints[i].parent >= 0;
     for (size_t k = 0; adds && k < before.size(); ++k) constant(position);
     for (size_t k = 0; k < channels.size(); ++k) rows.emplace_back(file.values.row(from++));
-    for (size_t k = 0; adds && k < behind.size(); ++k) constant(scale);
+    for (size_t k = 0; adds && k < after.size(); ++k) constant(scale);
     if (!adds) continue;
     channels.insert(channels.begin(), before.begin(), before.end());
-    channels.insert(channels.end(), behind.begin(), behind.end());
+    channels.insert(channels.end(), after.begin(), after.end());
   }
   more.values.resize(std::ssize(rows), file.frames());
   for (size_t row = 0; row < rows.size(); ++row)

@@ -17,7 +17,7 @@ const load = async (file) => {
   const bytes = new Uint8Array(readFileSync(file));
   return new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).parseAsync(bytes.buffer, '');
 };
-/// What a file holds behind its JSON.
+/// What a file holds after its JSON.
 const binary = (file) => {
   const bytes = readFileSync(file);
   return bytes.subarray(20 + bytes.readUInt32LE(12) + 8);
