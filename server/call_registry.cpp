@@ -7,7 +7,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kShareOfLast = 0.1;  // of the call that ended last in the mean of them all
+constexpr double kShareOfLast = 0.1;  // weight of the latest call in the running mean
 
 const char* const kGoingAway = "the server is going away; try another one";
 
@@ -18,7 +18,7 @@ std::string Seconds(std::chrono::milliseconds limit) {
 
 }  // namespace
 
-Error HandedOn() {
+Error ResumeElsewhere() {
   return {ErrorCode::kUnavailable, "",
           "the server is going away; another one can go on from the last continuation"};
 }

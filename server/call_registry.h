@@ -43,7 +43,7 @@ struct CallLimits {
 };
 
 /// The status a call ends with when another server can resume it.
-Error HandedOn();
+Error ResumeElsewhere();
 
 /// The calls in progress: limits their number and idle time, and ends them when the server drains.
 /// A call enters when it begins and is admitted with its first message, so silent clients take
@@ -65,7 +65,7 @@ class CallRegistry {
 
   /// Also ends calls that are not yet admitted.
   void StopAdmitting();
-  /// Streams end with their next continuation, as HandedOn.
+  /// Streams end with their next continuation, as ResumeElsewhere.
   void EndAtTransitions() { ends_at_transitions_ = true; }
   bool ends_at_transitions() const { return ends_at_transitions_; }
   void AbortAll(const Error& error);

@@ -24,10 +24,10 @@
 
 namespace choreo {
 
-/// What the sessions of both streaming calls have in common. A session is shared by the reactor
-/// and by the worker threads that dance (`Dance` is a DanceStream or a TransitionGroup, whose sink
-/// it is); it holds the outbox, the dance, and the clock. Thread-safe but for what is said to
-/// belong to the sender of messages.
+/// Base of both streaming calls' sessions: outbox, dance and clock. A session is the sink of its
+/// `Dance`, a DanceStream or a TransitionGroup, and is shared by the reactor and the workers'
+/// threads. Thread-safe, except functions marked for the message thread, which handles the call's
+/// messages one at a time.
 template <class Response, class Dance>
 class CallSession : public Call {
  public:
@@ -50,13 +50,13 @@ class CallSession : public Call {
   void Reset() override { outbox_.Reset(); }
   CallProgress progress() const override { return outbox_.progress(); }
 
-  /// What is queued still goes out, then the call ends with this error.
+  /// Ends the call with this error after all queued answers.
   void Fail(const Error& error) {
     EndIn(error);
     CancelDance();
   }
 
-  /// Before all else: finds out who it is that calls; false where the call ends for it.
+  /// Identifies the caller; call first. False if the call ends because of its token.
   bool Authenticate(std::string_view authorization) {
     const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder);
     if (status.ok()) return true;
@@ -65,16 +65,17 @@ class CallSession : public Call {
     return false;
   }
 
-  /// Whose calls are counted together with it.
+  /// The party with whose calls it is counted.
   std::string party() const { return caller_.Party(); }
 
-  /// Counts the call as one in progress; with its first message. Throws as CallRegistry::Admit.
+  /// Counts the call as in progress. Call on the message thread with the first message. Throws as
+  /// CallRegistry::Admit.
   void Admit() {
     if (std::exchange(admitted_, true)) return;
     serving_.calls.Admit(this);
   }
 
-  /// The reactor is done: frees the dance, which holds this session in turn, and counts the call.
+  /// Call when the reactor is done: frees the dance, which holds this session, and counts the call.
   void Release() noexcept {
     CancelDance();
     serving_.frames.GiveBack(this);
@@ -86,7 +87,7 @@ class CallSession : public Call {
     }
     try {
       const grpc::Status status = outbox_.status();
-      if (status.ok()) refusal.reset();  // what came behind the end ended nothing
+      if (status.ok()) refusal.reset();  // a refusal after the end does not count
       serving_.tally.Count({.method = method_,
                             .caller = caller_,
                             .status = status,
@@ -96,7 +97,7 @@ class CallSession : public Call {
                             .model = model_,
                             .seed = seed_,
                             .refusal = refusal});
-    } catch (const std::bad_alloc&) {  // a missing log line must not end the server
+    } catch (const std::bad_alloc&) {  // loses the log line, but keeps the server
     }
   }
 
@@ -108,12 +109,12 @@ class CallSession : public Call {
     return dance_;
   }
 
-  /// Takes the dance in, unless the call has ended meanwhile: then it is cancelled.
+  /// Stores the dance, or cancels it if the call has ended meanwhile.
   void Adopt(std::shared_ptr<Dance> dance) {
     {
       const std::lock_guard lock(mutex_);
       if (!ended_) {
-        if (paused_) dance->SetPaused(true);  // which was said before it was there
+        if (paused_) dance->SetPaused(true);  // requested before the dance existed
         dance_ = std::move(dance);
         return;
       }
@@ -121,7 +122,7 @@ class CallSession : public Call {
     dance->Cancel();
   }
 
-  /// Runs something that may throw, on behalf of the client.
+  /// Runs `action`; ends the call if it throws.
   template <class Action>
   void Guard(Action action) {
     try {
@@ -134,7 +135,7 @@ class CallSession : public Call {
     }
   }
 
-  /// For work that takes long: throws Error(kCancelled) once nobody waits for it.
+  /// Throws Error(kCancelled) if the call is over; for long work.
   void RequireOpen() const {
     if (!outbox_.open()) throw Error(ErrorCode::kCancelled, "", "the call is over");
   }
@@ -162,8 +163,8 @@ class CallSession : public Call {
     outbox_.Send(std::move(response));
   }
 
-  /// What is queued still goes out, then the call ends so. The dance has ended, and what it was
-  /// promised is there for whoever comes once its client knows.
+  /// Ends the call with this status after all queued answers. The dance's promised time is free for
+  /// other calls before its client gets the status.
   void End(const grpc::Status& status) {
     serving_.frames.GiveBack(this);
     outbox_.Close(status);
@@ -173,22 +174,22 @@ class CallSession : public Call {
     try {
       End(StatusOf(error));
     } catch (const std::bad_alloc&) {
-      End({grpc::StatusCode::INTERNAL, "no memory"});  // short enough to need none
+      End({grpc::StatusCode::INTERNAL, "no memory"});  // short enough not to allocate
     }
   }
 
-  /// Its RetryInfo, if any, is from the measured load.
+  /// Takes RetryInfo's delay, if any, from the measured load.
   grpc::Status StatusOf(const Error& error) const {
     return ToStatus(error, serving_.calls.retry_after());
   }
 
-  /// What its line of the log names. Of the sender of messages.
+  /// Names model and seed in the call's log line. Message thread.
   void Name(const ModelInfo& model, uint64_t seed) {
     model_ = model.name;
     seed_ = seed;
   }
 
-  /// Calls of a sink come one at a time; so do those of the two below.
+  /// Call the next two from the sink only: its calls come one at a time.
   void CountFrames(size_t frames) {
     if (frames_ == 0) first_frame_s_ = Elapsed();
     frames_ += static_cast<int64_t>(frames);
@@ -202,7 +203,7 @@ class CallSession : public Call {
   Serving& serving_;
 
  private:
-  // Why the call is turned away, if it is; the first reason counts.
+  // Records why the call is refused; the first reason counts.
   void Note(std::optional<Refusal> refusal) {
     const std::lock_guard lock(mutex_);
     if (!refusal_) refusal_ = refusal;
@@ -232,17 +233,17 @@ class CallSession : public Call {
 
   Outbox<Response> outbox_;
   const std::string method_;
-  Caller caller_;  // written before the call has entered
+  Caller caller_;  // written before the call enters
   const Clock::time_point start_ = Clock::now();
-  bool admitted_ = false;  // of the sender of messages
-  // Written by the sender of messages, later by Release.
+  bool admitted_ = false;  // message thread
+  // Written on the message thread, read by Release.
   std::string model_;
   std::optional<uint64_t> seed_;
 
   mutable std::mutex mutex_;      // guards the four below
-  std::shared_ptr<Dance> dance_;  // null before the configuration and after the call
+  std::shared_ptr<Dance> dance_;  // null before the configuration and after the end
   bool ended_ = false;
-  bool paused_ = false;  // as the outbox wants it, be there a dance or not
+  bool paused_ = false;  // the outbox's wish, with or without a dance
   std::optional<Refusal> refusal_;
 
   std::atomic<int64_t> frames_ = 0;

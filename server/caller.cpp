@@ -7,7 +7,7 @@
 namespace choreo {
 namespace {
 
-// "00-TRACE-SPAN-FLAGS" (W3C Trace Context); later versions may have more behind it.
+// "00-TRACE-SPAN-FLAGS" (W3C Trace Context); later versions may have more after it.
 constexpr size_t kTraceDigits = 32, kSpanDigits = 16;
 constexpr size_t kTraceAt = 3, kSpanAt = kTraceAt + kTraceDigits + 1;
 constexpr size_t kLength = kSpanAt + kSpanDigits + 3;

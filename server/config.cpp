@@ -37,14 +37,14 @@ void CheckAddress(const std::string& name, const std::string& address) {
   const bool digits = !port.empty() && std::all_of(port.begin(), port.end(),
                                                    [](char c) { return c >= '0' && c <= '9'; });
   if (!digits) throw InvalidArgument(name, '"' + address + "\" is not HOST:PORT");
-  // gRPC would listen on the port's last 16 bits.
+  // gRPC would silently use the port's lowest 16 bits.
   if (port.size() > 5 || std::stoi(port) > kMaxPort) {
     throw InvalidArgument(name,
                           "port " + port + " is not in [0, " + std::to_string(kMaxPort) + "]");
   }
 }
 
-// Whether this machine has them is told when a model is loaded that heeds them.
+// Loading a model that uses them checks whether this machine has them.
 void CheckKernels(const std::string& name) {
   if (name.empty() || std::ranges::find(kKernelNames, name) != kKernelNames.end()) return;
   std::string names;
@@ -90,8 +90,8 @@ void CheckSecurity(const ServerConfig& config) {
   }
 }
 
-// "" for a file in a script is a variable that somebody forgot: without this, the server would be
-// open that was to be closed.
+// An empty file name in a script is usually an unset variable. Without this check the server would
+// start without the protection that was meant.
 void RequireNoEmptyFile(const CLI::App& app) {
   for (const char* name : {"--tls-cert", "--tls-key", "--tls-client-ca", "--tokens"}) {
     const CLI::Option* option = app.get_option(name);
@@ -122,7 +122,7 @@ void ServerConfig::Validate() const {
     throw InvalidArgument("--model", "names one that ships; --checkpoint and --models exclude it");
   ParseEngineKind(engine, "--engine");
   CheckKernels(kernels);
-  // Whether they are there is told when they are used; `auto` is whatever is there.
+  // Existence is checked when they are used; `auto` takes whatever exists.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
   CheckRange("--max-waiting", max_waiting, 0, 65536);
@@ -132,10 +132,10 @@ void ServerConfig::Validate() const {
   CheckRange("--io-threads", io_threads, 1, 256);
   CheckRange("--drain-seconds", drain_seconds, 0, 3600);
   CheckRange("--outbox-kib", outbox_kib, 1, 65536);
-  // At least one file has room.
+  // There must be room for one file.
   CheckRange("--max-file-music-mib", max_file_music_mib, kMaxAudioFileBytes >> 20, 1 << 20);
   CheckLimits(*this);
-  // A largest message has room.
+  // There must be room for the largest message.
   CheckRange("--max-network-mib", max_network_mib, 64, 1 << 20);
   CheckSecurity(*this);
   if (log_format != "text" && log_format != "json") {

@@ -90,7 +90,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                      ". Without it, the fastest here. Replicas on different CPUs take over each "
                      "other's dances where all have the slowest one's.")
       ->envname("CHOREO_KERNELS");
-  // CLI11 looks at variables only after the file: this one is its default, which must be there.
+  // CLI11 reads variables only after the file, so this variable must be set as the option's
+  // default.
   const char* file = std::getenv("CHOREO_CONFIG");
   const bool is_named = file != nullptr && *file != '\0';
   app.set_config("--config", is_named ? file : "",
@@ -99,7 +100,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   app.allow_config_extras(CLI::config_extras_mode::error);
 }
 
-// What clients may take, and for how long they may do nothing.
+// Limits on clients' resources and idle time.
 void AddLimits(CLI::App& app, ServerConfig& config) {
   app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
                  "Calls in progress at once of one token's holder or, without --tokens, from one "
@@ -131,7 +132,7 @@ void AddLimits(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
 }
 
-// Who is let in, and who can read what is said.
+// Authentication and encryption.
 void AddSecurity(CLI::App& app, ServerConfig& config) {
   app.add_option("--tls-cert", config.tls_certificate,
                  "PEM file with the certificate chain. Without it, connections are not encrypted.")
@@ -155,7 +156,7 @@ void AddSecurity(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_REFLECTION");
 }
 
-// How others see what it does.
+// Logs, metrics and health.
 void AddObservability(CLI::App& app, ServerConfig& config) {
   app.add_option("--log-level", config.log_level,
                  "trace, debug, info, warning, error, critical or off. The log goes to stderr.")

@@ -8,10 +8,10 @@
 namespace choreo {
 namespace {
 
-/// Calls of one connection beyond max_streams: those are told that the server is full, and others
-/// ask for its health. Further ones wait at the client.
+/// Calls per connection beyond max_streams: to refuse calls on a full server, and for health
+/// checks. Further calls wait at the client.
 constexpr int kSpareCalls = 100;
-/// From a connection to its first words of HTTP/2.
+/// Limit from accepting a connection to its HTTP/2 preface.
 constexpr int kHandshakeMs = 20'000;
 /// A connection without calls is closed; clients make a new one when they need it.
 constexpr int kIdleMs = 300'000;
@@ -27,8 +27,8 @@ void LimitConnections(const ServerConfig& config, grpc::ServerBuilder* builder) 
   builder->AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, CallsOfConnection(config));
   builder->AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMs);
   builder->AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdleMs);
-  // The first refuses calls that announce compression, the second sees to it that nothing is ever
-  // inflated.
+  // The first argument refuses calls that announce compression; the second makes sure that nothing
+  // is decompressed.
   builder->AddChannelArgument(GRPC_COMPRESSION_CHANNEL_ENABLED_ALGORITHMS_BITSET,
                               1 << GRPC_COMPRESS_NONE);
   builder->AddChannelArgument(GRPC_ARG_ENABLE_PER_MESSAGE_DECOMPRESSION, 0);

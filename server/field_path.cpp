@@ -22,7 +22,7 @@ constexpr std::array kKinds = {
     Kind{"music_passages[", "music_passages"},
 };
 
-/// What a continuation has for the poses that errors speak of.
+/// The message field for the poses of a continuation in errors.
 constexpr std::string_view kPoses = "config.continuation.poses";
 
 bool IsOfKeyframe(std::string_view path) {
@@ -30,7 +30,7 @@ bool IsOfKeyframe(std::string_view path) {
   return v1::Keyframe::descriptor()->FindFieldByName(member) != nullptr;
 }
 
-/// A message has coordinates by name, where errors have them by number.
+/// Errors index coordinates; messages name them.
 std::string WithCoordinates(std::string path) {
   constexpr std::string_view kRoot = "root_position[", kNames = "xyz";
   const size_t at = path.find(kRoot);

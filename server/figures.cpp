@@ -26,12 +26,13 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-/// The families of one look, in order.
+/// The metric families of one scrape, in order.
 class Families {
  public:
-  /// Of the families that follow: those of every process have names that all programs share.
+  /// Sets the prefix of the families that follow; process metrics have names shared by all
+  /// programs.
   void SetPrefix(const char* prefix) { prefix_ = prefix; }
-  /// Begins a family, which the next calls of Add belong to.
+  /// Begins a family; the next calls of Add belong to it.
   void Begin(const char* name, const char* help, MetricType type) {
     families_.push_back(
         {.name = std::string(prefix_) + name, .help = help, .type = type, .metric = {}});
@@ -75,7 +76,7 @@ class Figures {
     AddHistograms(models, out);
     try {
       AddProcess(out);
-    } catch (const Error&) {  // /proc cannot be read: what else there is, is told
+    } catch (const Error&) {  // /proc cannot be read; report the rest
     }
     return out.Take();
   }
@@ -83,7 +84,7 @@ class Figures {
  private:
   void AddCalls(Families& out) const {
     out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
-    // All of them from the start: a rate sees no step where a series begins.
+    // Reports all series from the start: rates miss a step at which a series begins.
     const Tally::Calls counted = serving_.tally.calls();
     for (const char* method : {"StreamDance", "GenerateTransition", Tally::kInfoMethod}) {
       for (int code = 0; code <= grpc::StatusCode::UNAUTHENTICATED; ++code) {
@@ -195,7 +196,7 @@ class Figures {
     }
   }
 
-  // As the clients of Prometheus of all languages name them.
+  // With the names that Prometheus clients use in all languages.
   static void AddProcess(Families& out) {
     const pid_t self = getpid();
     rlimit descriptors{};

@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-/// Within so many seconds a transition's frames are to be made, if it can be done.
+/// Time to make a transition's frames, if possible.
 constexpr double kTransitionSeconds = 10;
 
 double LoadOf(const std::map<const SampleQueue*, double>& frames_per_second) {

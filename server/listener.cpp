@@ -21,11 +21,11 @@
 namespace choreo {
 namespace {
 
-/// Left for files, models, and gRPC itself.
+/// Descriptors reserved for files, models, and gRPC itself.
 constexpr rlim_t kReserved = 64;
-constexpr int kAtATime = 256;  // connections between two looks at whether to stop
+constexpr int kAtATime = 256;  // connections accepted between checks for a stop
 constexpr std::chrono::seconds kBetweenReports{1};
-constexpr int kPauseMs = 100;  // before accept is tried again that had no descriptor
+constexpr int kPauseMs = 100;  // before retrying accept without free descriptors
 
 Error CannotListen(const std::string& field, const std::string& address, const char* why) {
   return {ErrorCode::kUnavailable, field, '"' + address + "\" cannot be listened on: " + why};
@@ -33,7 +33,7 @@ Error CannotListen(const std::string& field, const std::string& address, const c
 
 struct Addresses {
   std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> first{nullptr, freeaddrinfo};
-  int error = 0;  // of getaddrinfo, where there is none
+  int error = 0;  // of getaddrinfo, without a result
 };
 
 Addresses Resolve(const std::string& address) {
@@ -59,8 +59,8 @@ bool IsLoopback(const sockaddr& address) {
   return address.sa_family == AF_INET && ntohl(v4.sin_addr.s_addr) >> 24 == 127;
 }
 
-/// Connections get descriptors below this. A new one is the lowest that is free, so it tells how
-/// many there are.
+/// Connections get descriptors below this. The system assigns the lowest free one, so a
+/// descriptor's number bounds their count.
 int DescriptorsForConnections() {
   rlimit limit{};
   getrlimit(RLIMIT_NOFILE, &limit);
@@ -77,7 +77,7 @@ int PortOf(int socket) {
                    : reinterpret_cast<const sockaddr_in&>(address).sin_port);
 }
 
-/// -1, with errno, where that is not possible.
+/// Returns -1 and sets errno on failure.
 int Listen(const addrinfo& at) {
   const int fd = socket(at.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) return -1;
@@ -98,7 +98,7 @@ Listener::Listener(const std::string& address, const std::string& field) {
   if (!found.first) throw CannotListen(field, address, gai_strerror(found.error));
   int why = 0;
   for (const addrinfo* at = found.first.get(); at != nullptr; at = at->ai_next) {
-    // All addresses of a host have one port, even where the first was free to choose it.
+    // All addresses of a host share one port, even if the system chose it for the first.
     if (port_ != 0 && at->ai_addr->sa_family == AF_INET6) {
       reinterpret_cast<sockaddr_in6*>(at->ai_addr)->sin6_port = htons(static_cast<uint16_t>(port_));
     } else if (port_ != 0) {
@@ -152,7 +152,7 @@ void Listener::AcceptAll(int listening, const Accept& accept) {
     const int fd = accept4(listening, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd < 0) {
       if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) Pause();
-      break;  // poll says when there is somebody again
+      break;  // poll reports the next connection
     }
     if (fd >= DescriptorsForConnections()) {
       close(fd);

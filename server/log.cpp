@@ -16,16 +16,16 @@
 namespace choreo {
 namespace {
 
-/// Of lines whose text is JSON's members already.
+/// The logger for lines whose text consists of JSON members already.
 constexpr std::string_view kMembers = "members";
 
-bool log_is_json = false;  // written before there are threads
+bool log_is_json = false;  // written before threads start
 
 std::string Quoted(std::string_view text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// The flag %* of the pattern: what is left of the object.
+/// The pattern's flag %*: the rest of the JSON object.
 class Members final : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
@@ -41,11 +41,12 @@ class Members final : public spdlog::custom_flag_formatter {
   }
 };
 
-/// Strangers can make gRPC write a line for each of their connections: so many come in a period,
-/// and the rest are counted. Thread-safe.
+/// Limits log lines per period and counts the rest, because anybody can make gRPC log a line per
+/// connection. Thread-safe.
 class LineLimit {
  public:
-  /// Whether one more may come; `left_out`: how many did not since the last that did.
+  /// Whether one more line may be written; `left_out`: the number of lines suppressed since the
+  /// last one.
   bool Take(int* left_out) {
     const auto now = std::chrono::steady_clock::now();
     const std::lock_guard lock(mutex_);
@@ -71,8 +72,8 @@ class LineLimit {
   int lines_ = 0, left_out_ = 0;
 };
 
-/// gRPC has a log of its own, of which errors alone come unless GRPC_VERBOSITY says otherwise.
-void TakeGrpcsLine(gpr_log_func_args* line) {
+/// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY says otherwise.
+void ForwardGrpcLog(gpr_log_func_args* line) {
   static LineLimit limit;
   int left_out = 0;
   if (!limit.Take(&left_out)) return;
@@ -132,7 +133,7 @@ void StartLog(const std::string& level, bool json) {
   }
   spdlog::set_default_logger(logger);
   spdlog::set_level(spdlog::level::from_str(level));
-  gpr_set_log_function(TakeGrpcsLine);
+  gpr_set_log_function(ForwardGrpcLog);
 }
 
 void LogCall(const CallRecord& call) {

@@ -17,7 +17,7 @@
 namespace choreo {
 namespace {
 
-// Whoever passes a setting expects an effect.
+// Warns about settings that have no effect here.
 void WarnOfUnusedSettings(const ServerConfig& config, const Sampler& sampler) {
   const UsedSettings used = SettingsUsedBy(sampler);
   const std::string& name = sampler.model().name;
@@ -33,7 +33,7 @@ void WarnOfUnusedSettings(const ServerConfig& config, const Sampler& sampler) {
 
 ModelFolder::Loader MakeLoader(const ServerConfig& config) {
   const std::vector<Device> devices = ParseDevices(config.device, TorchDevices());
-  // One small network does not keep several cores busy: each gets a worker.
+  // A small network cannot keep several cores busy, so each core gets a worker.
   std::vector<Device> workers = devices;
   if (devices.front().kind == Device::Kind::kCpu) {
     const int count = config.workers == 0 ? UsableCores() : config.workers;

@@ -14,13 +14,14 @@
 namespace choreo {
 namespace {
 
-/// Those who ask are answered one after the other: there is one Prometheus, maybe two. (The
-/// library's own HTTP server cannot run beside LibTorch: its threads' stacks are smaller than what
-/// LibTorch wants of each thread.)
+/// Requests are answered one after the other: there is one Prometheus, maybe two. (The library's
+/// own HTTP server cannot run beside LibTorch, which needs larger thread stacks than that
+/// server's.)
 constexpr int kPatienceMs = 1'000;
 constexpr size_t kMostRequestBytes = 8 << 10;
 
-/// Of all that one connection sends, or takes: who drips holds up nobody, and no stop, for longer.
+/// Limits the total time of one connection, so that a slow client delays neither others nor a stop
+/// for longer.
 class Deadline {
  public:
   int left_ms() const {
@@ -34,7 +35,7 @@ class Deadline {
       std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMs);
 };
 
-/// What somebody asks over HTTP; empty where it does not come in time, or is too long.
+/// The HTTP request; empty if it does not arrive in time or is too long.
 std::string ReadRequest(int connection) {
   const Deadline deadline;
   std::string request;
@@ -99,7 +100,7 @@ struct MetricsEndpoint::Impl {
   }
 
   const Serving& serving;
-  Listener listener;  // last: its thread uses what all share
+  Listener listener;  // last: its thread uses the members above
 };
 
 MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving)

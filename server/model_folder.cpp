@@ -64,7 +64,8 @@ ModelFolder::Stamp ModelFolder::StampOf(const std::filesystem::path& file) {
 
 Server::Samplers ModelFolder::LoadFile(const std::filesystem::path& file, Files* files) const {
   RequireRegularFile(kFlag, file);
-  const Stamp stamp = StampOf(file);  // before: what is written meanwhile counts the next time
+  const Stamp stamp =
+      StampOf(file);  // taken first, so that the next look sees changes during loading
   Server::Samplers engines = load_(file);
   const ModelInfo& model = engines.front()->model();
   for (const auto& [other, served] : *files) {
@@ -98,7 +99,7 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
     GoOn(faults, &files);
     std::vector<std::string> names;
     for (const auto& file : listed) {
-      // Where another file has taken its model over, that stands in its place.
+      // Uses the file that has taken over its model, if any.
       const Files& from = files.contains(file) ? files : served_;
       const auto at = from.find(file);
       if (at != from.end() && std::ranges::find(names, at->second.model) == names.end()) {

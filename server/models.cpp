@@ -82,7 +82,7 @@ void Models::Set(const std::vector<std::string>& names,
 }
 
 void Models::FreeUnused() {
-  std::vector<Entry> ended;  // after the lock: a queue joins its threads
+  std::vector<Entry> ended;  // destroyed after the lock is released: a queue joins its threads
   const std::lock_guard lock(mutex_);
   ended.reserve(former_.size());
   for (auto at = former_.begin(); at != former_.end();) {

@@ -30,7 +30,7 @@ void MusicFile::Append(std::string_view bytes, const std::string& field) {
         field, "the file is longer than " + std::to_string(kMaxAudioFileBytes) + " bytes");
   }
   if (needed > reserved_) {
-    // Twice as much each time, so that a byte is copied twice at most on average.
+    // Doubles, so that a byte is copied at most twice on average.
     const int64_t wanted = std::max(needed, std::min(2 * reserved_, kMaxAudioFileBytes));
     budget_.Take(wanted - reserved_);
     reserved_ = wanted;

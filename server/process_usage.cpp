@@ -31,7 +31,7 @@ int64_t EntriesOf(pid_t process, const char* folder) {
   return std::distance(begin(entries), end(entries));
 }
 
-/// Of memory: in all, and resident.
+/// Pages of memory: total and resident.
 std::pair<int64_t, int64_t> PagesOf(pid_t process) {
   std::istringstream text(Read(process, "statm"));
   std::pair<int64_t, int64_t> pages;
@@ -42,7 +42,7 @@ std::pair<int64_t, int64_t> PagesOf(pid_t process) {
 }  // namespace
 
 double CpuSeconds(pid_t process) {
-  // In nanoseconds; /proc counts in hundredths of a second.
+  // Has nanoseconds; /proc has hundredths of a second.
   clockid_t clock = 0;
   timespec used{};
   if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0)
@@ -59,7 +59,8 @@ int64_t Threads(pid_t process) { return EntriesOf(process, "task"); }
 int64_t Descriptors(pid_t process) { return EntriesOf(process, "fd"); }
 
 double StartSeconds(pid_t process) {
-  // The 22nd field counts from the machine's start; the 2nd, a name in brackets, may have blanks.
+  // The 22nd field is the start time, counted from boot; the 2nd, a name in brackets, may contain
+  // blanks.
   const std::string stat = Read(process, "stat");
   std::istringstream fields(stat.substr(stat.rfind(')') + 1));
   std::string skipped;

@@ -21,7 +21,7 @@ Error Malformed(const Descriptor& type) {
   return InvalidArgument("request", "the bytes are no " + type.full_name());
 }
 
-/// Counts what a message holds on the wire, without making it.
+/// Counts the elements of a serialised message without parsing it into memory.
 class WireCheck {
  public:
   explicit WireCheck(CodedInputStream& in) : in_(in) {}
@@ -62,7 +62,7 @@ class WireCheck {
     if (!in_.ConsumedEntireMessage()) throw Malformed(type);
   }
 
-  // False where the bytes make no sense. Groups do not: no version of the API has them.
+  // False for malformed bytes, including groups, which no version of the API has.
   bool Field(uint32_t wire_type, const FieldDescriptor* field, const std::string& name) {
     uint64_t number = 0;
     uint32_t word = 0;
@@ -104,7 +104,7 @@ class WireCheck {
 }  // namespace
 
 void ReadMessage(const grpc::ByteBuffer& bytes, google::protobuf::Message* message) {
-  grpc::ByteBuffer shared(bytes);  // the same bytes; a reader asks for one that may change
+  grpc::ByteBuffer shared(bytes);  // shares the bytes; a reader needs a mutable buffer
   grpc::ProtoBufferReader first(&shared);
   {
     CodedInputStream in(&first);

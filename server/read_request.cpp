@@ -26,7 +26,7 @@ void CheckBeat(double beat, double most, const std::string& field) {
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
   const std::string field = "config.history.poses";
   if (history.poses_size() == 0) throw InvalidArgument(field, "empty; at least 1 pose is needed");
-  // Only the last ones are looked at, but a wrong one is wrong wherever it stands.
+  // Only the last poses are used, but all are checked.
   std::vector<Pose> poses;
   for (int i = 0; i < history.poses_size(); ++i) {
     poses.push_back(ToPose(history.poses(i), model.skeleton, At(field, i)));
@@ -62,7 +62,7 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   continuation.audio_from_sample = message.audio_from_sample();
   if (message.has_last_beat()) {
     continuation.last_beat = message.last_beat();
-    // Beats go on behind the music's end, as far as the transition that was told of them.
+    // Beats may lie after the music's end, as far as the last transition reached.
     CheckBeat(message.last_beat(), kMaxDanceFrames / model.fps, field + ".last_beat");
   }
   if (message.stage_size() > 0) {
@@ -83,7 +83,7 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   return continuation;
 }
 
-// What both RPCs read from a configuration.
+// Reads what both RPCs share.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
   NumbersPerJoint(config.encoding(), "config.encoding");
@@ -159,7 +159,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
   if (message.has_history()) {
     config.history = ToHistory(message.history(), model);
     if (message.history().first_frame() > 0) {
-      // In the middle of a dance: the same as going on from there.
+      // A transition in the middle of a dance is the same as resuming there.
       config.continuation = Continuation{.frame = message.history().first_frame(),
                                          .poses = FillHistory(model, config.history),
                                          .fingerprint = model.fingerprint};
@@ -172,7 +172,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     const v1::AudioFormat& format = message.audio_format();
     CheckMusic(format);
     config.audio = format.encoding() == v1::AUDIO_ENCODING_FILE
-                       // Its own format is not known before it has come.
+                       // The file's own format is not known before it has arrived.
                        ? DanceConfig::Audio{kModelSampleRate, 1, 0}
                        : SamplesOf(format);
   }

@@ -19,7 +19,7 @@ namespace {
 
 using grpc::experimental::Interceptor;
 
-// As gRPC calls it; empty of what is no connection.
+// A connection's peer in gRPC's form; empty for other descriptors.
 std::string PeerOf(int connection) {
   sockaddr_storage peer{};
   socklen_t size = sizeof peer;
@@ -41,24 +41,25 @@ std::string PeerOf(int connection) {
   return "ipv6:%5B" + std::string(text) + "%5D" + port;
 }
 
-// gRPC has the descriptor, sees the connection's end, and closes it. What has come and was not read
-// is dropped, which shutdown() would leave to be read.
+// Ends a connection. gRPC owns the descriptor, notices the end, and closes it. Drops unread data,
+// which shutdown() would not.
 void End(const std::string& peer) try {
   const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
     const int descriptor = std::stoi(entry.path().filename().string());
-    // A socket that listens has no peer.
+    // Listening sockets have no peer.
     if (PeerOf(descriptor) != peer) continue;
-    // gRPC may close it by now, and its number be somebody else's: a copy is of one connection.
+    // gRPC may close the descriptor and its number may be reused meanwhile; a copy stays with one
+    // connection.
     const int copy = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
     if (PeerOf(copy) == peer) connect(copy, &nobody, sizeof nobody);
     if (copy >= 0) close(copy);
   }
-} catch (const std::exception& error) {  // the process is out of descriptors, for one
+} catch (const std::exception& error) {  // such as when descriptors run out
   spdlog::error("{}: {}", peer, error.what());
 }
 
-/// Lives as long as its call does.
+/// Lives as long as its call.
 class Counted final : public Interceptor {
  public:
   Counted(ResetGuard& guard, std::string peer) : guard_(guard), peer_(std::move(peer)) {
@@ -104,7 +105,7 @@ bool ResetGuard::IsFull(int connection) const {
 }
 
 void ResetGuard::Enter(const std::string& peer) {
-  // gRPC does not say whose its own services' calls are. None of them ends anybody's.
+  // gRPC gives no peer for calls of its own services; these are not counted.
   if (peer.empty()) return;
   {
     const std::lock_guard lock(mutex_);

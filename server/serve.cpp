@@ -29,13 +29,13 @@ sigset_t SetOf(std::initializer_list<int> signals) {
   return set;
 }
 
-// Without an end to what goes on: loading cannot be interrupted, and nothing is left to be written.
+// Exits without cleanup: loading cannot be interrupted, and nothing remains to be written.
 [[noreturn]] void Leave() {
   spdlog::default_logger()->flush();
   std::_Exit(0);
 }
 
-/// While it lives, whoever asks choreod to go is obeyed at once.
+/// While it lives, signals to stop end choreod at once.
 class LeaveAtOnce {
  public:
   LeaveAtOnce()
@@ -54,8 +54,8 @@ class LeaveAtOnce {
   std::jthread thread_;
 };
 
-/// Reads the folder of models again whenever somebody asks, on a thread of its own: loading takes
-/// seconds, in which signals are heard. Who asks meanwhile is served by one more look.
+/// Rereads the folder of models on request, on its own thread: loading takes seconds, during which
+/// signals must be handled. Requests meanwhile cause one more reread.
 class Reloader {
  public:
   Reloader(ModelFolder& folder, Server& server)
@@ -76,7 +76,7 @@ class Reloader {
     asked_ = true;
     wake_.notify_one();
   }
-  /// Of what is asked nothing more is done, once the file is read that is being read.
+  /// Stops after the file that is being read; drops further requests.
   void Stop() { thread_.request_stop(); }
   bool loads() const {
     const std::lock_guard lock(mutex_);
@@ -102,15 +102,15 @@ std::vector<Server::Samplers> LoadAll(const ServerConfig& config, ModelFolder& f
   return models;
 }
 
-// That an address is taken is told before models are loaded, which takes seconds.
+// Reports addresses in use before loading models, which takes seconds.
 void RequireAddresses(const ServerConfig& config) {
   const Listener serving(config.listen);
   if (config.metrics.empty()) return;
   const Listener figures(config.MetricsAddress(), "--metrics");
 }
 
-// In threads that libraries began before main, which do not inherit what main holds: whom a signal
-// reaches holds it from then on, too, and sends it again.
+// For threads that libraries started before main, which do not inherit main's signal mask: such a
+// thread blocks a signal that reaches it, and sends it again.
 void HandOn(int signal, siginfo_t* /*info*/, void* context) {
   sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, signal);
   kill(getpid(), signal);
@@ -119,7 +119,7 @@ void HandOn(int signal, siginfo_t* /*info*/, void* context) {
 }  // namespace
 
 void HoldSignals() {
-  signal(SIGPIPE, SIG_IGN);  // a log whose reader is gone is a log that nobody reads
+  signal(SIGPIPE, SIG_IGN);  // a log without a reader must not end the process
   const sigset_t held = SetOf({SIGTERM, SIGINT, SIGHUP});
   pthread_sigmask(SIG_BLOCK, &held, nullptr);
   struct sigaction action {};
@@ -135,7 +135,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   Server server(config, LoadAll(config, folder, load));
   Reloader reloader(folder, server);
   const std::string host = config.listen.substr(0, config.listen.rfind(':'));
-  // Whoever starts a choreod waits for this line.
+  // Programs that start a choreod wait for this line.
   std::cout << "choreod listens on " << host << ':' << server.port() << std::endl;
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});

@@ -33,27 +33,27 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A client that vanished without a word is noticed after these.
+/// Detects clients that vanished silently.
 constexpr int kKeepaliveMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 constexpr auto kClientPingMs = static_cast<int>(1000 * kMinSilence / 4);
-/// Of the time to drain: streams that are still there in it end at their next transition, where
-/// others take them over without dancing anything twice.
+/// The last share of the drain time, in which streams end at their next transition so that other
+/// servers resume them without dancing anything twice.
 constexpr double kMovingShare = 0.25;
-/// What calls that were told to end get to do so.
+/// Time for aborted calls to end.
 constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
-/// How often limits and engines are looked at.
+/// How often limits and engines are checked.
 constexpr milliseconds kWatchInterval{100};
-/// How soon a token that is struck out is refused.
+/// How soon a removed token is refused.
 constexpr milliseconds kTokenInterval{500};
-/// An engine that has failed this often in a row is broken.
+/// An engine is broken after this many failures in a row.
 constexpr int kBroken = 3;
-/// So many times the calls that a connection may have may wait to be ended (ResetGuard).
+/// ResetGuard's limit, in multiples of the calls that a connection may have.
 constexpr int kWaitingCalls = 2;
-/// After the last call of a server that drains: how long those who come are still refused in words.
-/// A client may hold a connection and not look at it; once gRPC shuts down, its next call would end
-/// as CANCELLED, which tells nobody to go elsewhere. So the shutdown itself is short then.
+/// How long a drained server still refuses new calls with a status. A client may hold an idle
+/// connection; once gRPC shuts down, its next call would end as CANCELLED, which does not tell it
+/// to use another server. The shutdown itself is short, therefore.
 constexpr milliseconds kNotice{1'000};
 constexpr milliseconds kShutdownTimeAfterNotice{50};
 
@@ -69,13 +69,13 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
-// Of time a caller gets the share that it gets of calls.
+// A caller's share of time equals its share of calls.
 FrameShares SharesOf(const ServerConfig& config) {
   const double of_peer = std::min(1.0, double(config.MaxStreamsOfPeer()) / config.max_streams);
   return {.of_all = config.max_load, .of_peer = of_peer * config.max_load};
 }
 
-void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
+void LogSecurity(const ServerConfig& config, const Tokens& tokens) {
   spdlog::info("TLS is {}, certificates of clients are {}, tokens are {}",
                config.tls_certificate.empty() ? "off" : "on",
                config.tls_client_ca.empty() ? "not asked for" : "needed",
@@ -83,15 +83,15 @@ void TellOfSecurity(const ServerConfig& config, const Tokens& tokens) {
                                : "not asked for");
 }
 
-void TellOfTime(const SampleQueue& model) {
+void LogSpeed(const SampleQueue& model) {
   constexpr int kDances = 64;
   const double load = model.LoadOf(kDances * model.model().fps);
-  if (load <= 0) return;  // nobody has measured
+  if (load <= 0) return;  // not measured
   spdlog::info("model \"{}\": {} dances at once take {:.1f} % of its engines' time",
                model.model().name, kDances, 100 * load);
 }
 
-/// Takes gRPC's reflection from one server: linked in, it is in all.
+/// Removes gRPC's reflection from one server; linking it adds it to all.
 class WithoutReflection final : public grpc::ServerBuilderOption {
  public:
   void UpdateArguments(grpc::ChannelArguments* /*arguments*/) override {}
@@ -107,7 +107,7 @@ std::vector<std::unique_ptr<SampleQueue>> MakeQueues(std::vector<Server::Sampler
   std::vector<std::unique_ptr<SampleQueue>> queues;
   for (auto& samplers : models) {
     queues.push_back(std::make_unique<SampleQueue>(std::move(samplers), options));
-    TellOfTime(*queues.back());
+    LogSpeed(*queues.back());
   }
   return queues;
 }
@@ -123,10 +123,9 @@ struct Server::Impl {
         service(serving),
         resets(kWaitingCalls * CallsOfConnection(config)),
         listener(config.listen) {
-    // Never taken back: the last grpc_shutdown of a process can wait ten seconds for gRPC's
-    // threads.
+    // Never released: a process's last grpc_shutdown can wait ten seconds for gRPC's threads.
     [[maybe_unused]] static const bool kept = (grpc_init(), true);
-    grpc::EnableDefaultHealthCheckService(true);  // of every server in this process
+    grpc::EnableDefaultHealthCheckService(true);  // for every server in this process
     grpc::ServerBuilder builder;
     if (!config.reflection) builder.SetOption(std::make_unique<WithoutReflection>());
     acceptor = builder.experimental().AddExternalConnectionAcceptor(
@@ -147,7 +146,7 @@ struct Server::Impl {
     server = builder.BuildAndStart();
     if (!server) throw Error(ErrorCode::kUnavailable, "", "gRPC could not start");
     UpdateHealth();
-    TellOfSecurity(config, serving.tokens);
+    LogSecurity(config, serving.tokens);
     watch.emplace(kWatchInterval, [this] {
       serving.calls.EndIdle();
       serving.models.FreeUnused();
@@ -169,8 +168,8 @@ struct Server::Impl {
     });
   }
 
-  // SERVING unless it drains or an engine is broken; of each model, and of all together. A model
-  // that is served no more is NOT_SERVING.
+  // Each model and the server as a whole are SERVING, unless the server drains or an engine is
+  // broken. A removed model is NOT_SERVING.
   void UpdateHealth() {
     const std::lock_guard lock(health_mutex);
     const std::string name = v1::Choreography::service_full_name();
@@ -182,21 +181,21 @@ struct Server::Impl {
       all &= works;
       const std::string of_model = name + '/' + queue->model().name;
       told.insert(of_model);
-      if (TellHealth(of_model, works && !drained) && !works) {
+      if (SetHealth(of_model, works && !drained) && !works) {
         spdlog::error(
             "model \"{}\": its engine has failed {} times in a row; health says NOT_SERVING",
             queue->model().name, failures);
       }
     }
     for (const auto& [former, serves] : health) {
-      if (!told.contains(former)) TellHealth(former, false);
+      if (!told.contains(former)) SetHealth(former, false);
     }
-    TellHealth("", all);
-    TellHealth(name, all);
+    SetHealth("", all);
+    SetHealth(name, all);
   }
 
-  // Whether that is new.
-  bool TellHealth(const std::string& name, bool serves) {
+  // Returns whether the status changed.
+  bool SetHealth(const std::string& name, bool serves) {
     const auto before = health.find(name);
     if (before != health.end() && before->second == serves) return false;
     server->GetHealthCheckService()->SetServingStatus(name, serves);
@@ -213,7 +212,7 @@ struct Server::Impl {
   Listener listener;
   std::atomic<bool> drained = false;
   std::mutex health_mutex;
-  std::map<std::string, bool> health;  // as it was told, by name. Lock: health_mutex
+  std::map<std::string, bool> health;  // last status reported, by name. Lock: health_mutex
   // Last: they use all of the above.
   std::optional<Watch> watch;
   std::optional<Watch> token_watch;
@@ -255,7 +254,7 @@ void Server::Drain(double seconds) {
   if (!empty) {
     spdlog::warn("{} calls were still in progress after {} s; they end as UNAVAILABLE",
                  calls.count(), seconds);
-    calls.AbortAll(HandedOn());
+    calls.AbortAll(ResumeElsewhere());
     calls.WaitUntilEmpty(kAbortTime);
   }
   const milliseconds notice = std::min(kNotice, Milliseconds(seconds));

@@ -21,7 +21,7 @@
 namespace choreo {
 namespace {
 
-// Of one address, that it has not read: each takes tens of kilobytes until it does.
+// Unread answers per address; each takes tens of kilobytes until it is read.
 constexpr int kMostUnreadInfos = 64;
 
 void FillLimits(const CallLimits& of_calls, v1::Limits* limits) {
@@ -47,7 +47,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* ChoreographyService
   return MakeStreamReactor(serving_, context);
 }
 
-/// Lives until its answer has gone out, or nobody waits for it any more.
+/// Lives until its answer is sent or the call is cancelled.
 class ChoreographyService::InfoReactor final : public grpc::ServerUnaryReactor {
  public:
   InfoReactor(ChoreographyService& service, std::string address)

@@ -16,7 +16,7 @@ constexpr size_t kMostMessageBytes = 600;  // of a message
 
 struct Mapping {
   grpc::StatusCode code;
-  const char* reason;  // of ErrorInfo
+  const char* reason;  // for ErrorInfo
   bool retry;
 };
 
@@ -46,9 +46,9 @@ Mapping Map(ErrorCode code) {
   return {grpc::StatusCode::INTERNAL, "INTERNAL", false};
 }
 
-// Text in which a client's own words may stand, as one short line: a status travels in HTTP/2's
-// trailers, which take 8 KiB in all, and its words go to people and into logs. Both ends of what is
-// too long are kept: the first names the field, the last the limit.
+// Turns text that may quote the client into one short line: a status travels in HTTP/2's trailers,
+// which are limited to 8 KiB, and goes to people and logs. Keeps both ends of a long text: the
+// first names the field, the last the limit.
 std::string OneShortLine(std::string_view text) {
   std::string line;
   for (const char c : text) {
@@ -60,7 +60,7 @@ std::string OneShortLine(std::string_view text) {
     }
   }
   if (line.size() <= kMostMessageBytes) return line;
-  const auto inside = [&line](size_t at) {  // of a character of several bytes
+  const auto inside = [&line](size_t at) {  // inside a multi-byte character
     return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80;
   };
   size_t head = 2 * kMostMessageBytes / 3, tail = line.size() - kMostMessageBytes / 3;
@@ -86,7 +86,7 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
     google::rpc::BadRequest bad_request;
     auto* violation = bad_request.add_field_violations();
     violation->set_field(OneShortLine(PathInMessage(std::string(of_field))));
-    // The field is told already.
+    // ErrorInfo has the field already.
     const bool repeats = text.starts_with(std::string(of_field) + ": ");
     violation->set_description(repeats ? OneShortLine(text.substr(of_field.size() + 2)) : message);
     status.add_details()->PackFrom(bad_request);

@@ -26,7 +26,7 @@ namespace {
 using DanceRequest = v1::StreamDanceRequest;
 using DanceResponse = v1::StreamDanceResponse;
 
-/// Longer pieces of music are not digested on gRPC's own threads.
+/// Longer pieces of music are not processed on gRPC's threads.
 constexpr size_t kLongAudioBytes = 64 << 10;
 
 /// The session of a StreamDance. Messages are handled one at a time.
@@ -37,13 +37,13 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   DanceSession(Serving& serving, Wire* wire, Caller caller)
       : CallSession(serving, wire, "StreamDance", std::move(caller)), file_(serving.file_music) {}
 
-  /// False where the call fails for it.
+  /// False if the message ends the call.
   bool Read(const grpc::ByteBuffer& bytes, DanceRequest* request) {
     Guard([&] { ReadMessage(bytes, request); });
     return outbox().open();
   }
 
-  /// Who handles a message (null: the half-close) that takes long; null: whoever has it.
+  /// The pool for a message (null: the half-close) that takes long; null: handle it on this thread.
   TaskPool* PoolFor(const DanceRequest* request) const {
     const bool ends_music = request == nullptr || request->has_end_of_audio();
     if (ends_music && !file_.empty()) return &serving_.decoding;
@@ -92,7 +92,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     FromContinuation(continuation, queue_->model(), seed_, audio_ ? &*audio_ : nullptr,
                      response.mutable_continuation());
     outbox().Send(std::move(response));
-    if (serving_.calls.ends_at_transitions()) Fail(HandedOn());
+    if (serving_.calls.ends_at_transitions()) Fail(ResumeElsewhere());
   }
 
   void OnSummary(const QualityReport& report) override {
@@ -175,7 +175,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     file_.Append(audio.data(), "audio.data");
   }
 
-  // Hands the music of a file that has come whole to the stream; nothing for PCM.
+  // Passes the music of a complete file to the stream; does nothing for PCM.
   void DecodeFile(DanceStream& stream) {
     if (!audio_ || audio_->encoding() != v1::AUDIO_ENCODING_FILE || file_decoded_) return;
     file_decoded_ = true;
@@ -211,14 +211,14 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     stream.GivePassages(ToPassages(message.passages()));
   }
 
-  // Of the configuration; written before the stream is there.
-  Models::Use queue_;  // whatever is served meanwhile, the dance keeps its model
+  // From the configuration; written before the stream exists.
+  Models::Use queue_;  // the dance keeps its model, whatever is served meanwhile
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;
   std::vector<double> music_beats_;
 
-  // Of the messages.
+  // From messages.
   MusicFile file_;
   bool file_decoded_ = false;
 };
@@ -247,7 +247,7 @@ class StreamReactor final
   }
 
  private:
-  // With a hold.
+  // Requires a hold.
   void Process(bool ok) {
     if (!session_->outbox().open()) return;
     if (!ok) return session_->HandleHalfClose();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned kRefreshSeconds = 1;
 
-/// What gRPC would only write to its own log, once a client comes.
+/// Finds errors that gRPC would only log when a client connects.
 void CheckFiles(const ServerConfig& config) {
   ReadKeyPair("--tls-cert", config.tls_certificate, "--tls-key", config.tls_key);
   if (!config.tls_client_ca.empty()) ReadCertificates("--tls-client-ca", config.tls_client_ca);

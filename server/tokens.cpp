@@ -14,11 +14,11 @@
 namespace choreo {
 namespace {
 
-/// A file longer than this is none of ours.
+/// A longer file cannot be a token file.
 constexpr size_t kMostTokensBytes = 1 << 20;
 constexpr size_t kMostOfLines = 60;  // characters of a list of line numbers
 
-// Schemes are the same in either case (RFC 7235).
+// Schemes ignore case (RFC 7235).
 bool IsBearer(std::string_view scheme) {
   constexpr std::string_view kBearer = "bearer";
   return std::ranges::equal(scheme, kBearer, [](char a, char b) {
@@ -65,7 +65,7 @@ Tokens::Content Tokens::Parse(const std::string& text) {
   return content;
 }
 
-// No line is ever quoted: somebody may have written a token there.
+// Never quotes a line: it may contain a token.
 Error Tokens::BadLines(const std::string& numbers) const {
   return InvalidArgument("--tokens", file_.string() + " line " + numbers +
                                          ": not \"SHA256 NAME\" with 64 hexadecimal digits");
@@ -111,7 +111,7 @@ void Tokens::Refresh() {
   try {
     text = Read();
   } catch (const Error& error) {
-    if (!text_) return;  // said before
+    if (!text_) return;  // logged before
     text_.reset();
     Replace({});
     spdlog::error("{}; nobody is let in until it can be read", error.what());

@@ -30,8 +30,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   TransitionSession(Serving& serving, Wire* wire, Caller caller)
       : CallSession(serving, wire, "GenerateTransition", std::move(caller)) {}
 
-  /// Takes long: reads and digests the music, that of a file among its like. The call lasts at
-  /// least as long as `hold`, so there are never more files waiting than calls.
+  /// Takes long: reads and processes the music; files go to the decoding pool. The call lasts at
+  /// least as long as `hold`, so no more files wait than there are calls.
   void Start(const grpc::ByteBuffer& bytes,
              std::shared_ptr<Outbox<v1::GenerateTransitionResponse>::Hold> hold) {
     Guard([&] {
@@ -41,8 +41,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       queue_ = serving_.models.Find(message.config().model(), "config.model");
       GroupRequest request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
       Name(queue_->model(), request.seed);
-      request.ValidateStart(queue_->model());  // no music is decoded for what can never be danced
-      // What else is out of range is named once the music is there.
+      request.ValidateStart(queue_->model());  // first: no music is decoded for an invalid request
+      // Other values out of range are reported once the music is there.
       const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
       serving_.frames.TakeTransition(this, *queue_, party(), request.candidates * frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
@@ -102,8 +102,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   void OnError(const Error& error) override { EndIn(error); }
 
  private:
-  // The samples of a file, and what the client does not know of the music: beats, and what comes
-  // back.
+  // Adds a file's samples, and beats and passages that the client has not given.
   void AddMusic(const v1::Audio& audio, GroupRequest* request) {
     RequireOpen();
     request->samples =
@@ -117,7 +116,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest asked) {
     const ModelInfo& model = queue_->model();
-    RequireOpen();  // whoever is gone by now is not begun for
+    RequireOpen();  // does not start for a client that has left
     ValidTransition request(std::move(asked), model);
     encoding_ = message.config().encoding();
     if (message.config().has_audio_format()) audio_ = message.config().audio_format();
@@ -128,8 +127,9 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     Adopt(std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this()));
   }
 
-  // Written before the group is there. Nothing of the message itself: it may go before the group.
-  Models::Use queue_;  // whatever is served meanwhile, the transition keeps its model
+  // Written before the group exists. Nothing refers to the message, which may be freed before the
+  // group.
+  Models::Use queue_;  // the transition keeps its model, whatever is served meanwhile
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   std::optional<v1::AudioFormat> audio_;
   uint64_t seed_ = 0;

@@ -50,7 +50,7 @@ ModelDescription DescribeModel(const ModelInfo& model) {
     out.velocity_references.push_back(
         {reference.name, {reference.speeds.begin(), reference.speeds.end()}});
   if (!out.takes_music) return out;
-  // The lowest rate has the longest filter. Any frame far enough from the start shows the lead.
+  // The lowest rate has the longest filter. Any frame far from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;
   out.audio_lead_s =
       static_cast<double>(kSomeFrame) / model.fps -

@@ -11,8 +11,8 @@ namespace choreo::wire {
 /// Throws Error(kInvalidArgument) for a part of the body that there is not.
 v1::Controls ToProto(const ControlRequest& controls);
 
-/// Throws Error(kInvalidArgument) below `field` for what has no meaning: numbers that make no whole
-/// points, a part of the body that there is not. What has one is for who dances it to judge.
+/// Throws Error(kInvalidArgument) below `field` for malformed controls: incomplete points, unknown
+/// parts of the body. The engine validates the values.
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field);
 
 }  // namespace choreo::wire

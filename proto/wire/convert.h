@@ -39,7 +39,7 @@ QualityReport FromProto(const v1::QualityReport& report);
 /// None for a kind of event that this version does not know yet.
 std::optional<DanceEvent> FromProto(const v1::Event& event);
 
-/// What a server is told that broke the protocol.
+/// The error for a server that broke the protocol.
 Error Broken(const std::string& what);
 
 }  // namespace choreo::wire

@@ -18,7 +18,7 @@ KeyReached ToKeyReached(const std::string& id, int64_t frame, const v1::Keyframe
           .correction_m = errors.correction_m()};
 }
 
-/// kUnknown beyond `last`, the greatest that this version knows.
+/// kUnknown for codes above `last`, the greatest that this version knows.
 template <typename Code>
 Code ToCode(int number, Code last) {
   return number > 0 && number <= static_cast<int>(last) ? static_cast<Code>(number)
@@ -61,7 +61,7 @@ ModelDescription FromProto(const v1::ModelInfo& model) {
   out.history_frames = model.history_frames();
   out.default_temperature = model.default_temperature();
   for (const int control : model.controls()) {
-    // A newer server may have others.
+    // A newer server may have more.
     if (control >= 1 && control <= std::ssize(kControls))
       out.controls.emplace_back(kControls[control - 1].name);
   }

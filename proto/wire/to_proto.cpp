@@ -21,7 +21,7 @@ void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {
   out->set_correction_m(key.correction_m);
 }
 
-// What an event says beside its frame and time.
+// Fills in an event, except its frame and time.
 void Fill(const KeyReached& key, v1::Event* out) {
   out->mutable_keyframe_reached()->set_id(key.id);
   FillErrors(key, out->mutable_keyframe_reached()->mutable_errors());

@@ -239,7 +239,7 @@ TEST_F(ControlsServerTest, AKeyThatStandsElsewhereThanThePathHasItIsToldOf) {
   EXPECT_THAT(answer.events[0].warning().message(), HasSubstr("0.38 m too low for its feet"));
 }
 
-TEST_F(ControlsServerTest, APathBehindTheEndIsToldOfByBothCalls) {
+TEST_F(ControlsServerTest, APathAfterTheEndIsToldOfByBothCalls) {
   const v1::Controls controls = Path({120, 180}, {0, 0, 1, 1});
   const Answer dance = DanceWith(controls), transition = Generate(Transition(controls));
   for (const Answer* answer : {&dance, &transition}) {
@@ -285,7 +285,7 @@ TEST_F(ControlsServerTest, NoneComesAfterKeyframesComplete) {
 struct BadControls {
   const char* name;
   v1::Controls controls;
-  const char* message;  ///< behind "controls." or "controls[0]."
+  const char* message;  ///< after "controls." or "controls[0]."
 };
 
 // What the test is called by.

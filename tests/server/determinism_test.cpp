@@ -125,7 +125,7 @@ TEST_F(DeterminismTest, ResumedItIsTheSame) {
   config.mutable_audio_format()->set_first_sample(from.audio_from_sample());
   *config.mutable_continuation() = from;
   client.Send(config);
-  client.SendKeyframe(Key("a", 30));  // lies behind
+  client.SendKeyframe(Key("a", 30));  // is after
   client.SendKeyframe(SecondKey());
   client.SendAudio(music_.substr(static_cast<size_t>(2 * from.audio_from_sample())),
                    from.audio_from_sample());

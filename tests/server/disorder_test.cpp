@@ -160,7 +160,7 @@ class DisorderTest : public ServerTest {
 };
 
 // Nothing of the music has come, so nobody knows where the dance ends.
-TEST_F(DisorderTest, PacingOnBehindTheLastKeyIsHarmless) {
+TEST_F(DisorderTest, PacingOnAfterTheLastKeyIsHarmless) {
   const Watchdog watchdog(seconds(60));
   Start(/*workers=*/2);
   DanceClient client(stub());
@@ -199,7 +199,7 @@ TEST_F(DisorderTest, MessagesInAnyOrderEndInAnAnswer) {
         const Answer again = Play(script);
         ExpectAnAnswer(script, again);
         // Whether a dance is over before it is cancelled, or before a message that is refused comes
-        // behind its end, time decides.
+        // after its end, time decides.
         if (!again.status.ok()) continue;
         EXPECT_TRUE(again.Join() == answer.Join()) << "the same messages, another dance";
         ++twice;

@@ -74,10 +74,10 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
 
   DanceClient other(stub());
   v1::DanceConfig config = Config();
-  const auto behind = std::ranges::find_if(
+  const auto after = std::ranges::find_if(
       answer.continuations, [](const v1::Continuation& from) { return from.frame() > 50; });
-  ASSERT_NE(behind, answer.continuations.end());
-  *config.mutable_continuation() = *behind;
+  ASSERT_NE(after, answer.continuations.end());
+  *config.mutable_continuation() = *after;
   config.set_frames(120);
   other.Send(config);
   other.SendKeyframe(Key("a", 50));
@@ -86,7 +86,7 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
   EXPECT_EQ(rejections(rest), (std::vector<Said>{{"a", v1::REJECTION_CODE_ALREADY_DANCED}}));
 }
 
-TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedBehindTheFrontier) {
+TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedAfterTheFrontier) {
   Start();
   DanceClient client(stub());
   Begin(client);
@@ -150,7 +150,7 @@ TEST_F(StreamKeysTest, MaskedKeysLeaveTheRestAlone) {
   EXPECT_TRUE(joined == dance(1.2F).Join());
 }
 
-// Frames leave up to generate_until, and the key behind it moves, in whatever order keys came.
+// Frames leave up to generate_until, and the key after it moves, in whatever order keys came.
 TEST_F(StreamKeysTest, KeysMoveWhileTheWayThereIsDanced) {
   Start();
   const auto dance = [this](bool move) {

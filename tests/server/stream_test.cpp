@@ -136,7 +136,7 @@ TEST_F(StreamTest, AnotherFingerprintIsRefusedUnlessAllowed) {
 }
 
 // Beats go on where the longest music has ended.
-TEST_F(StreamTest, TheLastBeatOfAContinuationMayLieBehindAllMusic) {
+TEST_F(StreamTest, TheLastBeatOfAContinuationMayLieAfterAllMusic) {
   Start();
   const Answer whole = MusicDance(21, 1 << 20);
   ASSERT_FALSE(whole.continuations.empty());
