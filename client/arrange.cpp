@@ -13,11 +13,11 @@ namespace {
 
 int64_t Frames(const FinishedDance& dance) { return std::ssize(dance.motion.frames); }
 
-/// The model's frame that is nearest before, or behind, this one of a dance.
+/// The model's frame that is nearest before, or after, this one of a dance.
 int64_t Before(int64_t frame, double rate) {
   return static_cast<int64_t>(std::floor(static_cast<double>(frame) / rate + kOnFrame));
 }
-int64_t Behind(int64_t frame, double rate) {
+int64_t After(int64_t frame, double rate) {
   return static_cast<int64_t>(std::ceil(static_cast<double>(frame) / rate - kOnFrame));
 }
 
@@ -92,8 +92,8 @@ EditedDance Join(const Client& client, FinishedDance first, const FinishedDance&
                  const EditOptions& options, int64_t gap) {
   const double rate = first.motion.fps / options.model.fps;
   const int64_t last = Frames(first) - 1;
-  const int64_t begin = last + Behind(gap, 1 / rate);
-  // Whatever stands between is danced anew.
+  const int64_t begin = last + After(gap, 1 / rate);
+  // Everything between is danced anew.
   FinishedDance between = PartOf(first, last, last + 1);
   between.motion.frames.resize(static_cast<size_t>(begin - last) - 1,
                                between.motion.frames.front());
@@ -102,7 +102,7 @@ EditedDance Join(const Client& client, FinishedDance first, const FinishedDance&
   const FinishedDance whole = Join(Join(std::move(first), between), second);
   return DanceFreely(
       client, whole, options,
-      {.from = Before(last, rate), .to = Behind(begin, rate), .to_id = "the second dance"});
+      {.from = Before(last, rate), .to = After(begin, rate), .to_id = "the second dance"});
 }
 
 }  // namespace choreo::client

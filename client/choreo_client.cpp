@@ -11,7 +11,7 @@
 namespace choreo::client {
 namespace {
 
-/// Calls `call(server, context)` until it succeeds or trying again is in vain.
+/// Calls `call(server, context)` until it succeeds or a retry is useless.
 template <typename Call>
 void CallWithRetries(Replicas* replicas, const Call& call) {
   Patience patience(replicas->options());
@@ -64,7 +64,7 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   return out;
 }
 
-/// Takes the answers of one GenerateTransition as they come.
+/// Collects the answers of one GenerateTransition.
 class TransitionCollector {
  public:
   void Take(const v1::GenerateTransitionResponse& response) {

@@ -94,7 +94,7 @@ class RemoteDance {
   /// Passages ahead, ascending, at least one: from the first on they replace known ones, for
   /// transitions that begin after the frozen frames. Not after CompleteKeys.
   void SendPassages(std::span<const Passage> passages);
-  /// No more keys will come: the rest may be made.
+  /// Says that no more keys will come, so that the rest may be made.
   void CompleteKeys();
 
   /// The next message; blocks. Returns nullopt after Report. Throws Error if the dance failed for

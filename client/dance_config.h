@@ -14,7 +14,7 @@
 /// counted at the model's rate; other conventions are choreo_client.h's.
 namespace choreo::client {
 
-/// What the music's bytes are.
+/// The encoding of the music's bytes.
 enum class AudioKind {
   kNone,      ///< there is no music
   kPcmFloat,  ///< interleaved float samples in [-1, 1]
@@ -43,8 +43,8 @@ struct KeyPose {
   PoseMask mask = {};
 };
 
-/// Where a dance can be taken up again, on any server of the same fingerprint. Opaque but for what
-/// it says of itself.
+/// A point where any server of the same fingerprint can resume a dance. Opaque except for the
+/// members below.
 struct Continuation {
   int64_t frame = 0;              ///< the first that is still to be made
   int64_t audio_from_sample = 0;  ///< music before it need not be sent again
@@ -52,10 +52,10 @@ struct Continuation {
   std::string bytes = {};  ///< the whole, serialised
 };
 
-/// Wishes beside key poses and music, for models that know them (ModelDescription::controls).
+/// Controls beside key poses and music, for models that support them (ModelDescription::controls).
 using Controls = ControlRequest;
 
-/// What a dance is made with.
+/// The configuration of a dance.
 struct DanceConfig {
   std::string model = {};  ///< empty: the server's first
   double fps = 0;          ///< of the frames received, 1 to 120; 0: the model's
@@ -73,13 +73,13 @@ struct DanceConfig {
   std::optional<int64_t> frames =
       {};  ///< the dance ends before this frame; otherwise with the music or the last key
   /// Times of the music's beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them,
-  /// Beat messages and the report tell of them. Empty: the server finds them in a kFile, and in a
-  /// kPcmFloat predicts each transition's from the 12 s before it.
+  /// and Beat messages and the report contain them. Empty: for a kFile the server finds them; for
+  /// kPcmFloat it predicts each transition's beats from the 12 s before it.
   std::vector<double> music_beats = {};
-  /// Those of them that begin a bar: Beat messages tell of it.
+  /// Those that begin a bar, for Beat messages.
   std::vector<double> music_downbeats = {};
-  /// A number that tells this music from other music, a part of the seed; 0: the server's own for a
-  /// kFile, none for kPcmFloat.
+  /// Identifies the music, as a part of the seed. 0: computed by the server for a kFile, none for
+  /// kPcmFloat.
   uint64_t music_id = 0;
   /// Where the music comes back, and so does the dance; as the API has them. Empty: the server
   /// finds them in a kFile.

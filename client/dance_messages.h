@@ -15,7 +15,7 @@
 /// What a server answers while it dances. Conventions are choreo_client.h's.
 namespace choreo::client {
 
-/// What the frames mean. The first answer.
+/// The first answer: how to interpret the frames.
 struct Header {
   std::string model = {};
   std::string fingerprint = {};
@@ -26,7 +26,7 @@ struct Header {
   double model_fps = kModelFps;  ///< of every other frame number
   int64_t first_frame = 0;
   int latency_frames = 0;
-  bool exact_resume = true;  ///< false: goes on from a continuation of another fingerprint
+  bool exact_resume = true;  ///< false: resumed from a continuation of another fingerprint
   std::string server_version = {};
 };
 
@@ -38,12 +38,12 @@ struct FrameBlock {
   uint32_t candidate = 0;               ///< of a transition
 };
 
-/// What a dance promises of its keys: how far off any joint may be, in metres and degrees.
+/// The tolerance within which a dance meets its keys: of any joint, in metres and degrees.
 inline constexpr double kMostKeyError_m = 0.001, kMostKeyError_deg = 0.1;
 
 using choreo::Beat, choreo::KeyReached, choreo::KeyRejected, choreo::Warning;
 
-/// The server was lost and another one goes on; frames before `frame` are not sent again.
+/// The server was lost and another one continues; frames before `frame` are not sent again.
 struct Resumed {
   std::string address = {};
   int64_t frame = 0;        ///< at Header::fps
@@ -51,9 +51,8 @@ struct Resumed {
   std::string reason = {};  ///< what had happened
 };
 
-/// The end of a dance, and what it is worth. `frames` and `keys` are the whole dance's; the rest
-/// speaks of the frames from `measured_from` on, which a resume moves on to where the last server
-/// took over.
+/// The end of a dance, with its quality. `frames` and `keys` cover the whole dance; the rest covers
+/// frames from `measured_from` on, which is where the last server took over.
 struct Report : QualityReport {
   double first_frame_latency_s = 0;
   double elapsed_s = 0;

@@ -11,7 +11,7 @@
 namespace choreo::client {
 namespace {
 
-constexpr int64_t kLeadIn = 10;  // poses of what follows that are sent
+constexpr int64_t kLeadIn = 10;  // poses sent of the motion that follows
 
 /// New frames, at the model's rate, from `first` on.
 struct Part {
@@ -22,7 +22,7 @@ struct Part {
 
 int64_t Whole(double number) { return static_cast<int64_t>(number); }
 
-/// A dance that is being edited, seen at the model's rate.
+/// A dance being edited, at the model's rate.
 class Edit {
  public:
   Edit(const Client& client, const FinishedDance& dance, const EditOptions& options)
@@ -35,7 +35,7 @@ class Edit {
     }
     const Motion& motion = dance.motion;
     poses_ = motion.fps == fps() ? motion.frames : Resample(motion, fps()).frames;
-    // A file's rotations may have gone round more than once; what is sent takes the shortest way.
+    // A file's rotations may be wound up; sends the shortest vectors.
     const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, poses_.front().rotations.cols())};
     for (Pose& pose : poses_) MakeContinuous(pose, unturned);
   }
@@ -46,15 +46,15 @@ class Edit {
   std::vector<Pose> From(int64_t first) const { return Poses(first, first + kLeadIn); }
   const Pose& pose(int64_t frame) const { return poses_[static_cast<size_t>(frame)]; }
 
-  /// The transition behind frame `from` (-1: from rest at the origin).
+  /// The transition after frame `from` (-1: from rest at the origin).
   TransitionRequest After(int64_t from, int64_t frames) const {
     TransitionRequest request = Request(from + 1, frames);
     request.config.history = Poses(from + 1 - options_.model.history_frames, from + 1);
     request.config.first_frame = from + 1;
     return request;
   }
-  /// One that goes on from another.
-  TransitionRequest Behind(const TransitionCandidate& before, int64_t frames) const {
+  /// A transition that continues another one.
+  TransitionRequest After(const TransitionCandidate& before, int64_t frames) const {
     TransitionRequest request = Request(before.continuation.frame, frames);
     request.config.continuation = before.continuation;
     return request;
@@ -67,8 +67,9 @@ class Edit {
     return std::move(result.candidates.front());
   }
 
-  /// Puts new frames into the dance; `next` stands behind the last of them, if anything does. What
-  /// stands before and behind them stays: at the dance's own rate, new frames lie strictly between.
+  /// Puts new frames into the dance. `next` is the pose after the last of them, if any. Frames
+  /// before and after stay unchanged: at the dance's own rate, new frames lie strictly between
+  /// them.
   void Splice(const Part& part, const std::optional<Pose>& next) {
     Motion& motion = result_.dance.motion;
     const double rate = motion.fps / fps();
@@ -82,9 +83,9 @@ class Edit {
     }
     auto end = static_cast<int64_t>(motion.frames.size());
     if (next) {
-      const int64_t behind = part.first + static_cast<int64_t>(part.poses.size());
+      const int64_t first_kept = part.first + static_cast<int64_t>(part.poses.size());
       curve.frames.push_back(*next);
-      end = Whole(std::ceil(static_cast<double>(behind) * rate - kOnFrame));
+      end = Whole(std::ceil(static_cast<double>(first_kept) * rate - kOnFrame));
     }
     if (end > static_cast<int64_t>(motion.frames.size())) {
       motion.frames.resize(static_cast<size_t>(end));
@@ -100,7 +101,7 @@ class Edit {
   EditedDance& result() { return result_; }
 
  private:
-  /// [first, end), as far as there are such.
+  /// [first, end), limited to existing frames.
   std::vector<Pose> Poses(int64_t first, int64_t end) const {
     first = std::clamp<int64_t>(first, 0, frames());
     end = std::clamp<int64_t>(end, first, frames());
@@ -124,7 +125,7 @@ class Edit {
     return request;
   }
 
-  /// Of the frame in which one is bent furthest backwards, if that looks broken.
+  /// Warns of the frame in which a knee bends furthest backwards, if it looks broken.
   void WarnOfKnees(const Part& part) {
     const Skeleton& skeleton = options_.model.skeleton;
     Warning worst;
@@ -145,7 +146,7 @@ class Edit {
     if (!worst.message.empty()) result_.warnings.push_back(worst);
   }
 
-  /// Those of the nearest new frame.
+  /// Takes the contacts of the nearest new frame.
   void SpliceContacts(const Part& part, int64_t first, int64_t end) {
     result_.first_changed = first;
     result_.end_changed = end;
@@ -192,7 +193,7 @@ void CheckKeyEdit(int64_t first, int64_t last, int64_t from, int64_t to, int64_t
   }
 }
 
-/// Where one of the transitions of an edit ends: in a pose, or free.
+/// The end of one of an edit's transitions: in a pose, or free.
 struct Stop {
   int64_t frame = 0;
   std::optional<Pose> pose = {};
@@ -200,8 +201,8 @@ struct Stop {
   std::string id = {};
 };
 
-/// Dances from behind frame `from` through the stops and on to `to`, which stays, if it is a frame
-/// of the dance.
+/// Dances from frame `from` through the stops and on to `to`, which stays unchanged if it is a
+/// frame of the dance.
 EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int64_t to,
                          const std::string& to_id) {
   const bool leads_on = to < work.frames();
@@ -213,12 +214,12 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
     const bool is_last = i + 1 == stops.size();
     const int64_t begin = i == 0 ? from : stops[i - 1].frame;
     TransitionRequest request =
-        i == 0 ? work.After(from, stop.frame - from) : work.Behind(danced, stop.frame - begin);
+        i == 0 ? work.After(from, stop.frame - from) : work.After(danced, stop.frame - begin);
     request.target = stop.pose;
     request.target_mask = stop.mask;
     request.target_id = stop.id;
-    // Of a path that has no frame of one transition, but of another, that one would say that
-    // nothing comes of it.
+    // Omits a path that covers none of this transition, which would warn that the path has no
+    // effect.
     auto& path = request.config.controls.root_path;
     if (path && !path->frames.empty() &&
         ((!is_last && path->frames.front() > stop.frame) ||
@@ -233,7 +234,7 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
     work.result().keys.insert(work.result().keys.end(), danced.report.keys.begin(),
                               danced.report.keys.end());
   }
-  if (leads_on) {  // the last one is the frame that stays
+  if (leads_on) {  // the last one is the unchanged frame
     part.poses.pop_back();
     part.contacts.pop_back();
   }
@@ -261,7 +262,7 @@ void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
       kMostMusicBytes / static_cast<double>(channels * song.format.sample_rate * sizeof(float));
   const double before_s =
       std::clamp(most_s - (end - start), model.audio_lead_s, model.audio_lead_s + kMusicBefore_s);
-  // Behind the song's end there is silence, which its last sample says as well as any.
+  // After the song's end there is silence; clamping to the last sample is as good.
   const int64_t from = std::clamp<int64_t>(sample(start - before_s) - 1, 0, total - 1);
   const int64_t to = std::clamp<int64_t>(sample(end), from + 1, total);
   request->audio.format = song.format;
@@ -308,7 +309,7 @@ EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
                                     std::to_string(gap.from + 2) + ", " + std::to_string(frames) +
                                     "]");
   }
-  // Where nothing stands behind, the end is free.
+  // Without a frame after it, the end is free.
   const std::vector<Stop> stops =
       gap.to == frames ? std::vector<Stop>{{.frame = frames - 1}} : std::vector<Stop>{};
   return DanceThrough(work, gap.from, stops, gap.to, gap.to_id);
@@ -323,7 +324,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
                                       std::to_string(std::min(last, work.frames() - 1)) +
                                       "]: at least one frame must lead back");
   }
-  // The first frame once more, behind the last.
+  // Returns to the first frame after the last.
   TransitionRequest request = work.After(from, work.frames() + added - from);
   request.target = work.pose(0);
   request.target_id = NameOfFrame(0);

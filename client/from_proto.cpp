@@ -63,7 +63,7 @@ ServerDescription FromProto(const v1::GetServerInfoResponse& response) {
   out.version = response.version();
   for (const v1::ModelInfo& model : response.models()) {
     ModelDescription& added = out.models.emplace_back(FromProto(model));
-    // Servers before 0.2 do not tell their models' limits.
+    // Servers before 0.2 do not send their models' limits.
     if (added.max_transition_frames == 0)
       added.max_transition_frames = response.limits().max_transition_frames();
   }

@@ -6,7 +6,7 @@
 namespace choreo::client {
 namespace {
 
-/// Small enough that a dance begins early, large enough to be cheap.
+/// Small enough for a dance to begin early, large enough to be cheap.
 constexpr size_t kMusicChunkBytes = size_t{128} * 1024;
 
 }  // namespace
@@ -17,7 +17,7 @@ Attempt::Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
     : server_(replicas.current()), journal_(journal), mutex_(mutex) {
   replicas.Prepare(&context_);
   if (deadline) context_.set_deadline(*deadline);
-  // Else StreamDance waits for a connection, and with it whoever wants `mutex`.
+  // Otherwise StreamDance would wait for a connection while it holds `mutex`.
   context_.set_initial_metadata_corked(true);
   stream_ = server_.stub->StreamDance(&context_);
   sender_ = std::thread([this, first] { SendLoop(first); });
@@ -143,7 +143,7 @@ std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& 
     case v1::StreamDanceResponse::kSummary:
       return HandleSummary(response.summary());
     case v1::StreamDanceResponse::RESPONSE_NOT_SET:
-      return std::nullopt;  // of a newer version of the protocol
+      return std::nullopt;  // from a newer version of the protocol
     default:
       break;
   }
@@ -172,11 +172,11 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
   Header received = FromProto(header);
   if (!header_) {
     header_ = received;
-    // Where the first output frame stands that is not before the first frame.
+    // The position of the first output frame that is not before the first frame.
     const double first =
         static_cast<double>(received.first_frame) * received.fps / received.model_fps;
     seen_.emplace(static_cast<int64_t>(std::ceil(first - 1e-9)));
-    // Another server has to dance the same dance, and by the same model.
+    // Another server must dance the same dance with the same model.
     config_.set_seed(received.seed);
     config_.set_model(received.model);
     return received;
@@ -191,7 +191,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
 
 Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {
   Report report = FromProto(summary.report(), summary.timing());
-  // The server speaks of what it made itself; what came before a resume is known here.
+  // The server reports only its own frames; add those from before a resume.
   report.frames += report.measured_from - header_->first_frame;
   for (const KeyReached& key : keys_) {
     const auto same = [&](const KeyReached& other) {
@@ -202,7 +202,7 @@ Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {
   std::stable_sort(report.keys.begin(), report.keys.end(),
                    [](const KeyReached& a, const KeyReached& b) { return a.frame < b.frame; });
   complete_ = true;
-  // All was said: nothing of the status matters any more.
+  // Everything has been received, so the status does not matter.
   v1::StreamDanceResponse rest;
   while (attempt_->Read(&rest)) {
   }

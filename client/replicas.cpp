@@ -20,8 +20,8 @@ namespace {
 constexpr double kLongestBackoff = 2;        // seconds
 constexpr size_t kMostTokenBytes = 4 << 10;  // gRPC's headers have 8 KiB in all
 
-/// Calls take turns at all addresses of a name, but for those that say that they do not serve, or
-/// at all.
+/// Calls take turns at all addresses of a name. kTurnsAtServing skips those that report that they
+/// do not serve.
 constexpr const char* kTurnsAtServing = R"({
   "loadBalancingConfig": [{"round_robin": {}}],
   "healthCheckConfig": {"serviceName": "choreo.v1.Choreography"}
@@ -54,7 +54,7 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   return grpc::SslCredentials(files);
 }
 
-/// Nobody else hears what is said to it. A name that only begins like an address is a name.
+/// Such traffic does not leave this machine. A name that only begins like an address is a name.
 bool IsOfThisMachine(const std::string& address) {
   if (address.starts_with("unix:")) return true;
   const std::string host = address.substr(0, address.rfind(':'));
@@ -63,7 +63,7 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]";
 }
 
-// What gRPC would take for another port.
+// Refuses ports that gRPC would misread.
 void CheckAddress(const std::string& address) {
   if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
   if (address.starts_with("unix:")) return;
@@ -117,13 +117,13 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
   if (options_.silence_s > 0) {
-    // Half of the time until a ping, half for its answer.
+    // Half of the time passes before a ping, half is for its answer.
     const auto half = static_cast<int>(std::min(options_.silence_s, 1e6) * 500);
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, half);
     arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, half);
     arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);  // any number
   }
-  // Who asks for health wants an answer from those, too, that do not serve.
+  // Health checks must reach servers that do not serve, too.
   grpc::ChannelArguments balanced = arguments;
   balanced.SetServiceConfigJSON(options_.even_draining ? kTurns : kTurnsAtServing);
   for (const std::string& address : options_.addresses) {
@@ -141,7 +141,7 @@ void Replicas::Prepare(grpc::ClientContext* context) const {
   while (!token.empty() && std::isspace(static_cast<unsigned char>(token.back()))) {
     token.pop_back();
   }
-  // gRPC ends the process over a header of other characters.
+  // gRPC aborts the process for a header with other characters.
   const bool visible =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
   if (token.empty() || !visible) {
@@ -167,8 +167,8 @@ void Replicas::Wait(std::chrono::duration<double> time, const std::function<bool
   using Clock = std::chrono::system_clock;
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(time);
   const std::shared_ptr<grpc::Channel> channel = current().channel;
-  // Not asleep: gRPC makes connections, and hears answers to its pings, while a thread waits in it.
-  // With nobody there it looks every 5 s, and takes a link that is back for silent.
+  // Waits inside gRPC instead of sleeping: gRPC makes connections and reads answers to pings while
+  // a thread waits in it. Otherwise it polls every 5 s and takes a restored link for silent.
   for (auto now = Clock::now(); now < end && !stop(); now = Clock::now())
     channel->WaitForStateChange(channel->GetState(true), std::min(end, now + kPiece));
 }
@@ -197,7 +197,7 @@ std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& 
   const auto now = std::chrono::steady_clock::now();
   if (failures_ == 0) failing_since_ = now;
   if (!advice.here || verdict_.ok() || AdviceFor(verdict_).here) verdict_ = failed;
-  // Once all have refused there is no other one left to do better.
+  // Counts refusals until all replicas have refused.
   refusals_ = advice.here ? 0 : refusals_ + 1;
   const bool useful = advice.here || (advice.elsewhere && refusals_ < servers_);
   const std::chrono::duration<double> spent = now - failing_since_;
@@ -206,7 +206,7 @@ std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& 
   ++failures_;
   // Clients that lost the same server should not all come back at once.
   const double spread = std::uniform_real_distribution<double>(0.5, 1.0)(jitter_);
-  // What a server asks for concerns itself.
+  // A server's retry delay concerns only that server.
   const std::chrono::duration<double> wait(
       std::max(elsewhere ? 0 : advice.wait_s, doubled * spread));
   if (deadline_ && Clock::now() + std::chrono::duration_cast<Clock::duration>(wait) >= *deadline_) {

@@ -12,16 +12,16 @@ namespace choreo::client {
 /// A key by its id, and its frame at the model's rate.
 using KeyPlace = std::pair<std::string, int64_t>;
 
-/// Tells what a resumed dance says again from what is new, so that the caller hears everything
-/// once. Not thread-safe.
+/// Filters out what a resumed dance repeats, so that the caller receives everything once. Not
+/// thread-safe.
 class Seen {
  public:
   explicit Seen(int64_t next_frame) : next_frame_(next_frame) {}
 
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }
-  /// Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it
-  /// will reject the keys that stand before: `late`, each as often as it was spoken of.
+  /// Another server resumes from `frame` (at the model's rate) and receives all messages again. It
+  /// will reject the keys before that frame: `late`, each as often as it was sent.
   void Restart(int64_t frame, std::vector<KeyPlace> late);
   /// Cuts away the frames that were delivered already; false if none is left. Throws
   /// Error(kInternal) where frames are missing.

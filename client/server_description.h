@@ -18,7 +18,7 @@ struct ServerDescription {
   std::vector<std::string> devices = {};
   int workers = 0;
   int active_streams = 0;
-  /// What the server refuses to go beyond.
+  /// The server's limits.
   struct Limits {
     int64_t max_message_bytes = 0;
     double max_audio_s = 0;

@@ -23,7 +23,7 @@ ErrorCode ToCode(grpc::StatusCode code) {
     case grpc::StatusCode::UNAVAILABLE:
       return ErrorCode::kUnavailable;
     case grpc::StatusCode::UNAUTHENTICATED:
-      return ErrorCode::kFailedPrecondition;  // that its client has a token
+      return ErrorCode::kFailedPrecondition;  // the server needs a token
     case grpc::StatusCode::CANCELLED:
       return ErrorCode::kCancelled;
     case grpc::StatusCode::DEADLINE_EXCEEDED:
@@ -44,7 +44,7 @@ bool FindDetail(const grpc::Status& status, T* detail) {
   return false;
 }
 
-/// That the server found fault with, as its words name it; empty where it names none.
+/// The field that the server names in its error; empty if none.
 std::string FieldOf(const grpc::Status& status) {
   google::rpc::ErrorInfo info;
   if (FindDetail(status, &info)) {
@@ -56,7 +56,7 @@ std::string FieldOf(const grpc::Status& status) {
   return bad_request.field_violations(0).field();
 }
 
-/// What another replica may have been started with.
+/// Whether another replica may have been started with another value.
 bool IsTheReplicas(const std::string& field) {
   return field == "config.model" || field == "config.continuation.fingerprint" ||
          field == "config.continuation.skeleton";
@@ -79,7 +79,7 @@ Error ToError(const grpc::Status& status, const std::string& address, bool tls) 
   const Error error = ToError(status);
   if (error.code() != ErrorCode::kUnavailable) return error;
   std::string message = error.what();
-  // What becomes of an attempt to connect where nothing but TLS is understood.
+  // The symptom of plain text sent to a TLS port.
   if (!tls && message.ends_with(": Socket closed")) message += "; it may want TLS, which is off";
   return {ErrorCode::kUnavailable, address, message};
 }

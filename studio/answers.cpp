@@ -47,7 +47,7 @@ std::vector<Response> MakeTransition(const StudioContext& context, const Song* m
       request.config.continuation ? request.config.continuation->frame : request.config.first_frame;
   if (music) {
     client::SetMusic(music->audio, context.model(), first, &request);
-    cli::TellMusic(music->music, music->heard.seconds(), &request.config);
+    cli::ConfigureMusic(music->music, music->heard.seconds(), &request.config);
   }
   client::TransitionResult made = context.client().GenerateTransition(request);
   if (request.target) {

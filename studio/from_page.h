@@ -12,8 +12,8 @@
 namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
-/// Without a model, which is the server's first; with beats where they are others than this program
-/// hears. Music comes in floats, if at all.
+/// No model: the server's first one. Beats only if they differ from those this program finds.
+/// Music, if any, as floats.
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton);

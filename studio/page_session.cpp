@@ -62,13 +62,13 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
     if (found != dances_.end()) throw InvalidArgument("config", "came twice");
     return StartDance(call, request.config());
   }
-  if (found == dances_.end()) return;  // it has ended; the page may not know yet
+  if (found == dances_.end()) return;  // ended; the page may not know yet
   client::RemoteDance& dance = *found->second.dance;
   switch (request.request_case()) {
     case v1::StreamDanceRequest::kKeyframe: {
       const client::KeyPose key = FromProto(request.keyframe(), context_.model().skeleton);
       if (found->second.is_live)
-        TellFaults(call, {key});
+        SendFaults(call, {key});
       else
         found->second.keys.push_back(key);
       return dance.SendKey(key);
@@ -80,7 +80,7 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
     case v1::StreamDanceRequest::kGenerateUntil:
       return dance.GenerateUntil(request.generate_until().frame());
     case v1::StreamDanceRequest::kKeyframesComplete:
-      TellFaults(call, std::exchange(found->second.keys, {}));
+      SendFaults(call, std::exchange(found->second.keys, {}));
       return dance.CompleteKeys();
     case v1::StreamDanceRequest::kAudio:
       return dance.SendSamples(SamplesOf(request.audio()));
@@ -91,7 +91,7 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
   }
 }
 
-void PageSession::TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
+void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
   for (const client::Warning& fault :
        cli::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
     Response response;
@@ -105,18 +105,18 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMostDances) + " are in progress, the most");
   client::DanceConfig config = FromProto(request, context_.model().skeleton);
-  // Whoever sends music live is not danced to the song.
+  // A dance to live music does not use the song.
   const bool is_live = config.audio.kind != client::AudioKind::kNone;
   const std::shared_ptr<const Song> music = is_live ? nullptr : song();
   const bool hears = music && context_.model().takes_music;
-  if (music) cli::TellMusic(music->music, music->heard.seconds(), &config);
+  if (music) cli::ConfigureMusic(music->music, music->heard.seconds(), &config);
   if (hears) config.audio = music->audio.format;
   auto dance = context_.client().StartDance(config);
   if (hears) {
     dance->SendSamples(music->audio.samples);
     dance->EndAudio();
   }
-  // From here on nothing fails: every call left has a dance.
+  // Nothing fails from here on: every remaining call has a dance.
   Dancing& dancing = dances_[call];
   dancing.is_live = is_live;
   dancing.dance = std::move(dance);

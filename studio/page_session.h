@@ -42,7 +42,7 @@ class PageSession {
   void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);
   void StartDance(uint32_t call, const v1::DanceConfig& config);
   /// Sends warnings at the keys' frames about poses that no body can dance.
-  void TellFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
+  void SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
   void ReadDance(uint32_t call, Dancing* dancing);
   void EndDance(uint32_t call);
   void Reap();

@@ -25,7 +25,7 @@ using nlohmann::json;
 
 constexpr const char* kName = "project";  // the name of input in errors
 constexpr int kAtOnce = 2;
-constexpr int kMostAsked = 4;  // running or waiting
+constexpr int kMostAsked = 4;  // requests running or waiting
 
 std::string FromBase64(const std::string& text, const std::string& field) {
   std::string out(text.size(), '\0');
@@ -173,7 +173,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   client::Audio audio;
   if (song) {
     config.music_beats = project.beats;
-    cli::TellMusic(song->music, seconds, &config);
+    cli::ConfigureMusic(song->music, seconds, &config);
     if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
   }
   keys = cli::ByTime(std::move(keys), model.fps);

@@ -6,7 +6,7 @@ namespace choreo::studio {
 namespace {
 
 namespace beast = boost::beast;
-constexpr size_t kLargestMessage = size_t{256} << 20;  // large enough for a song
+constexpr size_t kLargestMessage = size_t{256} << 20;  // enough for a song
 
 }  // namespace
 

@@ -82,7 +82,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   /// Checks the host that the browser believes it talks to: anybody can point another name here.
-  bool AskedForUs() const {
+  bool NamesOurHost() const {
     const std::string host(request_[http::field::host]);
     const std::string name = host.substr(0, host.rfind(':'));
     return name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_;
@@ -93,7 +93,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   void Answer() {
-    if (!AskedForUs() || !FromOurPage())
+    if (!NamesOurHost() || !FromOurPage())
       return Say(http::status::forbidden, "text/plain", "The studio is for its own page.\n");
     if (beast::websocket::is_upgrade(request_)) {
       if (request_.target() != kSocketPath)

@@ -38,12 +38,12 @@ void CheckPart(const Music& music, const AnalyzeOptions& options) {
         "--from", seconds(options.from_s) + " is not before --until, " + seconds(options.until_s));
   }
   if (options.from_s >= music.audio.seconds()) {
-    throw InvalidArgument("--from", seconds(options.from_s) + " lies behind the song's end at " +
+    throw InvalidArgument("--from", seconds(options.from_s) + " is after the song's end at " +
                                         Rounded(music.audio.seconds()) + " s");
   }
 }
 
-/// A beat, and the pose of the library for it.
+/// A beat, and the library's pose for it.
 struct ProposedKey {
   SuggestedKey on;
   std::string id, pose;
@@ -98,9 +98,9 @@ void PrintJson(const Music& music, const std::optional<std::vector<ProposedKey>>
   std::cout << json.dump(2) << std::endl;
 }
 
-/// Where the tempo changes, and how sure each stretch of a tempo is.
+/// Prints where the tempo changes, and the confidence of each stretch.
 void PrintStretches(const BeatTrack& track) {
-  constexpr double kOther = 0.04;  // share by which a tempo is another one
+  constexpr double kOther = 0.04;  // share by which another tempo differs
   constexpr size_t kFewest = 8;    // beats of a stretch
   const std::vector<double> beats = track.Seconds();
   std::vector<size_t> begins{0};
@@ -109,8 +109,8 @@ void PrintStretches(const BeatTrack& track) {
       return TempoOf(std::span(beats).subspan(from, to - from));
     };
     const double before = tempo(std::max(begins.back(), i - kFewest), i + 1);
-    const double behind = tempo(i, i + kFewest + 1);
-    if (std::abs(behind / before - 1) > kOther && i - begins.back() >= kFewest) begins.push_back(i);
+    const double after = tempo(i, i + kFewest + 1);
+    if (std::abs(after / before - 1) > kOther && i - begins.back() >= kFewest) begins.push_back(i);
   }
   if (beats.size() < 2 || begins.size() < 2) return;
   for (size_t k = 0; k < begins.size(); ++k) {

@@ -62,7 +62,7 @@ void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem:
   }
   WriteFile(json_path, map.dump(2) + "\n");
 
-  // Those that are taken for something in any case.
+  // How many unassigned joints fit beside the assigned ones, which are always drawn.
   size_t room =
       kMostChartBones - static_cast<size_t>(std::ranges::count_if(
                             means, [](const std::string& bone) { return !bone.empty(); }));

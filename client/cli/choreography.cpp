@@ -13,12 +13,12 @@ namespace choreo::cli {
 namespace {
 
 constexpr double kLeastPeriod = 1.6;    // seconds, of the count that keys keep
-constexpr double kPlainInterval = 2.0;  // where no beat is heard
+constexpr double kPlainInterval = 2.0;  // without beats
 constexpr double kWalkingSpeed = 0.28;  // metres a second, at most
 constexpr double kTurningSpeed = 0.35;  // radians a second, at most
 constexpr double kStageRadius = 1.2;    // metres; beyond it the way leads back
 
-/// Uniform draws that are the same with every standard library.
+/// Uniform random numbers that do not depend on the standard library.
 class Dice {
  public:
   explicit Dice(uint64_t seed) : engine_(seed) {}
@@ -31,9 +31,8 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// Seconds at which keys stand, the first at 0. On beats: every 1, 2, 4, 8 ... beats, the fewest
-/// that leave time to move. Before the first and after the last beat that is heard, the count goes
-/// on.
+/// The seconds of keys, the first at 0. With beats: every 1, 2, 4, 8 ... beats, the fewest that
+/// leave time to move; the count continues before the first and after the last beat.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
   const auto& [seconds, beats, passages, seed, way, end, named] = request;
   double period = kPlainInterval;
@@ -49,17 +48,16 @@ std::vector<double> KeyTimes(const CompositionRequest& request) {
   while (period * static_cast<double>(stride) < kLeastPeriod) stride *= 2;
   std::vector<double> times = {0};
   for (size_t i = 0; i < counts.size(); i += stride) {
-    // What a wavering count would bring too close is left out, as is what lies behind the last
-    // frame.
+    // Drops counts that an unsteady tempo brings too close, and those after the last frame.
     if (counts[i] - times.back() >= kShortestKeyInterval && counts[i] <= seconds - 1 / kModelFps)
       times.push_back(counts[i]);
   }
   if (end && *end - times.back() >= kShortestKeyInterval) times.push_back(*end);
-  if (end && times.size() > 1) times.back() = *end;  // where the count came near
+  if (end && times.size() > 1) times.back() = *end;  // if the count came near
   return times;
 }
 
-/// Where the dancer goes.
+/// The dancer's way over the floor.
 class Walk {
  public:
   explicit Walk(Dice* dice) : dice_(dice) {}
@@ -71,7 +69,7 @@ class Walk {
                            ? std::atan2(-place_.origin.x(), -place_.origin.z())
                            : dice_->Between(-M_PI, M_PI);
     place_.origin += distance * Eigen::Vector3d(std::sin(way), 0, std::cos(way));
-    // The dancer comes to face the audience again: she never turns her back for long.
+    // Turns the dancer back to the audience, so that she never turns her back for long.
     place_.heading += kTurningSpeed * seconds * dice_->Between(-1, 1);
     place_.heading = std::clamp(place_.heading, -1.2, 1.2);
     return place_;
@@ -83,13 +81,13 @@ class Walk {
   GroundFrame place_;
 };
 
-/// The library's poses, in the order in which keys have them.
+/// Deals the library's poses to keys.
 class Deck {
  public:
   Deck(Dice* dice, size_t poses, std::span<const Passage> passages)
       : dice_(dice), poses_(poses), passages_(passages) {}
 
-  /// The pose of the next key, which stands behind the ones before.
+  /// The pose of the next key, which stands after the ones before.
   size_t Next(double time) {
     std::optional<size_t> pose = Before(time);
     if (!pose || (!drawn_.empty() && *pose == drawn_.back().pose)) pose = Draw();
@@ -103,7 +101,7 @@ class Deck {
     size_t pose;
   };
 
-  /// That of the key which stood there when the passage was there before.
+  /// The pose of the key at the same place in the earlier passage.
   std::optional<size_t> Before(double time) const {
     for (const Passage& passage : passages_) {
       if (time < passage.from || time >= passage.to) continue;
@@ -116,7 +114,7 @@ class Deck {
   }
 
   size_t Draw() {
-    if (left_.empty()) {  // a pose comes again when all have been danced
+    if (left_.empty()) {  // a pose repeats only after all others
       for (size_t i = 0; i < poses_; ++i) left_.push_back(i);
     }
     size_t card = dice_->Below(left_.size());
@@ -133,13 +131,13 @@ class Deck {
   std::vector<size_t> left_;
 };
 
-/// A key: which pose, and where.
+/// A key's pose and place.
 struct Step {
   size_t pose = 0;
   GroundFrame place;
 };
 
-/// One for each time, of so many poses.
+/// Draws one for each time, from `poses` poses.
 std::vector<Step> DrawSteps(uint64_t seed, const std::vector<double>& times,
                             std::span<const Passage> passages, size_t poses) {
   Dice dice(seed);

@@ -18,7 +18,7 @@ struct CompositionRequest {
   std::vector<double> beats = {};      ///< seconds, ascending; may be empty
   std::vector<Passage> passages = {};  ///< repeats in the music
   uint64_t seed = 0;
-  /// The seed whose way over the floor to keep, so that a formation stays one.
+  /// The seed of the way over the floor, shared so that a formation keeps its shape.
   std::optional<uint64_t> way = {};
   /// Time of the last key, at most `seconds`; none: the last one that fits the bars.
   std::optional<double> end_s = {};

@@ -74,16 +74,16 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
                               : model->empty() ? std::string(kShippedModels[0])
                                                : *model);
     client_options.addresses = {own_->address()};
-    // These are for others' servers, and may come from the environment.
+    // These settings, which may come from the environment, are for other servers.
     client_options.tls = false;
     client_options.token_file.clear();
   }
-  // One that was never there is told of by the error.
+  // The error itself reports a server that was never reached.
   const auto reached = std::make_shared<std::atomic<bool>>(false);
   client_options.before_retry = [own = own_.get(), reached, told = Clock::time_point()]() mutable {
     Interruption::Check();
     if (own) own->RequireRunning();
-    // Tries are seconds apart at most: what comes later is another loss.
+    // Retries are at most seconds apart; later failures are another loss.
     const Clock::time_point before = std::exchange(told, Clock::now());
     if (*reached && told - before > kOfOneLoss)
       std::cerr << "note: the server is lost or busy; it is asked again and again\n";

@@ -86,7 +86,7 @@ void ControlOptions::AddTo(CLI::App& command) {
 void ControlOptions::Follow(const ControlOptions& project) {
   path_text = project.path_text;
   path_text_name = project.path_text_name;
-  // Of several sources the last that speaks of a part counts: those of the command line.
+  // The last source that names a part counts, so the command line's come after the project's.
   velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
 }
 
@@ -118,19 +118,20 @@ client::Controls ControlOptions::Read(const client::ModelDescription& model,
 void ControlOptions::RequireBegun(const client::Controls& controls,
                                   const DanceLength& length) const {
   if (const auto& asked = controls.root_path; asked && asked->frames.front() >= length.frames) {
-    throw InvalidArgument(PathName() + ":points[0]",
-                          "the path's first point " + SayBehindEnd(asked->frames.front(), length));
+    throw InvalidArgument(
+        PathName() + ":points[0]",
+        "the path's first point " + DescribeAfterEnd(asked->frames.front(), length));
   }
   const auto& asked = controls.velocity_factors;
   if (!asked || asked->frames.empty() || asked->frames.front() < length.frames) return;
   const std::string& file = *std::ranges::find_if(velocities, IsVelocityFile);
   throw InvalidArgument(
       file + (asked->speeds.empty() ? ":factors[0]" : ":speeds[0]"),
-      "the velocities' first point " + SayBehindEnd(asked->frames.front(), length));
+      "the velocities' first point " + DescribeAfterEnd(asked->frames.front(), length));
 }
 
 Error ControlOptions::InTermsOf(const Error& error) const {
-  // What was sent is one message: controls[0] of a stream, controls of a transition.
+  // The command sends one message: controls[0] of a stream, controls of a transition.
   std::string_view field = error.field();
   for (const std::string_view prefix : {"controls[0].", "controls."}) {
     if (!field.starts_with(prefix)) continue;

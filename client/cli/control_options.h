@@ -28,7 +28,7 @@ struct ControlOptions {
   std::string reference;
 
   void AddTo(CLI::App& command);
-  /// Takes what a project says and these options do not.
+  /// Adds a project's settings that these options do not give.
   void Follow(const ControlOptions& project);
   /// The files that they name.
   std::vector<NamedFile> Files() const;
@@ -38,7 +38,7 @@ struct ControlOptions {
   client::Controls Read(const client::ModelDescription& model,
                         const client::ServerDescription& server) const;
   /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
-  /// begins behind the end of a dance: whoever wrote it meant another one.
+  /// begins after the end of a dance, which it is not meant for.
   void RequireBegun(const client::Controls& controls, const DanceLength& length) const;
   /// How errors call the path.
   const std::string& PathName() const { return path.empty() ? path_text_name : path; }

@@ -27,7 +27,7 @@ struct ConvertOptions {
   BvhOptions bvh;
   CharacterOptions character;
 
-  /// Whose bones the motion's are.
+  /// The map for the motion's bones; without a character, `--map` is the motion's.
   const std::string& map() const {
     return motion_map.empty() && !character.given() ? character.map : motion_map;
   }

@@ -12,7 +12,7 @@
 namespace choreo::cli {
 namespace {
 
-/// The interval of beats in which a number lies, or the one nearest to it.
+/// The interval of beats that contains a number, or the nearest one.
 size_t IntervalAt(double place, size_t beats) {
   return static_cast<size_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(beats - 2)));
 }
@@ -23,8 +23,8 @@ double Delay::After(double seconds, std::span<const double> beats, const std::st
   if (!counts) return seconds + amount;
   if (beats.size() < 2)
     throw InvalidArgument(field, "counts need music that has beats; say seconds");
-  const auto behind = std::ranges::upper_bound(beats, seconds) - beats.begin();
-  const size_t at = IntervalAt(static_cast<double>(behind - 1), beats.size());
+  const auto after = std::ranges::upper_bound(beats, seconds) - beats.begin();
+  const size_t at = IntervalAt(static_cast<double>(after - 1), beats.size());
   const double place =
       static_cast<double>(at) + (seconds - beats[at]) / (beats[at + 1] - beats[at]) + amount;
   const size_t to = IntervalAt(place, beats.size());

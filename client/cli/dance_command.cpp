@@ -22,7 +22,7 @@
 namespace choreo::cli {
 namespace {
 
-/// What the command line leaves open, the project says.
+/// Fills in what the command line leaves open from the project.
 void TakeProject(DanceOptions* options) {
   const Project project = ReadProject(options->project);
   options->keys = {options->project};
@@ -34,7 +34,7 @@ void TakeProject(DanceOptions* options) {
     }
     options->song = project.song;
   }
-  // Of its song alone.
+  // Only the project's own song.
   const auto file_of = [](const std::string& song) {
     return std::filesystem::path(song).filename();
   };
@@ -60,13 +60,13 @@ std::filesystem::path OutputPath(const DanceOptions& options) {
   std::filesystem::path path = options.out;
   if (path.empty()) path = std::filesystem::path(options.song).replace_extension(".npz");
   if (path == ".npz" || path == "-.npz") path = "dance.npz";
-  // Better now than after the dance.
+  // Fails before the dance, not after it.
   RequireWrittenMotionFile(path);
   options.bvh.Check(path);
   return path;
 }
 
-/// Refuses outputs that could not, or must not, be written.
+/// Refuses outputs that cannot or must not be written.
 void CheckFiles(const DanceOptions& options, const std::vector<std::filesystem::path>& outs,
                 const std::vector<std::filesystem::path>& reports) {
   std::vector<NamedFile> outputs;

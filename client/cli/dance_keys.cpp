@@ -28,11 +28,11 @@ std::vector<std::string> KeySources(const std::vector<std::string>& sources) {
   return SaysNoKeys(sources) ? std::vector<std::string>{} : sources;
 }
 
-std::string SayBehindEnd(int64_t frame, const DanceLength& length) {
+std::string DescribeAfterEnd(int64_t frame, const DanceLength& length) {
   const auto at = [&](int64_t count) {
     return Rounded(static_cast<double>(count) / length.fps) + " s";
   };
-  return "at " + at(frame) + " lies behind the dance's end: its last frame is at " +
+  return "at " + at(frame) + " is after the dance's end: its last frame is at " +
          at(length.frames - 1);
 }
 
@@ -45,7 +45,7 @@ void FitIntoDance(const DanceLength& length, const std::string& place, client::K
   if (!key->frame && frame == length.frames) key->frame = length.frames - 1;
   if (FrameOf(*key, length.fps) < length.frames) return;
   throw InvalidArgument(FieldOf(place, key->frame ? ".frame" : ".time"),
-                        "key \"" + key->id + "\" " + SayBehindEnd(frame, length));
+                        "key \"" + key->id + "\" " + DescribeAfterEnd(frame, length));
 }
 
 std::string HeldKey(const DanceKeys& keys, size_t index) {

@@ -27,9 +27,9 @@ struct DanceLength {
   double fps = kModelFps;  ///< of the model
 };
 
-/// Describes a frame after the dance's end: "at 20 s lies behind the dance's end: its last frame is
+/// Describes a frame after the dance's end: "at 20 s is after the dance's end: its last frame is
 /// at 9.97 s".
-std::string SayBehindEnd(int64_t frame, const DanceLength& length);
+std::string DescribeAfterEnd(int64_t frame, const DanceLength& length);
 
 /// The frame of a key, at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);

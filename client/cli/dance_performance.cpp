@@ -66,13 +66,13 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
     request.beats = music->track.Seconds();
     request.passages = music->passages;
   }
-  // Its dancers hardly dance where no key is ahead.
+  // Without a next key its dancers hardly move.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   DanceKeys keys;
   keys.poses = ComposeKeys(request, PosesToDance(model.skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
-    // Where the dancer is then, the path says.
+    // The path sets the dancer's place.
     if (!options.controls.path.empty()) keys.poses[i].mask.root_position = false;
   }
   return keys;
@@ -115,7 +115,7 @@ Performance Perform(const DanceOptions& options, const std::optional<Music>& mus
                     const Connection& connection, const std::filesystem::path& out,
                     std::optional<VmcShow>* show) {
   const client::ModelDescription& model = connection.model(options.model);
-  // It chooses among the library's key poses, whatever the model.
+  // With any model, the seed chooses among the library's key poses.
   const bool is_seed_for_model = options.seed && !options.keys.empty();
   NoteDeterministic(model, {{"--seed", is_seed_for_model},
                             {"--temperature", options.temperature.value_or(0) != 0}});
@@ -144,7 +144,7 @@ Performance Perform(const DanceOptions& options, const std::optional<Music>& mus
   config.frames = length.frames;
   config.controls = controls;
   config.music_beats = options.project_beats;
-  if (music) TellMusic(*music, seconds, &config);
+  if (music) ConfigureMusic(*music, seconds, &config);
   const client::Audio audio =
       music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};
   if (!options.vmc.empty()) show->emplace(options.vmc, model.skeleton);

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kUsuallyApart = 0.2;   // metres: nobody brushes against another
+constexpr double kUsuallyApart = 0.2;   // metres: dancers do not brush against each other
 constexpr double kMostApart = 10;       // metres
 constexpr double kLargestStage = 1000;  // metres
 constexpr double kFullTurn = 360;       // degrees
@@ -29,7 +29,7 @@ std::string TextOf(const json& value, const std::string& field) {
   throw InvalidArgument(field, Shown(value) + " is no text");
 }
 
-/// It becomes a part of files' names, and of nodes'.
+/// It becomes part of the names of files and nodes.
 std::string IdOf(const json& value, const std::string& field) {
   const std::string id = TextOf(value, field);
   for (const char c : id) {
@@ -98,7 +98,7 @@ Dancers ParseDancers(const std::string& text, const std::string& name,
                      const std::filesystem::path& folder) {
   const json file = ParseJson(text, name);
   const json& list = ListIn(file, name, "dancers");
-  // A project says the same beside what is danced (project_file.h).
+  // A project has the same members beside its own (project_file.h).
   if (!file.contains("studio")) {
     CheckFileMembers(file, name, {"dancers", "apart", "about"},
                      "a file of dancers has dancers, and perhaps apart and about");

@@ -51,7 +51,7 @@ void CheckOptions(const EditOptions& options) {
   if (EditsKeys(options) && EditsWhole(options)) {
     throw InvalidArgument("--key",
                           "and --move, --remove, --repeat, --loop go in a command of their own, "
-                          "behind --from, --until, --mirror, --join, which change the whole dance");
+                          "after --from, --until, --mirror, --join, which change the whole dance");
   }
   CheckReported(options);
   if (options.keys.size() != options.at_s.size()) {
@@ -145,10 +145,10 @@ void AddEditCommand(CLI::App& program) {
       "--loop", options->loop,
       "Lead the last frames back into the first, so that the dance can be repeated. A "
       "pose that --report says is held at the end stays, and the way back comes "
-      "behind it.");
+      "after it.");
   command
       ->add_option("--around", options->around_s,
-                   "Seconds that may change before and behind a key, or before the end of a loop. "
+                   "Seconds that may change before and after a key, or before the end of a loop. "
                    "Default: up to the neighbouring keys of --report; 2 without it.")
       ->check(AboveZero());
   command
@@ -161,7 +161,7 @@ void AddEditCommand(CLI::App& program) {
                     "Exchange left and right of body and stage: the plane x = 0 is the mirror.");
   CLI::Option* join = command->add_option(
       "--join", options->join,
-      "Another dance to put behind this one, moved and turned to where this one ends. The way "
+      "Another dance to put after this one, moved and turned to where this one ends. The way "
       "there is danced, unless it begins in the pose in which this one ends.");
   join->check(CLI::ExistingFile);
   command

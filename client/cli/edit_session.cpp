@@ -20,7 +20,7 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kAround = 2;  // seconds, where nothing says how far an edit may reach
+constexpr double kAround = 2;  // seconds; default reach of an edit
 
 int64_t LastFrame(const client::KeyEdit& edit) {
   return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
@@ -42,7 +42,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
 
 void EditSession::SetKey(const std::string& source, double at_s) {
   const NamedPose named = ReadPose(source, edit_.model.skeleton);
-  // Those of the library bend as bodies do.
+  // The library's poses are known to bend correctly.
   if (named.has_place && !options_.allow_bends)
     RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
   client::KeyEdit edit;
@@ -92,9 +92,9 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   }
   for (const int64_t frame : frames) keys_.erase(frame);
   CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
-  // What is danced anew around its new place may not reach the old one.
+  // The frames danced anew around the new place may not include the old one.
   const auto is_new = [&](int64_t frame) {
-    return frame > Before(frames.front() + by) && frame < Behind(frames.back() + by);
+    return frame > Before(frames.front() + by) && frame < After(frames.back() + by);
   };
   if (!std::ranges::all_of(frames, is_new)) Free(frames, edit.key.id + " leaves its place");
   Set("--move", to_s, std::move(edit));
@@ -127,7 +127,7 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
   const GroundFrame here = Here(first);
   const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
-  // What stands there makes way, and what is too near.
+  // Removes keys that are there or too near.
   const int64_t last = LastFrame(phrase.back());
   keys_.erase(keys_.lower_bound(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1)),
               keys_.lower_bound(std::max(Frame(moved(until_s)), last + kMinKeyDistance)));
@@ -158,7 +158,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   const int64_t first = *edit.key.frame;
   const int64_t last = LastFrame(edit);
   edit.from = first == 0 ? -1 : Before(first);
-  edit.to = last == frames_ - 1 ? frames_ : Behind(last);
+  edit.to = last == frames_ - 1 ? frames_ : After(last);
   for (const auto& [frame, other] : {std::pair(first, edit.from), {last, edit.to}}) {
     if (other < 0 || other >= frames_) continue;
     CheckDistance(field, at_s + Seconds(frame - first), other,
@@ -174,7 +174,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
 void EditSession::Free(const std::vector<int64_t>& frames, const std::string& what) {
   for (const int64_t frame : frames) keys_.erase(frame);
   client::Gap gap{.from = Before(frames.front()),
-                  .to = frames.back() == frames_ - 1 ? frames_ : Behind(frames.back())};
+                  .to = frames.back() == frames_ - 1 ? frames_ : After(frames.back())};
   if (keys_.contains(gap.to)) gap.to_id = IdAt(gap.to);
   if (gap.to - gap.from > longest_) {
     throw InvalidArgument("--around", "without the key " + Rounded(Seconds(gap.to - gap.from)) +
@@ -249,7 +249,7 @@ int64_t EditSession::FrameInDance(const char* field, double at_s) const {
   const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
   if (frame < frames_) return frame;
   throw InvalidArgument(field, InFull(at_s) +
-                                   " s lies behind the dance, which has its last frame at " +
+                                   " s is after the dance, which has its last frame at " +
                                    Rounded(Seconds(frames_ - 1)) + " s");
 }
 
@@ -292,7 +292,7 @@ int64_t EditSession::Before(int64_t frame) const {
   return std::max({int64_t{0}, key, frame - Reach()});
 }
 
-int64_t EditSession::Behind(int64_t frame) const {
+int64_t EditSession::After(int64_t frame) const {
   const auto next = keys_.upper_bound(frame);
   const int64_t key = next == keys_.end() ? frames_ - 1 : next->first;
   return std::min({frames_ - 1, key, frame + Reach()});
@@ -313,7 +313,7 @@ void EditSession::Take(client::EditedDance edited, const std::string& what) {
             << " of " << dance_.motion.frames.size() << " are new";
   for (const client::KeyReached& key : edited.keys) {
     keys_[key.frame] = KeyJson(key);
-    if (&key != &edited.keys.front()) continue;  // of a pose that is held one figure is enough
+    if (&key != &edited.keys.front()) continue;  // a held pose needs only one figure
     std::cout << "; hit at " << Rounded(Seconds(key.frame)) << " s within "
               << Rounded(1000 * key.final_error_m) << " mm and " << Rounded(key.final_error_deg)
               << " degrees";

@@ -50,7 +50,7 @@ class EditSession {
   /// The last frame before a key that stays, and the first after it: those of other keys, if known
   /// and near enough.
   int64_t Before(int64_t frame) const;
-  int64_t Behind(int64_t frame) const;
+  int64_t After(int64_t frame) const;
 
   /// Sets a moved or new key at this second, from `edit.key` to the last of `edit.held`, between
   /// its neighbours.

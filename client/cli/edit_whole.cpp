@@ -18,12 +18,12 @@ namespace {
 
 constexpr double kUsualGap = 1;  // seconds
 
-/// The first frame at or behind this second.
+/// The first frame at or after this second.
 int64_t FrameAt(double seconds, double fps) {
   return static_cast<int64_t>(std::ceil(seconds * fps - kOnFrame));
 }
 
-/// A dance in the making, and what is known of it at the model's rate.
+/// A dance being edited, with its keys and beats at the model's rate.
 class Whole {
  public:
   Whole(const EditOptions& options, const std::string& path, const std::string& report)
@@ -39,7 +39,7 @@ class Whole {
   void Cut() {
     const double fps = dance_.motion.fps;
     const auto total = std::ssize(dance_.motion.frames);
-    // On a frame of the model, if one is there: keys stand on those.
+    // Starts on a frame of the model, as keys are on these.
     const double start_s = std::round(options_.from_s.value_or(0) * fps_) / fps_;
     const int64_t first = FrameAt(start_s, fps);
     const int64_t end =
@@ -72,7 +72,7 @@ class Whole {
     }
   }
 
-  /// Puts another one behind it.
+  /// Appends another dance.
   void Join(Whole next) {
     if (!SameBones(skeleton_, next.skeleton_)) {
       throw InvalidArgument("--join", next.path_ + " is of the skeleton " +
@@ -84,12 +84,12 @@ class Whole {
     const bool as_it_is = options_.gap_s == 0.0;
     if (!as_it_is) next.dance_ = client::BegunAt(last, std::move(next.dance_));
     const auto frames = std::ssize(dance_.motion.frames);
-    auto begin = frames;  // of the other one
+    auto begin = frames;  // of the other dance
     if (as_it_is) {
       dance_ = client::Join(std::move(dance_), next.dance_);
       std::cout << "joined as they are";
     } else if (!options_.gap_s && client::BeginsIn(skeleton_, next.dance_, last)) {
-      --begin;  // where they meet one frame is enough
+      --begin;  // both have the frame where they meet
       dance_ = client::Join(client::PartOf(dance_, 0, begin), next.dance_);
       std::cout << "joined where they meet";
     } else {
@@ -117,12 +117,12 @@ class Whole {
     return static_cast<int64_t>(std::floor(Duration(dance_.motion) * fps_ + kOnFrame)) + 1;
   }
 
-  /// What is known happens so many frames later.
+  /// Moves keys and beats to later frames.
   void Shift(int64_t by) {
     ReportKeys keys;
     for (auto& [frame, key] : known_.keys) {
       key["frame"] = frame + by;
-      // Of the file that was.
+      // From the former file.
       for (const char* member :
            {"output_frame", "on_output_frame", "output_error_m", "output_error_deg"}) {
         key.erase(member);
@@ -133,7 +133,7 @@ class Whole {
     for (client::Warning& warning : known_.warnings) warning.frame += by;
   }
 
-  /// Dances to the other one; returns where that begins.
+  /// Dances the way to the other dance; returns where that begins.
   int64_t DanceOver(const client::FinishedDance& next) {
     const Connection connection(options_.server, options_.model);
     client::EditOptions how = HowToDance(options_, connection);

@@ -20,7 +20,7 @@ struct NearestPair {
   BodyDistance distance = {};
 };
 
-/// Of at least two. `places`: where each of them is, beside where it was made, metres.
+/// At least two dances. `places`: the offset of each from where it was made, metres.
 NearestPair FindNearest(const std::vector<MovingBody>& bodies,
                         const std::vector<Eigen::Vector3d>& moved);
 
@@ -32,14 +32,14 @@ double WidenFormation(const std::vector<MovingBody>& bodies,
 /// What each body is moved by where places are `factor` times as far from their middle.
 std::vector<Eigen::Vector3d> MovesOf(const std::vector<Eigen::Vector3d>& places, double factor);
 
-/// Frames by which a dancer of a dance of so many comes later; counts are those of the beats,
-/// seconds, at the music's beginning. Throws Error(kInvalidArgument, field) for counts without
-/// beats, and where all is over before.
+/// The delay in frames of a dancer in a dance of `frames`. Counts are those of the beats (seconds)
+/// at the music's beginning. Throws Error(kInvalidArgument, field) for counts without beats, and
+/// for a delay beyond the dance's end.
 int64_t FramesLater(const Dancer& dancer, std::span<const double> beats, double fps, int64_t frames,
                     const std::string& field);
 
-/// A dance as one of its dancers has it, from her place: mirrored, so many of its frames later,
-/// turned and moved.
+/// A dance as performed by one of its dancers: mirrored, delayed by this many frames, turned and
+/// moved to her place.
 client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
                               client::FinishedDance dance, int64_t later);
 
@@ -49,7 +49,7 @@ struct Formed {
   std::optional<NearestPair> nearest = {};  ///< of two dancers or more
 };
 
-/// Moves dancers, who are on stage, apart where they would come nearer than `apart`, metres.
+/// Moves dancers on stage apart where they would come nearer than `apart`, metres.
 Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleton& skeleton,
                  std::vector<client::FinishedDance>* dances);
 

@@ -7,7 +7,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Fails unless the server serves: for those who start, watch and replace servers.
+/// Fails unless the server serves; for programs that start, watch and replace servers.
 void Run(const ServerOptions& server) {
   client::Options options = server.ForClient();
   options.retry_s = 0;

@@ -58,7 +58,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   return out;
 }
 
-/// As people read it: texts bare, lists and objects as "name value, name value".
+/// Formats JSON for people: strings without quotes, lists and objects as "name value, name value".
 std::string Plain(const nlohmann::ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) {
@@ -75,7 +75,7 @@ std::string Plain(const nlohmann::ordered_json& value) {
   return text;
 }
 
-/// The checkpoints that training went on from, the last one first: of each how it was trained.
+/// Prints how the checkpoints that training continued from were trained, the last first.
 void PrintAncestors(const nlohmann::ordered_json& card) {
   const nlohmann::ordered_json unknown = "?";
   const nlohmann::ordered_json* from = &card;
@@ -88,8 +88,8 @@ void PrintAncestors(const nlohmann::ordered_json& card) {
   }
 }
 
-/// A member of a model's card a line; of the validation, a line a length. All of what it went on
-/// from is in --json.
+/// Prints a model's card, a line per member, and a line per length for the validation. --json has
+/// all about its ancestors.
 void PrintCard(const std::string& card) {
   const auto all = nlohmann::ordered_json::parse(card, nullptr, false);
   if (!all.is_object()) return;
@@ -176,7 +176,7 @@ void PrintServer(const client::ServerDescription& server, const InfoOptions& opt
   }
 }
 
-/// Behind a proxy a server may be asked nothing about its health.
+/// A failed check counts as serving, because proxies may not forward health checks.
 bool MayServe(const client::Client& client) {
   try {
     return client.IsServing();

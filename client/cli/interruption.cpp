@@ -16,7 +16,7 @@ Interruption::Interruption() {
   note.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   for (int i = 0; i < 2; ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);
-    // Who runs us in the background may have asked for it to be ignored.
+    // A shell that runs us in the background may have set it to be ignored.
     if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &note, nullptr);
   }
 }

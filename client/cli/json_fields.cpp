@@ -21,7 +21,7 @@ namespace {
 
 constexpr size_t kLongestShown = 40;  // characters of a value
 
-/// How far a text has been read.
+/// The position of the parser in a text.
 class Place {
  public:
   explicit Place(const std::string& name) : name_(name) {}
@@ -71,7 +71,7 @@ class Place {
   std::vector<Level> levels_;
 };
 
-/// Where the `byte`th character of a text stands, from 1 on.
+/// The position, line and column, of the `byte`th character of a text, counted from 1.
 std::string At(std::string_view text, size_t byte) {
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
   const size_t line = before.rfind('\n');
@@ -79,7 +79,7 @@ std::string At(std::string_view text, size_t byte) {
          std::to_string(before.size() - (line == std::string_view::npos ? 0 : line + 1) + 1);
 }
 
-/// The word around that character, such as NaN; nothing where none stands.
+/// The word around that character, such as NaN; empty without one.
 std::string WordAt(std::string_view text, size_t byte) {
   if (byte == 0 || byte > text.size()) return "";
   const auto is_other = [](unsigned char c) { return std::isalnum(c) == 0; };

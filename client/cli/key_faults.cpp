@@ -20,7 +20,7 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
   for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
   std::vector<client::Warning> warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
-    // A pose that is held has the faults of the first of them.
+    // A held pose has the faults of its first key.
     const bool is_held = !keys.places.empty() && IsHeld(keys.places[fault.pose]);
     const auto is_said = [&](const client::Warning& warning) {
       return warning.message.ends_with(": " + fault.message);
@@ -63,7 +63,7 @@ std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
   poses.insert(place, timed);
   std::vector<client::Warning> warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
-    // What is wrong with the dance around it is not the key's: but ways to and from it are.
+    // Ignores faults of other keys, but not those of the ways to and from this key.
     const bool its_own = fault.pose == index;
     const bool way_from = fault.pose == index + 1 &&
                           fault.message.find("from \"" + key.id + "\"") != std::string::npos;

@@ -28,14 +28,14 @@ using nlohmann::json;
 constexpr double kHoldStep = 0.2;
 constexpr double kShortestHold = 0.1, kLongestHold = 60;  // seconds
 constexpr const char* kHold = ".hold";
-constexpr size_t kMostNamed = 8;  // keys that a message names
+constexpr size_t kMostNamed = 8;  // keys named in a message
 
-/// Whether `joints` are turned to degrees, and not only named.
+/// Whether `joints` gives degrees, not only names.
 bool HasDegrees(const json& value) {
   return value.contains("joints") && value["joints"].is_object();
 }
 
-// The pose of a key that names one, or nothing but joints.
+// The pose of a key that names a pose or gives only joints.
 KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& skeleton) {
   if (value.contains("pose")) {
     RefuseNumbers(value, field);
@@ -70,7 +70,7 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
   key.time_s = moment.time_s;
   key.frame = moment.frame;
   if (value.contains("joints")) ReadJoints(value["joints"], field + ".joints", skeleton, &key);
-  if (named && !value.contains("pose")) AskForNamed(value["joints"], skeleton, &key);
+  if (named && !value.contains("pose")) LimitToNamed(value["joints"], skeleton, &key);
   return key;
 }
 
@@ -96,13 +96,13 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
     const double at = ParseSeconds(from, source);
     if (at > duration) {
       std::ostringstream message;
-      message << "second " << at << " lies behind the motion's end at " << duration;
+      message << "second " << at << " is after the motion's end at " << duration;
       throw InvalidArgument(source, message.str());
     }
     KeyPose& key = keys.emplace_back();
     key.id = std::filesystem::path(path).stem().string() + "@" + std::string(item);
     key.pose = PoseAt(motion, at);
-    // A motion's branches go on from frame to frame, through any number of turns.
+    // A motion's rotations may have wound up through any number of turns.
     MakeContinuous(key.pose, {{}, Eigen::Matrix3Xd::Zero(3, key.pose.rotations.cols())});
     key.time_s =
         from.size() == item.size() ? at : ParseSeconds(item.substr(from.size() + 1), source);
@@ -111,7 +111,7 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
   }
 }
 
-/// Leaves the key of this id and those that hold it.
+/// Keeps only the key with this id and those that hold it.
 void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose>* keys,
              std::vector<std::string>* places) {
   size_t from = 0, named = 0;
@@ -188,7 +188,7 @@ std::filesystem::path FileOf(const std::string& source) {
   std::error_code error;
   if (std::filesystem::exists(source, error)) return source;
   const size_t last = source.rfind('@');
-  // What follows the file's name may have an @, too: an id.
+  // The id after the file's name may contain an @, too.
   for (size_t end = last; end != std::string::npos && end > 0; end = source.rfind('@', end - 1)) {
     if (std::filesystem::is_regular_file(source.substr(0, end), error))
       return source.substr(0, end);

@@ -29,7 +29,7 @@ std::vector<double> NumbersOf(const json& value, const std::string& field) {
   return numbers;
 }
 
-/// The joints that a name stands for: one, or a limb from hip or shoulder on.
+/// The joints with this name: one, or a whole limb from hip or shoulder on.
 std::vector<int> Named(const std::string& name, const Skeleton& skeleton,
                        const std::string& field) {
   std::vector<int> roots;
@@ -113,7 +113,7 @@ void ReadJoints(const json& joints, const std::string& field, const Skeleton& sk
   }
 }
 
-void AskForNamed(const json& joints, const Skeleton& skeleton, client::KeyPose* key) {
+void LimitToNamed(const json& joints, const Skeleton& skeleton, client::KeyPose* key) {
   key->mask.root_position = false;
   key->mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
   for (const auto& [name, degrees] : joints.items())

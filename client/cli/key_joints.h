@@ -20,6 +20,6 @@ void ReadJoints(const nlohmann::json& joints, const std::string& field, const Sk
                 client::KeyPose* key);
 
 /// Limits a key to the joints named in `joints`, an object of degrees.
-void AskForNamed(const nlohmann::json& joints, const Skeleton& skeleton, client::KeyPose* key);
+void LimitToNamed(const nlohmann::json& joints, const Skeleton& skeleton, client::KeyPose* key);
 
 }  // namespace choreo::cli

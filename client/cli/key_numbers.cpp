@@ -28,7 +28,7 @@ Eigen::Vector3d Vector(const json& value, const std::string& field) {
   return out;
 }
 
-/// What may hold a pose in numbers.
+/// Members that contain a pose in numbers.
 constexpr const char* kPoseMembers[] = {"rotations",  "root_position", "smpl_poses",
                                         "smpl_trans", "poses",         "trans"};
 
@@ -86,7 +86,7 @@ KeyPose ReadSmplKey(const json& value, const std::string& field, const std::stri
       throw InvalidArgument(field + "." + name, Shown(value[name]) + " is no list");
     }
     std::vector<double> numbers = Flatten(value[name], field + "." + name);
-    // As they stand there: what turns the world into ours hides an absurd angle.
+    // Checks the raw numbers: turning the world into ours would hide an absurd angle.
     if (name == poses && numbers.size() % 3 == 0) {
       CheckAngles(Eigen::Map<const Eigen::Matrix3Xd>(numbers.data(), 3, std::ssize(numbers) / 3),
                   field + "." + name);

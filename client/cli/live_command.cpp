@@ -60,7 +60,7 @@ std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
   return live::PlaySong(options.song, options.song_start_s);
 }
 
-/// Which key of the keyboard stands for which pose, as wide as a terminal.
+/// The legend of keyboard keys and their poses, as wide as a terminal.
 std::string Legend(const std::vector<LibraryPose>& poses) {
   constexpr size_t kColumns = 4;
   std::ostringstream legend;
@@ -108,10 +108,10 @@ void Run(const LiveCommand& options) {
   }
   if (options.look_ahead_s >= options.ahead_s) {
     throw InvalidArgument("--ahead", InFull(options.ahead_s) +
-                                         " s is not behind what is settled already, --look-ahead " +
+                                         " s is not after what is settled already, --look-ahead " +
                                          InFull(options.look_ahead_s) + " s");
   }
-  // Before a server is started: whoever names the wrong file is told at once.
+  // Before a server is started, so that a wrong file name is reported at once.
   const std::unique_ptr<live::Sound> sound = OpenSound(options);
   const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);
@@ -127,7 +127,7 @@ void Run(const LiveCommand& options) {
   dance.most_keys = connection.server().limits.max_keyframes;
   const double most = connection.server().limits.max_audio_s;
   dance.seconds = std::min(options.seconds.value_or(most), most);
-  // A song that ends before ends the dance.
+  // A shorter song ends the dance.
   const double longest = std::min(dance.seconds, sound->seconds());
   const DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)), model.fps};
   dance.keys = ReadDanceKeys(KeySources(options.keys), length, model.skeleton).poses;
@@ -158,7 +158,7 @@ void Run(const LiveCommand& options) {
   try {
     live.Run(*sound, cues, midi ? &*midi : nullptr);
   } catch (const Error&) {
-    write();  // what came is kept
+    write();  // keeps what has been danced
     throw;
   }
   write();

@@ -28,10 +28,10 @@ constexpr const char* kListens = "choreod listens on ";
 /// In the child: becomes the server. Does not return.
 [[noreturn]] void Become(const std::filesystem::path& program, const std::string& listen,
                          const std::string& model, int to, pid_t parent) {
-  // Whatever happens to us, it does not stay behind. The parent may have died before this line.
+  // The server ends with us in any case. The parent may have died before this line.
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);
-  setpgid(0, 0);  // a terminal's Ctrl-C is for us, who stop it in order
+  setpgid(0, 0);  // a terminal's Ctrl-C goes to us, and we stop the server in order
   dup2(to, STDOUT_FILENO);
   execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning",
         "--drain-seconds", "0", model.empty() ? nullptr : "--model", model.c_str(), nullptr);
@@ -45,7 +45,7 @@ std::filesystem::path LocalServer::Program() {
 }
 
 std::unique_ptr<LocalServer> LocalServer::Start(const std::string& model) {
-  // Who names checkpoints in the environment has named the models.
+  // Checkpoints in the environment determine the models.
   const bool ships = std::ranges::find(kShippedModels, model) != std::end(kShippedModels) &&
                      std::getenv("CHOREO_CHECKPOINT") == nullptr &&
                      std::getenv("CHOREO_MODELS") == nullptr;

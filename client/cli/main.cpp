@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr int kInterrupted = 130;  // as shells say it of Ctrl-C
+constexpr int kInterrupted = 130;  // shells' code for Ctrl-C
 
 int Fail(const std::exception& error) {
   if (choreo::cli::Interruption::Came()) return kInterrupted;
@@ -25,7 +25,7 @@ int Fail(const std::exception& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // What goes wrong is said in our words; gRPC's own log is for who asks for it.
+  // We report errors ourselves; gRPC logs only on request.
   if (std::getenv("GRPC_VERBOSITY") == nullptr) gpr_set_log_function([](gpr_log_func_args*) {});
   CLI::App program{"choreo makes people dance: a song and key poses in, SMPL motion out.",
                    "choreo"};
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {
-    // Help and version come this way too, with code 0.
+    // Help and version end here, too, with code 0.
     return program.exit(error) == 0 ? 0 : choreo::kMisused;
   } catch (const choreo::Error& error) {
     return Fail(choreo::cli::AsTyped(error));

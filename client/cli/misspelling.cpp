@@ -9,10 +9,11 @@
 namespace choreo::cli {
 namespace {
 
-/// Letters that may be wrong in a word of so many; in short ones everything is near.
+/// The number of wrong letters allowed in a word of this length; short words are all near each
+/// other.
 size_t MostEdits(size_t letters) { return letters < 3 ? 0 : letters < 6 ? 1 : 2; }
 
-// Letters put in, left out or changed between two words (Levenshtein).
+// Letters inserted, removed or changed between two words (Levenshtein).
 size_t Edits(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
@@ -28,8 +29,8 @@ size_t Edits(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-/// How far a word is from what it may have meant: none that it begins, as temp begins temperature,
-/// is far. Nothing where it is another word.
+/// The distance of a word from a candidate, if it may be meant: a prefix, as temp of temperature,
+/// is near.
 std::optional<size_t> Distance(const std::string& word, const std::string& known) {
   if (word.size() >= 2 && known.starts_with(word)) return 0;
   const size_t edits = Edits(word, known);
@@ -37,7 +38,7 @@ std::optional<size_t> Distance(const std::string& word, const std::string& known
   return edits;
 }
 
-/// The nearest of what a word may have meant; empty: none is near.
+/// Finds the candidate nearest to a word; empty if none is near.
 class Nearest {
  public:
   explicit Nearest(std::string word) : word_(std::move(word)) {}

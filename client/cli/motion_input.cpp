@@ -13,7 +13,7 @@ void Say(const std::filesystem::path& path, const std::vector<std::string>& note
   static std::set<std::string> said;
   for (const std::string& note : notes) {
     std::string line = "note: " + path.string() + ": " + note;
-    // Beyond the path, which may be anything.
+    // After the path, which may contain anything.
     const size_t option =
         of_convert ? std::string::npos : line.find(" --", line.size() - note.size());
     if (option != std::string::npos) line.insert(option, " choreo convert");

@@ -7,9 +7,9 @@
 /// Motion files that a command reads.
 namespace choreo::cli {
 
-/// As ReadMotion (formats/motion_file.h); what the reading notes stands on stderr, each line once
-/// however often the file is read. Of the options that these lines name, `convert` has all; others
-/// are told so.
+/// As ReadMotion (formats/motion_file.h). Prints its notes to stderr, each line once even if the
+/// file is read again. Only `convert` has all the options that notes name; for other commands the
+/// note says so.
 SkeletonMotion ReadMotionNoting(const std::filesystem::path& path);
 SkeletonMotion ReadMotionNoting(const std::filesystem::path& path, MotionReading reading);
 Motion ReadMotionNoting(const std::filesystem::path& path, const Skeleton& skeleton,

@@ -18,7 +18,7 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   Music music;
   music.audio = DecodeSong(path, seconds + kTempoWindowSeconds, start);
   if (music.audio.interleaved.empty()) {
-    throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
+    throw InvalidArgument("--song-start", InFull(start) + " s is after the end of " +
                                               path.string() + " at " + Rounded(music.audio.end_s) +
                                               " s");
   }
@@ -37,7 +37,7 @@ std::vector<double> BeatsBefore(const Music& music, double seconds) {
   return beats;
 }
 
-void TellMusic(const Music& music, double seconds, client::DanceConfig* config) {
+void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config) {
   if (config->music_beats.empty()) {
     config->music_beats = BeatsBefore(music, seconds);
     config->music_downbeats = music.track.DownbeatSeconds();

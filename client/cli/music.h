@@ -36,7 +36,7 @@ std::vector<double> BeatsBefore(const Music& music, double seconds);
 
 /// Sets these beats with their downbeats, the passages before `seconds`, and the music's id. Keeps
 /// beats that the configuration already has, as far as they are before `seconds`.
-void TellMusic(const Music& music, double seconds, client::DanceConfig* config);
+void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config);
 
 /// The samples to send for a dance of `seconds`: the song's beginning.
 client::Audio AudioFor(const DecodedAudio& song, double seconds);

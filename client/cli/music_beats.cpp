@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTempoSlack = 1.06;  // either way: a semitone
 constexpr int kUsualBar = 4;
-constexpr double kMostSeconds = 1e6;  // of a song that only a part of is danced to
+constexpr double kMostSeconds = 1e6;  // of a song, of which the dance may use only a part
 constexpr std::streamsize kLongestLine = 1000;
 
 /// Counts from beat `first` on, and backwards before it.
@@ -32,11 +32,11 @@ void CountFrom(int64_t first, BeatTrack* track) {
   }
 }
 
-/// Counts what is not counted on from what is.
+/// Continues the count from counted beats to the others.
 void CountOn(BeatTrack* track) {
   const std::vector<int> told = track->in_bar;
   const auto first = std::ranges::find_if(told, [](int count) { return count >= 0; });
-  // Of downbeats alone the bar is as long as from one to the next.
+  // With downbeats only, a bar lasts from one to the next.
   if (track->beats_in_bar == 1) {
     const auto second = std::find(first + 1, told.end(), 0);
     if (second != told.end()) track->beats_in_bar = static_cast<int>(second - first);
@@ -51,10 +51,10 @@ size_t FirstDownbeat(const BeatTrack& track) {
   return first == track.in_bar.end() ? 0 : static_cast<size_t>(first - track.in_bar.begin());
 }
 
-/// A line of a file of beats: its second and, where it is known, its count in the bar.
+/// A line of a beat file: the second and, if known, the count in the bar.
 struct BeatLine {
   double second = 0;
-  int count = 0;  // 0: not known
+  int count = 0;  // 0: unknown
 };
 
 BeatLine ParseBeat(const std::string& line, const std::string& field) {
@@ -97,7 +97,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
     const BeatLine beat = ParseBeat(text, field);
     if (beat.second - last < 1 / kOnsetRate) {
-      throw InvalidArgument(field, InFull(beat.second) + " s does not lie behind the beat before " +
+      throw InvalidArgument(field, InFull(beat.second) + " s does not come after the beat before " +
                                        "it, at " + InFull(last) + " s");
     }
     last = beat.second;
@@ -112,12 +112,12 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     counted = counted && beat.count > 0;
   }
   if (track.frames.empty())
-    throw InvalidArgument("--beats", path + " has no beat behind second " + InFull(start));
+    throw InvalidArgument("--beats", path + " has no beat after second " + InFull(start));
   if (!counted) CountOn(&track);
   return track;
 }
 
-/// Every second beat is left out, those that the downbeats are among stay.
+/// Drops every second beat and keeps the half that contains the downbeats.
 void Halve(BeatTrack* track) {
   BeatTrack half{.beats_in_bar = track->beats_in_bar};
   const size_t first = FirstDownbeat(*track);
@@ -179,10 +179,10 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("--downbeat", InFull(*options.downbeat_s) +
-                                            " s lies behind the song's end at " +
+                                            " s is after the song's end at " +
                                             Rounded(start + end) + " s");
   }
-  // What lies behind the song's end is no beat of it.
+  // Drops beats after the song's end.
   while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
     track.frames.pop_back();
     track.in_bar.pop_back();

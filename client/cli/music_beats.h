@@ -11,7 +11,7 @@ namespace choreo::cli {
 
 inline constexpr int kMostInBar = 16;  ///< that people count to
 
-/// Beat settings of people who know better than the tracker.
+/// Options that override the beat tracker.
 struct BeatOptions {
   std::string beats = "auto";  ///< or the name of a file
   std::optional<double> tempo_bpm = {};
@@ -24,7 +24,7 @@ struct BeatOptions {
 /// --beats, --tempo, --half-time, --double-time, --downbeat.
 void AddBeatOptions(CLI::App& command, BeatOptions* options);
 
-/// A song's beats from second `start` on, found or read, as the options say. Throws
+/// A song's beats from second `start` on, found or read, depending on the options. Throws
 /// Error(kInvalidArgument), whose field is an option or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
 

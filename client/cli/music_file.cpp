@@ -18,7 +18,7 @@
 namespace choreo::cli {
 namespace {
 
-/// A file in memory that ends with its owner.
+/// A file in memory, freed with its owner.
 class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("choreo", MFD_CLOEXEC)) {
@@ -35,8 +35,9 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Whether ffmpeg is there and could write `path` as WAV into `wav`: from the container's second 0
-/// on, as players show it, also where the sound begins later. Into `log` goes what it says.
+/// Has ffmpeg convert `path` to WAV in `wav`, from the container's second 0 on, as players do, even
+/// if the sound begins later. Writes its messages to `log`. Returns false if there is no ffmpeg or
+/// it fails.
 bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
                      const MemoryFile& log) {
   const std::string input = "file:" + path.string();  // a name, whatever it looks like
@@ -73,10 +74,10 @@ bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// What ffmpeg says of its input.
+/// ffmpeg's description of its input.
 struct FfmpegSays {
-  int tracks = 0;          ///< of sound
-  std::string error = {};  ///< the first, or none
+  int tracks = 0;          ///< of audio
+  std::string error = {};  ///< the first one, or empty
 };
 
 FfmpegSays Listen(const MemoryFile& log) {
@@ -109,7 +110,7 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
   }
   try {
     DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start);
-    // Into a pipe it can't write the length.
+    // ffmpeg cannot write the length into a pipe.
     audio.notes = {"read by ffmpeg"};
     if (!says.error.empty()) {
       audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + says.error);
@@ -132,7 +133,7 @@ DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, doubl
   try {
     audio = DecodeAudioFile(path, seconds, start);
   } catch (const Error& error) {
-    // The refusal names the command; where it can be had, it is had.
+    // The refusal suggests ffmpeg; try it if it is installed.
     if (error.code() != ErrorCode::kInvalidArgument ||
         std::string_view(error.what()).find(kAskFfmpeg) == std::string_view::npos)
       throw;

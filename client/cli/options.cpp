@@ -14,7 +14,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Empty where the text is a finite number that `holds`.
+/// Returns an empty string for a finite number that satisfies `holds`.
 template <typename Predicate>
 CLI::Validator NumberThat(const std::string& limit, const std::string& name,
                           const Predicate& holds) {

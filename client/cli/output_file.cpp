@@ -25,7 +25,7 @@ void RequireWritable(const NamedFile& file) {
   const fs::file_type there = fs::status(file.path, error).type();
   if (there == fs::file_type::none) refuse(error.message());
   if (there == fs::file_type::directory) throw InvalidArgument(file.option, name + " is a folder");
-  // Trying is the only question that has a sure answer; nothing is left behind.
+  // Only trying gives a reliable answer; leaves no file behind.
   const auto open = [&](const fs::path& path) {
     errno = 0;
     if (!std::ofstream(path, std::ios::app).is_open()) refuse(std::strerror(errno));
@@ -35,7 +35,7 @@ void RequireWritable(const NamedFile& file) {
   open(beside.partial());
 }
 
-/// Files that are there are one by whatever names; others, by what their names come to.
+/// Compares existing files themselves, and others by their resolved names.
 bool SameFile(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return fs::is_regular_file(a, error);

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kFarthest = 10;          // metres of a landmark from the hips
+constexpr double kFarthest = 10;          // metres from the hips to a landmark
 constexpr double kNearlyRotation = 0.05;  // of a matrix's rows
 
 double Within(const json& value, const std::string& field, double from, double to) {
@@ -76,14 +76,14 @@ class Numbers {
   json json_;
 };
 
-/// Of axis-angle vectors or matrices; `joints` may be anything up to `most`.
+/// From axis-angle vectors or matrices; `joints` may be anything up to `most`.
 std::vector<Eigen::Matrix3d> Rotations(const std::vector<double>& numbers, int least, int most,
                                        const std::string& field) {
   const auto count = static_cast<int>(numbers.size());
   const auto fits = [&](int width) {
     return count % width == 0 && count / width >= least && count / width <= most;
   };
-  // 24 matrices are 216 numbers, which no body of SMPL's has as vectors.
+  // 216 numbers are 24 matrices: no SMPL body has that many vectors.
   const bool matrices = fits(9);
   if (!matrices && !fits(3)) {
     throw InvalidArgument(field, std::to_string(count) + " numbers, must be " +

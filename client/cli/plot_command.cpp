@@ -21,7 +21,7 @@ namespace choreo::cli {
 namespace {
 
 constexpr double kCentimetre = 100;   // of a metre
-constexpr double kSmoothing_s = 0.5;  // over which speeds are means
+constexpr double kSmoothing_s = 0.5;  // window for averaging speeds
 
 struct PlotOptions {
   std::string of;
@@ -207,7 +207,7 @@ void Run(PlotOptions& options) {
     if (i < asked) {
       PlotSeries wanted = part ? LevelOf(options.speeds[i], line)
                                : AskedOf(options.paths[i], dance.motion.fps, height);
-      // One for all stands ahead of them.
+      // A common one comes first.
       if (asked < motions) plot.series.push_back(std::move(wanted));
       plot.series.push_back(std::move(line));
       if (asked == motions) plot.series.push_back(std::move(wanted));

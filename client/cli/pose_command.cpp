@@ -46,7 +46,7 @@ struct SheetSize {
   int tile_width, tile_height;  // pixels
 };
 
-/// A sheet of poses that have captions in place of times.
+/// Draws a sheet of poses with captions instead of times.
 void Draw(const std::vector<Pose>& poses, const std::vector<std::string>& captions,
           const std::string& title, const SheetSize& size, const std::string& png) {
   ContactSheetOptions sheet;
@@ -59,7 +59,7 @@ void Draw(const std::vector<Pose>& poses, const std::vector<std::string>& captio
   DrawContactSheet({{Body(), {.fps = 1, .frames = poses}}}, sheet, png);
 }
 
-/// All sides of a pose: three quarters from its front, from its left, and from behind.
+/// Draws a pose from three sides: three quarters from its front, from its left, and from behind.
 void DrawAround(const client::KeyPose& key, const std::string& png) {
   const GroundFrame place = GroundFrame::Of(key.pose);
   std::vector<Pose> sides;

@@ -17,7 +17,7 @@ std::string VectorText(const Eigen::Vector3d& vector) {
   std::ostringstream text;
   const char* before = "[";
   for (const double value : vector) {
-    // Without the minus of a zero.
+    // Avoids "-0".
     text << before << std::round(value * 1e4) / 1e4 + 0.0;
     before = ", ";
   }

@@ -11,7 +11,7 @@ namespace choreo::cli {
 struct NamedPose {
   client::KeyPose key;
   bool has_place = true;  ///< false for library poses, which are around the origin, facing +Z
-  /// Keys that hold it, if a key file says so, with times relative to its own.
+  /// Keys that hold it, if given by a key file, with times relative to its own.
   std::vector<client::KeyPose> held = {};
 };
 

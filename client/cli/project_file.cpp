@@ -35,7 +35,7 @@ bool IsCount(const json& value) {
   return IsFrameNumber(value) && value.get<uint64_t>() >= 1 && value.get<uint64_t>() <= kMostInBar;
 }
 
-/// The seconds of [[0.52, 1], [1.02, 2], ...]; how they are counted is for people.
+/// The seconds of [[0.52, 1], [1.02, 2], ...]; the counts are for people.
 std::vector<double> Beats(const json& list, const std::string& field) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
   std::vector<double> out;
@@ -51,7 +51,7 @@ std::vector<double> Beats(const json& list, const std::string& field) {
   return out;
 }
 
-/// "left_arm=1.5" of each part, unless all are as usual.
+/// "left_arm=1.5" for each part, unless all have the usual factor.
 std::vector<std::string> Velocities(const json& lively, const std::string& field) {
   if (!lively.is_object()) throw InvalidArgument(field, Shown(lively) + " is no object");
   std::vector<std::string> out;
@@ -68,7 +68,7 @@ std::vector<std::string> Velocities(const json& lively, const std::string& field
       throw InvalidArgument(field + "." + member, message.str());
     }
     as_usual = as_usual && factor == 1;
-    out.push_back(part + '=' + value.dump());  // every digit of it
+    out.push_back(part + '=' + value.dump());  // all digits
   }
   return as_usual ? std::vector<std::string>{} : out;
 }
@@ -83,7 +83,7 @@ Project ParseProject(const json& file, const std::string& name) {
     throw InvalidArgument(name + ":studio", "is format " + Shown(file["studio"]) + ", known is " +
                                                 std::to_string(kFormat));
   }
-  // song_data: of the studio's messages, whose song comes along (studio/project_calls).
+  // song_data: only in the studio's messages, which contain the song (studio/project_calls).
   CheckFileMembers(
       file, name,
       {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics", "variation",
@@ -113,7 +113,8 @@ Project ParseProject(const json& file, const std::string& name) {
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
                                              std::to_string(kMostInBar));
   }
-  if (file.contains("lively")) project.controls.velocities = Velocities(file["lively"], name + ":lively");
+  if (file.contains("lively"))
+    project.controls.velocities = Velocities(file["lively"], name + ":lively");
   if (file.contains("path")) {
     if (!file["path"].is_object())
       throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");

@@ -35,7 +35,7 @@ struct RenderOptions {
   VideoOptions film;
 };
 
-/// Seconds at which a dance's report has its keys.
+/// The seconds of the keys in a dance's report.
 std::vector<double> KeyTimes(const std::string& path) {
   const auto report = ReadReport(path);
   std::vector<double> times;
@@ -44,7 +44,7 @@ std::vector<double> KeyTimes(const std::string& path) {
   return times;
 }
 
-/// All at the first one's rate.
+/// All motions at the first one's rate.
 Stage ReadStage(const std::vector<std::string>& paths) {
   Stage stage;
   for (const std::string& path : paths) {
@@ -78,7 +78,7 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<doub
                   &end) != 2) {
     throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in " + SizeText({}));
   }
-  // Nothing is filmed to a song that is over.
+  // Fails if the song is over before the film.
   if (film.format.song_start_s > 0) ReadMusic(film.format.song, 1, film.format.song_start_s);
   std::unique_ptr<ProgressBar> bar;
   film.on_frame = [&](int64_t frames) {
@@ -97,7 +97,7 @@ void Run(const RenderOptions& options) {
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
   if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
   if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
-  const Interruption interruption;  // from here on there may be half a file to take away
+  const Interruption interruption;  // from here on there may be an incomplete file to remove
   std::vector<NamedFile> inputs = {{"--report", options.report},
                                    {"--song", options.film.format.song}};
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});

@@ -21,7 +21,7 @@ std::string Format(const char* format, Values... values) {
   return text;
 }
 
-/// What became of the keys: in the file, and, of those between its frames, in the dance.
+/// How keys were met: in the file and, for those between its frames, in the dance.
 std::string KeysText(const WrittenDance& dance) {
   struct Worst {
     size_t keys = 0;
@@ -48,7 +48,7 @@ std::string KeysText(const WrittenDance& dance) {
       near.Add(key, key.error.position_m, key.error.angle_deg);
       between.Add(key, key.reached.final_error_m, key.reached.final_error_deg);
     }
-    // On the way into a pose that is held already there is next to nothing to correct.
+    // A pose that is already held needs almost no correction.
     if (key.holds.empty()) raw += key.reached.raw_error_m / static_cast<double>(keys);
     correction = std::max(correction, key.reached.correction_m);
   }

@@ -12,7 +12,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Becomes choreod: signals, output and exit code are its own.
+/// Becomes choreod, which then handles signals, output and exit code.
 void Run(std::vector<std::string> options) {
   const std::string program = LocalServer::Program().string();
   std::vector<char*> arguments = {const_cast<char*>("choreod")};

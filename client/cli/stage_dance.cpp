@@ -24,7 +24,7 @@ fs::path PathOf(const Dancer& dancer, const fs::path& path) {
 
 bool HoldsAll(const fs::path& out) { return SmallExtension(out) == ".glb"; }
 
-/// How the dancer dances: what she says, and else as all.
+/// A dancer's options: her own, and the common ones for the rest.
 DanceOptions OwnOptions(const DanceOptions& options, const Dancer& dancer,
                         const std::string& field) {
   DanceOptions own = options;
@@ -39,14 +39,14 @@ bool SameDance(const DanceOptions& a, const DanceOptions& b) {
   return a.seed == b.seed && a.style == b.style && a.keys == b.keys;
 }
 
-/// A dance and who dance it.
+/// A dance and its dancers.
 struct Shared {
   DanceOptions options;
   std::string names;
   Performance performance;
 };
 
-/// Dances what differs, once each; of each dancer the number of her dance.
+/// Performs each different dance once; returns the index of each dancer's dance.
 std::vector<Shared> PerformAll(const DanceOptions& options, const Dancers& stage,
                                const std::optional<Music>& music, const Connection& connection,
                                const fs::path& out, std::vector<size_t>* dance_of) {
@@ -69,7 +69,7 @@ std::vector<Shared> PerformAll(const DanceOptions& options, const Dancers& stage
   return dances;
 }
 
-/// What is known of a dance that comes later: keys behind the end are danced no more.
+/// Delays a dance's keys and beats; drops keys after the end.
 WrittenDance Later(WrittenDance written, int64_t delay) {
   const auto move = [&](int64_t& frame) { frame += delay; };
   const int64_t in_file =
@@ -82,9 +82,9 @@ WrittenDance Later(WrittenDance written, int64_t delay) {
   return written;
 }
 
-/// Moves dancers apart where they would come too near, and says how near they are.
-void TellApart(const Dancers& stage, const Skeleton& skeleton,
-               std::vector<client::FinishedDance>* dances) {
+/// Moves dancers apart where they would come too near, and prints how near they are.
+void SeparateDancers(const Dancers& stage, const Skeleton& skeleton,
+                     std::vector<client::FinishedDance>* dances) {
   const auto [factor, nearest] = KeepApart(stage.dancers, stage.apart, skeleton, dances);
   if (!nearest) return;
   std::cout << "least distance between bodies: " << Rounded(nearest->distance.metres) << " m, "
@@ -137,7 +137,7 @@ void DanceTogether(const DanceOptions& options, const Dancers& stage,
     dances.push_back(OnStage(skeleton, stage.dancers[i], {danced.motion, danced.contacts},
                              std::llround(seconds * danced.motion.fps)));
   }
-  TellApart(stage, skeleton, &dances);
+  SeparateDancers(stage, skeleton, &dances);
   const std::vector<fs::path> outputs = OutputsOf(stage, out);
   if (HoldsAll(out)) {
     std::vector<NamedMotion> motions;

@@ -43,7 +43,7 @@ struct TransitionOptions {
   std::string report;
 };
 
-/// The best one's is `out`; the others' are FILE.2, FILE.3 and so on.
+/// `out` for the best candidate; FILE.2, FILE.3 and so on for the others.
 std::filesystem::path CandidatePath(const std::filesystem::path& out, size_t rank) {
   if (rank == 0) return out;
   std::filesystem::path path = out;
@@ -95,13 +95,13 @@ void Run(const TransitionOptions& options) {
                                 {request.config.first_frame + options.frames, model.fps});
   request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
-  // More of a deterministic model would all be the same.
+  // A deterministic model's candidates would all be equal.
   request.candidates = model.deterministic ? 1 : options.candidates;
   if (options.rank_by == "likelihood") request.rank_by = client::RankBy::kLikelihood;
   const NamedPose to = ReadPose(options.to, model.skeleton);
   client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it
-  // Where the dancer is in a pose of the library, the path says.
+  // For a library pose the path sets the place.
   if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
   request.target = target.pose;
   request.target_mask = target.mask;
@@ -110,11 +110,11 @@ void Run(const TransitionOptions& options) {
     const Music music = ReadMusic(options.song, end_s);
     const client::Audio song = AudioFor(music.audio, end_s);
     if (options.at_s >= Seconds(song)) {
-      throw InvalidArgument("--at", InFull(options.at_s) + " s lies behind the song's end at " +
+      throw InvalidArgument("--at", InFull(options.at_s) + " s is after the song's end at " +
                                         InFull(Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
-    TellMusic(music, end_s, &request.config);
+    ConfigureMusic(music, end_s, &request.config);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   ShowWarnings(result.warnings);

@@ -16,7 +16,7 @@ constexpr double kMaxFactor = kMaxVelocityFactor;
 constexpr double kMaxSpeed = 100 * double{kMaxVelocity};  // centimetres a frame
 constexpr std::string_view kCentimetres = "cm";
 
-/// The body parts that a name stands for: one, both arms or legs, or all.
+/// The body parts with this name: one, both arms or legs, or all.
 std::vector<size_t> PartsOf(std::string_view name) {
   std::vector<size_t> parts;
   for (size_t i = 0; i < kBodyParts; ++i) {
@@ -43,7 +43,7 @@ bool IsWithinLimits(double value, bool speeds) {
   return value >= 0 && value <= (speeds ? kMaxSpeed : kMaxFactor);
 }
 
-/// What is asked, part by part.
+/// Collects the values asked for, part by part.
 class Asked {
  public:
   explicit Asked(double fps) : fps_(fps) {}
@@ -140,9 +140,9 @@ class Asked {
   }
 
   const double fps_;
-  std::optional<bool> speeds_;                                         // else multipliers
-  std::vector<int64_t> frames_;                                        // of a file's points
-  std::array<std::optional<std::vector<double>>, kBodyParts> values_;  // one, or one a point
+  std::optional<bool> speeds_;                                         // false: multipliers
+  std::vector<int64_t> frames_;                                        // the file's points
+  std::array<std::optional<std::vector<double>>, kBodyParts> values_;  // one, or one per point
 };
 
 }  // namespace

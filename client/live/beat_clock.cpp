@@ -37,7 +37,7 @@ std::optional<double> BeatClock::Period(double now) const {
   return Step();
 }
 
-double BeatClock::AtOrBehind(double seconds, double now) const {
+double BeatClock::AtOrAfter(double seconds, double now) const {
   const std::optional<double> period = Period(now);
   if (!period) return seconds;
   const double last = beats_.back().time_s;

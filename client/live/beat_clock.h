@@ -16,7 +16,7 @@ class BeatClock {
   std::optional<double> Period(double now) const;
   double confidence() const { return beats_.empty() ? 0 : beats_.back().confidence; }
   /// The first beat at or after `seconds`; `seconds` itself without a period.
-  double AtOrBehind(double seconds, double now) const;
+  double AtOrAfter(double seconds, double now) const;
 
  private:
   std::optional<double> Step() const;  // the median

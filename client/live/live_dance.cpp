@@ -135,9 +135,9 @@ void LiveDance::Follow(const Cue& cue, double now) {
     const std::lock_guard lock(mutex_);
     clock = clock_;
   }
-  double at = clock.AtOrBehind(now + ahead, now);
+  double at = clock.AtOrAfter(now + ahead, now);
   while (const std::optional<int64_t> near = KeyNear(FrameAt(at)))
-    at = clock.AtOrBehind(static_cast<double>(*near + 1) / model_.fps + kLeastWaySeconds, now);
+    at = clock.AtOrAfter(static_cast<double>(*near + 1) / model_.fps + kLeastWaySeconds, now);
   if (at > now + ahead + kMostAheadSeconds)
     return Refuse(Rounded(kMostAheadSeconds) + " s of poses wait already");
   {
@@ -168,9 +168,9 @@ void LiveDance::Refuse(const std::string& reason) {
 // The last key that is too near to another at this frame.
 std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
   const int64_t least = FrameAt(kLeastWaySeconds);
-  const auto behind = keys_.upper_bound(frame + least);
-  if (behind == keys_.begin() || std::prev(behind)->first < frame - least) return std::nullopt;
-  return std::prev(behind)->first;
+  const auto after = keys_.upper_bound(frame + least);
+  if (after == keys_.begin() || std::prev(after)->first < frame - least) return std::nullopt;
+  return std::prev(after)->first;
 }
 
 void LiveDance::TakeBack() {

@@ -46,7 +46,7 @@ class PlayedSong final : public Sound {
 std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start) {
   DecodedAudio song = DecodeAudioFile(path, std::numeric_limits<double>::infinity(), start);
   if (song.interleaved.empty()) {
-    throw InvalidArgument("--song-start", InFull(start) + " s lies behind the end of " +
+    throw InvalidArgument("--song-start", InFull(start) + " s is after the end of " +
                                               path.string() + " at " + Rounded(song.end_s) + " s");
   }
   return std::make_unique<PlayedSong>(std::move(song));

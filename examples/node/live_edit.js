@@ -40,7 +40,7 @@ async function* requests(options, model) {
   for await (const piece of live(clicks(seconds), positive(options, 'speed'))) {
     const played = (piece.audio.first_sample + piece.audio.data.length / 2) / sampleRate;
     while (waiting.length > 0 && waiting[0].at <= played) yield waiting.shift().request;
-    // What is nearer than this is settled; what lies behind may still change.
+    // What is nearer than this is settled; what is after may still change.
     yield { generate_until: { frame: frameAt(played + lookAhead) } };
     yield piece;
   }

@@ -37,7 +37,7 @@ def requests(options, model):
         played = (piece.first_sample + len(piece.data) // 2) / RATE
         while waiting and waiting[0][0] <= played:
             yield waiting.pop(0)[1]
-        # What is nearer than this is settled; what lies behind may still change.
+        # What is nearer than this is settled; what is after may still change.
         yield {"generate_until": choreography.GenerateUntil(frame=round((played + LOOK_AHEAD) * model.model_frame_rate))}
         yield {"audio": piece}
     yield {"end_of_audio": choreography.EndOfAudio()}

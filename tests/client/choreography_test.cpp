@@ -55,7 +55,7 @@ TEST(ChoreographyTest, CountsOnBeforeTheFirstBeatAndWithoutAny) {
   EXPECT_EQ(silent.size(), 6U);
 }
 
-TEST(ChoreographyTest, PutsNoKeyBehindTheLastFrame) {
+TEST(ChoreographyTest, PutsNoKeyAfterTheLastFrame) {
   // The beat of 8.8889 s and the end of 8.889 s are the same frame.
   const auto beats = EvenBeats(0, 1.0 / 2.25, 40);
   const auto keys = ComposeKeys({.seconds = 8.889, .beats = beats, .seed = 5}, PoseLibrary());

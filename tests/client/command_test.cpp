@@ -73,7 +73,7 @@ TEST_F(CommandTest, ATransitionHearsItsPartOfALongSong) {
     return ReadMotion(folder_ / name, Body()).frames[15].rotations.eval();
   };
   std::string silence = ReadFile(folder_ / "song.wav");
-  std::fill(silence.begin() + 44, silence.end(), '\0');  // behind its header
+  std::fill(silence.begin() + 44, silence.end(), '\0');  // after its header
   WriteFile(folder_ / "silence.wav", silence);
   EXPECT_NE(move("heard.npz", " --song " + At("song.wav")),
             move("silent.npz", " --song " + At("silence.wav")));
@@ -141,7 +141,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   EXPECT_THAT(Choreo(analyze + "2 --from 7 --until 3").said,
               HasSubstr("--from: 7 s is not before --until, 3 s"));
   EXPECT_THAT(Choreo(analyze + "2 --from 12.5").said,
-              HasSubstr("--from: 12.5 s lies behind the song's end at 12 s"));
+              HasSubstr("--from: 12.5 s is after the song's end at 12 s"));
   // Between two moments, counting the beats of the whole song.
   const nlohmann::json part =
       nlohmann::json::parse(Choreo(analyze + "2 --from 3 --until 7 --json").said)["suggested_keys"];

@@ -130,7 +130,7 @@ TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
   refused("{}", "v.json: has no list \"factors\"");
   refused(R"({"factors": [{"time": 0}]})", "v.json:factors[0]: names no part of the body");
   refused(R"({"factors": [{"time": 20, "arms": 1}]})",
-          "v.json:factors[0]: the velocities' first point at 20 s lies behind the dance's end: "
+          "v.json:factors[0]: the velocities' first point at 20 s is after the dance's end: "
           "its last frame is at 3.97 s");
   refused(R"({"speeds": [{"frame": 120, "arms": 1}]})", "v.json:speeds[0]: the velocities' first");
   Write("v.json", R"({"factors": [{"time": 0, "arms": 1}]})");
@@ -316,21 +316,21 @@ TEST_F(ControlledCommandTest, WhatIsNoPathFileIsRefused) {
   ExpectRefused("--path " + At("path.json"), "path.json:points: is there twice");
   Write("path.json", "{" + points + "}");
   ExpectRefused("--seconds 10 --path " + At("path.json"),
-                "path.json:points[0]: the path's first point at 20 s lies behind the dance's end: "
+                "path.json:points[0]: the path's first point at 20 s is after the dance's end: "
                 "its last frame is at 9.97 s");
   Write("v.json", R"({"factors": [{"time": 20, "arms": 1}]})");
   const std::string transition = "transition" + Walker() + "--from groove --to kick --at 18 ";
   for (const std::string& controls : {"--path " + At("path.json"), "--velocity " + At("v.json")}) {
     const Outcome late = Choreo(transition + "-n 60 " + controls + " -o " + At("t.npz"));
     EXPECT_EQ(late.code, 1);
-    EXPECT_THAT(late.said, HasSubstr("first point at 20 s lies behind the dance's end: its last "
+    EXPECT_THAT(late.said, HasSubstr("first point at 20 s is after the dance's end: its last "
                                      "frame is at 19.97 s"));
     const Outcome begun = Choreo(transition + "-n 61 " + controls + " -o " + At("t.npz"));
     EXPECT_EQ(begun.code, 0) << begun.said;
     const Outcome edit = Choreo("edit" + Walker() + At("t.npz") + " --key groove --at 1 " +
                                 controls + " -o " + At("e.npz"));
     EXPECT_EQ(edit.code, 1);
-    EXPECT_THAT(edit.said, HasSubstr("lies behind the dance's end: its last frame is at 2 s"));
+    EXPECT_THAT(edit.said, HasSubstr("is after the dance's end: its last frame is at 2 s"));
   }
 }
 

@@ -136,7 +136,7 @@ TEST_F(CommandTest, BeginsWhereTheSongIsToBegin) {
   EXPECT_EQ(ReadMotion(folder_ / "d.npz", Body()).frames.size(), 105U);
   const Outcome late = Choreo("dance --song-start 7 " + At("song.wav") + Server());
   EXPECT_EQ(late.code, 1);
-  EXPECT_THAT(late.said, HasSubstr("--song-start: 7 s lies behind the end of"));
+  EXPECT_THAT(late.said, HasSubstr("--song-start: 7 s is after the end of"));
   for (const std::string& without :
        {"dance --seconds 2" + Server(), "edit --loop " + At("d.npz") + " -o " + At("e.npz"),
         "render --video " + At("d.mp4") + " " + At("d.npz"), "live" + Server()}) {
@@ -152,7 +152,7 @@ TEST_F(CommandTest, AKeyAtTheVeryEndIsDancedOnTheLastFrame) {
   const std::string dance = "dance -k " + At("keys.json") + Server() + "-o " + At("d.npz");
   ASSERT_EQ(Choreo(dance + " --seconds 3 --report " + At("r.json")).code, 0);
   EXPECT_EQ(ReadJson(folder_ / "r.json")["keyframes"][1]["frame"], 89);
-  EXPECT_THAT(Choreo(dance + " --seconds 2.9").said, HasSubstr("lies behind the dance's end"));
+  EXPECT_THAT(Choreo(dance + " --seconds 2.9").said, HasSubstr("is after the dance's end"));
 }
 
 TEST_F(CommandTest, TheSameSeedWritesTheSameBytes) {

@@ -132,11 +132,11 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   refused("-k " + At("close.json"), "key \"late\"");
   write("beyond.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 12)");
   refused("-k " + At("beyond.json"),
-          "beyond.json:keyframes[1].time: key \"b\" at 12 s lies behind the dance's end: its last "
+          "beyond.json:keyframes[1].time: key \"b\" at 12 s is after the dance's end: its last "
           "frame is at 3.97 s");
   // Those that hold a pose are written as its hold.
   write("held.json", R"("id": "a", "time": 1, "hold": 1)", R"("id": "b", "time": 12)");
-  refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s lies behind");
+  refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s is after");
   write("long.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2, "hold": 4)");
   refused("-k " + At("long.json"), "long.json:keyframes[1].hold: key \"b held 10\" at 4 s lies");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
@@ -252,7 +252,7 @@ TEST_F(CommandTest, RefusesNumbersThatAreNone) {
               HasSubstr("--frames: 2000 is not in [1, 1800], what the model \"fake\" can make"));
   const Outcome late = Choreo(transition + " --at 100 --song " + At("song.wav") + Server());
   EXPECT_EQ(late.code, 1);
-  EXPECT_THAT(late.said, HasSubstr("--at: 100 s lies behind the song's end at 3 s"));
+  EXPECT_THAT(late.said, HasSubstr("--at: 100 s is after the song's end at 3 s"));
 }
 
 }  // namespace choreo::dance_refusals_test

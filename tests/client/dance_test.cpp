@@ -199,7 +199,7 @@ TEST(DanceTest, CanBeAbandoned) {
 }
 
 /// Dances through FourKeys, two of which are sent when `between` was called after the continuation
-/// behind the second key.
+/// after the second key.
 struct SteeredDance {
   Motion motion;
   std::vector<std::string> reached;

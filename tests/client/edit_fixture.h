@@ -35,7 +35,7 @@ inline double LargestAcceleration(const Motion& motion, size_t first, size_t las
   return largest;
 }
 
-/// Rows of an array in two files that differ in any bit: the first, and the one behind the last.
+/// Rows of an array in two files that differ in any bit: the first, and the one after the last.
 inline std::pair<size_t, size_t> ChangedRows(const std::filesystem::path& a,
                                              const std::filesystem::path& b,
                                              const std::string& key) {

@@ -39,7 +39,7 @@ TEST(EditLibraryTest, HearsTheMusicAroundTheKeyAlone) {
   EXPECT_NE(heard.motion.frames[5980].rotations, silent.motion.frames[5980].rotations);
   EXPECT_EQ(heard.motion.frames[6050].rotations, silent.motion.frames[6050].rotations);
 
-  // Behind the song's end the dancer hears silence.
+  // After the song's end the dancer hears silence.
   edit.key.frame = 6900;
   edit.from = 6850;
   edit.to = 6950;

@@ -190,7 +190,7 @@ TEST_F(EditTest, SaysWhatCannotBe) {
                    "s, must be 0.067 to 59.97 s: 2 to 1799 frames");
   }
   expect_failure("--key kick --at 11",
-                 "11 s lies behind the dance, which has its last frame at 9.97 s");
+                 "11 s is after the dance, which has its last frame at 9.97 s");
   expect_failure("--key kick --at " + Seconds(keys_[1] + 1) + " --report " + At("report.json"),
                  "s lies 1 frame from the key at ");
   expect_failure(

@@ -302,7 +302,7 @@ TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
     ExpectError(ErrorCode::kInvalidArgument, "is not a time, 0 to 1e+09 seconds",
                 [&] { ReadKeys(path_ + "@" + times, Body()); });
   }
-  ExpectError(ErrorCode::kInvalidArgument, "second 3.5 lies behind the motion's end at 3",
+  ExpectError(ErrorCode::kInvalidArgument, "second 3.5 is after the motion's end at 3",
               [&] { ReadKeys(path_ + "@3.5", Body()); });
   ExpectError(ErrorCode::kInvalidArgument, "say which poses", [&] { ReadKeys(path_, Body()); });
   ExpectError(ErrorCode::kNotFound, "absent.json", [&] { ReadKeys("absent.json", Body()); });

@@ -7,6 +7,6 @@ export CHOREOD=$1
 exec 3< <(exec "$1" --listen 127.0.0.1:0 ${SERVED:+--model $SERVED})
 server=$!
 trap 'kill "$server"; wait "$server" || true' EXIT
-until [[ ${line:-} == *"listens on "* ]]; do read -r line <&3; done # "choreod listens on HOST:PORT", behind what it logs
+until [[ ${line:-} == *"listens on "* ]]; do read -r line <&3; done # "choreod listens on HOST:PORT", after what it logs
 export CHOREO_SERVER=${line##* }
 "${@:2}"

@@ -35,7 +35,7 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   key.pose.rotations =
       Eigen::Map<const Eigen::Matrix3Xf>(kick.pose().rotations().data(), 3, 24).cast<double>();
   client::DanceConfig config{.seed = 7, .frames = 120};
-  cli::TellMusic(song.music, song.heard.seconds(), &config);
+  cli::ConfigureMusic(song.music, song.heard.seconds(), &config);
   const client::DanceResult own = studio.context().client().Dance(config, {key}, song.audio);
   ASSERT_EQ(own.motion.frames.size(), 120U);
   for (int frame = 0; frame < 120; ++frame) {

@@ -35,7 +35,7 @@ TEST_F(StudioTest, HearsASongAndComposesOnItsBeats) {
   compose.mutable_compose()->add_beats(5.1);
   const Response few = page.Ask(compose);
   ASSERT_GE(few.keyframes().keyframes_size(), 2) << few.failure().message();
-  // Behind the last of them they go on as before.
+  // After the last of them they go on as before.
   for (int i = 1; i < few.keyframes().keyframes_size(); ++i)
     EXPECT_NEAR(std::fmod(few.keyframes().keyframes(i).time(), 4), 1.1, 0.02);
 }

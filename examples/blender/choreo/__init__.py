@@ -32,7 +32,7 @@ class ChoreoSettings(bpy.types.PropertyGroup):
     song: StringProperty(name="Song", subtype="FILE_PATH", description="WAV, FLAC, Ogg or MP3. Without one the dance is silent")
     style: StringProperty(name="Style", description="A style of the model's, as happy or tired. Empty: as it comes")
     seed: IntProperty(name="Seed", min=0, default=1, description="Another seed, another dance")
-    seconds: FloatProperty(name="Seconds", min=0, max=3600, description="Length of the dance. 0: the song's, or up to a second behind the last key")
+    seconds: FloatProperty(name="Seconds", min=0, max=3600, description="Length of the dance. 0: the song's, or up to a second after the last key")
 
 
 class Operator(bpy.types.Operator):

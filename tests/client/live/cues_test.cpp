@@ -114,18 +114,18 @@ TEST(OscCues, SecondsAreANumberOfAnyType) {
 
 TEST(BeatClock, GoesOnFromTheBeatsThatWereDanced) {
   BeatClock clock;
-  EXPECT_EQ(clock.AtOrBehind(1.3, 0.3), 1.3);
+  EXPECT_EQ(clock.AtOrAfter(1.3, 0.3), 1.3);
   for (const double second : {1.0, 1.5, 2.02, 2.5})
     clock.Hear({.time_s = second, .confidence = 0.6});
   ASSERT_TRUE(clock.Period(2.6));
   EXPECT_NEAR(*clock.Period(2.6), 0.5, 1e-9);
   EXPECT_EQ(clock.confidence(), 0.6);
-  EXPECT_NEAR(clock.AtOrBehind(3.6, 2.6), 4.0, 1e-9);
-  EXPECT_NEAR(clock.AtOrBehind(4.0, 2.6), 4.0, 1e-9);
-  EXPECT_NEAR(clock.AtOrBehind(4.01, 2.6), 4.5, 1e-9);
+  EXPECT_NEAR(clock.AtOrAfter(3.6, 2.6), 4.0, 1e-9);
+  EXPECT_NEAR(clock.AtOrAfter(4.0, 2.6), 4.0, 1e-9);
+  EXPECT_NEAR(clock.AtOrAfter(4.01, 2.6), 4.5, 1e-9);
   // The music has paused.
   EXPECT_FALSE(clock.Period(6));
-  EXPECT_EQ(clock.AtOrBehind(7, 6), 7);
+  EXPECT_EQ(clock.AtOrAfter(7, 6), 7);
 }
 
 TEST(BeatClock, WhatWasBeforeAGapSaysNothing) {

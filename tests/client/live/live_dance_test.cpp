@@ -134,8 +134,8 @@ TEST_F(LiveDanceTest, EndsWithItsMusicAndTellsEachSecond) {
 }
 
 // Piece 25 begins at 0.5 s; no beat is known so early. The third would come with the second, and
-// the fifth behind the music's end.
-TEST_F(LiveDanceTest, PosesComeASecondBehindTheirCuesAndApart) {
+// the fifth after the music's end.
+TEST_F(LiveDanceTest, PosesComeASecondAfterTheirCuesAndApart) {
   Dance({{24, {"kick"}}, {75, {"groove"}}, {75, {"kick"}}, {80, {"nobody"}}, {170, {"kick"}}});
   EXPECT_LT(Off(45, "kick"), 0.1);
   EXPECT_LT(Off(76, "groove"), 0.1);
@@ -296,7 +296,7 @@ TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
   EXPECT_THAT(live(At("song.wav") + " --song-start 2").said, HasSubstr("--song-start: 2 s lies"));
   EXPECT_THAT(
       live(At("song.wav") + " --ahead 0.2").said,
-      HasSubstr("--ahead: 0.2 s is not behind what is settled already, --look-ahead 0.3 s"));
+      HasSubstr("--ahead: 0.2 s is not after what is settled already, --look-ahead 0.3 s"));
   EXPECT_THAT(live(At("song.wav") + " --deadline 5").said, HasSubstr("--deadline: a live dance"));
   EXPECT_THAT(live(At("song.wav") + " -k none -k a.json").said,
               HasSubstr("--keyframes: none stands beside a.json"));
@@ -304,7 +304,7 @@ TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
   EXPECT_THAT(live(At("song.wav") + " --input default").said, HasSubstr("song excludes --input"));
   std::ofstream(folder_ / "keys.json") << R"({"keyframes": [{"time": 2, "pose": "kick"}]})";
   EXPECT_THAT(live(At("song.wav") + " -k " + At("keys.json")).said,
-              HasSubstr("keys.json:keyframes[0].time: key \"key1\" at 2 s lies behind the dance's "
+              HasSubstr("keys.json:keyframes[0].time: key \"key1\" at 2 s is after the dance's "
                         "end: its last frame is at 0.97 s"));
   const OscReceiver taken;
   EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,

@@ -204,7 +204,7 @@ test('beats that people said are kept with the project, a line each', () => {
   refused(7, /beats: 7 is no list/);
   refused([7], /beats\[0\]: 7 is no beat/);
   refused([[601, 1]], /beats\[0\]: 601 is not a number from 0 to 600/);
-  refused([[1, 1], [1, 2]], /beats\[1\] does not stand behind/);
+  refused([[1, 1], [1, 2]], /beats\[1\] does not come after/);
   refused([[1, 17]], /beats\[0\]: 17 is not a number from 1 to 16/);
   refused([[1, 1]], /bar: 0.5 is no count/, 0.5);
 });

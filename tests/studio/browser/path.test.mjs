@@ -24,7 +24,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     await page.mouse.up();
     await settle();
   };
-  /// How far the dance is from its path, metres, at most and in the mean, behind the path's first second.
+  /// How far the dance is from its path, metres, at most and in the mean, after the path's first second.
   const away = () => page.evaluate(() => {
     const { path } = window.choreo.project.value;
     const off = path.filter(({ frame }) => frame >= path[0].frame + 30).map(({ frame, x, z }) => {
@@ -174,7 +174,7 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     for (const [path, words] of [
       [7, /path has no list "points"/],
       [{ points: [] }, /path\.points: 0 points/],
-      [{ points: [{ frame: 3, x: 0, z: 0 }, { frame: 3, x: 1, z: 0 }] }, /path\.points\[1\] does not stand behind/],
+      [{ points: [{ frame: 3, x: 0, z: 0 }, { frame: 3, x: 1, z: 0 }] }, /path\.points\[1\] does not come after/],
       [{ points: [{ frame: 3, x: 'far', z: 0 }, { frame: 9, x: 1, z: 0 }] }, /path\.points\[0\]\.x: "far" is not a number/],
     ]) {
       await page.evaluate(() => (window.choreo.message.value = null));

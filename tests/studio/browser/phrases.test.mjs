@@ -73,7 +73,7 @@ await inStudio(async ({ page, until, settle, message, frames, give }) => {
     assert.deepEqual(await chosen(), [list[0].frame, list[3].frame]);
   });
 
-  await check('a phrase is mirrored: twice is as before, and no frame behind the next key changes', async () => {
+  await check('a phrase is mirrored: twice is as before, and no frame after the next key changes', async () => {
     const [before, danced] = [await keys(), await frames()];
     await press('Mirror');
     const after = await keys();
@@ -103,7 +103,7 @@ await inStudio(async ({ page, until, settle, message, frames, give }) => {
     return list;
   };
 
-  await check('a phrase comes again right behind itself; what stood there makes way', async () => {
+  await check('a phrase comes again right after itself; what stood there makes way', async () => {
     const before = await chooseFirst(3);
     const length = before[3].frame - before[0].frame;
     await press('Repeat');
