@@ -18,7 +18,7 @@ export const pictures = signal<Pictures | null>(null);
 const marks = signal<{ x: number; y: number }[]>([]);
 export const pictureOf = (pose: Pose) => pictures.value?.of(pose) ?? '';
 
-/// The pose that is bent: a photo's, or that of the chosen key while the playhead rests on it.
+/// The pose being edited: a photo's, or the selected key's while the playhead is on it.
 function posed(): Pose | null {
   if (studio.live.value) return null;
   if (studio.sketch.value && studio.audio.paused) return studio.sketch.value.pose;
@@ -143,7 +143,7 @@ function Bar() {
   );
 }
 
-/// Whether Space plays while this has the focus. It presses other buttons; keys and intervals are pressed by Enter.
+/// Whether Space plays while this element has the focus. On other buttons Space is a press; keys and intervals react to Enter.
 const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval');
 
 function useKeyboard() {
@@ -171,7 +171,7 @@ function useKeyboard() {
       else return;
       event.preventDefault();
     };
-    // Some browsers press a button when Space is let go of.
+    // Some browsers press a button when Space is released.
     const release = (event: KeyboardEvent) => {
       const at = event.target as HTMLElement;
       if (event.key === ' ' && at.matches('button') && playsOn(at)) event.preventDefault();

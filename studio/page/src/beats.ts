@@ -1,4 +1,4 @@
-// The beats of the song that is danced to: as the program hears them, or as people say.
+// The beats of the song: as found by the program, or as set by the user.
 import { computed, signal } from '@preact/signals';
 import { counted, doubled, halved, nudged, tapped, tempo, withOne } from './counts';
 import type { Beats } from './counts';
@@ -9,7 +9,7 @@ import { project, shownSong, tell } from './state';
 
 const none: Beats = { bar: 4, list: [] };
 const nudge = 0.01; // seconds
-const pause = 2500; // ms behind the last tap, after which they count
+const pause = 2500; // ms after the last tap, after which they count
 const longest = 3; // seconds from tap to tap
 
 const heardBeats = computed(() => {
@@ -19,7 +19,7 @@ const heardBeats = computed(() => {
 
 export const beats = computed(() => project.value?.beats ?? heardBeats.value);
 
-/// Beats on which key poses would sit well, seconds: of the ones that are danced to.
+/// Suggested beats for key poses, seconds.
 export const suggested = computed(() => {
   const all = shownSong.value?.heard.suggested ?? [];
   if (!project.value?.beats) return all;
@@ -29,26 +29,26 @@ export const suggested = computed(() => {
   return [...new Set(moved.filter((time) => time >= 0))];
 });
 
-/// What comes back in the song.
+/// The song's repeated sections.
 export const form = computed(() => sections(shownSong.value?.heard.passages ?? []));
 
 const length = () => shownSong.value!.heard.seconds;
 
 export const halveBeats = () => change({ beats: halved(beats.value) });
 export const doubleBeats = () => change({ beats: doubled(beats.value) });
-/// Later by so many steps, or earlier.
+/// Moves beats by this many steps.
 export const nudgeBeats = (steps: number) => change({ beats: nudged(beats.value, nudge * steps, length()) });
-/// How beats are counted changes no dance.
+/// Counting from another beat does not change the dance.
 export const countFromHere = () => note({ beats: withOne(beats.value, audio.currentTime) });
 export const hearBeats = () => change({ beats: null });
 
-/// Taps along with the song, seconds of it, that are not applied yet.
+/// Taps along with the song, in its seconds, not yet applied.
 export const taps = signal<number[]>([]);
 let waiting: ReturnType<typeof setTimeout>;
 
-/// Taps along. Once the hand rests, or the song does, these are the beats.
+/// Records a tap. The taps become the beats after a pause of the taps or the song.
 export function tap() {
-  if (audio.paused) return void audio.play().catch(() => {}); // who pauses at once takes it back
+  if (audio.paused) return void audio.play().catch(() => {}); // an immediate pause rejects the promise
   const now = audio.currentTime;
   const last = taps.value.at(-1) ?? now;
   taps.value = now < last || now - last > longest ? [now] : [...taps.value, now];

@@ -4,7 +4,7 @@ import type { Skeleton as SkeletonMessage } from './generated/choreo/v1/motion_p
 
 export type Triple = [number, number, number];
 
-/// Where the root is, and an axis-angle vector for each joint, local to its parent.
+/// The root's position, and an axis-angle vector per joint, relative to its parent.
 export type Pose = { root: Triple; rotations: number[] };
 
 export const toQuaternion = (rotations: ArrayLike<number>, at: number, out = new Quaternion()) => {
@@ -28,7 +28,7 @@ export class Skeleton {
   readonly offsets: Vector3[];
   readonly height: number;
   readonly feet: number[];
-  /// Of each joint the same one of the other side.
+  /// For each joint the one on the other side.
   readonly twins: number[];
   private readonly rest: Figure;
 
@@ -52,23 +52,23 @@ export class Skeleton {
     return this.names.indexOf(name);
   }
 
-  /// Left and right changed, about the plane that the body faces along.
+  /// Exchanges left and right, in the plane that the body faces along.
   mirrored(pose: Pose): Pose {
     const rotations = Array<number>(pose.rotations.length);
     for (let joint = 0; joint < this.joints; ++joint) {
       const [x, y, z] = pose.rotations.slice(3 * this.twins[joint], 3 * this.twins[joint] + 3);
       rotations.splice(3 * joint, 3, x, -y, -z);
     }
-    // Mirrored about the world's plane, it looks the other way: turned back.
+    // Mirrored in the world's plane it would face the other way, so turn it back.
     return turned({ root: pose.root, rotations }, 2 * heading(pose));
   }
 
-  /// The same joints of the other side, in order.
+  /// The same joints on the other side, in order.
   twinsOf(joints: number[]): number[] {
     return joints.map((joint) => this.twins[joint]).sort((a, b) => a - b);
   }
 
-  /// Up or down until the lowest foot stands as at rest.
+  /// Moved vertically until the lowest foot stands as at rest.
   grounded(pose: Pose): Pose {
     const figure = new Figure(this, pose);
     const drop = Math.min(
@@ -91,7 +91,7 @@ export const turned = (pose: Pose, angle: number): Pose => {
   return { root: pose.root, rotations };
 };
 
-/// `after` where these joints are (null: all of them) and `before` elsewhere. The root is joint 0's.
+/// Takes these joints (null: all) from `after` and the others from `before`. The root's position belongs to joint 0.
 export function only(before: Pose, after: Pose, joints: number[] | null): Pose {
   if (!joints) return after;
   const rotations = before.rotations.slice();
@@ -99,7 +99,7 @@ export function only(before: Pose, after: Pose, joints: number[] | null): Pose {
   return { root: joints.includes(0) ? after.root : before.root, rotations };
 }
 
-/// A pose with the joints' places in the world, which may be bent.
+/// A pose with its joints' world positions, for editing.
 export class Figure {
   readonly root: Vector3;
   readonly local: Quaternion[];
@@ -114,7 +114,7 @@ export class Figure {
     this.place();
   }
 
-  /// Places all joints anew.
+  /// Recomputes all joints' positions.
   place() {
     const { parents, offsets } = this.skeleton;
     for (let joint = 0; joint < this.local.length; ++joint) {
@@ -130,7 +130,7 @@ export class Figure {
     }
   }
 
-  /// Turns a joint, and what hangs on it, in the world.
+  /// Turns a joint and its descendants in the world.
   turn(joint: number, by: Quaternion) {
     this.orient(joint, by.clone().multiply(this.world[joint]));
   }

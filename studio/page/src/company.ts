@@ -1,4 +1,4 @@
-// Several dancers: who they are, what each of them dances, and how far from each other they have to stand.
+// Several dancers: their settings, their dances, and the distance between them.
 import { computed, effect, signal } from '@preact/signals';
 import { beats } from './beats';
 import type { Clip, Formation } from './generated/studio/studio_pb';
@@ -12,10 +12,10 @@ import { busy, complain, live, moment, project } from './state';
 import type { Moment, Song } from './state';
 
 const most = 64; // of the program (kMostDancers)
-const beside = 1.4; // metres from one to the next who is added
-const behind = 0.4; // metres that she stands further back
+const beside = 1.4; // metres between a new dancer and the last one
+const behind = 0.4; // metres that a new dancer stands further back
 
-/// A dance of another seed or style than the project's; of what else it was made.
+/// A dance with another seed or style than the project's, and what it was made from.
 type Other = { project: Project; song: Song | null; motion: Motion };
 let others: Other[] = [];
 let forming: AbortController | null = null;
@@ -24,12 +24,12 @@ const madeOf = ({ dancers: _, apart: __, ...rest }: Project) => rest;
 const isSame = (a: Project, b: Project) => Object.entries(madeOf(a)).every(([name, value]) => value === b[name as keyof Project]);
 const ownProject = (all: Project, { seed, style }: Partner): Project => ({ ...all, seed: seed ?? all.seed, style: style || all.style });
 
-/// What the program made of the present dancers, and what they dance: of each the number of her dance.
+/// The program's formation of the present dancers and their dances, with the index of each dancer's dance.
 export const formation = signal<{ of: Moment; said: Formation; dances: Motion[]; danceOf: number[] } | null>(null);
 
-/// Dances what the dancers of a moment do not share, once each.
+/// Makes each dance of a moment that differs from the project's, once.
 async function dancesOf(now: Moment, signal: AbortSignal) {
-  // One that was left before its end goes on.
+  // Continues a dance that was left unfinished.
   for (let there: Moment['ready'] | null = null; there !== now.ready; await there) there = now.ready;
   const dances = [now.motion.value];
   const kinds = [now.project];
@@ -81,11 +81,11 @@ effect(() => {
   if (!now || live.value || now.project.dancers.length === 0) return void (formation.value = null);
   forming = new AbortController();
   const { signal } = forming;
-  // Its own changes are nothing that this follows.
+  // Outside the effect, which must not depend on its own changes.
   queueMicrotask(() => void form(now, signal));
 });
 
-/// Who dances, as the stage shows it: seen from where the project's own dance is. `isLead`: she dances just that.
+/// A dancer for the stage, relative to the project's own dance. `isLead`: she has exactly that dance.
 export type Cast = { motion: Motion | null; after: number; mirrored: boolean; x: number; z: number; facing: number; isLead: boolean };
 
 const radians = Math.PI / 180;
@@ -115,7 +115,7 @@ export const cast = computed((): Cast[] => {
   });
 });
 
-/// Counts are those at the music's beginning.
+/// Counts are converted with the tempo at the music's beginning.
 function secondsLater({ after, inCounts }: Partner): number {
   const times = beats.value.list.map(({ time }) => time);
   if (!inCounts || times.length < 2) return after;
@@ -131,7 +131,7 @@ export async function readCompany(name: string, data: Uint8Array): Promise<{ dan
   return { dancers, apart: answer.value.apart, haveKeys: answer.value.dancers.some(({ hasKeys }) => hasKeys) };
 }
 
-/// All of them in files of a kind, as the command line writes them.
+/// All dancers as files of one format, as the command line writes them.
 export async function writeCompany(name: string, now: Moment) {
   const danced = await dancesOf(now, new AbortController().signal);
   const answer = await wire.ask({ case: 'company', value: requestOf(now.project, { dances: danced!.dances.map((dance) => dance.toClip()), danceOf: danced!.danceOf, name }) });
@@ -142,13 +142,13 @@ const changeAll = (dancers: Partner[]) => note({ dancers });
 export const changePartner = (nth: number, what: Partial<Partner>) =>
   changeAll(project.value.dancers.map((old, i) => (i === nth ? { ...old, ...what } : old)));
 
-/// Once one is left, she dances alone.
+/// A single remaining dancer is no longer a company.
 export function removePartner(nth: number) {
   const left = project.value.dancers.filter((_, i) => i !== nth);
   changeAll(left.length > 1 ? left : []);
 }
 
-/// Beside the others, on either side in turn; the first one makes the dancer who is there one of two.
+/// Adds a dancer beside the others, on alternating sides; the first call makes the present dancer one of two.
 export function addPartner() {
   const { dancers } = project.value;
   if (dancers.length >= most) return;

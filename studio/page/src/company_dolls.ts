@@ -1,11 +1,11 @@
-// The other dancers on the stage, beside the one whose dance is worked on.
+// The other dancers on the stage, beside the one whose dance is edited.
 import * as THREE from 'three';
 import type { Doll } from './doll';
 import type { Motion } from './motion';
 import { colour, shirtOf } from './palette';
 import * as studio from './studio';
 
-const room = 1; // metres around a dancer that are in the picture, too
+const room = 1; // metres visible around each dancer
 
 export class CompanyDolls {
   readonly scene = new THREE.Group();
@@ -14,12 +14,13 @@ export class CompanyDolls {
 
   constructor(private readonly doll: Doll) {}
 
-  /// Whether the dance that is worked on is nobody's: all are mirrored, or come later, or dance otherwise.
+  /// Whether no dancer has exactly the edited dance: all are mirrored, delayed or different.
   get hasNoLead() {
     return studio.cast.value.length > 0 && !studio.cast.value.some(({ isLead }) => isLead);
   }
 
-  /// Where nothing else is compared. `middle` becomes that of all dancers; returns how many metres the picture has to have, 0 for one dancer.
+  /// Shows the dancers, unless takes are compared. Sets `middle` to the middle of all dancers; returns the metres that the picture must show, 0 for
+  /// one dancer.
   show(motion: Motion | undefined, time: number, middle: THREE.Vector3): number {
     const cast = motion && studio.takes.value.length === 0 ? studio.cast.value : [];
     const all = cast.filter(({ isLead }) => !isLead);

@@ -1,4 +1,4 @@
-// Keys that are set again: one of them, or those of a phrase.
+// Copying keys: a single one, or those of a phrase.
 import { computed, signal } from '@preact/signals';
 import { beats } from './beats';
 import { heading, turned } from './body';
@@ -15,8 +15,8 @@ import { chosen, complain, live, motion, project, selectedKey, tell } from './st
 const copied = signal<Key[]>([]);
 export const canPaste = computed(() => copied.value.length > 0);
 
-/// Those of a phrase, from its beginning on and before its end, as an eight goes from one 1 to the next; of the interval between two keys,
-/// both.
+/// The keys of the selected phrase, from its beginning until before its end, like an eight from one 1 to the next; for an interval between two keys,
+/// both keys.
 export function chosenKeys(): Key[] {
   if (live.value || !chosen.value) return [];
   const [from, to] = chosen.value;
@@ -25,14 +25,14 @@ export function chosenKeys(): Key[] {
   return isInterval ? keys : keys.filter(({ frame }) => frame < to);
 }
 
-/// Those of what is chosen, or the chosen key where it is none of them.
+/// The keys to copy: those of the selection, or the selected key if it is not among them.
 function taken(): Key[] {
   const key = keyOf(selectedKey.value);
   const inside = chosenKeys();
   return inside.length && (!key || inside.includes(key)) ? inside : key ? [key] : [];
 }
 
-/// Whether there was something to copy.
+/// Returns whether there was something to copy.
 export function copyKeys(): boolean {
   const keys = live.value ? [] : taken();
   if (keys.length === 0) return false;
@@ -41,10 +41,10 @@ export function copyKeys(): boolean {
   return true;
 }
 
-/// The copied keys again, from the playhead on: as if the dancer began with them where she is by then.
+/// Pastes the copied keys from the playhead on, relative to where the dancer is then.
 export const pasteKeys = () => void (canPaste.value && set(copied.value, Math.round(audio.currentTime * dancer.fps)));
 
-/// The chosen key again, at the playhead; on the next free beat where that rests on a key.
+/// Copies the selected key to the playhead, or to the next free beat if a key is there.
 export function duplicateKey() {
   const key = keyOf(selectedKey.value);
   if (!key || live.value) return;
@@ -73,7 +73,7 @@ function set(keys: Key[], at: number) {
   if (added.length < keys.length) tell(`${keys.length - added.length} of ${keys.length} keys found no room.`);
 }
 
-/// Turned and moved as takes the first key to where the dancer is at that frame.
+/// Turns and moves a key by the transform that takes the first key to the dancer's place at that frame.
 export function moved(key: Key, first: Key, at: number): Key {
   if (!key.hasPlace || !first.hasPlace || motion.value.count <= at) return key;
   const here = motion.value.pose(at);

@@ -1,25 +1,25 @@
-// How a song is counted: its beats, bars, and the eights that dancers count in.
+// Counting a song: its beats, its bars, and dancers' eights.
 
-/// `count`: in its eight, from 1 on; 0 where nobody counts.
+/// `count`: in its eight, from 1 on; 0 if not counted.
 export type Beat = { time: number; count: number };
 /// `bar`: beats in a bar.
 export type Beats = { bar: number; list: Beat[] };
 
 const usualBar = 4;
 const fewestTaps = 4;
-const slack = 0.06; // of a tempo, either way: within it two are one
-const missed = 0.07; // seconds by which hands miss a beat that they mean
-const gap = 1.6; // intervals: what is longer is a pause
+const slack = 0.06; // share by which equal tempi may differ
+const missed = 0.07; // seconds between a tap and the beat meant
+const gap = 1.6; // intervals; longer ones are pauses
 
-/// Beats in what is counted as an eight: two bars of four, two of three.
+/// Beats in an eight: two bars, of four or three.
 export const eight = (bar: number) => bar * Math.max(1, Math.floor(8 / bar));
 export const isDownbeat = ({ count }: Beat, bar: number) => count > 0 && (count - 1) % bar === 0;
-/// What a project keeps of a time.
+/// A time as stored in projects.
 const kept = (seconds: number) => Math.round(seconds * 1e4) / 1e4;
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
 const intervals = (times: number[]) => times.slice(1).map((time, i) => time - times[i]);
 
-/// As the program heard it: `inBar` counts from 1 on in each bar. Eights begin with the first bar, and anew where a bar is cut short.
+/// From the program's beats: `inBar` counts from 1 in each bar. Eights begin with the first bar, and again after a short bar.
 export function counted(times: number[], inBar: number[], bar: number): Beats {
   const length = bar || usualBar;
   const bars = eight(length) / length;
@@ -37,7 +37,7 @@ export function counted(times: number[], inBar: number[], bar: number): Beats {
   return { bar: length, list };
 }
 
-/// Counts from one of the beats on, and backwards before it.
+/// Counts forwards and backwards from one of the beats.
 function countedFrom(times: number[], one: number, bar: number): Beats {
   const length = eight(bar);
   return { bar, list: times.map((time, i) => ({ time: kept(time), count: (((i - one) % length) + length) % length + 1 })) };
@@ -48,16 +48,16 @@ const nearest = (times: number[], wanted: number) =>
 const timesOf = ({ list }: Beats) => list.map(({ time }) => time);
 const firstOne = ({ list }: Beats) => Math.max(0, list.findIndex(({ count }) => count === 1));
 
-/// The beat nearest to a second is a 1.
+/// Makes the beat nearest to a second a 1.
 export const withOne = (beats: Beats, seconds: number) => countedFrom(timesOf(beats), nearest(timesOf(beats), seconds), beats.bar);
 
-/// Between which beats a second is: 1.5 is halfway from the second to the third; before the first and behind the last they go on.
+/// A second's place among the beats: 1.5 is halfway from the second to the third. Extrapolates before the first and after the last.
 export function placeAmong(seconds: number, times: number[]): number {
   const at = intervalAt(times.findLastIndex((time) => time <= seconds), times);
   return at + (seconds - times[at]) / (times[at + 1] - times[at]);
 }
 
-/// The second so many counts later, as the program has it (client/cli/counts.h). `times`: two at least.
+/// The second this many counts later, as in the program (client/cli/counts.h). `times`: at least two.
 export function later(seconds: number, counts: number, times: number[]): number {
   const place = placeAmong(seconds, times) + counts;
   const at = intervalAt(Math.floor(place), times);
@@ -68,7 +68,7 @@ const intervalAt = (place: number, times: number[]) => Math.min(Math.max(place, 
 
 const eachOf = (times: number[], nth: number, first: number) => times.filter((_, i) => i % nth === first % nth);
 
-/// So many in place of each, but none in a pause.
+/// Divides each interval into this many, except pauses.
 function split(times: number[], into: number): number[] {
   const longest = gap * median(intervals(times));
   return times.flatMap((time, i) => {
@@ -77,7 +77,7 @@ function split(times: number[], into: number): number[] {
   });
 }
 
-/// Every second beat alone: those that the first 1 is among.
+/// Keeps every second beat: the half that contains the first 1.
 export function halved(beats: Beats): Beats {
   const one = firstOne(beats);
   return countedFrom(eachOf(timesOf(beats), 2, one), Math.floor(one / 2), beats.bar);
@@ -88,13 +88,13 @@ export function doubled(beats: Beats): Beats {
   return countedFrom(times, nearest(times, beats.list[firstOne(beats)]?.time ?? 0), beats.bar);
 }
 
-/// All of them later, or earlier; within the song, which has so many seconds.
+/// Moves all beats; keeps those within the song's seconds.
 export const nudged = ({ bar, list }: Beats, by: number, seconds: number): Beats => ({
   bar,
   list: list.map(({ time, count }) => ({ time: kept(time + by), count })).filter(({ time }) => time >= 0 && time <= seconds),
 });
 
-/// Most beats a minute; 0 where there are none.
+/// The tempo of most beats, per minute; 0 without beats.
 export function tempo({ list }: Beats): number {
   const all = intervals(list.map(({ time }) => time));
   const usual = median(all);
@@ -102,7 +102,7 @@ export function tempo({ list }: Beats): number {
   return near.length ? (60 * near.length) / near.reduce((sum, length) => sum + length, 0) : 0;
 }
 
-/// The pulse of taps, some of which may be missing: one second of it, and its seconds a beat. Null for too few.
+/// The pulse of taps, some of which may be missing: the second of a beat, and the seconds per beat. Null for too few taps.
 export function pulseOf(taps: number[]): { phase: number; period: number } | null {
   if (taps.length < fewestTaps) return null;
   const usual = median(intervals(taps));
@@ -115,8 +115,8 @@ export function pulseOf(taps: number[]): { phase: number; period: number } | nul
   return { phase: time - period * place, period };
 }
 
-/// Beats where somebody tapped: hands say which ones, and the song, `heard`, exactly when, as long as it has such beats. Otherwise they go
-/// on evenly over all of its seconds. Eights stay where they were in `before`.
+/// Beats from taps. Taps choose among the beats found in the song, `heard`, which give the exact times; without matching beats they continue evenly
+/// over the whole song. Eights stay as in `before`.
 export function tapped(heard: Beats, before: Beats, taps: number[], seconds: number): Beats | null {
   const pulse = pulseOf(taps);
   if (!pulse) return null;
@@ -130,13 +130,13 @@ export function tapped(heard: Beats, before: Beats, taps: number[], seconds: num
 const evenly = (first: number, period: number, seconds: number) =>
   Array.from({ length: Math.max(0, Math.floor((seconds - first) / period) + 1) }, (_, i) => first + i * period);
 
-/// The beats that are heard, more or fewer of them, as taps have them; null where these have another tempo.
+/// The found beats, divided or thinned to the taps' tempo; null if the tempi do not match.
 function along(heard: number[], taps: number[], period: number): number[] | null {
   const there = heard.filter((time) => time > taps[0] - 1 && time < taps.at(-1)! + 1);
   if (there.length < 3) return null;
   const ratio = median(intervals(there)) / period;
   const isNear = (value: number) => Math.abs(value - 1) < slack;
-  // Half a beat too late is half a beat too early: a mean on the circle.
+  // A circular mean, as half a beat late equals half a beat early.
   const away = (times: number[]) => {
     const turns = taps.map((tap) => (2 * Math.PI * (tap - times[nearest(times, tap)])) / period);
     const sum = (of: (turn: number) => number) => turns.reduce((all, turn) => all + of(turn), 0);
@@ -151,7 +151,7 @@ function along(heard: number[], taps: number[], period: number): number[] | null
   return shifted(ways[0], away, period);
 }
 
-/// Beside the beats, where hands keep beside them: by the same share of each.
+/// Shifts beats by a constant share of their intervals, for taps that are consistently off the beats.
 function shifted(times: number[], away: (times: number[]) => number, period: number): number[] {
   const by = away(times);
   if (Math.abs(by) <= missed) return times;

@@ -62,7 +62,7 @@ export class Dancer {
     return Math.max(1, Math.round(project.seconds * this.fps));
   }
 
-  /// Everything behind frame `from` (-1: all of it); what stands before stays. Ends early, with what
+  /// Everything after frame `from` (-1: all of it); what stands before stays. Ends early, with what
   /// there is by then, once `signal` is aborted.
   stream(project: Project, before: Motion | null, from: number, watch: Watch, signal: AbortSignal): Promise<Motion> {
     const motion = before && from >= 0 ? before.head(from + 1) : this.nothing();

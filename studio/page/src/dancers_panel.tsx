@@ -1,4 +1,4 @@
-// Who dances together, and how otherwise than the others.
+// The dancers, and how each differs from the others.
 import { NumberField } from './number_field';
 import { shirtOf } from './palette';
 import type { Partner } from './project';
@@ -33,7 +33,7 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
   );
 }
 
-/// How near they come, and what was done about it.
+/// How near the dancers come, and by how much the formation was widened.
 function Distance() {
   const formed = studio.formation.value;
   if (!formed || formed.said.least === undefined) return null;

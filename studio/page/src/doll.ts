@@ -1,4 +1,4 @@
-// The body, as the program draws it in its pictures: a glTF skin whose bones have the joints' names.
+// The body, as in the program's pictures: a glTF skin whose bones have the joints' names.
 import { Color, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Quaternion } from 'three';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
 import { clone } from 'three/examples/jsm/utils/SkeletonUtils.js';
@@ -31,10 +31,10 @@ export class Doll {
     return new Doll(clone(this.scene), this.skeleton);
   }
 
-  /// A ghost: one colour, seen through.
+  /// Makes it a ghost: transparent, in one colour.
   fade(colour: string, opacity: number) {
     const material = new MeshStandardMaterial({ color: new Color(colour), transparent: true, opacity, roughness: 1, depthWrite: false });
-    // Only what is nearest is seen: no limb through another one.
+    // Shows only the nearest surface, so that no limb shows through another.
     const nearest = new MeshBasicMaterial({ colorWrite: false, transparent: true });
     const parts: Mesh[] = [];
     this.scene.traverse((part) => part instanceof Mesh && parts.push(part));
@@ -48,7 +48,7 @@ export class Doll {
     return this;
   }
 
-  /// Gives it a shirt of its own colour.
+  /// Gives it a shirt of this colour.
   wear(colour: string) {
     this.scene.traverse((part) => {
       if (!(part instanceof Mesh) || part.material.name !== shirt) return;
@@ -63,7 +63,7 @@ export class Doll {
     this.bones.forEach((bone, joint) => toQuaternion(pose.rotations, 3 * joint, bone.quaternion));
   }
 
-  /// The moment of a motion, or of its mirror image in the plane x = 0; nothing where it has none.
+  /// Takes the pose of a motion at a time, or its mirror image in the plane x = 0; hides if there is none.
   follow(motion: Motion, time: number, mirrored = false) {
     if (!motion.sample(time, this.root, this.turns)) return;
     const [x, y, z] = this.root;

@@ -1,4 +1,4 @@
-// What is dropped or chosen, and what is saved.
+// Opening files, dropped or chosen, and saving.
 import { film, fps, height, width } from './film';
 import type { Kind, Painter } from './film';
 import { readCompany, writeCompany } from './company';
@@ -15,13 +15,13 @@ import { begin, filming, kept, live, message, moment, opened, project, song, tak
 import { timeLeft } from './time_left';
 
 const motionExtensions = ['npz', 'npy', 'pkl', 'bvh', 'glb', 'gltf', 'vrma'];
-/// What the file chooser offers.
+/// File types for the file chooser.
 export const accepted = [...songExtensions, 'json', ...motionExtensions, ...photoExtensions].map((extension) => `.${extension}`).join();
-const mostBytes = 200 * 2 ** 20; // what a message to the program holds, and some room
+const mostBytes = 200 * 2 ** 20; // the largest message to the program, with a margin
 
 const extensionOf = ({ name }: File) => name.split('.').at(-1)!.toLowerCase();
 
-/// Songs, projects, motion files and photos: a song first, so that a project that comes along is danced to it.
+/// Opens songs, projects, motion files and photos; songs first, so that a project opened with a song uses it.
 export const openFiles = (files: File[]) => work(async () => {
   const find = (extensions: string[]) => files.filter((file) => extensions.includes(extensionOf(file)));
   const [songs, others, photos] = [find(songExtensions), find(['json', ...motionExtensions]), find(photoExtensions)];
@@ -72,7 +72,7 @@ async function openProject(name: string, bytes: Uint8Array) {
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
   const inside = read.keys.filter(({ frame }) => frame < dancer.frames(read));
   const outside = read.keys.length - inside.length;
-  if (outside > 0) said.push(`${outside} of its keys lie behind the end of the song, and are left out.`);
+  if (outside > 0) said.push(`${outside} of its keys are after the end of the song, and are left out.`);
   const isOther = !!read.song && read.song !== song.value?.name;
   if (isOther && song.value) read.beats = null;
   if (isOther) said.push(`It was made to ${read.song}: drop that song, too.`);
@@ -111,7 +111,7 @@ export function saveProject() {
 let filmed: AbortController | null = null;
 export const leaveFilm = () => filmed?.abort();
 
-/// Makes a film of the dance, as the camera sees it.
+/// Makes a film of the dance from the camera's view.
 export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
   if (filmed) return;
   const { song: played } = moment.value;
@@ -120,7 +120,7 @@ export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
   dropSketch();
   [takes.value, filming.value] = [[], { share: 0, left: '' }];
   filmed = new AbortController();
-  let began: number | null = null; // ms: the sound, which comes first, says nothing of the pictures
+  let began: number | null = null; // ms; encoding the sound comes first and does not predict the time for pictures
   try {
     const bytes = await film({
       kind,

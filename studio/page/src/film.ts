@@ -1,23 +1,23 @@
-// The dance as a film with its song: picture after picture is drawn and encoded in its turn, so that none is late.
+// Films the dance with its song. Pictures are drawn and encoded one after another, so none is dropped.
 import * as Mp4 from 'mp4-muxer';
 import * as WebM from 'webm-muxer';
 import type { Motion } from './motion';
 import type { Song } from './state';
 
 export const [width, height, fps] = [1280, 720, 30];
-const rate = 48000; // of the sound, Hz
+const rate = 48000; // audio sample rate, Hz
 const pictureRate = 5e6; // bits a second
 const soundRate = 128e3;
 const keyEvery = 60; // pictures
 const mostWaiting = 4; // pictures in the encoder
 
 export type Kind = 'webm' | 'mp4';
-/// Of pictures, the best first.
+/// Video codecs, best first.
 const codecs: Record<Kind, string[]> = { webm: ['vp09.00.31.08', 'vp8'], mp4: ['avc1.640020', 'avc1.42001f', 'vp09.00.31.08'] };
-/// Of sound.
+/// Audio codecs, best first.
 const soundCodecs: Record<Kind, string[]> = { webm: ['opus'], mp4: ['mp4a.40.2', 'opus'] };
 
-/// The first of them that this browser has.
+/// The first configuration that this browser supports.
 async function choose<Config>(configs: Config[], asks: (config: Config) => Promise<{ supported?: boolean }>): Promise<Config> {
   for (const config of configs) if ((await asks(config)).supported) return config;
   throw new Error('This browser does not make such films; `choreo render --video` does.');
@@ -39,7 +39,7 @@ type Chunks = {
   finalize: () => void;
 };
 
-/// What puts encoded pictures and sound into a file, and the file's bytes once it is finalised.
+/// A muxer for encoded pictures and sound, and the file's bytes once it is finalised.
 function makeFile(kind: Kind, picture: string, sound: string | null): { file: Chunks; bytes: () => Uint8Array } {
   const voice = { numberOfChannels: 2, sampleRate: rate };
   const isVp9 = picture.startsWith('vp09');
@@ -54,7 +54,7 @@ function makeFile(kind: Kind, picture: string, sound: string | null): { file: Ch
   return { file: new Mp4.Muxer({ target, video, ...audio, fastStart: 'in-memory' }), bytes: () => new Uint8Array(target.buffer) };
 }
 
-/// The song, decoded, as long as the dance.
+/// The song, decoded and cut to the dance's length.
 async function decode(song: Song, seconds: number): Promise<AudioBuffer> {
   const context = new OfflineAudioContext(2, Math.ceil(seconds * rate), rate);
   const source = context.createBufferSource();
@@ -80,7 +80,7 @@ async function encodeSound(sound: AudioBuffer, encoder: AudioEncoder) {
   encoder.close();
 }
 
-/// What draws the pictures of a film, one each `pace` seconds, until it may leave.
+/// Draws the pictures of a film, one every `pace` seconds, until `leave`.
 export type Painter = {
   picture: (motion: Motion, time: number, pace: number, width: number, height: number) => HTMLCanvasElement;
   leave: () => void;
@@ -90,14 +90,14 @@ type Plan = {
   kind: Kind;
   motion: Motion;
   song: Song | null;
-  /// Draws a moment of the dance, and returns where.
+  /// Draws a moment of the dance; returns the canvas.
   draw: (time: number) => HTMLCanvasElement;
-  /// Hears how far it is, 0 to 1.
+  /// Receives the progress, 0 to 1.
   told: (share: number) => void;
   signal: AbortSignal;
 };
 
-/// Films all of a dance; its bytes.
+/// Films a whole dance; returns the file's bytes.
 export async function film({ kind, motion, song, draw, told, signal }: Plan): Promise<Uint8Array> {
   const chosen = await chooseCodecs(kind);
   const seconds = motion.count / motion.fps;
@@ -118,7 +118,7 @@ export async function film({ kind, motion, song, draw, told, signal }: Plan): Pr
     pictures.encode(picture, { keyFrame: i % keyEvery === 0 });
     picture.close();
     told(i / count);
-    // The page stays awake, and the encoder gets no further behind.
+    // Keeps the page responsive, and waits for the encoder.
     do await new Promise((resolve) => setTimeout(resolve));
     while (pictures.encodeQueueSize > mostWaiting && !failure);
   }

@@ -1,10 +1,10 @@
-// The path on the stage's floor: drawn with the pointer, shown as a line with a dot for each second.
+// The path on the stage's floor: drawn with the pointer, shown as a line with a dot per second.
 import * as THREE from 'three';
 import { colour } from './palette';
 import type { Spot, Step } from './project';
 
 const width = 0.035; // metres
-const height = 0.006; // above the floor, so that it is not hidden by it
+const height = 0.006; // metres above the floor, so that it stays visible
 const close = 0.03; // metres between spots of a stroke
 
 export class FloorLine {
@@ -13,14 +13,14 @@ export class FloorLine {
   private shown: unknown[] = [];
   private readonly paint = new THREE.MeshBasicMaterial({ transparent: true, opacity: 0.85, side: THREE.DoubleSide, depthWrite: false });
 
-  /// Takes the page's colours as they are now.
+  /// Updates its colours from the page's.
   dress() {
     this.paint.color.set(colour('accent'));
   }
   begin(spot: Spot) {
     this.stroke = [spot];
   }
-  /// Whether a stroke is under way.
+  /// Whether a stroke is being drawn.
   get isDrawn() {
     return this.stroke !== null;
   }
@@ -34,8 +34,8 @@ export class FloorLine {
     return done;
   }
 
-  /// Shows the stroke under way, or else the path, with its corners in place of seconds where these are moved, `held` among them.
-  /// What it returns is another thing once it looks otherwise.
+  /// Shows the current stroke, or else the path, with its corners instead of seconds while these are moved, `held` among them. Returns a value that
+  /// changes whenever its appearance changes.
   show(path: Step[], fps: number, corners: Spot[] | null, held: number): unknown {
     const next = this.stroke ?? corners ?? path;
     const looks = [next, corners, corners && held];
@@ -58,7 +58,7 @@ export class FloorLine {
   }
 }
 
-/// A flat band along the spots.
+/// A flat ribbon along the spots.
 function ribbon(spots: Spot[]): THREE.BufferGeometry {
   const corners = spots.flatMap(({ x, z }, i) => {
     const [a, b] = [spots[Math.max(0, i - 1)], spots[Math.min(spots.length - 1, i + 1)]];

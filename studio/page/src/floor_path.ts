@@ -1,4 +1,4 @@
-// A way over the floor: drawn on the stage, walked in a stretch of the dance.
+// The path over the floor: drawn on the stage, walked in a part of the dance.
 import type { Pose } from './body';
 import { total, danceFrom } from './history';
 import { dancer } from './link';
@@ -11,16 +11,16 @@ import { signal } from '@preact/signals';
 export const drawing = signal(false);
 
 const apart = 8; // frames between steps
-const same = 1e-3; // metres: a key that is so near stays
+const same = 1e-3; // metres; a nearer key stays where it is
 const shortest = 15; // frames of a path
-export const least = 0.3; // metres: shorter strokes are slips
+export const least = 0.3; // metres; shorter strokes are accidental
 
 export const away = (a: Spot, b: Spot) => Math.hypot(a.x - b.x, a.z - b.z);
 const between = (a: Spot, b: Spot, share: number): Spot => ({ x: a.x + (b.x - a.x) * share, z: a.z + (b.z - a.z) * share });
 
 export const lengthOf = (spots: Spot[]) => spots.slice(1).reduce((sum, spot, i) => sum + away(spots[i], spot), 0);
 
-/// A hand trembles: each spot moves towards its neighbours.
+/// Smooths a trembling hand: each spot moves towards its neighbours.
 function smooth(spots: Spot[]): Spot[] {
   let out = spots;
   for (let round = 0; round < 4; ++round)
@@ -28,7 +28,7 @@ function smooth(spots: Spot[]): Spot[] {
   return out;
 }
 
-/// A stroke walked at an even pace between two frames.
+/// A stroke as a path at constant speed between two frames.
 function paced(spots: Spot[], from: number, to: number): Step[] {
   const count = Math.max(1, Math.round((to - from) / apart));
   const length = lengthOf(spots);
@@ -45,7 +45,7 @@ function paced(spots: Spot[], from: number, to: number): Step[] {
   return out;
 }
 
-/// Where the path is at a frame; null where it does not lead.
+/// The path's place at a frame; null outside the path.
 export function spotAt(path: Step[], frame: number): Spot | null {
   const next = path.findIndex((step) => step.frame >= frame);
   if (next < 0 || (next === 0 && path[0].frame > frame)) return null;
@@ -54,7 +54,7 @@ export function spotAt(path: Step[], frame: number): Spot | null {
   return between(a, b, (frame - a.frame) / (b.frame - a.frame));
 }
 
-/// The key where the path leads at its frame: keys win over paths, and would bend this one.
+/// Moves a key to the path at its frame; otherwise the key would bend the path.
 export function onPath(path: Step[], key: Key): Key {
   const spot = spotAt(path, key.frame);
   if (!spot || !key.hasPlace || away(spot, { x: key.pose.root[0], z: key.pose.root[2] }) < same) return key;
@@ -62,14 +62,14 @@ export function onPath(path: Step[], key: Key): Key {
   return { ...key, pose };
 }
 
-/// Of the stretch in which the next stroke is walked: the chosen interval, or from the playhead to the end.
+/// The frames for the next stroke: the selected interval, or from the playhead to the end.
 export function stretch(): [number, number] {
   if (chosen.value) return chosen.value;
   const from = Math.round(audio.currentTime * dancer.fps);
   return from < total.value - dancer.fps ? [from, total.value - 1] : [0, total.value - 1];
 }
 
-/// Dances anew from the last key that stays as it is and stands before all frames that are touched, or on the first of them.
+/// Dances anew from the last unchanged key at or before the first touched frame.
 function put(path: Step[], touched: number[]) {
   const before = project.value.keys;
   const keys = before.map((key) => onPath(path, key));
@@ -77,7 +77,7 @@ function put(path: Step[], touched: number[]) {
   danceFrom({ ...project.value, path, keys }, from);
 }
 
-/// Takes a stroke as the path. It begins where the dancer is: whoever is led to another place first does not dance.
+/// Takes a stroke as the path, moved to begin where the dancer is: walking to another place first would not be dancing.
 export function drawPath(stroke: Spot[]) {
   drawing.value = false;
   const [from, to] = stretch();
@@ -87,14 +87,14 @@ export function drawPath(stroke: Spot[]) {
   walk(spots, from, to);
 }
 
-/// Takes these spots as the path, walked at an even pace between two frames.
+/// Takes these spots as the path, at constant speed between two frames.
 export function walk(spots: Spot[], from: number, to: number) {
   put(paced(spots, from, to), [from, project.value.path[0]?.frame ?? from]);
 }
 
 export const clearPath = () => put([], [project.value.path[0].frame]);
 
-/// The same way in another time, frames.
+/// The same path with other frames.
 export function rush(from: number, to: number) {
   const { path } = project.value;
   if (to - from < shortest) return tell(`A path takes at least ${(shortest / dancer.fps).toFixed(1)} s.`);

@@ -1,12 +1,12 @@
-// What comes back in a song: its sections, each with the letter of what it is like, as musicians write them.
+// A song's sections, with the same letter for similar ones, as musicians write them.
 type Passage = { from: number; to: number; like: number };
-/// `nth`: of its letter, from 0 on. `others`: where else it is, seconds.
+/// `nth`: its index among sections of the same letter. `others`: the seconds of these.
 export type Section = { from: number; to: number; nth: number; letter: string; others: number[] };
 
 type Piece = { from: number; to: number; like: number };
-const least = 1; // seconds: what is shorter is no section
+const least = 1; // seconds of the shortest section
 
-/// Where the music of [from, to) was first, piece by piece.
+/// The first occurrence of the music of [from, to), piece by piece.
 function firstOf(from: number, to: number, known: Piece[]): [number, number][] {
   if (to - from < 1e-6) return [];
   const piece = known.find((some) => some.from < to - 1e-6 && some.to > from + 1e-6);
@@ -20,7 +20,7 @@ function firstOf(from: number, to: number, known: Piece[]): [number, number][] {
 export function sections(passages: Passage[]): Section[] {
   const pieces: Piece[] = [];
   for (const { from, to, like } of passages) {
-    // A passage that is longer than its way back is like its own beginning.
+    // A passage longer than its lag repeats its own beginning.
     for (let at = from; at < to - 1e-6; at += from - like) {
       let place = at;
       for (const [first, end] of firstOf(like, like + Math.min(from - like, to - at), pieces)) {
@@ -31,7 +31,7 @@ export function sections(passages: Passage[]): Section[] {
       }
     }
   }
-  // What was first is one section as far as anything like it goes.
+  // An original is one section as far as any repetition of it goes.
   const firsts: [number, number][] = [];
   const all = pieces.map(({ from, to, like }): [number, number] => [like, like + to - from]).sort((a, b) => a[0] - b[0]);
   for (const [from, to] of all) {
@@ -42,7 +42,7 @@ export function sections(passages: Passage[]): Section[] {
   const long = firsts.filter(([from, to]) => to - from >= least);
   const spans = long.map(([from, to], nth) => ({ from, to, nth }));
   const back: typeof spans = [];
-  let likeTo = 0; // where the last one of these ends first
+  let likeTo = 0; // the first end of the last one
   for (const { from, to, like } of pieces) {
     const nth = long.findIndex(([begin, end]) => like + (to - from) / 2 >= begin && like + (to - from) / 2 < end);
     const last = back.at(-1);

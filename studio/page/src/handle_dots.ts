@@ -1,4 +1,4 @@
-// The dots by which a pose is bent, where its handles are.
+// The dots at a pose's handles.
 import * as THREE from 'three';
 import { Figure } from './body';
 import type { Pose } from './body';
@@ -8,7 +8,7 @@ import * as studio from './studio';
 
 const aboveFloor = 0.004; // metres
 
-/// Where the handles of a pose are in the world, by their names.
+/// The world positions of a pose's handles, by name.
 export function placesOf(pose: Pose) {
   const figure = new Figure(studio.skeleton, pose);
   const out = new Map<string, THREE.Vector3>();
@@ -17,7 +17,7 @@ export function placesOf(pose: Pose) {
   return out;
 }
 
-/// The handles that can be pulled now.
+/// The handles that can be dragged now.
 export function openHandles() {
   return [...handles, floorHandle].filter((handle) => canPull(studio.skeleton, handle, studio.movable.value));
 }
@@ -46,7 +46,7 @@ export class HandleDots {
     this.scene.add(disc);
   }
 
-  /// Of the pose that is bent, if any.
+  /// Shows the handles of the pose being edited, if any.
   show(pose: Pose | null) {
     this.scene.visible = !!pose;
     if (!pose) return;

@@ -9,7 +9,7 @@ import { busy, chosen, complain, danced, live, moment, moments, motion, present,
 import type { Make, Moment, Warning } from './state';
 
 const mostMoments = 60;
-/// So many frames behind an interval must be there before it alone is danced anew.
+/// So many frames after an interval must be there before it alone is danced anew.
 const lead = 30;
 
 /// Frames of the whole dance.
@@ -58,7 +58,7 @@ export async function made(of: Moment): Promise<Motion> {
   return there;
 }
 
-/// A new moment behind the present one, in place of those that were undone.
+/// A new moment after the present one, in place of those that were undone.
 export function push(next: Project, shown: Motion, make: Make, known: Warning[] = []) {
   takes.value = [];
   chosen.value = null;
@@ -88,7 +88,7 @@ export function stream(): AbortController {
   return streaming;
 }
 
-/// Dances a project from behind frame `from` of `before` on.
+/// Dances a project from frame `from` of `before`.
 const streamFrom = (next: Project, before: Motion, from: number): Make => (watch) => {
   const control = stream();
   return dancer.stream(next, before, from, watch, control.signal).finally(() => {
@@ -96,7 +96,7 @@ const streamFrom = (next: Project, before: Motion, from: number): Make => (watch
   });
 };
 
-/// Dances everything behind `from` anew.
+/// Dances everything after `from` anew.
 export function danceFrom(next: Project, from: number) {
   const before = motion.value ?? new Motion(skeleton.joints, dancer.fps);
   const stay = warnings.value.filter(({ frame }) => frame <= from);
@@ -104,7 +104,7 @@ export function danceFrom(next: Project, from: number) {
 }
 
 /// Changes the project and dances what it touches, `frames`, anew: from the key before them to the
-/// one behind.
+/// one after.
 export function edit(next: Project, frames: number[]) {
   const before = moment.value;
   const stays = next.keys.filter(({ frame }) => !frames.includes(frame)).map(({ frame }) => frame);

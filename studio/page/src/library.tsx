@@ -1,4 +1,4 @@
-// Key poses to choose from: those of the library, and one's own.
+// Key poses to choose from: the library's and the user's own.
 import { signal } from '@preact/signals';
 import type { Pose } from './body';
 import type { LibraryPose } from './generated/studio/studio_pb';
@@ -9,7 +9,7 @@ import { dropPose } from './timeline';
 
 const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
 
-/// Follows the pointer with a pose until it is dropped on the timeline, or elsewhere.
+/// Drags a pose with the pointer until it is dropped.
 const carry = (pose: LibraryPose) => (event: PointerEvent) => {
   const from = { x: event.clientX, y: event.clientY };
   const move = ({ clientX: x, clientY: y }: PointerEvent) => {

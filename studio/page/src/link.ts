@@ -1,4 +1,4 @@
-// The program behind the page, and what it said of the body and the model.
+// The program behind the page, and its description of body and model.
 import { Skeleton } from './body';
 import { Dancer } from './dancer';
 import type { Welcome } from './generated/studio/studio_pb';
@@ -9,7 +9,7 @@ export let skeleton: Skeleton;
 export let dancer: Dancer;
 
 let greet: (said: Welcome, isFirst: boolean) => void = () => {};
-/// What to do when the program is there: for the first time, or again.
+/// Registers what to do when the program connects or reconnects.
 export const whenThere = (does: typeof greet) => (greet = does);
 
 export const wire = new Wire(

@@ -20,7 +20,7 @@ import { wav } from './wav';
 const lookAhead = 0.3; // seconds: what is nearer is danced already
 const ahead = 1; // seconds until a pose that is pressed, at least
 const spare = 0.07; // seconds for a piece of sound, and the way to the program and back
-const shownAhead = 8; // seconds of the timeline behind now
+const shownAhead = 8; // seconds of the timeline after now
 const lastWait = 10000; // ms for the end of the dance
 const longest = 590; // seconds: songs may be ten minutes long
 const name = 'microphone.wav';

@@ -1,16 +1,16 @@
-// Which joints of a pose are worked on: those of some parts of the body, or those that a partial key asks for.
+// The joints being edited: those of some parts of the body, or those of a partial key.
 import { computed, signal } from '@preact/signals';
 import { BodyPart } from './generated/choreo/v1/choreography_pb';
 import { parts, spoken } from './project';
 import { project, selectedKey, sketch, welcome } from './state';
 
-/// Of each of `parts`: whether it is worked on, where the key does not say so itself.
+/// For each of `parts`: whether it is being edited, unless the key determines that.
 export const worked = signal(parts.map(() => true));
 
 const partOf = (joint: number) => welcome.value!.turns[joint].part - BodyPart.TRUNK;
 const joints = () => welcome.value!.turns.map((_, joint) => joint);
 
-/// These joints, and those of a part, or without them; null: all.
+/// Adds a part's joints to these or removes them; null: all.
 export function withPart(asked: number[], part: number, isOn: boolean): number[] | null {
   const left = joints().filter((joint) => (partOf(joint) === part ? isOn : asked.includes(joint)));
   return left.length === joints().length ? null : left;
@@ -23,7 +23,7 @@ export const jointsOf = (chosen: boolean[]): number[] | null =>
 /// Which parts have one of these joints.
 export const partsOf = (asked: number[] | null): boolean[] => parts.map((_, part) => !asked || asked.some((joint) => partOf(joint) === part));
 
-/// For people: "left arm, right arm"; joints by name where a part is not there as a whole.
+/// Text: "left arm, right arm"; names joints of incomplete parts.
 export function inWords(asked: number[], names: string[]): string {
   const isWhole = (part: number) => joints().every((joint) => partOf(joint) !== part || asked.includes(joint));
   const whole = parts.filter((_, part) => isWhole(part));

@@ -1,6 +1,6 @@
-// The microphone: what it hears, piece by piece.
+// Records the microphone, piece by piece.
 
-/// Of what it heard so far. `stop` lets go of it.
+/// A running recording. `stop` releases the microphone.
 export type Microphone = { rate: number; stop: () => void };
 
 const refusals: Record<string, string> = {
@@ -9,10 +9,10 @@ const refusals: Record<string, string> = {
   NotReadableError: 'The microphone is in use elsewhere.',
 };
 
-/// Listens until it is stopped. `lost` is called where it is unplugged.
+/// Records until stopped. Calls `lost` if the microphone is unplugged.
 export async function listen(heard: (piece: Float32Array) => void, lost: () => void): Promise<Microphone> {
   if (!navigator.mediaDevices) throw new Error('Browsers give the microphone to pages of this machine alone: open the studio as http://127.0.0.1.');
-  // As it sounds: what is made for speech takes the music away.
+  // Raw sound: processing for speech would remove the music.
   const wanted = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
   const stream = await navigator.mediaDevices.getUserMedia({ audio: wanted }).catch((error: DOMException) => {
     throw new Error(refusals[error.name] ?? `The microphone cannot be opened: ${error.message}`);

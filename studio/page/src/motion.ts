@@ -1,4 +1,4 @@
-// Frames at the model's rate, and what is read from them.
+// Frames at the model's rate.
 import { create } from '@bufbuild/protobuf';
 import { Quaternion } from 'three';
 import { toQuaternion } from './body';
@@ -22,7 +22,7 @@ export class Motion {
     this.contacts = new Float32Array(4 * room);
   }
 
-  /// Frames that follow.
+  /// Appends frames.
   append(frames: Frames) {
     this.makeRoom(this.count + frames.count);
     this.roots.set(frames.rootPositions, 3 * this.count);
@@ -31,7 +31,7 @@ export class Motion {
     this.count += frames.count;
   }
 
-  /// The first `count` frames, of their own.
+  /// A copy of the first `count` frames.
   head(count: number): Motion {
     const out = new Motion(this.joints, this.fps, Math.max(count, 1));
     out.count = count;
@@ -41,7 +41,7 @@ export class Motion {
     return out;
   }
 
-  /// The same with other frames from `first` on; everything else stays as it is.
+  /// A copy with frames from `first` on replaced by `part`.
   with(first: number, part: Motion, count = part.count): Motion {
     const out = this.head(this.count);
     out.makeRoom(first + count);
@@ -67,7 +67,7 @@ export class Motion {
     return out;
   }
 
-  /// Between two frames: root into `root`, rotations into `joints`. False before the first frame.
+  /// Interpolates between frames, into `root` and `joints`. False before the first frame.
   sample(time: number, root: Triple, joints: Quaternion[]): boolean {
     if (this.count === 0) return false;
     const at = Math.min(Math.max(time * this.fps, 0), this.count - 1);
@@ -96,7 +96,7 @@ export class Motion {
     });
   }
 
-  /// At the model's rate, whatever the clip's.
+  /// Converts a clip of any rate to the model's rate.
   static fromClip(clip: Clip, joints: number, fps: number): Motion {
     const own = new Motion(joints, clip.frameRate);
     const frames = clip.frames!;

@@ -1,23 +1,23 @@
-// A number that people type, or change with the arrow keys; with Shift, by ten steps. What cannot be is told beside it, and changes nothing.
+// A number field: typed, or changed by arrow keys; with Shift by ten steps. Invalid input shows a message and changes nothing.
 import { useSignal } from '@preact/signals';
 import { useId } from 'preact/hooks';
 
 type Props = {
-  /// What is seen, and what is heard where that says too little.
+  /// The visible label, and one for screen readers if that says too little.
   label: string;
   name: string;
   value: number;
   low: number;
   high: number;
   step: number;
-  /// What its numbers may be: "The left elbow bends 0 to 160 degrees".
+  /// The valid range: "The left elbow bends 0 to 160 degrees".
   rule: string;
   set: (value: number) => void;
   focused?: () => void;
 };
 
 export function NumberField({ label, name, value, low, high, step, rule, set, focused }: Props) {
-  /// What was wrong, until the number is another.
+  /// The message for invalid input, until the number changes.
   const told = useSignal({ text: '', at: value });
   const slip = Math.abs(told.value.at - value) < 1e-3 ? told.value.text : '';
   const id = useId();

@@ -1,4 +1,4 @@
-// Onion skin: where the dancer comes from and goes to, seen through.
+// Onion skin: transparent figures of earlier and later poses.
 import * as THREE from 'three';
 import type { Doll } from './doll';
 import type { Pose } from './body';
@@ -13,7 +13,7 @@ export class Onion {
 
   constructor(private readonly doll: Doll) {}
 
-  /// As `studio.onion` says; nothing beside other takes.
+  /// Shows what `studio.onion` selects, but nothing beside other takes.
   show(time: number, isHidden: boolean) {
     for (const skin of this.skins.values()) skin.scene.visible = false;
     const { value } = studio.onion;
@@ -31,8 +31,8 @@ export class Onion {
   private showKeys(now: number) {
     const { keys } = studio.project.value;
     const before = keys.findLast(({ frame }) => frame < now);
-    const behind = keys.find(({ frame }) => frame > now);
-    for (const [by, key] of [[-1, before], [1, behind]] as const) {
+    const after = keys.find(({ frame }) => frame > now);
+    for (const [by, key] of [[-1, before], [1, after]] as const) {
       if (!key) continue;
       const there = studio.motionAt(key.frame / studio.dancer.fps);
       if (key.hasPlace) this.put(by, key.pose, 0.22);

@@ -13,7 +13,7 @@ export class OtherTakes {
 
   constructor(private readonly doll: Doll) {}
 
-  /// `middle` becomes that of all dancers; returns where their names go, none where there is one take.
+  /// Sets `middle` to the middle of all dancers; returns the places of their names, none for one take.
   show(time: number, centre: THREE.Vector3, camera: THREE.Camera, middle: THREE.Vector3) {
     const takes = studio.takes.value;
     while (this.dolls.length < takes.length) {
@@ -27,7 +27,7 @@ export class OtherTakes {
       doll.scene.visible = i < takes.length;
       if (!doll.scene.visible) return;
       doll.follow(takes[i].motion, time);
-      // Beside each other, wherever each dances: somebody who walks off would leave the stage, or stand in another.
+      // Side by side, wherever each dances: a dancer who walks off would leave the stage or collide.
       const place = side.clone().multiplyScalar((i + 1) * apart).add(centre).setY(nameHeight);
       doll.scene.position.copy(place).sub(doll.place()).setY(0);
       names.push(place);

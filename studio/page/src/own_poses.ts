@@ -1,4 +1,4 @@
-// Poses that people made themselves: this browser remembers them, beside those of the library.
+// The user's own poses, stored in this browser.
 import { create } from '@bufbuild/protobuf';
 import { signal } from '@preact/signals';
 import type { Pose } from './body';
@@ -30,7 +30,7 @@ function read(): Kept[] {
 
 const kept = signal(read());
 
-/// Those that fit a body of so many joints.
+/// Own poses for a body with this many joints.
 export const ownPoses = (joints: number) => kept.value.filter(({ rotations }) => rotations.length === 3 * joints).map(asLibrary);
 
 function keep(all: Kept[]) {
@@ -42,7 +42,7 @@ function keep(all: Kept[]) {
   }
 }
 
-/// Remembers a pose under a free name, which it tells; it stands at the origin.
+/// Stores a pose at the origin under a free name, which it reports.
 export function addPose(name: string, pose: Pose) {
   let id = name;
   for (let i = 2; kept.value.some((other) => other.id === id); ++i) id = `${name}_${i}`;

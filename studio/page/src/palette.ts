@@ -1,7 +1,7 @@
-/// A colour of the page as style.css has it now, in light or dark.
+/// The current value of a colour of style.css, light or dark.
 export function colour(name: 'accent' | 'gold' | 'left' | 'paper' | 'right' | 'wave' | 'wave-done' | ReturnType<typeof shirtOf>) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/// The colour that the dancer of a take wears: 0 is the dance as it is.
+/// The shirt colour of a take's dancer; 0 is the present dance.
 export const shirtOf = (take: number) => `take-${Math.min(take, 3)}` as const;

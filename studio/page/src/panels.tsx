@@ -1,4 +1,4 @@
-// What is beside the stage: the chosen key, takes, beats, music, style, liveliness.
+// The panels beside the stage: selected key, takes, beats, music, style, liveliness.
 import { signal } from '@preact/signals';
 import { tempo } from './counts';
 import { DancersPanel } from './dancers_panel';
@@ -11,7 +11,7 @@ import type { Stage } from './stage';
 import * as studio from './studio';
 
 const follows = signal(true);
-const brisk = 2.5; // metres a second, which few keep up while they dance
+const brisk = 2.5; // metres a second; few dancers keep this up
 
 function KeyPanel({ stage }: { stage: Stage | null }) {
   const pose = studio.bent();
@@ -53,7 +53,7 @@ function TakesPanel() {
   );
 }
 
-/// How to dance: a style of the model's, where it has any.
+/// The style, if the model has any.
 function StylePanel() {
   const styles = studio.welcome.value?.model?.styles ?? [];
   if (styles.length === 0) return null;
@@ -85,7 +85,7 @@ function Slider({ name, title, low, high, value, set }: SliderProps) {
   );
 }
 
-/// How the song is danced to.
+/// How the dance follows the song.
 function MusicPanel() {
   const { value } = studio.project;
   const song = studio.shownSong.value;
@@ -103,7 +103,7 @@ function MusicPanel() {
   );
 }
 
-/// The choreographer's word on the beats.
+/// Editing beats.
 function BeatsPanel() {
   const { value } = studio.project;
   const { beats, taps } = studio;
@@ -146,7 +146,7 @@ function LivelyPanel() {
   );
 }
 
-/// Where the dancer goes: drawn on the floor, walked in a stretch of the dance.
+/// The floor path.
 function PathPanel() {
   if (!studio.canBeLed()) return null;
   const { value } = studio.project;
@@ -174,7 +174,7 @@ function PathPanel() {
       <div class="row">
         <button aria-pressed={studio.drawing.value} disabled={!value} onClick={() => {
           studio.drawing.value = !studio.drawing.value;
-          // On a phone the floor is further up.
+          // On phones the floor is further up the page.
           if (studio.drawing.value) document.querySelector('.stage')!.scrollIntoView({ block: 'nearest' });
         }}>
           {studio.drawing.value ? 'Draw on the floor …' : path.length ? 'Draw another' : 'Draw a path'}
@@ -186,7 +186,7 @@ function PathPanel() {
   );
 }
 
-/// What goes on while it is danced to the microphone.
+/// The state of a live dance.
 function LivePanel() {
   return (
     <section aria-label="Live">

@@ -1,4 +1,4 @@
-// The corners of the floor path, for who sets them one by one: a path that was drawn has few of them, too.
+// The corners of the floor path, for editing one by one; a drawn path has few, too.
 import { computed, signal } from '@preact/signals';
 import { heading } from './body';
 import { away, clearPath, least, lengthOf, stretch, walk } from './floor_path';
@@ -6,21 +6,21 @@ import type { Spot, Step } from './project';
 import { live, moment, motion, project, tell } from './state';
 import type { Moment } from './state';
 
-const near = 0.08; // metres: what a corner adds less than is none
-const onward = 0.5; // metres from the last point to one that is added
-const rest = 600; // ms from the last change to the dance
+const near = 0.08; // metres; smaller bends are not corners
+const onward = 0.5; // metres from the last point to a new one
+const rest = 600; // ms from the last change until dancing
 
-/// Corners that are being changed, and where they are walked, frames.
+/// The corners being edited, and their frames.
 const asked = signal<{ spots: Spot[]; from: number; to: number; of: Moment } | null>(null);
-/// Corners as they were set, of the path that came of them.
+/// The corners as set, and the path made from them.
 const walked = signal<{ path: Step[]; spots: Spot[] } | null>(null);
 let resting: ReturnType<typeof setTimeout>;
 
 export const areCornersShown = signal(false);
-/// The one that is being moved.
+/// The corner being moved.
 export const heldCorner = signal(0);
 
-/// How far a spot is from the line between two others.
+/// The distance of a spot from the line between two others.
 function aside(spot: Spot, a: Spot, b: Spot): number {
   const length = away(a, b);
   if (length < 1e-6) return away(spot, a);
@@ -29,7 +29,7 @@ function aside(spot: Spot, a: Spot, b: Spot): number {
   return away(spot, { x: a.x + on * (b.x - a.x), z: a.z + on * (b.z - a.z) });
 }
 
-/// The spots without which a line would be another (Douglas and Peucker).
+/// The essential spots of a line (Douglas and Peucker).
 function cornersOf(spots: Spot[]): Spot[] {
   if (spots.length < 3) return spots.map(({ x, z }) => ({ x, z }));
   const [first, last] = [spots[0], spots.at(-1)!];
@@ -39,14 +39,14 @@ function cornersOf(spots: Spot[]): Spot[] {
   return [...cornersOf(spots.slice(0, far + 1)).slice(0, -1), ...cornersOf(spots.slice(far))];
 }
 
-/// While they are changed, as they are asked for.
+/// The corners, as edited.
 export const askedCorners = computed(() => (asked.value?.of === moment.value ? asked.value?.spots ?? null : null));
 export const corners = computed((): Spot[] => {
   const path = project.value?.path ?? [];
   return askedCorners.value ?? (walked.value?.path === path ? walked.value.spots : cornersOf(path));
 });
 
-/// Other corners: shown at once, danced once the hand rests.
+/// Sets corners: shown at once, danced after a pause.
 export function setCorners(spots: Spot[]) {
   const { path } = project.value;
   const [from, to] = asked.value?.of === moment.value ? [asked.value!.from, asked.value!.to] : path.length ? [path[0].frame, path.at(-1)!.frame] : stretch();
@@ -59,14 +59,14 @@ function take() {
   const last = asked.value;
   if (live.value || last?.of !== moment.value) return void (asked.value = null);
   if (last.spots.length === 0 && project.value.path.length > 0) clearPath();
-  // One point alone waits for another.
+  // A single point waits for a second one.
   if (last.spots.length < 2) return;
   if (lengthOf(last.spots) < least) return void tell(`This path has ${lengthOf(last.spots).toFixed(1)} m; one that is walked has ${least} at least.`);
   walk(last.spots, last.from, last.to);
   walked.value = { path: project.value.path, spots: last.spots };
 }
 
-/// Another point, onward from the last two; the first two lead ahead from where the dancer is.
+/// Adds a point in the direction of the last two; the first two lead ahead from the dancer.
 export function addCorner() {
   const spots = corners.value;
   const last = spots.at(-1);

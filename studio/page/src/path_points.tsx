@@ -1,4 +1,4 @@
-// The floor path by keyboard: its corners as numbers, which a screen reader reads, too.
+// The floor path's corners as numbers, for keyboards and screen readers.
 import { NumberField } from './number_field';
 import * as studio from './studio';
 

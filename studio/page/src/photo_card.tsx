@@ -1,4 +1,4 @@
-// The photo beside the body that was fitted to it, with what was seen in it.
+// The photo with its landmarks, beside the fitted body.
 import { create } from '@bufbuild/protobuf';
 import { LibraryPoseSchema } from './generated/studio/studio_pb';
 import * as studio from './studio';
@@ -6,8 +6,8 @@ import type { Photo } from './state';
 
 /// Pairs of MediaPipe Pose's landmarks between which there is a bone.
 const bones = [[11, 12], [11, 13], [13, 15], [12, 14], [14, 16], [11, 23], [12, 24], [23, 24], [23, 25], [25, 27], [27, 31], [24, 26], [26, 28], [28, 32]];
-const seen = 0.5; // visibility from which on a landmark is drawn
-/// The landmarks that limbs end with.
+const seen = 0.5; // least visibility of drawn landmarks
+/// The landmarks at limbs' ends.
 const limbs = { 'left arm': [13, 15], 'right arm': [14, 16], 'left leg': [25, 27], 'right leg': [26, 28] };
 
 function Seen({ photo }: { photo: Photo }) {

@@ -1,4 +1,4 @@
-// Poses in photos: MediaPipe Pose sees landmarks, here in the page; the program fits the body to them.
+// Poses from photos: MediaPipe Pose finds landmarks in the page; the program fits the body to them.
 import type { Pose as Detector, Results } from '@mediapipe/pose';
 import type { Pose, Triple } from './body';
 import { wire } from './link';
@@ -7,14 +7,14 @@ import { message, selectedKey, sketch, takes, tell, welcome, work } from './stat
 
 const photoTypes: Record<string, string> = { jpg: 'image/jpeg', jpeg: 'image/jpeg', png: 'image/png', webp: 'image/webp' };
 export const photoExtensions = Object.keys(photoTypes);
-// It was made for videos: the first look at somebody may take the front for the back, the second knows better.
+// MediaPipe is made for videos: the first pass may confuse front and back, the second corrects that.
 const looks = 2;
-const mostPixels = 1280; // of a side: what lies beyond is not looked at
+const mostPixels = 1280; // of a side; larger pictures are scaled down
 
 let isLooking = false;
 let detector: Promise<Detector> | null = null;
 
-/// Its files come from the program, not with the page: they are large.
+/// The program serves its files, which are too large for the page.
 function load(): Promise<Detector> {
   detector ??= new Promise<Detector>((resolve, reject) => {
     const script = document.createElement('script');
@@ -56,12 +56,12 @@ async function look(canvas: HTMLCanvasElement): Promise<Results | null> {
   seer.onResults((results) => {
     seen = results;
   });
-  seer.reset(); // nothing is known of an earlier photo
+  seer.reset(); // forget the earlier photo
   for (let i = 0; i < looks; ++i) await seer.send({ image: canvas });
   return seen;
 }
 
-/// Sees the pose of whoever is in a photo; it then stands on the stage, to be bent and kept.
+/// Finds the pose in a photo and puts it on the stage for editing.
 export const readPhoto = (name: string, bytes: Uint8Array) => work(async () => {
   if (!welcome.value?.readsPhotos)
     throw new Error(`${name}: photos need @mediapipe/pose, which is not here. \`make studio\` fetches it where there is npm; start the studio anew then.`);
@@ -96,7 +96,7 @@ export const readPhoto = (name: string, bytes: Uint8Array) => work(async () => {
   }
 });
 
-/// The photo and its pose are put away.
+/// Discards the photo and its pose.
 export function dropSketch() {
   if (sketch.value) URL.revokeObjectURL(sketch.value.photo.url);
   sketch.value = null;

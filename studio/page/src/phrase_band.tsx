@@ -1,8 +1,8 @@
-// The phrase that is chosen, on the timeline: its ends are pulled, or moved by arrow keys.
+// The selected phrase on the timeline; its ends are dragged or moved by arrow keys.
 import { content, snapped, stepped, timeUnder, x } from './scale';
 import * as studio from './studio';
 
-/// Pulls an end to what is under the pointer, from the one that stays on.
+/// Drags one end to the pointer; the other stays.
 function pull(event: PointerEvent, stays: number) {
   const grip = event.currentTarget as HTMLElement;
   event.stopPropagation();

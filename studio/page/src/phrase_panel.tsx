@@ -1,4 +1,4 @@
-// What can be done with a phrase beside the stage.
+// The actions on a phrase.
 import * as studio from './studio';
 
 export function PhrasePanel() {
@@ -14,7 +14,7 @@ export function PhrasePanel() {
         {!phrase && <button disabled={!value} onClick={studio.chooseEight}>Choose an eight</button>}
         {phrase && <>
           <button disabled={keys === 0} title="Left becomes right" onClick={studio.mirrorPhrase}>Mirror</button>
-          <button disabled={keys === 0} title="Once more right behind it; keys that stand there make way" onClick={() => studio.repeatPhrase()}>Repeat</button>
+          <button disabled={keys === 0} title="Once more right after it; keys that stand there make way" onClick={() => studio.repeatPhrase()}>Repeat</button>
           <button disabled={keys < 2} title="Once more but for the last key, for which a pose is pressed" onClick={() => studio.repeatPhrase(true)}>Repeat, ending otherwise</button>
           <button disabled={keys === 0} title="To set its keys elsewhere (Ctrl+C)" onClick={studio.copyKeys}>Copy</button>
         </>}

@@ -1,5 +1,4 @@
-// A phrase: what is chosen on the timeline, be it an interval between two keys or any stretch of the dance. Its keys are mirrored, set
-// again, or taken out.
+// A phrase is the selection on the timeline: an interval between two keys or any part of the dance. Its keys can be mirrored, repeated or removed.
 import { beats } from './beats';
 import { heading, turned } from './body';
 import type { Triple } from './body';
@@ -14,14 +13,14 @@ import { audio } from './songs';
 import { chosen, complain, live, project, selectedKey, takes, tell } from './state';
 
 const usual = 8; // counts
-const usualSeconds = 4; // where nobody counts
-const beside = 0.5; // seconds between two keys where nobody counts
+const usualSeconds = 4; // without counts
+const beside = 0.5; // seconds between two keys without counts
 
 const timesOf = () => beats.value.list.map(({ time }) => time);
 const isCounted = () => beats.value.list.length > 1;
 const frameOf = (seconds: number) => Math.round(seconds * dancer.fps);
 
-/// Chooses the frames between two, whichever is first; less than keys stand apart is no phrase.
+/// Selects the frames between two, in any order; fewer than the least distance of keys is no phrase.
 export function choosePhrase(a: number, b: number) {
   const [from, to] = [Math.max(0, Math.min(a, b)), Math.min(Math.max(a, b), total.value)];
   if (live.value || to - from < closest) return;
@@ -29,7 +28,7 @@ export function choosePhrase(a: number, b: number) {
   chosen.value = [from, to];
 }
 
-/// Chooses the eight in which the playhead is.
+/// Selects the eight at the playhead.
 export function chooseEight() {
   const now = audio.currentTime + 0.5 / dancer.fps;
   const ones = beats.value.list.filter(({ count }) => count === 1).map(({ time }) => time);
@@ -38,13 +37,13 @@ export function chooseEight() {
   choosePhrase(frameOf(from), frameOf(ones.find((time) => time > now) ?? later(from, usual, timesOf())));
 }
 
-/// What is chosen stays so while its keys change.
+/// Changes keys and keeps the selection.
 function change(keys: Key[], touched: number[], phrase: [number, number]) {
   edit({ ...project.value, keys: sorted(keys) }, touched);
   chosen.value = phrase;
 }
 
-/// Left becomes right, as seen from where the dancer is and faces at the first of its keys.
+/// Mirrors the phrase, relative to the dancer's place and facing at its first key.
 export function mirrorPhrase() {
   const keys = chosenKeys();
   const [first] = keys;
@@ -72,7 +71,7 @@ export function removePhrase() {
   tell(`${keys.length === 1 ? 'One key is' : `${keys.length} keys are`} taken out. Undo brings them back.`);
 }
 
-/// How a second of the phrase is one of its repetition, which begins where the phrase ends, and on the same count.
+/// Maps a second of the phrase to its repetition, which begins at the phrase's end, on the same count.
 function repeated([from, to]: [number, number], last: number): (seconds: number) => number {
   const { fps } = dancer;
   const times = timesOf();
@@ -85,8 +84,8 @@ function repeated([from, to]: [number, number], last: number): (seconds: number)
   return (seconds) => later(seconds, counts, times);
 }
 
-/// The keys of the phrase once more, right behind it, moved and turned to where the dancer is then; keys that stand there make way. With
-/// another ending the last of them is left out, for a pose that is pressed next.
+/// Repeats the phrase's keys right after it, moved and turned to the dancer's place then, replacing keys there. `withAnotherEnding` omits the last
+/// key, for a pose that the user chooses next.
 export function repeatPhrase(withAnotherEnding = false) {
   const keys = chosenKeys();
   if (keys.length === 0 || (withAnotherEnding && keys.length < 2)) return;
@@ -113,5 +112,5 @@ export function repeatPhrase(withAnotherEnding = false) {
     return tell('The phrase comes again but for its last key: press a pose, and it ends in that.');
   }
   const left = keys.length - set.length;
-  if (left > 0) tell(`${left} of ${keys.length} keys would come behind the end, and are left out.`);
+  if (left > 0) tell(`${left} of ${keys.length} keys would come after the end, and are left out.`);
 }

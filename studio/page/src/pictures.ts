@@ -23,7 +23,7 @@ export class Pictures {
     this.camera.lookAt(0, 0.96, 0);
   }
 
-  /// As a URL. The body faces us, wherever it stands.
+  /// A pose's picture, as a URL. The body faces the viewer.
   of(pose: Pose): string {
     const name = pose.rotations.join();
     let url = this.known.get(name);

@@ -1,4 +1,4 @@
-// What can be done to the pose that is bent, beside pulling it: by parts, by keyboard, by numbers, from other poses.
+// Tools for editing the pose without dragging: by parts, by keyboard, by numbers, from other poses.
 import { signal } from '@preact/signals';
 import { Vector3 } from 'three';
 import { turned } from './body';
@@ -22,7 +22,7 @@ const ways: Record<string, [number, number, number]> = {
 /// The joint whose degrees are shown.
 const joint = signal('left_shoulder');
 
-/// Which parts are worked on, and whether the key asks for these alone.
+/// The parts being edited, and whether the key is limited to them.
 function Parts() {
   const key = studio.sketch.value ? undefined : studio.keyOf(studio.selectedKey.value);
   const chosen = key?.asks ? studio.partsOf(key.asks) : studio.worked.value;
@@ -45,7 +45,7 @@ function Parts() {
   );
 }
 
-/// A pose of the library, or what the parts that are worked on are like in it.
+/// Takes a library pose, or the edited parts of it.
 function TakeFrom() {
   const own = studio.ownPoses(studio.skeleton.joints);
   const all = [...own, ...(studio.welcome.value?.poses ?? [])];
@@ -117,7 +117,7 @@ function Handles({ stage }: { stage: Stage | null }) {
 export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) {
   const change = (made: (pose: Pose) => Pose) => () => studio.bend(made(studio.bent()!));
   const key = studio.sketch.value ? null : studio.selectedKey.value;
-  // Where the hips stay, the whole body does not turn or sink.
+  // With fixed hips the whole body can neither turn nor sink.
   const areHipsFixed = !!studio.movable.value && !studio.movable.value.includes(0);
   return (
     <>

@@ -1,32 +1,31 @@
-// What people make: key poses, and how to dance between them.
+// A project: key poses, and how to dance between them.
 import type { Pose } from './body';
 import type { Beats } from './counts';
 
 /// A place on the floor; metres.
 export type Spot = { x: number; z: number };
-/// Where the dancer is to be at a frame. A path has at least two, in order of time.
+/// A point of a path at a frame. A path has at least two, in order of time.
 export type Step = Spot & { frame: number };
 
-/// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
-/// all of them.
+/// A key pose. Without a place it applies wherever the dancer is. `asks`: the joints that it fixes, in order; null: all of them.
 export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null };
 
-/// Keys stand at least so many frames apart (kMinKeyDistance of the program).
+/// The least distance between keys, frames (the program's kMinKeyDistance).
 export const closest = 2;
 
 export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg'];
 
-/// What the program does where nothing is said: kUsualDynamics, kUsualVariation.
+/// The program's defaults: kUsualDynamics, kUsualVariation.
 const [usualDynamics, usualVariation] = [0.5, 0.3];
 const usuallyApart = 0.2; // metres (kUsuallyApart)
 
-/// One of several dancers. She dances as all do, but for what she says.
+/// One of several dancers, with the settings in which she differs.
 export type Partner = Spot & {
   id: string;
-  /// Degrees that her dance is turned.
+  /// The rotation of her dance, degrees.
   facing: number;
   mirrored: boolean;
-  /// Counts, or seconds, that she comes later.
+  /// Her delay, counts or seconds.
   after: number;
   inCounts: boolean;
   seed: number | null;
@@ -38,27 +37,27 @@ export type Project = {
   song: string;
   seconds: number;
   seed: number;
-  /// One of the model's; empty: as it comes.
+  /// One of the model's; empty: any.
   style: string;
-  /// How much the music's energy is that of the dance, 0 to 1.
+  /// How closely the dance's energy follows the music's, 0 to 1.
   dynamics: number;
-  /// How much the dance to music that comes back differs, 0 to 1.
+  /// How much the dance to repeated music varies, 0 to 1.
   variation: number;
-  /// Of the song, where they are not as the program hears them.
+  /// The song's beats, if they differ from the program's.
   beats: Beats | null;
-  /// How lively each of `parts` is; 1 is as usual.
+  /// The liveliness of each of `parts`; 1 is usual.
   lively: number[];
-  /// Where the dancer goes; empty: anywhere.
+  /// The floor path; empty: free.
   path: Step[];
-  /// By frame.
+  /// In order of frames.
   keys: Key[];
-  /// Two or more who dance it together; empty: one does.
+  /// Two or more dancers; empty: a single one.
   dancers: Partner[];
-  /// Metres that stay between two of them at least.
+  /// The least distance between two of them, metres.
   apart: number;
 };
 
-/// How a dance should be, whatever its music and its keys.
+/// The settings that are independent of music and keys.
 export const wishes = ({ style, dynamics, variation, lively, path }: Project) => ({ style, dynamics, variation, lively, path });
 
 export const emptyProject = (song: string, seconds: number): Project => ({

@@ -3,8 +3,8 @@ import type { Beats } from './counts';
 import { closest, emptyProject, parts, sorted } from './project';
 import type { Key, Project, Step } from './project';
 
-const format = 1; // of the file
-// As the program has them: kLongestDance, kMaxAudioSeconds, kMostInBar, kMaxVelocityFactor, kMaxPosition.
+const format = 1; // version of the file format
+// The program's limits: kLongestDance, kMaxAudioSeconds, kMostInBar, kMaxVelocityFactor, kMaxPosition.
 const mostSeconds = 3600;
 const mostSong = 600; // seconds
 const mostInBar = 16;
@@ -12,12 +12,12 @@ const mostLively = 10;
 const most = 10000; // metres from the origin along an axis
 
 type Json = Record<string, unknown>;
-/// What a project has to fit.
+/// What a project must be compatible with.
 export type Known = { fps: number; styles: string[] };
 
 const round = (value: number) => Math.round(value * 1e5) / 1e5;
 
-/// The dancers of a project, as a file of dancers has them.
+/// The dancers of a project, in the form of a dancers' file.
 export const dancersJson = ({ dancers, apart }: Project) => ({
   dancers: dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style }) => ({
     id,
@@ -47,7 +47,7 @@ export function toJson(project: Project, fps: number, names: string[]): string {
   const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation,
     ...(beats ? { bar: beats.bar, beats: beats.list.map(({ time, count }) => [time, count]) } : {}), lively, ...(path.points.length ? { path } : {}),
     ...(project.dancers.length ? dancersJson(project) : {}), keyframes }, null, 1);
-  // A line for each vector, beat, place and list of joints, not for each number and name.
+  // Puts each vector, beat, place and list of joints on one line.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
     .replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2]')
     .replace(/"joints": \[\s+([^\]]*?)\s+\]/g, (_, joints: string) => `"joints": [${joints.replace(/\s*\n\s*/g, ' ')}]`)
@@ -87,7 +87,7 @@ function readPath(path: Json, name: string, known: Known): Step[] {
   });
   if (steps.length < 2) throw new Error(`${name}: path.points: ${steps.length} points, a path has at least 2.`);
   const back = steps.findIndex((step, i) => i > 0 && step.frame <= steps[i - 1].frame);
-  if (back > 0) throw new Error(`${name}: path.points[${back}] does not stand behind the point before it.`);
+  if (back > 0) throw new Error(`${name}: path.points[${back}] does not come after the point before it.`);
   return steps;
 }
 
@@ -103,11 +103,11 @@ function readBeats({ beats, bar = 4 }: Json, name: string): Beats {
     return { time: number(beat[0], at, 0, mostSong), count: count(beat[1], at) };
   });
   const back = list.findIndex(({ time }, i) => i > 0 && time <= list[i - 1].time);
-  if (back > 0) throw new Error(`${name}: beats[${back}] does not stand behind the beat before it.`);
+  if (back > 0) throw new Error(`${name}: beats[${back}] does not come after the beat before it.`);
   return { bar: count(bar, `${name}: bar`), list };
 }
 
-/// The keys of a file as the program read them, in order. Throws for those that no dance here has.
+/// The keys of a file as read by the program, in order. Throws for keys that do not fit a dance here.
 export function inOrder(keys: Key[], name: string, fps: number): Key[] {
   for (const { id, frame, pose } of keys) {
     if (!(frame >= 0 && frame <= mostSeconds * fps)) throw new Error(`${name}: the key "${id}" stands at ${frame / fps} s, and may from 0 to ${mostSeconds}.`);
@@ -121,8 +121,8 @@ export function inOrder(keys: Key[], name: string, fps: number): Key[] {
   return list;
 }
 
-/// Reads a project, or a key file, all but its keys, which the program reads. Throws where it cannot be used, naming member, value and limit;
-/// `tell` hears of what is left out.
+/// Reads a project or a key file, except its keys, which the program reads. Throws if it is unusable, naming member, value and limit; `tell` receives
+/// notes on what is left out.
 export function fromJson(text: string, name: string, known: Known, tell: (words: string) => void): Project {
   const json = parse(text, name);
   if (json.studio !== undefined && json.studio !== format)

@@ -1,10 +1,9 @@
-// Inverse kinematics: what a body does when one of its handles is pulled.
+// Inverse kinematics for dragging a body's handles.
 import { Quaternion, Vector3 } from 'three';
 import { Figure, only } from './body';
 import type { Pose, Skeleton } from './body';
 
-/// What can be pulled. `joint` is where the handle sits; of limbs, `chain` is the joint above, the
-/// hinge, and the end.
+/// A handle at `joint`. For limbs, `chain` is the joint above, the hinge, and the end.
 export type Handle = { id: string; label: string; joint: string; chain?: [string, string, string] };
 
 const limb = (side: string, label: string, ends: [string, string, string]): Handle => ({
@@ -23,19 +22,19 @@ export const handles: Handle[] = [
   limb('right', 'foot', ['hip', 'knee', 'ankle']),
 ];
 
-/// What bends where the head is pulled, from above.
+/// The joints that bend when the head is dragged, from above.
 const spine = ['neck', 'spine3', 'spine2', 'spine1'];
 
 /// The floor handle moves the whole body.
 export const floorHandle: Handle = { id: 'floor', label: 'place', joint: 'pelvis' };
 
-/// Whether a handle can be pulled where only these joints may change (null: all).
+/// Whether a handle can be dragged if only these joints may change (null: all).
 export function canPull(skeleton: Skeleton, { id, joint, chain }: Handle, joints: number[] | null): boolean {
   const needed = chain ?? (id === 'head' ? spine : [joint]);
   return !joints || needed.every((name) => joints.includes(skeleton.find(name)));
 }
 
-/// The pose after a handle was pulled to a place in the world. Other joints than these (null: all) stay turned as they are.
+/// The pose after dragging a handle to a place in the world. Joints other than these (null: all) keep their rotations.
 export function pull(skeleton: Skeleton, pose: Pose, handle: Handle, to: Vector3, joints: number[] | null): Pose {
   if (handle.id === 'floor') {
     return { ...pose, root: [to.x, pose.root[1], to.z] };
@@ -47,7 +46,7 @@ export function pull(skeleton: Skeleton, pose: Pose, handle: Handle, to: Vector3
   return only(pose, figure.pose(), joints);
 }
 
-/// The hips go there, the feet stay where they are.
+/// Moves the hips and keeps the feet in place.
 function moveHips(figure: Figure, to: Vector3) {
   const legs = handles.filter(({ id }) => id.endsWith('_foot'));
   const chains = legs.map(({ chain }) => chain!.map((name) => figure.skeleton.find(name)));
@@ -63,8 +62,7 @@ function moveHips(figure: Figure, to: Vector3) {
   });
 }
 
-/// Two bones reach as far as they can: the hinge opens or closes in the plane in which it is bent,
-/// then the limb swings. Hand or foot keeps its direction in the world.
+/// Two-bone reach: the hinge opens or closes in its present plane, then the limb swings. Hand or foot keeps its world rotation.
 function bendLimb(figure: Figure, [upper, hinge, end]: number[], to: Vector3) {
   const facing = figure.world[end].clone();
   const [a, b, c] = [figure.places[upper], figure.places[hinge], figure.places[end]];
@@ -82,7 +80,7 @@ function bendLimb(figure: Figure, [upper, hinge, end]: number[], to: Vector3) {
   figure.orient(end, facing);
 }
 
-/// The way that a straight limb bends: shins backwards, forearms forwards.
+/// The axis about which a straight limb bends: shins backwards, forearms forwards.
 function hingeAxis(figure: Figure, hinge: number) {
   const name = figure.skeleton.names[hinge];
   const axis = name.endsWith('knee') ? new Vector3(-1, 0, 0)
@@ -90,7 +88,7 @@ function hingeAxis(figure: Figure, hinge: number) {
   return axis.applyQuaternion(figure.world[figure.skeleton.parents[hinge]]);
 }
 
-/// Turns a joint so that `from`, which hangs on it, goes `share` of the way towards `to`.
+/// Turns a joint so that its descendant `from` moves `share` of the way towards `to`.
 function swing(figure: Figure, joint: number, from: Vector3, to: Vector3, share: number) {
   const here = from.clone().sub(figure.places[joint]).normalize();
   const there = to.clone().sub(figure.places[joint]).normalize();
@@ -98,7 +96,7 @@ function swing(figure: Figure, joint: number, from: Vector3, to: Vector3, share:
   figure.turn(joint, new Quaternion().slerp(turn, share));
 }
 
-/// The spine bends a little in each joint until the head is near the place.
+/// Bends each joint of the spine a little until the head is near the place.
 function bendSpine(figure: Figure, to: Vector3) {
   const head = figure.skeleton.find('head');
   const facing = figure.world[head].clone();

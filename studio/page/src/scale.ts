@@ -1,11 +1,11 @@
-// Where a second is on the timeline, and which one is at a point of it.
+// Converts between seconds and positions on the timeline.
 import { signal } from '@preact/signals';
 import * as studio from './studio';
 
 export const zoom = signal(48); // pixels a second
-export const edge = 40; // pixels beside the song
-const snap = 10; // pixels to a beat
-/// What holds the timeline's content, once it is there.
+export const edge = 40; // pixels of margin beside the song
+const snap = 10; // pixels within which a beat attracts
+/// The element with the timeline's content, once it exists.
 export const content = signal<HTMLElement | null>(null);
 
 export const x = (seconds: number) => edge + seconds * zoom.value;
@@ -27,14 +27,14 @@ export function snapped(time: number): number {
 
 export const timeUnder = (clientX: number) => (clientX - content.value!.getBoundingClientRect().left - edge) / zoom.value;
 
-/// The frame of the next beat on either side, or half a second away; by single frames where these are asked for.
+/// The frame of the next beat in a direction, or half a second away; single frames on request.
 export function stepped(frame: number, way: 1 | -1, byFrames: boolean): number {
   if (byFrames) return frame + way;
   const frames = beatTimes().map((beat) => Math.round(beat * studio.dancer.fps));
   return (way > 0 ? frames.find((beat) => beat > frame) : frames.findLast((beat) => beat < frame)) ?? frame + 15 * way;
 }
 
-/// Of a point of the screen on the timeline; null elsewhere.
+/// The frame at a point of the screen; null outside the timeline.
 export function frameUnder(clientX: number, clientY: number): number | null {
   const box = content.value?.parentElement!.getBoundingClientRect();
   if (!box || !studio.project.value) return null;

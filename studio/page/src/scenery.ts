@@ -1,4 +1,4 @@
-// What the stage looks like: floor, light and shadow, in light and dark.
+// The stage's floor, lights and shadows, in light and dark mode.
 import * as THREE from 'three';
 
 /// The floor's colours, and how bright the lights are.
@@ -33,11 +33,11 @@ export function floorTexture({ floor, line }: (typeof looks)['light']) {
   return texture;
 }
 
-/// A round floor on which shadows lie.
+/// A round floor that receives shadows.
 export function makeFloor() {
   const floor = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false }));
   floor.rotation.x = -Math.PI / 2;
-  // The shadows lie on the floor, wherever both are: they hide nothing of it.
+  // Draws shadows on top of the floor without hiding it.
   const shade = new THREE.Mesh(new THREE.PlaneGeometry(12, 12), new THREE.ShadowMaterial({ opacity: 0.22, depthWrite: false }));
   shade.receiveShadow = true;
   shade.position.z = 0.001;

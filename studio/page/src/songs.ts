@@ -1,4 +1,4 @@
-// The song that is danced to, and the sound that is played.
+// The song of the dance, and its playback.
 import type { SongHeard } from './generated/studio/studio_pb';
 import { wire } from './link';
 import { opened, song, tell } from './state';
@@ -13,7 +13,7 @@ const types: Record<string, string> = {
 };
 export const songExtensions = Object.keys(types);
 
-/// Plays it from now on.
+/// Makes it the played song.
 export function takeSong(name: string, bytes: Uint8Array, heard: SongHeard) {
   const type = types[name.split('.').at(-1)!.toLowerCase()] ?? '';
   play({ name, bytes, heard, url: URL.createObjectURL(new Blob([bytes as BlobPart], { type })) });
@@ -24,25 +24,25 @@ function play(taken: Song) {
   song.value = taken;
 }
 
-/// Has the program hear a song, which is danced to from then on.
+/// Has the program analyse a song and uses it for the dance.
 export async function hear(name: string, bytes: Uint8Array) {
   const answer = await wire.ask({ case: 'song', value: { name, data: bytes } });
   if (answer.case === 'song') takeSong(name, bytes, answer.value);
 }
 
-/// Says what is odd in the song's file, beside what is said of what came with it.
+/// Reports problems of the song's file, together with other notes.
 export function tellOfSong(also = '') {
   const { name, heard } = song.value!;
   if (heard.notes.length) tell(`${opened(name, `${heard.seconds.toFixed(1)} s of song`, heard.notes)} ${also}`.trim());
 }
 
-/// Back to a song that was heard before; the sound goes on where the song is the present one.
+/// Returns to an earlier song; playback continues if it is the present one.
 export async function returnTo(known: Song) {
   await wire.ask({ case: 'song', value: { name: known.name, data: known.bytes } });
   if (known !== song.value) play(known);
 }
 
-/// A sound to play a dance to that has no song.
+/// Plays silence, for a dance without a song.
 export function playSilence(seconds: number) {
   const rate = 8000;
   const silence = wav(new Uint8Array(Math.ceil(seconds * rate)), rate, 8);

@@ -1,4 +1,4 @@
-// The stage: floor, light, camera, the dancers, and the handles of the pose that is being made.
+// The stage: floor, light, camera, dancers, and the handles of the pose being edited.
 import * as THREE from 'three';
 import type { Pose } from './body';
 import { Doll } from './doll';
@@ -16,15 +16,15 @@ import * as studio from './studio';
 import { View } from './view';
 
 const ground = new THREE.Plane(new THREE.Vector3(0, 1, 0), 0);
-const farthest = 9; // metres from where the camera looks: a path may lead there
-const longest = 0.3; // seconds between two looks at the dancer: what is more was a rest
-const alone = 1.65, reach = 0.95; // metres: what is shown of one dancer's floor; from a hip to fingertips, and a little more
-const near = 26; // pixels from a handle that still grab it
+const farthest = 9; // metres from the camera's target within which paths may be drawn
+const longest = 0.3; // seconds between camera updates; longer gaps were pauses
+const alone = 1.65, reach = 0.95; // metres: visible floor around one dancer; from a hip to the fingertips, with a margin
+const near = 26; // pixels within which a handle is grabbed
 
 export class Stage {
-  /// Called with the pose that was pulled into shape, when the handle is let go.
+  /// Called with the edited pose when the handle is released.
   onPosed: (pose: Pose) => void = () => {};
-  /// Pictures a second, while there is something to draw.
+  /// Pictures per second while there is something to draw.
   rate = 60;
 
   private readonly renderer: THREE.WebGLRenderer;
@@ -42,13 +42,13 @@ export class Stage {
   private readonly line = new FloorLine();
   private posing: Pose | null = null;
   private grabbed: { handle: Handle; plane: THREE.Plane; from: Pose; offset: THREE.Vector3 } | null = null;
-  /// How far the sound went while a picture was made, seconds: at most, while it played last.
+  /// The most that the sound advanced while a picture was made, seconds, during the last playback.
   lateness = 0;
 
   private readonly middle = new THREE.Vector3(); // of all dancers
   private seen: unknown[] = [];
-  private drawn = 0; // when the last picture was, ms
-  private looked = 0; // when the dancer was looked at last, ms
+  private drawn = 0; // time of the last picture, ms
+  private looked = 0; // time of the last camera update, ms
   private isDark = false;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly doll: Doll, private readonly posed: () => Pose | null, private readonly onPlaced: (marks: { x: number; y: number }[]) => void) {
@@ -74,7 +74,7 @@ export class Stage {
     this.renderer.setAnimationLoop(() => this.draw());
   }
 
-  /// Where a handle is on the page; null while no pose is bent.
+  /// A handle's position on the page; null while no pose is edited.
   whereIs(id: string) {
     if (!this.posing) return null;
     const { x, y } = this.toScreen(placesOf(this.posing).get(id)!);
@@ -82,7 +82,7 @@ export class Stage {
     return { x: x + left, y: y + top };
   }
 
-  /// Moves a handle by metres, as its dragging would.
+  /// Moves a handle by metres, as dragging does.
   nudge(id: string, by: THREE.Vector3) {
     const handle = [...handles, floorHandle].find((some) => some.id === id);
     if (!handle || !this.posing) return;
@@ -116,7 +116,7 @@ export class Stage {
     return caster.ray;
   }
 
-  /// The spot of the floor that is under the pointer; null above the horizon, and too far away.
+  /// The floor spot under the pointer; null above the horizon and too far away.
   private spot(event: PointerEvent) {
     const hit = this.ray(event).intersectPlane(ground, new THREE.Vector3());
     return hit && hit.distanceTo(this.view.target) < farthest ? { x: hit.x, z: hit.z } : null;
@@ -196,7 +196,7 @@ export class Stage {
     this.looked = now;
     this.view.stepAside();
     this.camera.updateMatrixWorld();
-    // A picture that would be the same again is not drawn.
+    // Skips pictures equal to the last one.
     const seen = [time, path, motion, motion?.count, this.posing, studio.present.value, studio.takes.value, studio.cast.value, this.ghost.scene.visible, studio.onion.value, studio.movable.value,
       studio.selectedKey.value, this.camera.aspect, studio.live.value, studio.sketch.value, this.canvas.clientWidth, this.renderer.getPixelRatio(), this.isDark, this.camera.zoom,
       ...this.camera.matrixWorld.elements.map((value) => Math.round(value * 1e4))];
@@ -208,8 +208,7 @@ export class Stage {
     this.adapt();
   }
 
-  /// Draws one picture of the dance alone, so many pixels large, for a film with one each `pace` seconds: the page's own pictures rest
-  /// until `leave`.
+  /// Draws one picture of the dance of this size, for a film with one every `pace` seconds; the page's own drawing pauses until `leave`.
   picture(motion: Motion, time: number, pace: number, width: number, height: number): HTMLCanvasElement {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== 1) {
@@ -219,7 +218,7 @@ export class Stage {
       this.renderer.setSize(width, height, false);
       this.view.fit(width, height);
       for (const part of [this.ghost.scene, this.dots.scene, this.line.scene, this.onion.scene, this.others.scene]) part.visible = false;
-      this.doll.scene.visible = !this.company.hasNoLead; // be it the first picture at all
+      this.doll.scene.visible = !this.company.hasNoLead; // even for the very first picture
     }
     this.doll.follow(motion, time);
     this.middle.copy(this.doll.place());
@@ -235,7 +234,7 @@ export class Stage {
     this.renderer.setAnimationLoop(() => this.draw());
   }
 
-  /// As many pixels as the screen has, be it slow.
+  /// Uses the screen's full resolution, even if slow.
   sharpen() {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.rate = 60;
@@ -246,7 +245,7 @@ export class Stage {
     const now = performance.now();
     const took = now - this.drawn;
     this.drawn = now;
-    if (took > 400) return; // it rested
+    if (took > 400) return; // it was paused
     this.rate += (1000 / Math.max(took, 1) - this.rate) * 0.1;
     if (this.rate < 22 && this.renderer.getPixelRatio() > 0.6) {
       this.renderer.setPixelRatio(this.renderer.getPixelRatio() * 0.75);
@@ -254,7 +253,7 @@ export class Stage {
     }
   }
 
-  /// The chosen key, where it will be hit.
+  /// Draws the selected key at its place.
   private drawGhost(time: number) {
     const key = studio.keyOf(studio.selectedKey.value);
     const away = key ? Math.abs(key.frame / studio.dancer.fps - time) : 0;
@@ -262,7 +261,7 @@ export class Stage {
     if (this.ghost.scene.visible) this.ghost.take(key!.pose);
   }
 
-  /// Looks at somebody for so many seconds, with so many metres in the picture; light and floor come along.
+  /// Moves the camera, light and floor towards a dancer for this time, with these metres in view.
   private look(at: THREE.Vector3, seconds: number, width: number) {
     this.view.look(at, seconds, width, this.grabbed ? 'bends' : this.line.isDrawn ? 'draws' : 'free');
     const { target } = this.view;

@@ -1,4 +1,4 @@
-// What the studio knows: signals, which everything that is shown follows.
+// The studio's state, as signals.
 import { computed, signal } from '@preact/signals';
 import type { Signal } from '@preact/signals';
 import type { Pose } from './body';
@@ -7,10 +7,9 @@ import type { Welcome, SongHeard } from './generated/studio/studio_pb';
 import type { Motion } from './motion';
 import type { Project } from './project';
 
-/// How a moment's motion comes to be.
+/// Makes a moment's motion.
 export type Make = (watch: Watch) => Promise<Motion>;
-/// A state that undo comes back to. `motion` grows while it is danced.
-/// `before` is seen where `motion` has no frames yet.
+/// A state for undo. `motion` grows while it is danced; `before` is shown where it has no frames yet.
 export type Moment = {
   project: Project;
   song: Song | null;
@@ -19,17 +18,17 @@ export type Moment = {
   warnings: Signal<Warning[]>;
   ready: Promise<Motion>;
   isReady: boolean;
-  /// Set where its motion could not be made: how it would be.
+  /// How to make its motion, if that has failed.
   unmade: Make | null;
 };
-/// What may look other than wished, and where.
+/// A possible problem, and its frame.
 export type Warning = { frame: number; text: string };
 export type Song = { name: string; url: string; bytes: Uint8Array; heard: SongHeard };
-/// A picture, and the landmarks that were seen in it, 0 to 1 along its sides.
+/// A picture and its landmarks, 0 to 1 along its sides.
 export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };
-/// A pose that was seen in a photo and is no key yet.
+/// A pose from a photo that is not a key yet.
 export type Sketch = { id: string; pose: Pose; photo: Photo };
-/// A dance to the microphone in progress; `beats` that were heard, seconds.
+/// A live dance in progress; `beats`: those heard, seconds.
 export type Live = { project: Project; motion: Motion; beats: number[] };
 export type Take = { seed: number; motion: Motion };
 
@@ -39,16 +38,16 @@ export const song = signal<Song | null>(null);
 export const moments = signal<Moment[]>([]);
 export const present = signal(-1);
 export const message = signal<{ text: string; isError: boolean } | null>(null);
-/// Frames of the dance that are there.
+/// The number of frames danced so far.
 export const danced = signal(0);
 export const busy = signal(0);
 export const selectedKey = signal<string | null>(null);
-/// The phrase that is chosen, from a frame until another: an interval between two keys, or any.
+/// The selected phrase, as frames [from, to): an interval between two keys, or any part.
 export const chosen = signal<[number, number] | null>(null);
 export const takes = signal<Take[]>([]);
-/// What is seen through beside the dancer: nothing, the keys around, or the frames around.
+/// The onion skin: nothing, neighbouring keys, or neighbouring frames.
 export const onion = signal<'off' | 'keys' | 'frames'>('off');
-/// How much of a film is made, 0 to 1, and how long the rest takes, for people: empty while nobody knows. Null while none is made.
+/// The progress of a film, 0 to 1, and the remaining time as text, empty if unknown. Null while none is made.
 export const filming = signal<{ share: number; left: string } | null>(null);
 export const live = signal<Live | null>(null);
 export const sketch = signal<Sketch | null>(null);
@@ -60,12 +59,12 @@ export const motion = computed(() => live.value?.motion ?? moment.value?.motion.
 export const shownSong = computed(() => (live.value ? null : song.value));
 export const warnings = computed(() => moment.value?.warnings.value ?? []);
 
-/// The project as it was begun, opened or saved last: it is there again in no time.
+/// The project as last begun, opened or saved.
 export const kept = signal<Project | undefined>(undefined);
-/// Whether work is lost with the page.
+/// Whether closing the page loses work.
 export const isUnsaved = computed(() => !!live.value || project.value !== kept.value);
 
-/// Begins or opens something: what was no work before is none now.
+/// Begins or opens something without marking it as unsaved work.
 export async function begin(body: () => Promise<void>) {
   const wasUnsaved = isUnsaved.value;
   await body();
@@ -73,12 +72,12 @@ export async function begin(body: () => Promise<void>) {
 }
 
 export const tell = (text: string) => (message.value = { text, isError: false });
-/// What was opened, and what its file says otherwise.
+/// The name of what was opened, and problems of its file.
 export const opened = (name: string, what: string, notes: string[]) => [`${name}: ${what}.`, ...notes.map((note) => `Note: ${note}.`)].join(' ');
 export const complain = (error: unknown) =>
   (message.value = { text: error instanceof Error ? error.message : String(error), isError: true });
 
-/// Does something that takes a while; what goes wrong is told.
+/// Runs something that takes a while; reports errors.
 export async function work(body: () => Promise<void>) {
   busy.value += 1;
   try {

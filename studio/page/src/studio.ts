@@ -1,4 +1,4 @@
-// Everything that the page's parts know and can do, and what happens when the program is there.
+// Everything that the page's parts use, and what happens when the program connects.
 import { Control } from './generated/choreo/v1/choreography_pb';
 import { finish } from './history';
 import { compose } from './keys';
@@ -46,7 +46,7 @@ whenThere((said, isFirst) => {
   });
 });
 
-// The browser asks before it leaves a page that wants this.
+// Makes the browser ask before it leaves the page.
 window.addEventListener('beforeunload', (event) => {
   if (isUnsaved.value) event.preventDefault();
 });
@@ -55,15 +55,15 @@ export const togglePlay = () => {
   if (live.value) return void stopLive();
   if (!audio.paused) return audio.pause();
   if (audio.ended) audio.currentTime = 0;
-  // Who pauses at once takes the wish to play back: that is no error.
+  // An immediate pause rejects the promise of play; this is no error.
   void audio.play().catch((error: DOMException) => error.name !== 'AbortError' && complain(error));
 };
 
 /// Whether the model hears music at all.
 export const canHear = () => !!welcome.value?.model && !welcome.value.model.takesNoMusic;
 
-/// Whether the model can be led over the floor.
+/// Whether the model supports floor paths.
 export const canBeLed = () => welcome.value?.model?.controls.includes(Control.ROOT_PATH) ?? false;
 
-/// Whether the model lets parts of the body be made livelier.
+/// Whether the model supports liveliness per part.
 export const canBeLively = () => welcome.value?.model?.controls.includes(Control.VELOCITY_FACTORS) ?? false;

@@ -1,4 +1,4 @@
-// Other ways to dance the same, side by side, each a click from being kept.
+// Takes: alternative dances, side by side, kept with a click.
 import type { Watch } from './dancer';
 import { made, push, stream, total } from './history';
 import { dancer, skeleton } from './link';
@@ -8,13 +8,13 @@ import { chosen, moment, moments, project, takes, tell, warnings, work } from '.
 import type { Moment, Take } from './state';
 import { mostUnlike, unlikeness } from './unlike';
 
-const alike = 0.002; // of `unlikeness`: less is not seen
-const near = 4; // seconds, within which the playhead stays
+const alike = 0.002; // of `unlikeness`; less is invisible
+const near = 4; // seconds; the playhead moves no further
 
-/// Of takes that may never be kept, nothing is said.
+/// Suppresses notes on takes, which may never be kept.
 const silent: Watch = { grown: () => {}, noted: () => {} };
 
-/// Goes to where they differ most between two frames, if the playhead rests where all are alike: takes have their keys in common.
+/// Moves a resting playhead to where takes differ most between two frames, if they look alike at its place, as at common keys.
 function goWhereTheyDiffer(from: number, to: number) {
   const all = [moment.value.motion.value, ...takes.value.map((take) => take.motion)];
   const now = Math.round(audio.currentTime * dancer.fps);
@@ -23,7 +23,7 @@ function goWhereTheyDiffer(from: number, to: number) {
   if (unlikeness(all, frame) > alike) audio.currentTime = frame / dancer.fps;
 }
 
-/// Other ways to dance the chosen interval, or all of it.
+/// Makes takes of the selected interval, or of the whole dance.
 export const tryTakes = (count = 3) => work(async () => {
   const before = moment.value;
   const seed = before.project.seed + moments.value.length * 100 + takes.value.length;
@@ -32,7 +32,7 @@ export const tryTakes = (count = 3) => work(async () => {
   if (!chosen.value) return tryWholes(before, seed, count);
   const [from, to] = chosen.value;
   const end = Math.min(to, whole.count);
-  // Several candidates are of one transition; through the keys of a phrase, there are several.
+  // Candidates exist for a single transition; a phrase with keys has several.
   const isOne = !before.project.keys.some(({ frame }) => frame > from && frame < end);
   const motions = isOne ? await dancer.between(before.project, whole, from, end, seed, count, silent) : [];
   while (motions.length < count && moment.value === before)
@@ -42,7 +42,7 @@ export const tryTakes = (count = 3) => work(async () => {
   goWhereTheyDiffer(from, to);
 });
 
-/// Other ways to dance all but the chosen interval, which stays as it is.
+/// Makes takes of everything but the selected interval.
 export const tryTheRest = (count = 3) => work(async () => {
   const [before, interval] = [moment.value, chosen.value];
   const whole = await made(before);

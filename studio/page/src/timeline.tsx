@@ -1,4 +1,4 @@
-// The song with its beats, the key poses on it, and where we are.
+// The timeline: the song with its beats, key poses, and playhead.
 import { signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import WaveSurfer from 'wavesurfer.js';
@@ -18,7 +18,7 @@ const isDark = signal(dark.matches);
 dark.addEventListener('change', () => (isDark.value = dark.matches));
 const digit = 15; // pixels that a count takes
 const hues = 5; // of sections (style.css)
-/// The frame over which a pose is carried.
+/// The frame over which a pose is being dragged.
 export const dropPose = signal<number | null>(null);
 
 const seek = (time: number) => (studio.audio.currentTime = Math.min(Math.max(time, 0), Math.max(0, seconds() - 0.01)));
@@ -45,16 +45,16 @@ function Wave() {
     });
     return () => wave.destroy();
   }, [value, zoom.value, isDark.value]);
-  // As wide as the song, which may be there before the project is: wavesurfer.js breaks on a width of nothing.
+  // As wide as the song, which may exist before the project; wavesurfer.js fails with width 0.
   const width = Math.max(1, (value?.heard.seconds ?? 0) * zoom.value);
   return <div class="wave" ref={box} style={{ left: `${edge}px`, width: `${width}px` }} />;
 }
 
-/// Beats, bars and counts, as far as there is room for them.
+/// Beats, bars and counts, as space permits.
 function Ruler() {
   if (studio.live.value) return studio.liveBeats.value.map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />);
   const { bar, list } = studio.beats.value;
-  const room = (60 / Math.max(tempo(studio.beats.value), 1)) * zoom.value; // for a beat
+  const room = (60 / Math.max(tempo(studio.beats.value), 1)) * zoom.value; // pixels per beat
   return list.map((beat) => {
     const isOne = beat.count === 1;
     const isCounted = beat.count > 0 && (room >= digit || (isOne && room * eight(bar) >= digit));
@@ -66,7 +66,7 @@ function Ruler() {
   });
 }
 
-/// What comes back wears one letter and colour wherever it is.
+/// Repetitions have the same letter and colour.
 function Sections() {
   return studio.form.value.map(({ from, to, nth, letter, others }) => (
     <i class="section" key={from} title={`${letter}: alike at ${others.map(clock).join(', ')}`}
@@ -75,7 +75,7 @@ function Sections() {
 }
 
 function Scrubber() {
-  /// Where a phrase began that is being chosen.
+  /// The start of the phrase being selected.
   const begun = useRef<number | null>(null);
   const slide = (event: PointerEvent) => {
     const at = event.currentTarget as HTMLElement;
@@ -105,7 +105,7 @@ function Scrubber() {
   );
 }
 
-/// What may look other than wished, where it does.
+/// Warnings at their frames.
 function Warnings() {
   const { fps } = studio.dancer;
   const frames = [...new Set(studio.warnings.value.map(({ frame }) => frame))];
@@ -154,7 +154,7 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
     chip.addEventListener('pointerup', end);
     chip.addEventListener('pointercancel', end);
   };
-  // Whoever goes by keyboard goes on from the key beside it.
+  // Moves the keyboard focus to a neighbouring key.
   const remove = (chip: EventTarget | null) => {
     const chips = [...document.querySelectorAll<HTMLElement>('[data-key]')];
     const at = chips.findIndex((other) => other === chip);
@@ -179,7 +179,7 @@ function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => st
   );
 }
 
-/// The stretches between keys: chosen, they are looped, or danced in other ways.
+/// The intervals between keys, for selecting.
 function Intervals() {
   const { fps } = studio.dancer;
   const { keys } = studio.project.value!;
@@ -224,7 +224,7 @@ function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
   );
 }
 
-/// Moves what follows the sound, sixty times a second, without a render.
+/// Moves the playhead with the sound, sixty times a second, without rendering.
 function usePlayhead(line: preact.RefObject<HTMLElement>, time: preact.RefObject<HTMLElement>) {
   useEffect(() => {
     let next = 0;
@@ -265,7 +265,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
     content.value = box.current;
   }, []);
   usePlayhead(line, time);
-  // A short song fills the width, a long one keeps its keys apart.
+  // A short song fills the width; a long one scrolls.
   const length = studio.live.value ? 0 : seconds();
   useEffect(() => {
     if (length) zoom.value = Math.min(130, Math.max(48, (box.current!.parentElement!.clientWidth - 2 * edge) / length));

@@ -1,11 +1,11 @@
-// Where several motions differ, and how much.
+// Measures where and how much several motions differ.
 import { Quaternion } from 'three';
 import { toQuaternion } from './body';
 import type { Motion } from './motion';
 
-const step = 3; // frames between those that are looked at
+const step = 3; // frames between samples
 
-/// How unlike the two motions are that are most alike at a frame: the mean over the joints of 1 - |cos| of half the angle between them.
+/// The difference of the two most similar motions at a frame: the mean over joints of 1 - |cos| of half the angle between them.
 export function unlikeness(motions: Motion[], frame: number): number {
   const [a, b] = [new Quaternion(), new Quaternion()];
   const poses = motions.map((motion) => motion.pose(frame).rotations);
@@ -17,7 +17,7 @@ export function unlikeness(motions: Motion[], frame: number): number {
   return Math.min(...poses.flatMap((one, i) => poses.slice(i + 1).map((other) => between(one, other))));
 }
 
-/// The frame from `from` to before `to` at which no two motions look alike, as far as there is one.
+/// The frame in [from, to) at which all motions differ most from each other.
 export function mostUnlike(motions: Motion[], from: number, to: number): number {
   let [best, most] = [from, -1];
   for (let frame = from; frame < to; frame += step) {

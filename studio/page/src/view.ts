@@ -1,21 +1,21 @@
-// From where the stage is seen: the camera, the hand that turns it, and whom it follows.
+// The camera: its controls, and whom it follows.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import * as studio from './studio';
 
-const middle = 0.92; // metres: what the camera looks at
+const middle = 0.92; // metres: height of the camera's target
 const photoWidth = 272; // pixels of the stage at most (style.css)
-/// What of the way is left after a second, of the camera that follows, of the zoom, and of getting up to draw.
+/// The share of a movement left after a second: of following, of zooming, and of rising for drawing.
 const [following, zooming, rising] = [5e-4, 1e-5, 3e-8];
 
-/// What the hand is at: bending a pose, or drawing on the floor.
+/// What the pointer does: nothing, editing a pose, or drawing on the floor.
 export type Hand = 'free' | 'bends' | 'draws';
 
 export class View {
   follows = true;
   readonly camera = new THREE.PerspectiveCamera(32, 1, 0.05, 60);
   readonly controls: OrbitControls;
-  private seat: THREE.Vector3 | null = null; // from which somebody got up to draw
+  private seat: THREE.Vector3 | null = null; // the camera's place before drawing
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.camera.position.set(1.5, 1.35, 4.4);
@@ -28,17 +28,17 @@ export class View {
     this.controls.enableDamping = true;
   }
 
-  /// Where the camera looks.
+  /// The camera's target.
   get target() {
     return this.controls.target;
   }
 
-  /// Goes on looking at somebody, with so many metres in the picture, for so many seconds, however many pictures are made of them.
+  /// Follows a dancer for this time with these metres in view, independently of the frame rate.
   look(at: THREE.Vector3, seconds: number, metres: number, hand: Hand) {
     const { camera, target } = this;
     const share = (left: number) => 1 - left ** seconds;
     const takes = studio.takes.value.length;
-    // Takes are compared, which needs all of them in the picture.
+    // Comparing takes needs all of them in view.
     if ((this.follows || takes > 0) && hand !== 'bends' && !studio.drawing.value) {
       const step = new THREE.Vector3(at.x, middle, at.z).sub(target).multiplyScalar(share(following));
       target.add(step);
@@ -46,7 +46,7 @@ export class View {
     }
     if (hand !== 'draws') this.sit(share(rising));
     this.controls.update();
-    // All dancers fit into the picture.
+    // Fits all dancers into the picture.
     const width = 2 * camera.position.distanceTo(target) * Math.tan((camera.fov * Math.PI) / 360) * camera.aspect;
     const wanted = metres ? Math.min(1, width / metres) : 1;
     if (Math.abs(wanted - camera.zoom) > 1e-3) {
@@ -55,7 +55,7 @@ export class View {
     }
   }
 
-  /// A photo lies on the left of the stage: who stands in the middle steps aside.
+  /// Shifts the view, as a photo covers the left of the stage.
   stepAside() {
     const { clientWidth, clientHeight } = this.canvas;
     const shift = studio.sketch.value ? Math.round(Math.min(clientWidth * 0.38, photoWidth) / 2) : 0;
@@ -65,7 +65,7 @@ export class View {
     else this.camera.clearViewOffset();
   }
 
-  /// Who draws on the floor looks at it from above, rests there while the hand draws, and comes back to where they sat.
+  /// Raises the camera for drawing on the floor, holds it while drawing, and returns it afterwards.
   private sit(share: number) {
     const { position } = this.camera;
     if (studio.drawing.value) {
@@ -78,7 +78,7 @@ export class View {
     }
   }
 
-  /// For a picture so many pixels large. A narrow one needs distance, not a cut-off body.
+  /// Adapts to a picture of this size; a narrow one is seen from further away, so that it does not cut off the body.
   fit(width: number, height: number) {
     this.camera.aspect = width / Math.max(1, height);
     this.camera.fov = this.camera.aspect < 1 ? 40 : 32;

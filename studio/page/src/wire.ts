@@ -1,4 +1,4 @@
-// The WebSocket to the program: calls go out, answers come back to those who asked.
+// The WebSocket to the program: sends calls and routes answers to their callers.
 import { create, fromBinary, toBinary } from '@bufbuild/protobuf';
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import { RequestSchema, ResponseSchema } from './generated/studio/studio_pb';
@@ -19,7 +19,7 @@ export class Wire {
     this.connect();
   }
 
-  /// A call with many answers; `heard` gets each until `end` is called.
+  /// A call with many answers; the listener's `heard` gets each until `end`.
   open(body: Body, listener: Listener): number {
     const call = ++this.last;
     this.calls.set(call, listener);
