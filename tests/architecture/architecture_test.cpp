@@ -14,7 +14,7 @@
 
 #include "tests/architecture/includes.h"
 
-// The rules of docs/architecture.md, which includes follow.
+// Checks that includes follow the rules of docs/architecture.md.
 namespace choreo::architecture_test {
 
 using ::testing::IsEmpty;
@@ -25,9 +25,9 @@ const Includes& Sources() {
   return includes;
 }
 
-// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; the papers' room and
-// proto/ have rooms of their own.
-std::string RoomOf(const std::string& path) {
+// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; model/papers and
+// proto/ have several modules.
+std::string ModuleOf(const std::string& path) {
   size_t inner = 0;
   for (const char* deep : {"model/papers/", "model/", "proto/"}) {
     if (inner == 0 && path.starts_with(deep)) inner = std::string_view(deep).size();
@@ -36,9 +36,9 @@ std::string RoomOf(const std::string& path) {
   return end == std::string::npos ? "" : path.substr(0, end);
 }
 
-// What each room may include besides itself. Arrows point down: a room names earlier ones only.
-const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
-  static const std::vector<std::pair<std::string, std::set<std::string>>> rooms = [] {
+// What each module may include besides itself: earlier modules only.
+const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
+  static const std::vector<std::pair<std::string, std::set<std::string>>> modules = [] {
     const std::string core = "model/core", audio = "model/audio", motion = "model/motion",
                       fit = "model/fit", body = "model/body", formats = "model/formats",
                       draw = "model/draw", flow = "model/flow", plan = "model/plan",
@@ -84,24 +84,24 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Rooms() {
           metrics, "server", "client", "choreo"}},
     };
   }();
-  return rooms;
+  return modules;
 }
 
-TEST(Architecture, EveryRoomStandsAboveWhatItIncludes) {
+TEST(Architecture, EveryModuleIsAboveWhatItIncludes) {
   std::set<std::string> below;
   std::vector<std::string> wrong;
-  for (const auto& [room, allowed] : Rooms()) {
+  for (const auto& [module, allowed] : Modules()) {
     for (const std::string& other : allowed) {
       const bool generated = other == "choreo" || other == "google" || other == "grpc";
-      EXPECT_TRUE(generated || below.contains(other)) << room << " above " << other;
+      EXPECT_TRUE(generated || below.contains(other)) << module << " above " << other;
     }
-    below.insert(room);
+    below.insert(module);
     for (const std::string& file : Sources().files()) {
-      if (RoomOf(file) != room) continue;
+      if (ModuleOf(file) != module) continue;
       for (const std::string& include : Sources().Of(file)) {
         if (include.starts_with('<')) continue;
-        const std::string other = RoomOf(include);
-        if (other != room && !allowed.contains(other)) wrong.push_back(file + " -> " + include);
+        const std::string other = ModuleOf(include);
+        if (other != module && !allowed.contains(other)) wrong.push_back(file + " -> " + include);
       }
     }
   }
@@ -110,16 +110,16 @@ TEST(Architecture, EveryRoomStandsAboveWhatItIncludes) {
 
 // "model/core" -> "core", "model/papers/tables" -> "papers_tables"; what protoc makes of proto/ is
 // included by the names of its packages.
-std::string DrawnAs(const std::string& room) {
-  if (room == "choreo" || room == "google" || room == "grpc") return "proto";
-  std::string name = room.substr(room.find('/') + 1);
+std::string DrawnAs(const std::string& module) {
+  if (module == "choreo" || module == "google" || module == "grpc") return "proto";
+  std::string name = module.substr(module.find('/') + 1);
   std::ranges::replace(name, '/', '_');
   return name;
 }
 
 using Arrows = std::set<std::pair<std::string, std::string>>;
 
-// With all that follow from two in a row.
+// The transitive closure.
 Arrows Closed(Arrows arrows) {
   for (size_t known = 0; known != arrows.size();) {
     known = arrows.size();
@@ -132,7 +132,7 @@ Arrows Closed(Arrows arrows) {
   return arrows;
 }
 
-// Of lines as "fit & body --> formats --> draw" on the page.
+// The arrows of lines such as "fit & body --> formats --> draw" on the page.
 Arrows DrawnArrows() {
   std::ifstream page(std::filesystem::path(CHOREO_SOURCE_DIR) / "docs/architecture.md");
   const std::regex name(R"(\w+|-->)");
@@ -157,8 +157,8 @@ Arrows DrawnArrows() {
 
 TEST(Architecture, ThePictureHasTheArrows) {
   Arrows allowed;
-  for (const auto& [room, others] : Rooms()) {
-    for (const std::string& other : others) allowed.insert({DrawnAs(other), DrawnAs(room)});
+  for (const auto& [module, others] : Modules()) {
+    for (const std::string& other : others) allowed.insert({DrawnAs(other), DrawnAs(module)});
   }
   const Arrows drawn = DrawnArrows();
   EXPECT_EQ(Closed(drawn), Closed(allowed));
@@ -171,14 +171,31 @@ TEST(Architecture, ThePictureHasTheArrows) {
   }
 }
 
-TEST(Architecture, EveryFileHasARoom) {
-  std::vector<std::string> homeless;
-  for (const std::string& file : Sources().files()) {
-    const bool known =
-        std::ranges::any_of(Rooms(), [&](const auto& room) { return room.first == RoomOf(file); });
-    if (!known) homeless.push_back(file);
+// The page lists the files that an audio chunk, a key, a style and a seed pass.
+TEST(Architecture, ThingsAreFollowedInTenFilesAtMost) {
+  std::ifstream page(std::filesystem::path(CHOREO_SOURCE_DIR) / "docs/architecture.md");
+  const std::regex file("`([a-z_/]+[.]cpp)`");
+  int followed = 0;
+  for (std::string line; std::getline(page, line);) {
+    const std::sregex_iterator first(line.begin(), line.end(), file), end;
+    if (!line.starts_with("| a") || first == end) continue;
+    ++followed;
+    EXPECT_LE(std::distance(first, end), 10) << line;
+    for (auto at = first; at != end; ++at)
+      EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(CHOREO_SOURCE_DIR) / at->str(1)))
+          << at->str(1);
   }
-  EXPECT_THAT(homeless, IsEmpty());
+  EXPECT_EQ(followed, 4);
+}
+
+TEST(Architecture, EveryFileHasAModule) {
+  std::vector<std::string> unassigned;
+  for (const std::string& file : Sources().files()) {
+    const bool known = std::ranges::any_of(
+        Modules(), [&](const auto& module) { return module.first == ModuleOf(file); });
+    if (!known) unassigned.push_back(file);
+  }
+  EXPECT_THAT(unassigned, IsEmpty());
 }
 
 TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
@@ -192,7 +209,7 @@ TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
   }
 }
 
-// A stranger's program finds what our client's headers include.
+// Programs that use the installed client find all that its headers include.
 TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
   std::ifstream rules(std::filesystem::path(CHOREO_SOURCE_DIR) / "cmake/ChoreoInstall.cmake");
   const std::string text{std::istreambuf_iterator<char>(rules), {}};
@@ -209,10 +226,9 @@ TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
   }
 }
 
-// LibTorch's headers take most of a build: networks, their training, what runs them, and what draws
-// the weights that benchmarks and tests run.
-TEST(Architecture, TorchStaysInItsRooms) {
-  const std::set<std::string> rooms = {
+// LibTorch's headers take most of a build's time.
+TEST(Architecture, TorchStaysInItsModules) {
+  const std::set<std::string> modules = {
       "model/flow",     "model/papers/networks", "model/papers/samplers",
       "model/samplers", "model/training",        "model/papers/training",
       "bench"};
@@ -220,19 +236,18 @@ TEST(Architecture, TorchStaysInItsRooms) {
   for (const std::string& file : Sources().files()) {
     for (const std::string& include : Sources().Of(file)) {
       if (include.starts_with("<torch/") || include.starts_with("<ATen/")) {
-        found.insert(RoomOf(file));
-        EXPECT_TRUE(rooms.contains(RoomOf(file))) << file << " -> " << include;
+        found.insert(ModuleOf(file));
+        EXPECT_TRUE(modules.contains(ModuleOf(file))) << file << " -> " << include;
       }
     }
   }
-  EXPECT_EQ(found, rooms) << "a room on the list needs no torch, or the includes were not read";
+  EXPECT_EQ(found, modules) << "a module on the list needs no torch, or the includes were not read";
 }
 
-// What stands between the network and arrival is few rules: a figure that falls short is learnt,
-// and not mended with a constant.
+// Figures that fall short are to be learnt, not corrected by constants between network and arrival.
 TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
   int constants = 0;
-  // Constants of a file, options of a stage; not how often a solver goes round.
+  // Constants of a file and options of a stage, but no integers such as a solver's iterations.
   const std::regex name(R"(\b(k[A-Z]\w*|double \w+|, \w+) = [0-9])");
   std::vector<std::string> files = {"model/flow/flow_sampler.cpp", "model/flow/plan_options.h",
                                     "model/flow/footwork_options.h",
