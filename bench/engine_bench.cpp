@@ -19,6 +19,7 @@
 #include "model/flow/window_features.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/pose_codec.h"
+#include "model/plan/footwork.h"
 #include "model/samplers/samplers.h"
 
 /// Measures transitions of both engines beside their limits: bare matrix products of the same
@@ -87,6 +88,22 @@ void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<do
   TransitionSpec spec = Spec(sampler.model(), 1);
   spec.beats = beats;
   for (auto _ : state) benchmark::DoNotOptimize(sampler.Sample(spec));
+  state.SetItemsProcessed(state.iterations());
+}
+
+/// What serving adds to a transition that the sampler drew: its footwork.
+void Feet(benchmark::State& state, Sampler& sampler) {
+  const TransitionSpec spec = Spec(sampler.model(), 1);
+  const std::vector<Pose> drawn = sampler.Sample(spec).poses;
+  const FootworkContext context{.skeleton = sampler.model().skeleton,
+                                .history = spec.history,
+                                .keyed = true,
+                                .fps = sampler.model().fps,
+                                .options = sampler.model().footwork};
+  for (auto _ : state) {
+    std::vector<Pose> plan = drawn;
+    benchmark::DoNotOptimize(StandOnFeet(context, &plan));
+  }
   state.SetItemsProcessed(state.iterations());
 }
 
@@ -205,6 +222,8 @@ void Register(Models* models) {
       Transitions(state, models->Get("default", kind), {0, 15, 30, 45, 60});  // 120 a minute
     });
   }
+  add("default/feet",
+      [=](benchmark::State& state) { Feet(state, models->Get("default", kinds.back())); });
   for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
     add(std::string("default/") + (half ? "bare-bf16" : "bare"), [=](benchmark::State& state) {
       BareProducts products(Shapes(ContinuousFlowConfig{}, Skeleton::Smpl24()), 0, half);
