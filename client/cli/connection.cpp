@@ -107,7 +107,9 @@ const client::ModelDescription& Connection::model(const std::string& name) const
   std::string known;
   for (const client::ModelDescription& model : server_.models)
     known += (known.empty() ? "" : ", ") + model.name;
-  throw Error(ErrorCode::kNotFound, "--model", "the server has no \"" + name + "\", but " + known);
+  throw Error(ErrorCode::kNotFound, "--model",
+              "the server has no \"" + name + "\", but " + known +
+                  "; choreo serve --model NAME starts one with another, as paper-f or paper-c");
 }
 
 }  // namespace choreo::cli
