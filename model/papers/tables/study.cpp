@@ -173,7 +173,7 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
   table.name = "study";
   table.title = "What people prefer";
   table.note = std::to_string(rankings) + " rankings by " + std::to_string(answers.size()) +
-               " people. Rank 1 is the best. Intervals are over " + (alone ? "clips" : "people") +
+               " judges. Rank 1 is the best. Intervals are over " + (alone ? "clips" : "judges") +
                ", 95 %.";
   table.label_headings = {"method"};
   const auto mean = [](const std::vector<double>& of, const std::vector<double>& counts) {
