@@ -164,7 +164,6 @@ std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& 
   }
   const std::optional<DanceEvent> event = FromProto(response.event());
   if (!event || !seen_->Admit(*event)) return std::nullopt;
-  if (const auto* reached = std::get_if<KeyReached>(&*event)) keys_.push_back(*reached);
   return std::visit([](const auto& said) { return Message(said); }, *event);
 }
 
@@ -191,16 +190,8 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
 
 Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {
   Report report = FromProto(summary.report(), summary.timing());
-  // The server reports only its own frames; add those from before a resume.
+  // The server counts the frames that it made itself; where the dance began is known here.
   report.frames += report.measured_from - header_->first_frame;
-  for (const KeyReached& key : keys_) {
-    const auto same = [&](const KeyReached& other) {
-      return other.id == key.id && other.frame == key.frame;
-    };
-    if (std::none_of(report.keys.begin(), report.keys.end(), same)) report.keys.push_back(key);
-  }
-  std::stable_sort(report.keys.begin(), report.keys.end(),
-                   [](const KeyReached& a, const KeyReached& b) { return a.frame < b.frame; });
   complete_ = true;
   // Everything has been received, so the status does not matter.
   v1::StreamDanceResponse rest;

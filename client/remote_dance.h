@@ -83,7 +83,6 @@ struct RemoteDance::Impl {
   // Used by Next alone.
   std::optional<Header> header_;
   std::optional<Seen> seen_;
-  std::vector<KeyReached> keys_;
   std::string lost_because_;  // not empty: the next header is a resumption
   bool complete_ = false;
 };

@@ -24,21 +24,24 @@ bool Seen::Admit(FrameBlock* block) {
   return true;
 }
 
-bool Seen::RejectionIsNew(const KeyPlace& place) {
-  if (const auto expected = expected_.find(place); expected != expected_.end()) {
-    expected_.erase(expected);
-    return false;
-  }
-  rejected_.insert(place);
+bool Seen::IsExpected(const KeyPlace& place) {
+  const auto expected = expected_.find(place);
+  if (expected == expected_.end()) return false;
+  expected_.erase(expected);
   return true;
 }
 
 bool Seen::Admit(const DanceEvent& event) {
   if (const auto* rejected = std::get_if<KeyRejected>(&event)) {
-    return RejectionIsNew({rejected->id, rejected->frame});
+    const KeyPlace place = {rejected->id, rejected->frame};
+    if (IsExpected(place)) return false;
+    rejected_.insert(place);
+    return true;
   }
   if (const auto* reached = std::get_if<KeyReached>(&event)) {
-    return reached_.emplace(reached->id, reached->frame).second;
+    const KeyPlace place = {reached->id, reached->frame};
+    IsExpected(place);
+    return reached_.insert(place).second;
   }
   if (const auto* warning = std::get_if<Warning>(&event)) {
     return warnings_.emplace(warning->message, warning->frame).second;

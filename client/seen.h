@@ -20,8 +20,9 @@ class Seen {
 
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }
-  /// Another server resumes from `frame` (at the model's rate) and receives all messages again. It
-  /// will reject the keys before that frame: `late`, each as often as it was sent.
+  /// Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it
+  /// will answer the keys that stand before as rejected, or as reached: `late`, each as often as it
+  /// was spoken of.
   void Restart(int64_t frame, std::vector<KeyPlace> late);
   /// Cuts away the frames that were delivered already; false if none is left. Throws
   /// Error(kInternal) where frames are missing.
@@ -30,11 +31,11 @@ class Seen {
   bool Admit(const DanceEvent& event);
 
  private:
-  bool RejectionIsNew(const KeyPlace& place);
+  bool IsExpected(const KeyPlace& place);
 
   int64_t next_frame_;
   std::multiset<KeyPlace> rejected_;  // delivered
-  std::multiset<KeyPlace> expected_;  // rejections that the present server is still to repeat
+  std::multiset<KeyPlace> expected_;  // answers that the present server is still to repeat
   std::set<KeyPlace> reached_;
   std::set<std::pair<std::string, int64_t>> warnings_;
   double last_beat_s_ = -1;

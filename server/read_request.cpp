@@ -69,6 +69,14 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
     CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
     continuation.stage = {message.stage(0), 0, message.stage(1)};
   }
+  for (const v1::ReachedKey& key : message.reached()) {
+    continuation.reached.push_back({.id = key.id(),
+                                    .frame = key.frame(),
+                                    .raw_error_m = key.raw_error_m(),
+                                    .final_error_m = key.final_error_m(),
+                                    .final_error_deg = key.final_error_deg(),
+                                    .correction_m = key.correction_m()});
+  }
   for (int i = 0; i < history; ++i) {
     Pose pose;
     for (int axis = 0; axis < 3; ++axis) {

@@ -28,6 +28,15 @@ void FromContinuation(const Continuation& continuation, const ModelInfo& model, 
     out->add_stage(static_cast<float>(continuation.stage->x()));
     out->add_stage(static_cast<float>(continuation.stage->z()));
   }
+  for (const KeyReached& key : continuation.reached) {
+    v1::ReachedKey* added = out->add_reached();
+    added->set_id(key.id);
+    added->set_frame(key.frame);
+    added->set_raw_error_m(key.raw_error_m);
+    added->set_final_error_m(key.final_error_m);
+    added->set_final_error_deg(key.final_error_deg);
+    added->set_correction_m(key.correction_m);
+  }
 }
 
 ModelDescription DescribeModel(const ModelInfo& model) {

@@ -106,7 +106,8 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
                  asked->generate_until, model_.max_transition_frames}),
       controls_(model_),
       next_frame_(first_frame_),
-      meter_(model_.skeleton, model_.fps, first_frame_),
+      meter_(model_.skeleton, model_.fps, first_frame_,
+             asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
       output_(model_.fps, asked->output_fps, first_frame_,
               asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
                                   : std::nullopt),
@@ -115,7 +116,10 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
              asked->music_downbeats),
       recurrence_(model_.fps, asked->variation < 1 ? asked->music_passages : kNoPassages) {
   if (!asked->Before().empty()) history_ = FillHistory(model_, asked->Before());
-  if (asked->continuation) stage_ = asked->continuation->stage;
+  if (asked->continuation) {
+    stage_ = asked->continuation->stage;
+    reached_before_ = asked->continuation->reached;
+  }
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model_.fps));
 }
 
@@ -348,6 +352,15 @@ void DanceChain::Post(const DanceEvent& event) {
   mailbox_.Post([event](DanceSink& sink) { sink.OnEvent(event); });
 }
 
+void DanceChain::PostLate(const KeyRejected& rejection) {
+  const auto reached = std::ranges::find_if(reached_before_, [&](const KeyReached& key) {
+    return key.id == rejection.id && key.frame == rejection.frame;
+  });
+  if (reached == reached_before_.end()) return Post(rejection);
+  Post(*reached);
+  reached_before_.erase(reached);
+}
+
 void DanceChain::PostContinuation() {
   Continuation continuation{next_frame_, history_, model_.fingerprint};
   if (audio_) {
@@ -356,6 +369,7 @@ void DanceChain::PostContinuation() {
   }
   continuation.last_beat = beats_.last();
   continuation.stage = stage_;
+  continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);
   });

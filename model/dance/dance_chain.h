@@ -54,6 +54,10 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Whether the last call to the sink has been made or is under way.
   bool over() const { return mailbox_.over(); }
 
+  /// The answer to a key that came too late: a rejection, or that it was reached before the dance
+  /// was resumed. Only inside a change.
+  void PostLate(const KeyRejected& rejection);
+
   /// Null for a dance without music. Only one thread at a time may push.
   AudioFeed* audio() { return audio_.get(); }
 
@@ -112,6 +116,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   int64_t next_frame_;                    // the next to hand out
   bool handing_out_ = false, look_again_ = false;
   QualityMeter meter_;
+  std::vector<KeyReached> reached_before_;  // a resume, and not told of since
   OutputRate output_;
   MusicBeats beats_;
   Recurrence recurrence_;

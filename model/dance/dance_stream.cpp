@@ -65,7 +65,7 @@ void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pos
   ValidatePose(model_.skeleton, pose, field);
   ValidateMask(model_.skeleton, mask, field + ".mask");
   chain_->Change([&](Timeline& timeline) {
-    if (auto rejection = timeline.Set(id, when, pose, mask, field)) chain_->Post(*rejection);
+    if (auto rejection = timeline.Set(id, when, pose, mask, field)) chain_->PostLate(*rejection);
   });
   ++keyframes_;
 }

@@ -20,8 +20,9 @@ constexpr int64_t kFramesAroundKey = 2;
 
 }  // namespace
 
-QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame)
-    : skeleton_(skeleton), fps_(fps), first_frame_(first_frame) {
+QualityMeter::QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame,
+                           std::vector<KeyReached> reached)
+    : skeleton_(skeleton), fps_(fps), first_frame_(first_frame), keys_(std::move(reached)) {
   if (skeleton.feet[1] < 0 || skeleton.feet[3] < 0) {
     throw InvalidArgument("skeleton", skeleton.Describe() + ": it has no toes");
   }

@@ -19,12 +19,16 @@ namespace choreo {
 /// Not thread-safe.
 class QualityMeter {
  public:
-  QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame);
+  /// `reached`: keys before the first frame.
+  QualityMeter(const Skeleton& skeleton, double fps, int64_t first_frame,
+               std::vector<KeyReached> reached = {});
 
   void Add(const DanceFrame& frame);
   /// The key at the last frame added.
   void AddKey(KeyReached key);
-  /// `music_beats`: seconds, ascending; empty: no beat figures. Beats outside the dance do not
+  /// All keys so far, without the accelerations around them.
+  const std::vector<KeyReached>& keys() const { return keys_; }
+  /// `music_beats`: seconds, ascending; empty: no beat figures. Those outside the dance do not
   /// count.
   QualityReport Report(std::span<const double> music_beats = {}) const;
 

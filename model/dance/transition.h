@@ -47,6 +47,7 @@ struct Continuation {
   std::optional<int64_t> audio_from_sample = {};
   std::optional<double> last_beat = {};       ///< MusicBeats::last at this frame
   std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, its height unread
+  std::vector<KeyReached> reached = {};       ///< before `frame`, ascending, without accelerations
 };
 
 /// The average speeds needed to reach a key. Paper F, Section 5.2: an interval too short for the

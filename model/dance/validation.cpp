@@ -99,6 +99,27 @@ void ValidateOutputFps(double fps, const std::string& field) {
   }
 }
 
+namespace {
+
+void CheckReached(const Continuation& continuation, const std::string& field) {
+  CheckedIn(static_cast<int64_t>(continuation.reached.size()), 0, kMaxKeys, field);
+  int64_t earliest = 0;
+  for (size_t i = 0; i < continuation.reached.size(); ++i) {
+    const KeyReached& key = continuation.reached[i];
+    const std::string at = At(field, static_cast<int64_t>(i));
+    ValidateKeyId(key.id, at + ".id");
+    CheckedIn(key.frame, earliest, continuation.frame - 1, at + ".frame");
+    earliest = key.frame + 1;
+    for (const double figure :
+         {key.raw_error_m, key.final_error_m, key.final_error_deg, key.correction_m}) {
+      if (!(std::isfinite(figure) && figure >= 0))
+        throw InvalidArgument(at, "has a figure of " + Show(figure) + ", not of a finite size");
+    }
+  }
+}
+
+}  // namespace
+
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field) {
   // One more than the last frame: a key may be in the last frame, and the dance ends after it.
@@ -116,6 +137,7 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
                                                   Show(kMaxPosition) + " m of the origin");
     }
   }
+  CheckReached(continuation, field + ".reached");
   if (continuation.fingerprint == model.fingerprint) return;
   if (continuation.fingerprint.size() > kMaxFingerprintLength) {
     throw InvalidArgument(field + ".fingerprint",

@@ -66,4 +66,13 @@ TEST(SeenTest, HidesTheRejectionsThatAResumptionBringsAboutAndNoOthers) {
   EXPECT_TRUE(seen.Admit(rejected("late", 80)));
 }
 
+TEST(SeenTest, HidesNoRejectionOfAKeyThatAResumptionTellsToBeReached) {
+  const DanceEvent reached(KeyReached{.id = "a", .frame = 30});
+  Seen seen(0);
+  EXPECT_TRUE(seen.Admit(reached));
+  seen.Restart(60, {{"a", 30}});
+  EXPECT_FALSE(seen.Admit(reached));
+  EXPECT_TRUE(seen.Admit(DanceEvent(KeyRejected{.id = "a", .frame = 30})));  // sent anew
+}
+
 }  // namespace choreo::client::seen_test

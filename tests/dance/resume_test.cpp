@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <tuple>
+
 #include "tests/dance/dances.h"
 
 namespace choreo::resume_test {
@@ -37,6 +40,16 @@ void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told)
   }
 }
 
+/// Keys, in order of time, and how exactly they were reached.
+auto Figures(const std::vector<KeyReached>& keys) {
+  std::vector<std::tuple<int64_t, std::string, double, double, double, double>> figures;
+  for (const KeyReached& key : keys)
+    figures.emplace_back(key.frame, key.id, key.raw_error_m, key.final_error_m, key.final_error_deg,
+                         key.correction_m);
+  std::ranges::sort(figures);
+  return figures;
+}
+
 void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
                              const std::function<void(DanceStream&)>& messages) {
   auto sink = std::make_shared<Recorder>();
@@ -51,6 +64,9 @@ void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
     const Continuation& continuation = whole.continuations[place];
     const Recording rest = Resume(queue, dance, continuation, messages);
     ASSERT_TRUE(rest.summary) << rest.error->what();
+    // Whatever was reached before is told again, and counted.
+    EXPECT_EQ(Figures(rest.reached), Figures(whole.reached)) << "from frame " << continuation.frame;
+    EXPECT_EQ(Figures(rest.summary->keys), Figures(whole.summary->keys));
     if (&continuation == &whole.continuations.back()) {
       EXPECT_TRUE(rest.poses.empty());  // nothing is left to dance
       continue;
@@ -59,6 +75,8 @@ void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
     ExpectSameBeats(whole, rest, whole.beats_before[place]);
     EXPECT_EQ(rest.summary->frames, whole.summary->frames - continuation.frame);
     EXPECT_EQ(rest.continuations.back().frame, whole.continuations.back().frame);
+    EXPECT_EQ(Figures(rest.continuations.back().reached),
+              Figures(whole.continuations.back().reached));
     EXPECT_TRUE(SameBits(rest.continuations.back().poses.front(),
                          whole.continuations.back().poses.front()));
   }
@@ -176,8 +194,51 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
   ASSERT_TRUE(rest.summary);
   ASSERT_FALSE(rest.warnings.empty());
   EXPECT_EQ(rest.warnings[0].code, Warning::Code::kInexactResume);
-  // Keys that were danced before are answered, not lost.
-  EXPECT_EQ(rest.rejected.size(), 2u);
+  EXPECT_EQ(Figures(rest.reached), Figures(whole.reached));
+}
+
+// A program that resumes with other keys is told of those alone that the dance did reach.
+TEST(Resume, RejectsKeysThatWereNotReachedBefore) {
+  const auto queue = FakeQueue();
+  const Dance dance = RandomDance(8);
+  const Recording whole = Perform(*queue, dance);
+  const Key& first = dance.keys[0];
+  const Recording rest = Resume(*queue, dance, whole.continuations[1], [&](DanceStream& stream) {
+    SendKey(stream, first);
+    SendKey(stream, first);
+    stream.SetKey("new", AtFrame{first.frame - 5}, first.pose, first.mask);
+    for (size_t i = 1; i < dance.keys.size(); ++i) SendKey(stream, dance.keys[i]);
+  });
+  ASSERT_TRUE(rest.summary) << rest.error->what();
+  EXPECT_EQ(Figures(rest.reached), Figures(whole.reached));
+  ASSERT_EQ(rest.rejected.size(), 2U);
+  EXPECT_EQ(rest.rejected[0].id, first.id);
+  EXPECT_EQ(rest.rejected[1].id, "new");
+}
+
+TEST(Resume, RefusesReachedKeysThatCannotBe) {
+  const auto queue = FakeQueue();
+  const Dance dance = RandomDance(8);
+  const Recording whole = Perform(*queue, dance);
+  const auto refused = [&](const std::function<void(std::vector<KeyReached>&)>& spoil) {
+    DanceConfig config = dance.config;
+    config.continuation = whole.continuations[1];
+    spoil(config.continuation->reached);
+    try {
+      config.Validate(queue->model());
+    } catch (const Error& error) {
+      return error.field();
+    }
+    return std::string("accepted");
+  };
+  const std::string field = "config.continuation.reached";
+  EXPECT_EQ(refused([](auto&) {}), "accepted");
+  EXPECT_EQ(refused([](auto& keys) { keys.resize(kMaxKeys + 1); }), field);
+  EXPECT_EQ(refused([](auto& keys) { keys[1].id = ""; }), field + "[1].id");
+  EXPECT_EQ(refused([](auto& keys) { keys[1].frame = keys[0].frame; }), field + "[1].frame");
+  EXPECT_EQ(refused([&](auto& keys) { keys[1].frame = whole.continuations[1].frame; }),
+            field + "[1].frame");
+  EXPECT_EQ(refused([](auto& keys) { keys[0].correction_m = std::nan(""); }), field + "[0]");
 }
 
 TEST(Resume, AudioMustBeginEarlyEnough) {

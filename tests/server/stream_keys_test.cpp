@@ -81,9 +81,19 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
   config.set_frames(120);
   other.Send(config);
   other.SendKeyframe(Key("a", 50));
+  other.SendKeyframe(Key("never", 40));
   const Answer& rest = other.Finish();
   ASSERT_TRUE(rest.status.ok()) << rest.status.error_message();
-  EXPECT_EQ(rejections(rest), (std::vector<Said>{{"a", v1::REJECTION_CODE_ALREADY_DANCED}}));
+  EXPECT_EQ(rejections(rest), (std::vector<Said>{{"never", v1::REJECTION_CODE_ALREADY_DANCED}}));
+  // As it was reached before, with the same figures.
+  const auto first = [](const Answer& said) {
+    return std::ranges::find_if(said.events, &v1::Event::has_keyframe_reached)->SerializeAsString();
+  };
+  EXPECT_EQ(first(rest), first(answer));
+  const v1::QualityReport& report = rest.summary->report();
+  ASSERT_EQ(report.keyframes_size(), answer.summary->report().keyframes_size());
+  EXPECT_EQ(report.keyframes(0).errors().SerializeAsString(),
+            answer.summary->report().keyframes(0).errors().SerializeAsString());
 }
 
 TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedAfterTheFrontier) {

@@ -3,7 +3,7 @@ import grpc from '@grpc/grpc-js';
 import { answersOf } from './answers.js';
 import { ChoreoError, unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
-import { Journal, placeOf } from './journal.js';
+import { Journal } from './journal.js';
 import { Seen } from './seen.js';
 
 /** The answers of StreamDance to `requests`. */
@@ -71,7 +71,6 @@ class Progress {
   #header;
   #continuation;
   #seen;
-  #reached = []; // KeyframeReports
 
   constructor(journal, onResume) {
     this.#journal = journal;
@@ -110,12 +109,8 @@ class Progress {
         const frames = this.#seen.frames(answer.frames);
         return frames && { ...answer, frames };
       }
-      case 'event': {
-        if (!this.#seen.event(answer.event)) return undefined;
-        const { frame, keyframe_reached: key } = answer.event;
-        if (key) this.#reached.push({ id: key.id, frame, errors: key.errors, max_acceleration: 0 });
-        return answer;
-      }
+      case 'event':
+        return this.#seen.event(answer.event) ? answer : undefined;
       case 'continuation':
         this.#continuation = answer.continuation;
         this.#journal.forgetMusicBefore(Number(answer.continuation.audio_from_sample), sent);
@@ -146,13 +141,10 @@ class Progress {
 
   #takeSummary(answer) {
     this.complete = true;
-    // The server speaks of what it made itself; what came before a resume is known here.
+    // The server counts the frames that it made itself; where the dance began is known here.
     const { report } = answer.summary;
     const made = Number(report.frames) + Number(report.first_frame) - Number(this.#header.first_frame);
-    const known = new Set(report.keyframes.map((key) => placeOf(key.id, key.frame)));
-    const keyframes = [...report.keyframes, ...this.#reached.filter((key) => !known.has(placeOf(key.id, key.frame)))];
-    keyframes.sort((a, b) => a.frame - b.frame);
-    const whole = { ...report, first_frame: this.#header.first_frame, frames: String(made), keyframes };
+    const whole = { ...report, first_frame: this.#header.first_frame, frames: String(made) };
     return { ...answer, summary: { ...answer.summary, report: whole } };
   }
 }

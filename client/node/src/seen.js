@@ -9,7 +9,7 @@ export class Seen {
   #nextFrames = new Map(); // of each candidate, at the output rate; a dance has one
   #firstFrame;
   #rejected = []; // places of keys, as they were told
-  #expected = []; // rejections that the present server is still to repeat
+  #expected = []; // answers that the present server is still to repeat
   #told = new Set(); // keys that were reached, warnings
   #lastBeat = -1;
 
@@ -23,8 +23,8 @@ export class Seen {
   }
 
   /**
-   * Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will reject the keys that stand before:
-   * `late`, each as often as it was spoken of.
+   * Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will answer the keys that stand before
+   * as rejected, or as reached: `late`, each as often as it was spoken of.
    */
   restart(frame, late) {
     this.#expected = [...late, ...this.#rejected.filter((place) => parseInt(place) >= frame)];
@@ -54,6 +54,7 @@ export class Seen {
       case 'keyframe_rejected':
         return this.#isNewRejection(placeOf(event.keyframe_rejected.id, event.frame));
       case 'keyframe_reached':
+        this.#isExpected(placeOf(event.keyframe_reached.id, event.frame));
         return this.#isNew(`reached ${placeOf(event.keyframe_reached.id, event.frame)}`);
       case 'warning':
         return this.#isNew(`warning ${event.frame} ${event.warning.message}`);
@@ -71,9 +72,14 @@ export class Seen {
   }
 
   #isNewRejection(place) {
+    if (this.#isExpected(place)) return false;
+    this.#rejected.push(place);
+    return true;
+  }
+
+  #isExpected(place) {
     const at = this.#expected.indexOf(place);
-    if (at < 0) this.#rejected.push(place);
-    else this.#expected.splice(at, 1);
-    return at < 0;
+    if (at >= 0) this.#expected.splice(at, 1);
+    return at >= 0;
   }
 }

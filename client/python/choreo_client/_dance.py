@@ -89,7 +89,6 @@ class _Progress:
     def __init__(self, journal, on_resume):
         self._journal, self._on_resume = journal, on_resume
         self._header = self._continuation = self._seen = None
-        self._reached = []  # KeyframeReports
         self.complete = False
         self.lost_because = None
 
@@ -122,7 +121,7 @@ class _Progress:
         if kind == "frames":
             return self._seen.take_frames(answer.frames)
         if kind == "event":
-            return self._take_event(answer.event)
+            return self._seen.take_event(answer.event)
         if kind == "continuation":
             self._continuation = answer.continuation
             self._journal.forget_music_before(self._continuation.audio_from_sample, sent)
@@ -143,19 +142,8 @@ class _Progress:
             self._on_resume(Resumed(address, self._seen.next_frame(), header.exact_resume, self.lost_because))
         return False
 
-    def _take_event(self, event):
-        if not self._seen.take_event(event):
-            return False
-        if event.HasField("keyframe_reached"):
-            reached = event.keyframe_reached
-            self._reached.append(choreography.KeyframeReport(id=reached.id, frame=event.frame, errors=reached.errors))
-        return True
-
     def _take_summary(self, report):
-        """The server speaks of what it made itself; what came before a resume is known here."""
+        """The server counts the frames that it made itself; where the dance began is known here."""
         self.complete = True
         report.frames += report.first_frame - self._header.first_frame
         report.first_frame = self._header.first_frame
-        known = {(key.id, key.frame) for key in report.keyframes}
-        report.keyframes.extend(key for key in self._reached if (key.id, key.frame) not in known)
-        report.keyframes.sort(key=lambda key: key.frame)

@@ -24,7 +24,7 @@ class Seen:
     def __init__(self, header):
         self._next_frames = collections.defaultdict(lambda: first_output_frame(header))  # of each candidate; a dance has one
         self._rejected = []  # (id, frame) of keys, as they were told
-        self._expected = []  # rejections that the present server is still to repeat
+        self._expected = []  # answers that the present server is still to repeat
         self._told = set()  # keys that were reached, warnings
         self._last_beat = -1.0
 
@@ -33,8 +33,8 @@ class Seen:
         return self._next_frames[candidate]
 
     def restart(self, frame, late):
-        """Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will reject the keys that stand
-        before: `late`, each as often as it was spoken of."""
+        """Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will answer the keys that
+        stand before as rejected, or as reached: `late`, each as often as it was spoken of."""
         self._expected = late + [place for place in self._rejected if place[1] >= frame]
 
     def take_frames(self, frames):
@@ -57,6 +57,7 @@ class Seen:
         if kind == "keyframe_rejected":
             return self._is_new_rejection((event.keyframe_rejected.id, event.frame))
         if kind == "keyframe_reached":
+            self._is_expected((event.keyframe_reached.id, event.frame))
             return self._is_new((kind, event.keyframe_reached.id, event.frame))
         if kind == "warning":
             return self._is_new((kind, event.warning.message, event.frame))
@@ -73,8 +74,13 @@ class Seen:
         return True
 
     def _is_new_rejection(self, place):
-        if place in self._expected:
-            self._expected.remove(place)
+        if self._is_expected(place):
             return False
         self._rejected.append(place)
+        return True
+
+    def _is_expected(self, place):
+        if place not in self._expected:
+            return False
+        self._expected.remove(place)
         return True
