@@ -17,18 +17,31 @@ size_t IntervalAt(double place, size_t beats) {
   return static_cast<size_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(beats - 2)));
 }
 
+/// How many beats a second is behind the first; two beats or more.
+double PlaceAmong(double seconds, std::span<const double> beats) {
+  const auto behind = std::ranges::upper_bound(beats, seconds) - beats.begin();
+  const size_t at = IntervalAt(static_cast<double>(behind - 1), beats.size());
+  return static_cast<double>(at) + (seconds - beats[at]) / (beats[at + 1] - beats[at]);
+}
+
+double SecondAt(double place, std::span<const double> beats) {
+  const size_t at = IntervalAt(place, beats.size());
+  return beats[at] + (place - static_cast<double>(at)) * (beats[at + 1] - beats[at]);
+}
+
 }  // namespace
 
 double Delay::After(double seconds, std::span<const double> beats, const std::string& field) const {
   if (!counts) return seconds + amount;
   if (beats.size() < 2)
     throw InvalidArgument(field, "counts need music that has beats; say seconds");
-  const auto after = std::ranges::upper_bound(beats, seconds) - beats.begin();
-  const size_t at = IntervalAt(static_cast<double>(after - 1), beats.size());
-  const double place =
-      static_cast<double>(at) + (seconds - beats[at]) / (beats[at + 1] - beats[at]) + amount;
-  const size_t to = IntervalAt(place, beats.size());
-  return beats[to] + (place - static_cast<double>(to)) * (beats[to + 1] - beats[to]);
+  return SecondAt(PlaceAmong(seconds, beats) + amount, beats);
+}
+
+double Stretched(double seconds, double begin, double times, std::span<const double> beats) {
+  if (beats.size() < 2) return begin + times * (seconds - begin);
+  const double from = PlaceAmong(begin, beats);
+  return SecondAt(from + times * (PlaceAmong(seconds, beats) - from), beats);
 }
 
 Delay ParseDelay(const std::string& text, const std::string& field, double least) {

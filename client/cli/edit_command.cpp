@@ -13,9 +13,11 @@
 namespace choreo::cli {
 namespace {
 
+constexpr double kMostStretch = 4;
+
 bool EditsKeys(const EditOptions& options) {
   return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
-         !options.repeats.empty() || options.loop;
+         !options.repeats.empty() || !options.stretches.empty() || options.loop;
 }
 
 bool EditsWhole(const EditOptions& options) {
@@ -31,7 +33,8 @@ void CheckTime(const char* option, double at_s) {
 void CheckReported(const EditOptions& options) {
   for (const auto& [option, given] : {std::pair("--move", !options.moves.empty()),
                                       {"--remove", !options.removed.empty()},
-                                      {"--repeat", !options.repeats.empty()}}) {
+                                      {"--repeat", !options.repeats.empty()},
+                                      {"--stretch", !options.stretches.empty()}}) {
     if (given && options.report.empty())
       throw InvalidArgument(option, "needs --report, which names the keys");
   }
@@ -40,18 +43,28 @@ void CheckReported(const EditOptions& options) {
     CheckTime("--repeat", from_s);
     CheckTime("--repeat", until_s);
   }
+  for (const auto& [from_s, until_s, times] : options.stretches) {
+    CheckTime("--stretch", from_s);
+    CheckTime("--stretch", until_s);
+    if (!(times >= 1 / kMostStretch && times <= kMostStretch) || times == 1) {
+      throw InvalidArgument("--stretch", InFull(times) + " times, must be " +
+                                             InFull(1 / kMostStretch) + " to " +
+                                             InFull(kMostStretch) + ", and not 1");
+    }
+  }
 }
 
 void CheckOptions(const EditOptions& options) {
   if (!EditsKeys(options) && !EditsWhole(options)) {
     throw InvalidArgument("--key",
-                          "is missing, and so are --move, --remove, --repeat, --loop, --from, "
-                          "--until, --mirror and --join: nothing is to be changed");
+                          "is missing, and so are --move, --remove, --repeat, --stretch, --loop, "
+                          "--from, --until, --mirror and --join: nothing is to be changed");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
-    throw InvalidArgument("--key",
-                          "and --move, --remove, --repeat, --loop go in a command of their own, "
-                          "after --from, --until, --mirror, --join, which change the whole dance");
+    throw InvalidArgument(
+        "--key",
+        "and --move, --remove, --repeat, --stretch, --loop go in a command of their own, "
+        "behind --from, --until, --mirror, --join, which change the whole dance");
   }
   CheckReported(options);
   if (options.keys.size() != options.at_s.size()) {
@@ -85,6 +98,8 @@ void Run(const EditOptions& options) {
   try {
     for (const std::string& id : options.removed) session.RemoveKey(id);
     for (const auto& [id, at_s] : options.moves) session.MoveKey(id, at_s);
+    for (const auto& [from_s, until_s, times] : options.stretches)
+      session.Stretch(from_s, until_s, times);
     for (const auto& [from_s, until_s, later] : options.repeats)
       session.Repeat(from_s, until_s, later);
     for (size_t i = 0; i < options.keys.size(); ++i)
@@ -107,7 +122,8 @@ void AddEditCommand(CLI::App& program) {
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
       "away. A key at the frame of another one replaces it. Keys are removed first, then moved, "
-      "then repeated, then set. Whole dances are cut first, then mirrored, then joined.");
+      "then stretched, then repeated, then set. Whole dances are cut first, then mirrored, then "
+      "joined.");
   command->add_option("dance", options->dance, MotionFileExtensions() + " file.")
       ->required()
       ->check(CLI::ExistingFile);
@@ -136,6 +152,13 @@ void AddEditCommand(CLI::App& program) {
                    "once more, LATER seconds or counts of --song later (8c), moved and turned to "
                    "where the dancer is then. Keys that stood there make way. May be given more "
                    "than once.")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--stretch", options->stretches,
+                   "FROM UNTIL TIMES: the keys of --report from second FROM on and before UNTIL, "
+                   "TIMES as far from FROM, in counts of --song: 2 for half time, 0.5 for double "
+                   "time. They stay where they are on the floor; keys where they come make way. "
+                   "May be given more than once.")
       ->allow_extra_args(false);
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files and moved ones, too, where the dancer is and faces at that "

@@ -25,7 +25,8 @@ struct EditOptions {
   std::vector<std::string> removed;                   ///< keys of the report
   /// Phrases: start, end, and the delay of their repeat (counts.h).
   std::vector<std::tuple<double, double, std::string>> repeats;
-  std::optional<double> hold_s;  ///< of `keys`
+  std::vector<std::tuple<double, double, double>> stretches;  ///< phrases: start, end, factor
+  std::optional<double> hold_s;                               ///< of `keys`
   bool in_place = false;
   bool allow_bends = false;
   bool loop = false;

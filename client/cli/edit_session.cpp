@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "client/cli/counts.h"
 #include "client/cli/dance_file.h"
@@ -24,6 +25,16 @@ constexpr double kAround = 2;  // seconds; default reach of an edit
 
 int64_t LastFrame(const client::KeyEdit& edit) {
   return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
+}
+
+/// Holds a key until a frame, by keys as close together as those that held it for `before` frames.
+void HoldUntil(int64_t last, int64_t before, client::KeyEdit* edit) {
+  const int64_t frames = last - *edit->key.frame;
+  const auto count = static_cast<int64_t>(edit->held.size());
+  const int64_t needed = frames < kMinKeyDistance ? 0 : (frames * count + before / 2) / before;
+  edit->held.resize(static_cast<size_t>(needed), edit->held.front());
+  for (int64_t i = 0; i < needed; ++i)
+    edit->held[static_cast<size_t>(i)].frame = *edit->key.frame + frames * (i + 1) / needed;
 }
 
 }  // namespace
@@ -107,21 +118,13 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   };
   if (Frame(moved(from_s)) <= Frame(from_s))
     throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
-  std::vector<client::KeyEdit> phrase;
-  for (auto key = keys_.lower_bound(Frame(from_s)); key != keys_.lower_bound(Frame(until_s));
-       ++key) {
-    const double seconds = Seconds(key->first);
-    client::KeyPose again{.id = IdAt(key->first), .pose = PoseAt(dance_.motion, seconds)};
-    again.frame = FrameInDance("--repeat", moved(seconds));
-    if (HoldsAnother(key->second) && !phrase.empty()) {
-      phrase.back().held.push_back(std::move(again));
-    } else {
-      phrase.push_back({.key = std::move(again)});
-    }
-  }
-  if (phrase.empty()) {
-    throw InvalidArgument("--repeat", "the report has no key from " + Rounded(from_s) +
-                                          " s until " + Rounded(until_s) + " s");
+  std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);
+  const auto shift = [&](client::KeyPose& key) {
+    key.frame = FrameInDance("--repeat", moved(Seconds(*key.frame)));
+  };
+  for (client::KeyEdit& edit : phrase) {
+    shift(edit.key);
+    std::ranges::for_each(edit.held, shift);
   }
   const int64_t first = *phrase.front().key.frame;
   const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
@@ -136,6 +139,67 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
     for (client::KeyPose& held : edit.held) carry(held.pose);
     const double at_s = Seconds(*edit.key.frame);
     Set("--repeat", at_s, std::move(edit));
+  }
+}
+
+std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_s,
+                                                 double until_s) const {
+  std::vector<client::KeyEdit> phrase;
+  const auto end = keys_.lower_bound(Frame(until_s));
+  for (auto key = keys_.lower_bound(Frame(from_s)); key != end && key->first < Frame(until_s);
+       ++key) {
+    client::KeyPose danced{.id = IdAt(key->first),
+                           .frame = key->first,
+                           .pose = PoseAt(dance_.motion, Seconds(key->first))};
+    if (HoldsAnother(key->second) && !phrase.empty()) {
+      phrase.back().held.push_back(std::move(danced));
+    } else {
+      phrase.push_back({.key = std::move(danced)});
+    }
+  }
+  if (!phrase.empty()) return phrase;
+  throw InvalidArgument(field, "the report has no key from " + Rounded(from_s) + " s until " +
+                                   Rounded(until_s) + " s");
+}
+
+void EditSession::Stretch(double from_s, double until_s, double times) {
+  const auto stretched = [&](int64_t frame) {
+    return Frame(Stretched(Seconds(frame), from_s, times, edit_.music_beats));
+  };
+  std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
+  const size_t count = phrase.size();
+  const int64_t first = *phrase.front().key.frame;
+  int64_t before = -kMinKeyDistance;
+  for (client::KeyEdit& edit : phrase) {
+    const int64_t held_to = stretched(LastFrame(edit));
+    const int64_t old = std::exchange(*edit.key.frame, stretched(*edit.key.frame));
+    if (!edit.held.empty()) HoldUntil(held_to, LastFrame(edit) - old, &edit);
+    if (*edit.key.frame - before < kMinKeyDistance) {
+      throw InvalidArgument("--stretch", InFull(times) + " sets the key \"" + edit.key.id +
+                                             "\" less than " + std::to_string(kMinKeyDistance) +
+                                             " frames behind the one before it");
+    }
+    before = LastFrame(edit);
+  }
+  std::erase_if(phrase, [&](const client::KeyEdit& edit) { return LastFrame(edit) >= frames_; });
+  // One that stays begins what is danced anew.
+  const bool stays =
+      !phrase.empty() && *phrase.front().key.frame == first && phrase.front().held.empty();
+  if (phrase.size() == size_t{stays})
+    throw InvalidArgument("--stretch", InFull(times) + " leaves no key in the dance that it moves");
+  if (phrase.size() < count) {
+    std::cerr << "note: " << count - phrase.size() << " of " << count
+              << " keys would come behind the dance, and are left out\n";
+  }
+  const int64_t last = LastFrame(phrase.back());
+  keys_.erase(
+      keys_.lower_bound(stays ? first + 1
+                              : std::min(first, *phrase.front().key.frame - kMinKeyDistance + 1)),
+      keys_.lower_bound(
+          std::max({Frame(until_s), stretched(Frame(until_s)), last + int64_t{kMinKeyDistance}})));
+  for (size_t i = size_t{stays}; i < phrase.size(); ++i) {
+    const double at_s = Seconds(*phrase[i].key.frame);
+    Set("--stretch", at_s, std::move(phrase[i]));
   }
 }
 

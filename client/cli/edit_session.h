@@ -27,6 +27,9 @@ class EditSession {
   /// Repeats the report's keys in [from_s, until_s) later, moved and turned to where the dancer is
   /// then, replacing the keys there.
   void Repeat(double from_s, double until_s, const std::string& later);
+  /// Sets the report's keys in [from_s, until_s) `times` as far from from_s, where they stand on
+  /// the floor, replacing the keys there; those that would come behind the dance are left out.
+  void Stretch(double from_s, double until_s, double times);
   /// Leads the last frames back to the first; after a held pose at the end, adds new ones.
   void CloseLoop();
   /// Writes the dance and its report, as the options say.
@@ -40,6 +43,8 @@ class EditSession {
   void CheckAround(double seconds) const;
   /// Throws if a key at this second would be too near to `what` at this frame.
   void CheckDistance(const char* field, double at_s, int64_t other, const std::string& what) const;
+  /// The report's keys in [from_s, until_s), as danced, each with what holds it; at least one.
+  std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Throws if a pose held from one frame to another meets the next key, or the end.
   void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
   /// The frame of this second; throws if it is after the dance.

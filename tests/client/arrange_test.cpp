@@ -31,6 +31,8 @@ void ExpectSame(const Pose& a, const Pose& b) {
   EXPECT_EQ(a.rotations, b.rotations);
 }
 
+std::string Seconds(int64_t frame) { return std::to_string(static_cast<double>(frame) / 30); }
+
 class ArrangeTest : public StageTest {
  protected:
   void SetUp() override {
@@ -128,14 +130,11 @@ TEST_F(ArrangeTest, TheWayToAnotherDanceIsDanced) {
 TEST_F(ArrangeTest, APhraseComesAgainOnItsCounts) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);
-  const auto seconds = [](int64_t frame) {
-    return std::to_string(static_cast<double>(frame) / 30);
-  };
   // The keys of the second to the third, eight counts later: four seconds, as a count is half a
   // one.
   const Outcome outcome = Edit("dance",
-                               "--song " + At("song.wav") + " --repeat " + seconds(keys[1]) + ' ' +
-                                   seconds(keys[2] + 1) + " 8c",
+                               "--song " + At("song.wav") + " --repeat " + Seconds(keys[1]) + ' ' +
+                                   Seconds(keys[2] + 1) + " 8c",
                                "again", Server());
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const Motion before = Read("dance.npz"), after = Read("again.npz");
@@ -164,6 +163,70 @@ TEST_F(ArrangeTest, APhraseComesAgainOnItsCounts) {
   }
   ExpectSame(after.frames[static_cast<size_t>(keys[2])],
              before.frames[static_cast<size_t>(keys[2])]);
+}
+
+TEST_F(ArrangeTest, APhraseGoesInHalfTime) {
+  const std::vector<int64_t> keys = Keys("dance");
+  ASSERT_GE(keys.size(), 5U);
+  // Of two keys the second one comes twice as late.
+  const std::string phrase = Seconds(keys[0]) + ' ' + Seconds(keys[1] + 1);
+  const auto stretch = [&](const std::string& times, const std::string& name) {
+    return Edit("dance", "--song " + At("song.wav") + " --stretch " + phrase + ' ' + times, name,
+                Server());
+  };
+  const Outcome outcome = stretch("2", "half");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion before = Read("dance.npz"), half = Read("half.npz");
+  ASSERT_EQ(half.frames.size(), before.frames.size());
+  const std::vector<int64_t> after = Keys("half");
+  EXPECT_EQ(after[0], keys[0]);
+  EXPECT_NEAR(static_cast<double>(after[1]), static_cast<double>(2 * keys[1] - keys[0]), 1);
+  EXPECT_LE(ComparePoses(Body(), half.frames[static_cast<size_t>(after[1])],
+                         before.frames[static_cast<size_t>(keys[1])])
+                .position_m,
+            0.001);
+  // What stood there made way, and all behind it is as it was.
+  const int64_t end = keys[0] + 2 * (keys[1] + 1 - keys[0]);
+  std::vector<int64_t> expected = {keys[0], after[1]};
+  std::ranges::copy_if(keys, std::back_inserter(expected),
+                       [&](int64_t frame) { return frame >= end; });
+  EXPECT_EQ(after, expected);
+  EXPECT_LT(after.size(), keys.size());
+  ASSERT_GE(expected.size(), 3U);
+  for (auto frame = static_cast<size_t>(expected[2]); frame < before.frames.size(); ++frame)
+    ExpectSame(half.frames[frame], before.frames[frame]);
+  for (size_t frame = 0; frame <= static_cast<size_t>(keys[0]); ++frame)
+    ExpectSame(half.frames[frame], before.frames[frame]);
+
+  ASSERT_EQ(stretch("0.5", "double").code, 0);
+  EXPECT_NEAR(static_cast<double>(Keys("double")[1]), static_cast<double>(keys[0] + keys[1]) / 2,
+              1);
+  EXPECT_EQ(Keys("double").size(), keys.size());
+
+  // Of a phrase that begins before its first key, that key moves, too.
+  ASSERT_GT(keys[1], 6);
+  const Outcome later =
+      Edit("dance", "--stretch " + Seconds(keys[1] - 6) + ' ' + Seconds(keys[2]) + " 0.5", "later",
+           Server());
+  ASSERT_EQ(later.code, 0) << later.said;
+  EXPECT_EQ(Keys("later")[1], keys[1] - 3);
+}
+
+TEST_F(ArrangeTest, AHeldPoseIsHeldAsMuchLonger) {
+  ASSERT_EQ(Edit("dance", "--key kick --at 3 --hold 0.6 --around 1", "held", Server()).code, 0);
+  const auto held = [this](const std::string& name) {
+    std::vector<int64_t> frames;
+    for (const auto& key : ReadJson(folder_ / (name + ".json"))["keyframes"])
+      if (key.contains("holds")) frames.push_back(key["frame"]);
+    return frames;
+  };
+  ASSERT_EQ(held("held").back(), 108);
+  ASSERT_EQ(Edit("held", "--stretch 3 3.7 2", "longer", Server()).code, 0);
+  EXPECT_EQ(held("longer").back(), 126);
+  EXPECT_EQ(held("longer").size(), 2 * held("held").size());
+  const Motion motion = Read("longer.npz");
+  for (size_t frame = 96; frame <= 126; frame += 6)
+    EXPECT_LE(ComparePoses(Body(), motion.frames[frame], motion.frames[90]).position_m, 0.001);
 }
 
 TEST_F(ArrangeTest, AKeyIsDweltOn) {
@@ -202,6 +265,8 @@ TEST_F(ArrangeTest, SaysWhatCannotBe) {
   expect_late("--repeat 0 4 soon", "--repeat: \"soon\" is neither seconds (2.5) nor counts (8c)");
   expect_late("--repeat 0.1 0.2 4", "--repeat: the report has no key from 0.1 s until 0.2 s");
   expect_late("--repeat 0 4 9", "--repeat: ");
+  expect_failure("--stretch 0 4 5", "--stretch: 5 times, must be 0.25 to 4, and not 1");
+  expect_late("--stretch 0.1 0.2 2", "--stretch: the report has no key from 0.1 s until 0.2 s");
   expect_late("--key kick --at 9.8 --hold 1", "--at: 9.8 s: its pose would be held up to 10.8 s");
 }
 
