@@ -7,6 +7,7 @@ import type { Keyframe, ModelInfo } from './generated/choreo/v1/choreography_pb'
 import { PoseSchema } from './generated/choreo/v1/motion_pb';
 import type { Continuation } from './generated/choreo/v1/motion_pb';
 import { Motion } from './motion';
+import { withHeld } from './project';
 import type { Key, Project } from './project';
 import type { Wire } from './wire';
 
@@ -46,6 +47,7 @@ export function readKey({ id, when, pose, mask }: Keyframe, fps: number, height:
     pose: { root: root ? [root.x, root.y, root.z] : [0, height, 0], rotations: pose!.rotations },
     hasPlace: !!root,
     asks: mask ? mask.joints : null,
+    hold: 0,
   };
 }
 
@@ -62,7 +64,12 @@ export class Dancer {
     return Math.max(1, Math.round(project.seconds * this.fps));
   }
 
-  /// Everything after frame `from` (-1: all of it); what stands before stays. Ends early, with what
+  /// With those that hold others.
+  keys(project: Project) {
+    return withHeld(project.keys, this.frames(project), this.fps);
+  }
+
+  /// Everything behind frame `from` (-1: all of it); what stands before stays. Ends early, with what
   /// there is by then, once `signal` is aborted.
   stream(project: Project, before: Motion | null, from: number, watch: Watch, signal: AbortSignal): Promise<Motion> {
     const motion = before && from >= 0 ? before.head(from + 1) : this.nothing();
@@ -91,7 +98,7 @@ export class Dancer {
         this.wire.say(call, { case: 'dance', value: request });
       const controls = this.controls(project);
       if (controls) say({ request: { case: 'controls', value: controls } });
-      for (const key of project.keys) {
+      for (const key of this.keys(project)) {
         if (key.frame > from && key.frame < this.frames(project))
           say({ request: { case: 'keyframe', value: keyMessage(key) } });
       }
@@ -108,7 +115,7 @@ export class Dancer {
   /// each of `count` candidates. -1 and the number of frames stand for the beginning and the end.
   async between(project: Project, motion: Motion, from: number, to: number, seed: number, count: number, watch: Watch) {
     const leadsOn = to < motion.count;
-    const stops: (Key | null)[] = project.keys.filter(({ frame }) => frame > from && frame < to);
+    const stops: (Key | null)[] = this.keys(project).filter(({ frame }) => frame > from && frame < to);
     const last = stops.at(-1)?.frame ?? from;
     if (leadsOn) stops.push(null);
     else if (last < to - 1) stops.push(null);

@@ -3,6 +3,7 @@ import { computed, signal } from '@preact/signals';
 import type { Signal } from '@preact/signals';
 import { dancer, skeleton } from './link';
 import { Motion } from './motion';
+import { trimmed } from './project';
 import type { Project } from './project';
 import { returnTo } from './songs';
 import { busy, chosen, complain, danced, live, moment, moments, motion, present, project, selectedKey, song, takes, tell, warnings, work } from './state';
@@ -107,9 +108,11 @@ export function danceFrom(next: Project, from: number) {
 /// one after.
 export function edit(next: Project, frames: number[]) {
   const before = moment.value;
-  const stays = next.keys.filter(({ frame }) => !frames.includes(frame)).map(({ frame }) => frame);
-  const from = stays.filter((frame) => frame < Math.min(...frames)).at(-1) ?? -1;
-  const to = stays.find((frame) => frame > Math.max(...frames)) ?? dancer.frames(next);
+  next = { ...next, keys: trimmed(next.keys, dancer.frames(next), dancer.fps) };
+  const stays = next.keys.filter(({ frame }) => !frames.includes(frame));
+  const last = stays.filter(({ frame }) => frame < Math.min(...frames)).at(-1);
+  const from = last ? last.frame + last.hold : -1;
+  const to = stays.find(({ frame }) => frame > Math.max(...frames))?.frame ?? dancer.frames(next);
   const long = !dancer.spans(to - from);
   const there = before.isReady || !streaming ? Infinity : before.motion.value.count;
   if (long || to + lead > there) return danceFrom(next, Math.min(from, before.motion.value.count - 1));

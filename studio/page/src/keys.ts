@@ -9,7 +9,7 @@ import { danceFrom, edit } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
-import { closest, emptyProject, freeId, sorted, spoken, wishes } from './project';
+import { closest, emptyProject, freeId, holdOf, holdStep, longestHold, sorted, spoken, wishes } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
@@ -71,7 +71,7 @@ export function addKey(pose: LibraryPose, at?: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null });
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0 });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
   if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
@@ -87,6 +87,15 @@ export function moveKey(id: string, to: number) {
   const frame = freeFrame(others, to);
   if (frame === null || frame === key.frame) return;
   edit({ ...project.value, keys: sorted([...others, onPath(project.value.path, { ...key, frame })]) }, [key.frame, frame]);
+}
+
+/// Keeps its pose for so many frames, in steps of those that hold it.
+export function holdKey(id: string, frames: number) {
+  const key = keyOf(id);
+  if (!key || live.value) return;
+  const { fps } = dancer;
+  const held = { ...key, hold: holdOf(Math.min(frames + (holdStep * fps) / 2, longestHold * fps), fps) };
+  edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? held : other)) }, [key.frame]);
 }
 
 export function removeKey(id: string) {

@@ -1,4 +1,5 @@
-// The actions on a phrase.
+// What can be done with a phrase beside the stage.
+import { show } from './scale';
 import * as studio from './studio';
 
 export function PhrasePanel() {
@@ -11,16 +12,24 @@ export function PhrasePanel() {
       <h2>Phrase {phrase && <small>{(phrase[0] / fps).toFixed(1)} to {(phrase[1] / fps).toFixed(1)} s, {keys === 1 ? 'one key' : `${keys} keys`}</small>}</h2>
       {!phrase && <p class="small">Drag along the timeline with Shift, or choose the eight around the playhead; then pull its ends.</p>}
       <div class="row">
-        {!phrase && <button disabled={!value} onClick={studio.chooseEight}>Choose an eight</button>}
+        {!phrase && <>
+          <button disabled={!value} onClick={studio.chooseEight}>Choose an eight</button>
+          <button disabled={!value} title="The whole dance" onClick={studio.chooseAll}>Choose all</button>
+        </>}
         {phrase && <>
           <button disabled={keys === 0} title="Left becomes right" onClick={studio.mirrorPhrase}>Mirror</button>
           <button disabled={keys === 0} title="Once more right after it; keys that stand there make way" onClick={() => studio.repeatPhrase()}>Repeat</button>
           <button disabled={keys < 2} title="Once more but for the last key, for which a pose is pressed" onClick={() => studio.repeatPhrase(true)}>Repeat, ending otherwise</button>
+          <div class="choices" role="group" aria-label="Time">
+            <button disabled={keys === 0} title="Its keys twice as far apart; keys that stand where they come make way" onClick={() => studio.stretchPhrase(2)}>Half time</button>
+            <button disabled={keys === 0} title="Its keys half as far apart" onClick={() => studio.stretchPhrase(0.5)}>Double time</button>
+          </div>
           <button disabled={keys === 0} title="To set its keys elsewhere (Ctrl+C)" onClick={studio.copyKeys}>Copy</button>
         </>}
         {studio.canPaste.value && <button disabled={!value} title="The copied keys, from the playhead on (Ctrl+V)" onClick={studio.pasteKeys}>Paste at playhead</button>}
         {phrase && <>
           <button disabled={keys === 0} title="Take its keys out (Delete)" onClick={studio.removePhrase}>Remove keys</button>
+          <button title="As large on the timeline as fits" onClick={() => show(...phrase)}>Zoom to it</button>
           <button title="Choose nothing (Escape)" onClick={() => (studio.chosen.value = null)}>Leave</button>
         </>}
       </div>

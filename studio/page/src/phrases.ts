@@ -7,7 +7,7 @@ import { later, placeAmong } from './counts';
 import { onPath } from './floor_path';
 import { edit, total } from './history';
 import { dancer, skeleton } from './link';
-import { closest, freeId, sorted } from './project';
+import { closest, freeId, holdOf, sorted } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { chosen, complain, live, project, selectedKey, takes, tell } from './state';
@@ -28,7 +28,9 @@ export function choosePhrase(a: number, b: number) {
   chosen.value = [from, to];
 }
 
-/// Selects the eight at the playhead.
+export const chooseAll = () => choosePhrase(0, total.value);
+
+/// Chooses the eight in which the playhead is.
 export function chooseEight() {
   const now = audio.currentTime + 0.5 / dancer.fps;
   const ones = beats.value.list.filter(({ count }) => count === 1).map(({ time }) => time);
@@ -111,6 +113,34 @@ export function repeatPhrase(withAnotherEnding = false) {
     audio.currentTime = ending / fps;
     return tell('The phrase comes again but for its last key: press a pose, and it ends in that.');
   }
-  const left = keys.length - set.length;
-  if (left > 0) tell(`${left} of ${keys.length} keys would come after the end, and are left out.`);
+  tellLeftOut(keys.length - set.length, keys.length);
 }
+
+/// The keys of the phrase so many times as far from its beginning, in counts: 2 is half time, 0.5 double time. Keys that stand where they
+/// come make way.
+export function stretchPhrase(times: number) {
+  const keys = chosenKeys();
+  if (keys.length === 0) return;
+  const { fps } = dancer;
+  const [from, to] = chosen.value!;
+  const beatTimes = timesOf();
+  const counted = (frame: number) => placeAmong(frame / fps, beatTimes);
+  const stretched = (frame: number) =>
+    isCounted() ? frameOf(later(from / fps, times * (counted(frame) - counted(from)), beatTimes)) : Math.round(from + times * (frame - from));
+  const most = total.value;
+  const set = keys.map((key) => onPath(project.value.path, {
+    ...key, frame: stretched(key.frame), hold: holdOf(times * key.hold, fps),
+  })).filter(({ frame }) => frame < most);
+  if (set.some(({ frame }, i) => i > 0 && frame - set[i - 1].frame < closest)) return complain(new Error('Its keys would stand too close together.'));
+  const touched = keys.filter((key, i) => set[i]?.frame !== key.frame);
+  if (touched.length === 0) return tell('The phrase has no key behind its beginning.');
+  const begin = Math.min(from, (set[0]?.frame ?? from) - closest + 1);
+  const end = Math.max(to, stretched(to), (set.at(-1)?.frame ?? 0) + closest);
+  const stay = project.value.keys.filter((key) => !keys.includes(key) && (key.frame < begin || key.frame >= end));
+  const makeWay = project.value.keys.filter((key) => !keys.includes(key) && !stay.includes(key));
+  const moved = set.filter((key, i) => key.frame !== keys[i].frame);
+  change([...stay, ...set], [...touched, ...makeWay, ...moved].map(({ frame }) => frame), [from, Math.min(stretched(to), most)]);
+  tellLeftOut(keys.length - set.length, keys.length);
+}
+
+const tellLeftOut = (left: number, of: number) => left > 0 && tell(`${left} of ${of} keys would come behind the end, and are left out.`);

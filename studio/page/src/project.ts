@@ -7,8 +7,9 @@ export type Spot = { x: number; z: number };
 /// A point of a path at a frame. A path has at least two, in order of time.
 export type Step = Spot & { frame: number };
 
-/// A key pose. Without a place it applies wherever the dancer is. `asks`: the joints that it fixes, in order; null: all of them.
-export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null };
+/// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
+/// all of them. `hold`: frames for which its pose is kept.
+export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number };
 
 /// The least distance between keys, frames (the program's kMinKeyDistance).
 export const closest = 2;
@@ -17,6 +18,9 @@ export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg']
 
 /// The program's defaults: kUsualDynamics, kUsualVariation.
 const [usualDynamics, usualVariation] = [0.5, 0.3];
+/// Seconds between the keys that hold a pose (kHoldStep), and for which one is held at most (kLongestHold).
+export const holdStep = 0.2;
+export const longestHold = 60;
 const usuallyApart = 0.2; // metres (kUsuallyApart)
 
 /// One of several dancers, with the settings in which she differs.
@@ -76,6 +80,36 @@ export const emptyProject = (song: string, seconds: number): Project => ({
 });
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
+
+/// Frames for which a pose can be held that is to be held for so many.
+export function holdOf(frames: number, fps: number) {
+  const step = holdStep * fps;
+  return Math.round(Math.max(0, Math.floor(frames / step + 1e-9)) * step);
+}
+
+/// The keys, none of which is held into the next one, or behind the last of so many frames.
+export const trimmed = (keys: Key[], frames: number, fps: number) =>
+  keys.map((key, i) => ({ ...key, hold: holdOf(Math.min(key.hold, (keys[i + 1]?.frame ?? frames - 1 + closest) - closest - key.frame), fps) }));
+
+/// The keys, and those behind them that hold them, as the program has both (client/cli/key_file.cpp).
+export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
+  return trimmed(keys, frames, fps).flatMap((key) => {
+    const steps = Math.round(key.hold / (holdStep * fps));
+    return [{ ...key, hold: 0 }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
+  });
+}
+const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0 });
+
+/// The other way round.
+export function withHolds(keys: Key[]): Key[] {
+  const list: Key[] = [];
+  for (const key of keys) {
+    const before = list.at(-1);
+    if (before && key.id.startsWith(`${before.id} held `)) before.hold = key.frame - before.frame;
+    else list.push({ ...key });
+  }
+  return list;
+}
 
 /// An id or a joint's name, for people.
 export const spoken = (name: string) => name.replaceAll('_', ' ');

@@ -1,6 +1,6 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
 import type { Beats } from './counts';
-import { closest, emptyProject, parts, sorted } from './project';
+import { closest, emptyProject, parts, sorted, trimmed, withHolds } from './project';
 import type { Key, Project, Step } from './project';
 
 const format = 1; // version of the file format
@@ -32,9 +32,10 @@ export const dancersJson = ({ dancers, apart }: Project) => ({
 });
 
 export function toJson(project: Project, fps: number, names: string[]): string {
-  const keyframes = project.keys.map(({ id, frame, pose, hasPlace, asks }) => ({
+  const keyframes = trimmed(project.keys, Math.round(project.seconds * fps), fps).map(({ id, frame, pose, hasPlace, asks, hold }) => ({
     id,
     time: round(frame / fps),
+    ...(hold ? { hold: round(hold / fps) } : {}),
     ...(asks ? { joints: asks.map((joint) => names[joint]) } : {}),
     ...(hasPlace ? { root_position: pose.root.map(round) } : {}),
     rotations: Array.from({ length: pose.rotations.length / 3 }, (_, joint) =>
@@ -118,7 +119,7 @@ export function inOrder(keys: Key[], name: string, fps: number): Key[] {
     if (i > 0 && frame - list[i - 1].frame < closest)
       throw new Error(`${name}: the keys "${list[i - 1].id}" and "${id}" stand closer than ${closest} frames.`);
   });
-  return list;
+  return withHolds(list);
 }
 
 /// Reads a project or a key file, except its keys, which the program reads. Throws if it is unusable, naming member, value and limit; `tell` receives

@@ -27,7 +27,16 @@ export function snapped(time: number): number {
 
 export const timeUnder = (clientX: number) => (clientX - content.value!.getBoundingClientRect().left - edge) / zoom.value;
 
-/// The frame of the next beat in a direction, or half a second away; single frames on request.
+export const zoomTo = (pixels: number) => (zoom.value = Math.min(200, Math.max(8, pixels)));
+
+/// As large as fits what is between two frames.
+export function show(from: number, to: number) {
+  const view = content.value!.parentElement!;
+  zoomTo(((view.clientWidth - 2 * edge) * studio.dancer.fps) / (to - from));
+  requestAnimationFrame(() => (view.scrollLeft = x(from / studio.dancer.fps) - edge));
+}
+
+/// The frame of the next beat on either side, or half a second away; by single frames where these are asked for.
 export function stepped(frame: number, way: 1 | -1, byFrames: boolean): number {
   if (byFrames) return frame + way;
   const frames = beatTimes().map((beat) => Math.round(beat * studio.dancer.fps));

@@ -32,8 +32,8 @@ export const tryTakes = (count = 3) => work(async () => {
   if (!chosen.value) return tryWholes(before, seed, count);
   const [from, to] = chosen.value;
   const end = Math.min(to, whole.count);
-  // Candidates exist for a single transition; a phrase with keys has several.
-  const isOne = !before.project.keys.some(({ frame }) => frame > from && frame < end);
+  // Several candidates are of one transition; through the keys of a phrase, there are several.
+  const isOne = !dancer.keys(before.project).some(({ frame }) => frame > from && frame < end);
   const motions = isOne ? await dancer.between(before.project, whole, from, end, seed, count, silent) : [];
   while (motions.length < count && moment.value === before)
     motions.push((await dancer.between(before.project, whole, from, end, seed + motions.length, 1, silent))[0]);

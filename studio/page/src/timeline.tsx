@@ -7,8 +7,9 @@ import type { Pose } from './body';
 import { colour } from './palette';
 import { spoken } from './project';
 import type { Key } from './project';
+import { HoldGrip } from './hold_grip';
 import { PhraseBand } from './phrase_band';
-import { clock, content, edge, seconds, snapped, stepped, timeUnder, x, zoom } from './scale';
+import { clock, content, edge, seconds, snapped, stepped, timeUnder, x, zoom, zoomTo } from './scale';
 import * as studio from './studio';
 
 const loops = signal(false);
@@ -202,7 +203,6 @@ function Intervals() {
 }
 
 function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
-  const turn = (by: number) => (zoom.value = Math.min(200, Math.max(8, zoom.value * by)));
   return (
     <div class="transport">
       <button class="play" aria-label={studio.live.value ? 'Stop' : isPlaying.value ? 'Pause' : 'Play'} title="Space" disabled={!studio.project.value} onClick={studio.togglePlay}>
@@ -217,8 +217,8 @@ function Transport({ time }: { time: preact.Ref<HTMLElement> }) {
       <button aria-pressed={loops.value} onClick={() => (loops.value = !loops.value)} title="Loop the chosen interval, or all of it">Loop</button>
       <span class="space" />
       <div class="choices" role="group" aria-label="Zoom">
-        <button class="icon" aria-label="Show more of the song" onClick={() => turn(0.7)}>−</button>
-        <button class="icon" aria-label="Show less of the song" onClick={() => turn(1.4)}>+</button>
+        <button class="icon" aria-label="Show more of the song" onClick={() => zoomTo(zoom.value * 0.7)}>−</button>
+        <button class="icon" aria-label="Show less of the song" onClick={() => zoomTo(zoom.value * 1.4)}>+</button>
       </div>
     </div>
   );
@@ -283,6 +283,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
             {shown && !studio.live.value && <Intervals />}
             {shown && !studio.live.value && <Warnings />}
             {shown?.keys.map((key) => <KeyChip key={key.id} item={key} pictureOf={pictureOf} />)}
+            <HoldGrip />
             {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
           </div>
           {shown && !studio.live.value && <PhraseBand />}

@@ -17,7 +17,7 @@ async function load(name) {
 }
 
 const { roughly, timeLeft } = await load('time_left');
-const { closest, emptyProject, freeId, sorted, spoken } = await load('project');
+const { closest, emptyProject, freeId, sorted, spoken, trimmed, withHeld, withHolds } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
 const { counted, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
@@ -58,6 +58,15 @@ test('ids are free, and spoken without underscores', () => {
   assert.equal(spoken('side_reach'), 'side reach');
 });
 
+test('a held pose is a key and those that hold it, as far as the next key', () => {
+  const keys = [{ id: 'bow', frame: 30, hold: 15 }, { id: 'kick', frame: 40, hold: 6 }, { id: 'dab', frame: 58, hold: 9 }];
+  const all = withHeld(keys, 60, 30);
+  assert.deepEqual(all.map(({ frame }) => frame), [30, 36, 40, 46, 58]);
+  assert.equal(all[1].id, 'bow held 1');
+  assert.deepEqual(withHolds(all).map(({ id, hold }) => [id, hold]), [['bow', 6], ['kick', 6], ['dab', 0]]);
+  assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
+});
+
 test('keys are sorted, and no list is changed on the way', () => {
   const keys = [{ frame: 9 }, { frame: 3 }];
   assert.deepEqual(sorted(keys).map(({ frame }) => frame), [3, 9]);
@@ -86,7 +95,7 @@ test('of a pose some joints are taken', () => {
 });
 
 test('a project is read as it was written', () => {
-  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null };
+  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null, hold: 6 };
   const project = { ...emptyProject('song.mp3', 4), seed: 7, dynamics: 0.9, variation: 0, path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key] };
   const text = toJson(project, 30, ['pelvis', 'left_hip']);
   const said = [];
@@ -94,6 +103,7 @@ test('a project is read as it was written', () => {
   assert.deepEqual({ ...read, keys: [key] }, project);
   assert.deepEqual(said, []);
   assert.equal(JSON.parse(text).keyframes[0].time, 0.5);
+  assert.equal(JSON.parse(text).keyframes[0].hold, 0.2);
 });
 
 test('dancers are saved as a file of dancers has them, a line for each place', () => {

@@ -73,7 +73,16 @@ await inStudio(async ({ page, until, settle, message, frames, give }) => {
     assert.deepEqual(await chosen(), [list[0].frame, list[3].frame]);
   });
 
-  await check('a phrase is mirrored: twice is as before, and no frame after the next key changes', async () => {
+  await check('the timeline shows a phrase as large as fits', async () => {
+    await press('Zoom to it');
+    const band = await page.locator('i.phrase').boundingBox();
+    const view = await page.locator('.timeline .scroll').boundingBox();
+    assert.ok(band.x >= view.x && band.x + band.width <= view.x + view.width, JSON.stringify({ band, view }));
+    assert.ok(band.width > 0.6 * view.width, `${band.width} of ${view.width}`);
+    for (let i = 0; i < 5; ++i) await page.getByRole('button', { name: 'Show more of the song' }).click();
+  });
+
+  await check('a phrase is mirrored: twice is as before, and no frame behind the next key changes', async () => {
     const [before, danced] = [await keys(), await frames()];
     await press('Mirror');
     const after = await keys();
@@ -132,6 +141,34 @@ await inStudio(async ({ page, until, settle, message, frames, give }) => {
     await undo();
     await undo();
     assert.deepEqual(await keys(), before);
+  });
+
+  await check('it goes in half and in double time; what is behind it stays', async () => {
+    const before = await chooseFirst(3);
+    const danced = await frames();
+    const [begin, end] = [before[0].frame, before[3].frame];
+    await press('Half time');
+    const half = await keys();
+    before.slice(0, 3).forEach(({ id, frame, root, rotations }, i) => {
+      const { frame: to, ...rest } = half[i];
+      assert.deepEqual(rest, { id, root, rotations });
+      assert.ok(Math.abs(to - begin - 2 * (frame - begin)) <= 1, `${frame} to ${to}`);
+    });
+    const stay = before.filter(({ frame }) => frame >= begin + 2 * (end - begin));
+    assert.ok(stay.length > 0 && stay.length < before.length - 3, 'nothing made way');
+    assert.deepEqual(half.slice(3), stay);
+    assert.deepEqual((await frames()).slice(stay[0].frame), danced.slice(stay[0].frame));
+    await page.screenshot({ path: inFolder('half-time.png'), timeout: patience });
+    await press('Double time');
+    assert.deepEqual((await keys()).slice(0, 3), before.slice(0, 3));
+    await undo();
+    await undo();
+    assert.deepEqual(await keys(), before);
+    await page.keyboard.press('Escape');
+    await press('Choose all');
+    await press('Half time');
+    assert.match((await message()).text, /keys would come behind the end/);
+    await undo();
   });
 
   await check('its keys are copied to the playhead, taken out, and come back', async () => {

@@ -5,7 +5,7 @@ import { check, clicks, inFolder, inStudio } from './harness.mjs';
 
 const seconds = 8;
 
-await inStudio(async ({ page, until, settle, message, scale, give }) => {
+await inStudio(async ({ page, until, settle, message, scale, frames, give }) => {
   await until(() => window.choreo?.isConnected.value);
   await give(['clicks.wav', clicks(seconds)]);
   await page.locator('.key').first().waitFor();
@@ -97,6 +97,42 @@ await inStudio(async ({ page, until, settle, message, scale, give }) => {
     assert.ok((await keys()).some((key) => key.frame === frame + 10));
     await page.keyboard.press('Control+z');
     await settle();
+  });
+
+  await check('a pose is dwelt on as far as its end is pulled; the next key and all behind it stay', async () => {
+    const before = await keys();
+    const danced = await frames();
+    const held = () => page.evaluate(() => window.choreo.project.value.keys.map(({ hold }) => hold));
+    await page.locator('.key').nth(1).click();
+    const grip = page.getByRole('slider', { name: /^How long key/ });
+    const { x, y, width, height } = await grip.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.keyboard.down('Alt');
+    await page.mouse.move(x + width / 2 + 0.4 * (await scale()), y + height / 2, { steps: 3 });
+    await page.screenshot({ path: inFolder('held.png') });
+    await page.mouse.up();
+    await page.keyboard.up('Alt');
+    await settle();
+    assert.equal((await held())[1], 12);
+    await grip.focus();
+    await page.keyboard.press('ArrowRight');
+    await settle();
+    assert.equal((await held())[1], 18);
+    const now = await frames();
+    const [{ frame }, next] = before.slice(1);
+    const turnsFrom = (a, b) => Math.max(...JSON.parse(a).rotations.map((value, i) => Math.abs(value - JSON.parse(b).rotations[i])));
+    for (const at of [6, 12, 18]) assert.ok(turnsFrom(now[frame + at], now[frame]) < 0.01, `${at} frames behind it`);
+    assert.ok(turnsFrom(danced[frame + 18], danced[frame]) > 0.05);
+    assert.deepEqual(now.slice(next.frame), danced.slice(next.frame));
+    // As far as there is room.
+    await page.evaluate(([id]) => window.choreo.holdKey(id, 600), [before[1].id]);
+    await settle();
+    const most = (await held())[1];
+    assert.ok(most > 18 && most <= next.frame - frame - 2, `${most}`);
+    for (let i = 0; i < 3; ++i) await page.keyboard.press('Control+z');
+    await settle();
+    assert.deepEqual(await held(), before.map(() => 0));
   });
 
   await check('the keys of an interval are copied to the playhead, and stand to each other as before', async () => {
