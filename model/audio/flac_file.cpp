@@ -47,6 +47,11 @@ class FlacReader final : public SoundReader {
         notes_.push_back("its header says " + std::to_string(stated_) + " samples, " +
                          std::to_string(read_) + " are there");
       if (damaged_ > 0) notes_.push_back(std::to_string(damaged_) + " places in it are damaged");
+      if (others_ > 0) {
+        notes_.push_back(std::to_string(others_) + " of its frames have " + other_ + ", not " +
+                         FormatOf(channels_, sample_rate_) +
+                         ", and are left out: joined files must match, re-encode them");
+      }
     }
     return static_cast<int64_t>(count) / channels_;
   }
@@ -57,6 +62,10 @@ class FlacReader final : public SoundReader {
   bool Decode() {
     return FLAC__stream_decoder_process_single(decoder_.get()) &&
            FLAC__stream_decoder_get_state(decoder_.get()) < FLAC__STREAM_DECODER_END_OF_STREAM;
+  }
+
+  static std::string FormatOf(int channels, int rate) {
+    return std::to_string(channels) + " channels at " + std::to_string(rate) + " Hz";
   }
 
   static FLAC__StreamDecoderReadStatus OnRead(Decoder, FLAC__byte* to, size_t* bytes, void* user) {
@@ -79,9 +88,10 @@ class FlacReader final : public SoundReader {
       self.sample_rate_ = static_cast<int>(header.sample_rate);
       self.channels_ = channels;
     }
-    // The header of a damaged frame may hold anything.
-    if (channels != self.channels_ || static_cast<int>(header.sample_rate) != self.sample_rate_) {
-      ++self.damaged_;
+    const auto rate = static_cast<int>(header.sample_rate);
+    if (channels != self.channels_ || rate != self.sample_rate_) {
+      ++self.others_;
+      self.other_ = FormatOf(channels, rate);
       return FLAC__STREAM_DECODER_WRITE_STATUS_CONTINUE;
     }
     const float scale = 1.0F / static_cast<float>(int64_t{1} << (header.bits_per_sample - 1));
@@ -102,7 +112,8 @@ class FlacReader final : public SoundReader {
 
   const std::string name_;
   ByteSource source_;
-  int64_t position_ = 0, stated_ = 0, read_ = 0, damaged_ = 0;
+  int64_t position_ = 0, stated_ = 0, read_ = 0, damaged_ = 0, others_ = 0;
+  std::string other_;  // the format of those
   std::vector<float> decoded_;
   size_t taken_ = 0;
   bool ended_ = false;

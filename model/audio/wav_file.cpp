@@ -95,10 +95,20 @@ bool IsBurst(const ByteSource& source, int64_t body) {
   return false;
 }
 
-/// Where the chunk after one of `size` bytes begins: some leave out the byte that pads it.
+/// Where the chunk after one of `size` bytes begins: some leave out the byte that pads it, which
+/// is 0 and so begins none.
 int64_t After(const ByteSource& source, int64_t body, int64_t size) {
-  const int64_t padded = body + size + size % 2;
-  return IsChunk(source, padded) || !IsChunk(source, body + size) ? padded : body + size;
+  return IsChunk(source, body + size) ? body + size : body + size + size % 2;
+}
+
+/// The chunk at `at` as it is, length and all; "" where it is too long for one of a format.
+std::string FormatAt(const ByteSource& source, int64_t at) {
+  constexpr int64_t kLongest = 1024;
+  const int64_t size = source.Word(at + 4);
+  if (size > kLongest) return "";
+  std::string chunk(static_cast<size_t>(std::min(8 + size, source.size - at)), '\0');
+  source.read_at(at, std::as_writable_bytes(std::span(chunk)));
+  return chunk;
 }
 
 /// The samples with a new header in place of the file's, because libsndfile searches differently
@@ -111,16 +121,52 @@ ByteSource Plain(const ByteSource& source, const std::string& format, int64_t bo
                  "RIFF" + FourBytes(static_cast<uint32_t>(all)) + head);
 }
 
+/// The files that were joined to one, as by `cat a b`, and each chunk of samples of those that have
+/// several, as a file of its own.
+std::vector<ByteSource> PartsOf(const ByteSource& source, const std::string& name) {
+  constexpr size_t kMost = 1000;
+  std::vector<ByteSource> parts;
+  std::string format;
+  int64_t begin = 0;
+  bool has_samples = false;  // the file that began there
+  for (int64_t at = 0; at + 8 <= source.size;) {
+    const int64_t body = at + 8, size = source.Word(at + 4);
+    if (source.Has(at, "RIFF") && source.Has(body, "WAVE")) {
+      begin = at;
+      has_samples = false;
+      at = body + 4;
+      continue;
+    }
+    if (source.Has(at, "fmt ")) format = FormatAt(source, at);
+    const bool is_data = source.Has(at, "data"),
+               is_whole = IsChunk(source, at) && (size > 0 || !is_data);
+    const int64_t after = is_whole ? After(source, body, size) : source.size;
+    if (is_data) {
+      parts.push_back(has_samples ? Plain(source, format, body, is_whole ? size : after - body)
+                                  : PartOf(source, begin, std::min(after, source.size)));
+      has_samples = true;
+    }
+    if (parts.size() > kMost)
+      throw InvalidArgument(name, "has more than " + std::to_string(kMost) + " chunks of samples");
+    at = after;
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string& name) {
   constexpr uint32_t kPcm = 1, kMpegLayer3 = 0x55;
-  constexpr int64_t kMost = 0xfffffff0, kLongestFormat = 1024;
+  constexpr int64_t kMost = 0xfffffff0;
   std::vector<std::string> notes;
   const auto as_it_is = [&] { return std::make_unique<WavReader>(source, name, notes); };
   if (source.Has(0, "RIFX")) return as_it_is();  // numbers the other way round
   // RF64 and BW64 have their lengths in a chunk of their own.
   const bool is_long = !source.Has(0, "RIFF");
+  if (std::vector<ByteSource> parts = PartsOf(source, name); parts.size() > 1) {
+    return ReadOneAfterAnother(
+        std::move(parts), [name](const ByteSource& part) { return ReadWav(part, name); }, name);
+  }
   int64_t long_size = 0;
   std::string format_chunk;
   uint32_t format = 0;
@@ -130,11 +176,12 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
     int64_t size = source.Word(at + 4);
     if (source.Has(at, "ds64"))
       long_size = int64_t{source.Word(body + 8)} | int64_t{source.Word(body + 12) & 0xffff} << 32;
-    if (source.Has(at, "fmt ") && size <= kLongestFormat) {
+    if (source.Has(at, "fmt ")) {
       format = source.Word(body) & 0xffff;
-      format_chunk.resize(static_cast<size_t>(std::min(8 + size, source.size - at)));
-      source.read_at(at, std::as_writable_bytes(std::span(format_chunk)));
+      format_chunk = FormatAt(source, at);
     }
+    if (source.Has(at, "LIST") && source.Has(body, "wavl"))
+      throw InvalidArgument(name, "keeps its samples in pieces (a wavl list), which is not read");
     if (!source.Has(at, "data")) {
       odd = odd || size % 2 != 0;
       at = After(source, body, size);

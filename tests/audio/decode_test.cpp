@@ -190,9 +190,8 @@ TEST_P(DecodeFormatTest, TruncatedFilesAreReadAsFarAsTheyGoAndToldOf) {
   EXPECT_NE(Refusal(bytes.substr(0, 20)), "accepted");
 }
 
-// Joined as by `cat a b`; a WAV has only one part.
+// Joined as by `cat a b`.
 TEST_P(DecodeFormatTest, JoinedFilesAreReadToTheEnd) {
-  if (std::string(GetParam().name).starts_with("wav")) return;
   const std::string bytes = Bytes(WriteWave());
   EXPECT_NEAR(Decode(bytes + bytes + bytes).seconds(), 6, 0.15);
   const auto mono = [](const std::string& file) {
@@ -346,10 +345,45 @@ TEST_F(DecodeTest, LongWavIsReadWhateverItsHeaderSays) {
       }
     }
   }
-  // In WAV, too.
+  // In WAV, too; a byte further on, what comes next may look like a chunk.
   const std::string list = "LIST" + number(7, 4) + "INFOabc";
-  for (const std::string& odd : {list, list + '\0'})
-    EXPECT_NEAR(Decode(wav.substr(0, 12) + odd + wav.substr(12)).seconds(), 1, 1e-9);
+  for (const std::string& odd : {list, list + '\0'}) {
+    for (const size_t at : {size_t{12}, data})
+      EXPECT_NEAR(Decode(wav.substr(0, at) + odd + wav.substr(at)).seconds(), 1, 1e-9);
+  }
+}
+
+TEST_F(DecodeTest, WavsWithSeveralChunksOfSamplesAreReadToTheirEnd) {
+  const std::vector<float> wave = Sine(440, 22050, 22050);
+  const std::string wav = Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 22050, 1, wave));
+  const std::string samples = wav.substr(wav.find("data"));
+  const DecodedAudio whole = Decode(wav),
+                     twice = Decode(wav + "LIST" + std::string(4, '\0') + samples);
+  EXPECT_EQ(twice.samples(), 2 * whole.samples());
+  EXPECT_TRUE(std::equal(whole.interleaved.begin(), whole.interleaved.end(),
+                         twice.interleaved.begin() + whole.samples()));
+  // The second file is cut off.
+  const DecodedAudio cut = Decode(wav + wav.substr(0, wav.size() / 2));
+  EXPECT_NEAR(cut.seconds(), 1.5, 0.01);
+  ASSERT_EQ(cut.notes.size(), 1U);
+  EXPECT_THAT(cut.notes[0], HasSubstr("part 2: its header says 44100 bytes"));
+  const size_t data = wav.find("data");
+  EXPECT_THAT(
+      Refusal(wav.substr(0, data) + "LIST" + std::string("\x40\x10\0\0", 4) + "wavl" + samples),
+      HasSubstr("a wavl list"));
+  const std::string other = Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 44100, 1, wave));
+  EXPECT_THAT(Refusal(wav + other), HasSubstr("they must match"));
+}
+
+TEST_F(DecodeTest, JoinedFlacsOfTwoRatesAreToldOf) {
+  const int flac = SF_FORMAT_FLAC | SF_FORMAT_PCM_16;
+  const std::string one = Bytes(Write(flac, 22050, 1, Sine(440, 22050, 22050)));
+  const DecodedAudio joined = Decode(one + Bytes(Write(flac, 48000, 2, Noise(96000, 3))));
+  EXPECT_NEAR(joined.seconds(), 1, 1e-9);
+  ASSERT_FALSE(joined.notes.empty());
+  EXPECT_THAT(joined.notes.back(),
+              AllOf(HasSubstr("frames have 2 channels at 48000 Hz, not 1 channels at 22050 Hz"),
+                    HasSubstr("re-encode")));
 }
 
 TEST_F(DecodeTest, TagsBeforeOtherSoundThanMp3ArePassedOver) {
