@@ -199,7 +199,9 @@ Pose FromAmass(const Pose& amass) {
 }
 
 Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
-  if (npz.Has("rotations") && npz.Has("root_positions")) {
+  // Beside ours stand AMASS's arrays, which may lie otherwise.
+  const bool as_amass = (!reading.up.empty() || reading.scale > 0) && npz.Has("poses");
+  if (npz.Has("rotations") && npz.Has("root_positions") && !as_amass) {
     reading.RefuseBody();
     Motion motion = ReadOwnArrays(Skeleton::Smpl24(), npz);
     CheckMotionLimits(motion);

@@ -124,7 +124,10 @@ class BvhTokens {
   }
 
  private:
-  static bool IsSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+  // DOS's end of a file, and zeros that fill its last block, are as good as spaces.
+  static bool IsSpace(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r') || c == '\x1a' || c == '\0';
+  }
   void SkipSpace() {
     while (at_ < text_.size()) {
       if (text_[at_] == '#' || text_.substr(at_, 2) == "//") {

@@ -26,9 +26,10 @@ struct MotionReading {
   /// wrong.
   std::vector<std::string>* notes = nullptr;
 
-  /// Whether it chooses bones.
-  bool chooses() const { return !bones.empty() || !body.empty(); }
-  /// Throws Error(kInvalidArgument) if --body is given; call for files with one body.
+  /// Whether it says which bones are read, or how they lie: then not even our own file is read as
+  /// it is.
+  bool chooses() const { return !bones.empty() || !body.empty() || !up.empty() || scale > 0; }
+  /// Throws Error(kInvalidArgument) where --body is given, for a file of one.
   void RefuseBody() const;
   void Note(const std::string& text) const {
     if (notes != nullptr) notes->push_back(text);

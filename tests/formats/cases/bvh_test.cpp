@@ -48,6 +48,7 @@ TEST_F(CasesTest, BvhAsOtherToolsWriteIt) {
            {"UTF-16 BE", utf16(true, "\xFE\xFF"), ""},
            {"UTF-16", utf16(false, ""), ""},
            {"blank lines", replaced("\n", "\r\n\r\n"), ""},
+           {"DOS's end of a file", good + "\r\n\x1a" + std::string(300, '\0'), ""},
            {"no rate", replaced("Frame Time: 0.033333333", "Frame Time: 0"), "states no rate"},
        }) {
     SCOPED_TRACE(row.name);
@@ -59,6 +60,28 @@ TEST_F(CasesTest, BvhAsOtherToolsWriteIt) {
   }
   const std::string slow = replaced("Frame Time: 0.033333333", "Frame Time: 0");
   EXPECT_EQ(ReadBytes("a.bvh", slow, {.fps = 120}).motion.fps, 120);
+}
+
+// Our own files, which are read as they are, are not where somebody says how they lie.
+TEST_F(CasesTest, OurOwnFilesHeedWhatIsSaidOfThem) {
+  Motion motion;
+  motion.fps = 30;
+  for (int frame = 0; frame < 20; ++frame) {
+    Pose pose = RestPose(kSmpl);
+    pose.rotations.col(kSmpl.left_hip) << -0.02 * frame, 0, 0;
+    pose.rotations.col(0) << M_PI, 0, 0;  // on its head
+    motion.frames.push_back(pose);
+  }
+  const auto turned = [](const Read& read) {
+    return read.motion.frames[10].rotations.col(0).norm() * kDegrees;
+  };
+  for (const auto& [name, up] :
+       {std::pair("a.bvh", "-y"), std::pair("a.glb", "-y"), std::pair("a.npz", "-z")}) {
+    SCOPED_TRACE(name);
+    WriteMotion(folder_ / name, kSmpl, motion);
+    EXPECT_NEAR(turned(ReadFile(name)), 180, 1e-3);
+    EXPECT_LT(turned(ReadFile(name, {.up = up})), kOpen);
+  }
 }
 
 // As MMD's converters write it: 頭 and 右腕 are bytes of Shift-JIS.
