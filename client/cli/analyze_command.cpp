@@ -24,6 +24,8 @@ struct AnalyzeOptions {
   std::string song;
   bool json = false;
   std::string features;
+  double song_start_s = 0;
+  double seconds = std::numeric_limits<double>::infinity();
   BeatOptions beats;
   std::optional<int64_t> suggest_keys;
   std::optional<uint64_t> seed;
@@ -142,8 +144,7 @@ void PrintText(const Music& music, const std::optional<std::vector<ProposedKey>>
 void Run(const AnalyzeOptions& options) {
   RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
   if (!options.features.empty()) RequireExtension("--features", options.features, ".npy");
-  const Music music =
-      ReadMusic(options.song, std::numeric_limits<double>::infinity(), 0, options.beats);
+  const Music music = ReadMusic(options.song, options.seconds, options.song_start_s, options.beats);
   if (!options.features.empty()) {
     const FeatureMatrix rows = Mfcc(music.mono);
     WriteNpy(options.features, {{rows.rows(), rows.cols()},
@@ -166,6 +167,14 @@ void AddAnalyzeCommand(CLI::App& program) {
                    "whatever that reads.")
       ->required()
       ->check(SongFile());
+  command
+      ->add_option("--song-start", options->song_start_s,
+                   "Second of the song from which on it is heard; times count from there.")
+      ->check(TimeInSeconds());
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Hear so much of the song, and what a dance of this length hears beyond it.")
+      ->check(TimeInSeconds());
   AddBeatOptions(*command, &options->beats);
   command->add_flag(
       "--json", options->json,

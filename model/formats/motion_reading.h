@@ -29,7 +29,7 @@ struct MotionReading {
   /// Whether it says which bones are read, or how they lie: then not even our own file is read as
   /// it is.
   bool chooses() const { return !bones.empty() || !body.empty() || !up.empty() || scale > 0; }
-  /// Throws Error(kInvalidArgument) where --body is given, for a file of one.
+  /// Throws Error(kInvalidArgument) if --body is given; call for files with one body.
   void RefuseBody() const;
   void Note(const std::string& text) const {
     if (notes != nullptr) notes->push_back(text);

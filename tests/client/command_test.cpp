@@ -90,6 +90,13 @@ TEST_F(CommandTest, AnalyzesASong) {
   ASSERT_GT(heard["beats"].size(), 8U);
   for (const double beat : heard["beats"]) EXPECT_NEAR(std::remainder(beat, 0.5), 0, 0.07);
   EXPECT_EQ(ReadNpy(folder_ / "f.npy").shape, (std::vector<int64_t>{241, 40}));
+  // A part of it, as of a song that is too long.
+  const nlohmann::json part = nlohmann::json::parse(
+      Choreo("analyze " + At("song.wav") + " --json --song-start 3.25 --seconds 4").said);
+  EXPECT_NEAR(part["duration_s"], 4.75, 1e-3);
+  for (const double beat : part["beats"]) EXPECT_NEAR(std::remainder(beat - 0.25, 0.5), 0, 0.07);
+  EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --song-start 9").said,
+              HasSubstr("--song-start: 9 s lies behind the end"));
 }
 
 TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
