@@ -11,6 +11,7 @@
 #include "model/core/grid.h"
 #include "model/core/printable.h"
 #include "model/core/quantile.h"
+#include "model/core/rounded.h"
 #include "model/formats/joint_arrays.h"
 #include "model/formats/motion_check.h"
 #include "model/formats/own_arrays.h"
@@ -43,6 +44,7 @@ constexpr Layout kLayouts[] = {
     {nullptr, "smpl_poses", "smpl_trans"},
     {"root_orient", "pose_body", "trans"},
     {"global_orient", "body_pose", "transl"},
+    {"poses_root", "poses_body", "trans"},
     {nullptr, "fullpose", "transl"},
     {nullptr, "full_pose", "trans"},
     {nullptr, "pose_world", "trans_world"},
@@ -81,7 +83,9 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   for (const char* name : kRateNames) {
     if (!npz.Has(name)) continue;
     const double rate = NpzNumber(npz, name);
-    if (rate > 0 || !(reading.fps > 0)) return CheckRate(name, rate);
+    if (rate > 0) return CheckRate(name, rate);
+    if (!(reading.fps > 0))
+      throw InvalidArgument(name, Rounded(rate) + " frames a second are none; --fps says another");
   }
   if (reading.fps > 0) return reading.fps;
   if (!known) reading.NoteRate(otherwise);

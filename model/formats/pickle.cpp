@@ -61,6 +61,12 @@ class Unpickler {
   /// What the pickle is of, which must be this.
   Ref Run(Kind kind) {
     if (bytes_.starts_with("\x1f\x8b")) throw InvalidArgument(name_, "is compressed: gunzip it");
+    if (bytes_.starts_with('x') || bytes_.starts_with("BZh") ||
+        bytes_.starts_with("\xfd"
+                           "7zXZ")) {
+      throw InvalidArgument(
+          name_, "is compressed, as joblib.dump does: write what joblib.load reads by numpy.savez");
+    }
     if (bytes_.starts_with("PK")) {
       throw InvalidArgument(
           name_,

@@ -104,6 +104,11 @@ TEST_F(CasesTest, ArraysOfEveryKind) {
       {"smplx",
        {{"global_orient", smpl.Root()}, {"body_pose", smpl.Body()}, {"transl", smpl.Trans()}},
        "states no rate"},
+      {"EMDB",
+       {{"poses_root", smpl.Root()},
+        {"poses_body", smpl.Body()},
+        {"trans", smpl.Trans()},
+        {"fps", rate}}},
       {"fps",
        {{"poses", {{f, 156}, smpl.All(AsVector, 52)}},
         {"trans", smpl.Trans()},
@@ -338,6 +343,12 @@ TEST_F(CasesTest, ObjectsAmongArrays) {
   WritePickle(folder_ / "b.pkl", {{"rotmats", poses}});
   ExpectError(ErrorCode::kInvalidArgument, "b.pkl: has no array of rotations",
               [&] { ReadFile("b.pkl"); });
+  other.SetArray("poses", poses);
+  other.SetArray("fps", {{}, std::vector<double>{0}});
+  ExpectError(ErrorCode::kInvalidArgument, "a.npz: fps: 0 frames a second are none; --fps says",
+              [&] { ReadNpz(other); });
+  ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is compressed, as joblib.dump does",
+              [&] { ReadBytes("c.pkl", "x\x5e\xed"); });
   ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is compressed: gunzip it",
               [&] { ReadBytes("c.pkl", "\x1f\x8b\x08"s); });
   ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is a zip, as of torch.save",

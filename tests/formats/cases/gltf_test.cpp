@@ -19,6 +19,46 @@ TEST_F(CasesTest, AGltfsRigKeepsItsTurns) {
   EXPECT_TRUE(read.notes.empty()) << Said(read);
 }
 
+// Scales that differ by axis shear what hangs below: it is read as viewers show it.
+TEST_F(CasesTest, StretchedBonesAreReadAsTheyAreSeen) {
+  GlbRigs glb;
+  const int body = glb.AddBody(NamesOf(kHumanIkRig));
+  glb.AddAnimation("dance", body, Expressive, 20);
+  const Eigen::Vector3d stretched(1.15, 0.8, 1.1);
+  const int chest = RigIndex("spine3");
+  glb.document["nodes"][static_cast<size_t>(body + chest)]["scale"] = {1.15, 0.8, 1.1};
+  const Read read = ReadBytes("a.glb", glb.Bytes());
+  for (size_t frame = 0; frame < read.motion.frames.size(); ++frame) {
+    std::vector<Eigen::Affine3d> seen;
+    for (size_t i = 0; i < RigBody().size(); ++i) {
+      const int parent = RigIndex(RigBody()[i].parent);
+      Eigen::Affine3d local(Eigen::Translation3d(RigBody()[i].offset));
+      local.rotate(Expressive(RigBody()[i].bone, static_cast<int>(frame)));
+      if (static_cast<int>(i) == chest) local.scale(stretched);
+      seen.push_back(parent < 0 ? local : seen[static_cast<size_t>(parent)] * local);
+    }
+    const JointPlacement ours = ForwardKinematics(kSmpl, read.motion.frames[frame]);
+    const auto bone = [&](const std::string& name) {
+      return seen[static_cast<size_t>(RigIndex(name))];
+    };
+    for (const std::string side : {"left_", "right_"}) {
+      for (const auto& [from, to] : {std::pair("shoulder", "elbow"), std::pair("elbow", "wrist")}) {
+        EXPECT_LT(Degrees(Eigen::Vector3d(ours.positions.col(kSmpl.Find(side + to)) -
+                                          ours.positions.col(kSmpl.Find(side + from))),
+                          Eigen::Vector3d(bone(side + to).translation() -
+                                          bone(side + from).translation())),
+                  0.1);
+      }
+    }
+    for (const char* name : {"head", "spine3", "left_wrist", "right_wrist"}) {
+      EXPECT_LT(Degrees(ours.rotations[static_cast<size_t>(kSmpl.Find(name))],
+                        Eigen::Matrix3d(bone(name).rotation())),
+                kOpen)
+          << name;
+    }
+  }
+}
+
 TEST_F(CasesTest, BonesAreFoundByWhatTheyAre) {
   const RigNames names = NamesOf(kHumanIkRig);
   struct Row {
