@@ -41,7 +41,7 @@ FinishedDance PartOf(const FinishedDance& dance, int64_t first, int64_t end) {
 FinishedDance Mirrored(const Skeleton& skeleton, const FinishedDance& dance) {
   FinishedDance mirrored{Mirror(skeleton, dance.motion), dance.contacts};
   for (Contacts& contacts : mirrored.contacts)  // ankle and toes of one side, then of the other
-    std::ranges::rotate(contacts, contacts.begin() + 2);
+    std::rotate(contacts.begin(), contacts.begin() + 2, contacts.end());
   return mirrored;
 }
 

@@ -68,9 +68,11 @@ v1::Controls ToProto(const ControlRequest& controls) {
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field) {
   ControlRequest out;
   if (controls.has_root_path())
-    Read(controls.root_path(), field + ".root_path", &out.root_path.emplace());
+    Read(controls.root_path(), field + ".root_path",
+         &out.root_path.emplace(ControlRequest::RootPath()));
   if (controls.has_velocity_factors()) {
-    Read(controls.velocity_factors(), field + ".velocity_factors", &out.velocity_factors.emplace());
+    Read(controls.velocity_factors(), field + ".velocity_factors",
+         &out.velocity_factors.emplace(ControlRequest::VelocityFactors()));
   }
   return out;
 }
