@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 namespace choreo::live {
 namespace {
 
 constexpr double kMemorySeconds = 120;  // an intro's half beats sound like beats within one window
 constexpr double kFirstSeconds = 4, kEverySeconds = 1.5;
-constexpr size_t kSureBeats = 8;               // that determine the tempo ahead
-constexpr double kLeastMeanConfidence = 0.25;  // mean over those
-constexpr double kStoppedSeconds = 3;          // without a beat, after which the music pauses
+constexpr size_t kSureBeats = 8;       // that determine the tempo ahead
+constexpr double kStoppedSeconds = 3;  // without a beat, after which the music pauses
 
 int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 
@@ -57,9 +55,6 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
 BeatsAhead BeatEar::GoOn(const BeatTrack& track, double now) const {
   const std::vector<double> beats = track.Seconds();
   if (beats.size() <= kSureBeats || now - beats.back() > kStoppedSeconds) return {};
-  const std::span<const double> confidence = std::span(track.confidence).last(kSureBeats);
-  const double sure = std::accumulate(confidence.begin(), confidence.end(), 0.0) / kSureBeats;
-  if (sure < kLeastMeanConfidence) return {};
   const double period = 60 / TempoOf(std::span(beats).last(kSureBeats + 1));
   BeatsAhead ahead;
   int in_bar = track.in_bar.back();

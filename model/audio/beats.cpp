@@ -18,13 +18,16 @@ constexpr int64_t kLoudFrames = 12 * kModelSampleRate / kOnsetHop;
 constexpr int64_t kPauseFrames = 2 * kModelSampleRate / kOnsetHop;
 constexpr int64_t kShortestFrames = kModelSampleRate / kOnsetHop;  // of music between pauses
 
-constexpr int64_t kConfidenceBeats = 8;  // on either side
-constexpr double kSameTempo = 0.06;      // deviation from the median
+constexpr size_t kConfidenceBeats = 8;  // on either side
+constexpr double kLeastConfidence = 0.25;
+constexpr double kSameTempo = 0.06;  // deviation from the median
 
 // If straight beats begin so much more than swung ones, the swung ones are their offbeats.
 constexpr double kLouder = 2;
 // Listeners rarely tap faster than this unless beats are subdivided.
 constexpr double kFastestTappedBpm = 160;
+
+using Path = std::vector<BarPointer::Step>;
 
 std::vector<bool> Sounding(std::span<const Onset> onsets) {
   std::vector<bool> sounding(onsets.size());
@@ -86,25 +89,60 @@ class OnsetSums {
   std::vector<double> sums_{0};
 };
 
-/// How much more begins on the beats around each than on average.
+enum class Where { kOnBeats, kOnBeatsOrHalfBeats };
+
+/// How much more begins there than on average, from the first of some beats until the last: 0 to 1.
+double Excess(const OnsetSums& sums, std::span<const int64_t> frames, Where where) {
+  if (frames.size() < 2) return 0;
+  double on = 0, halfway = 0;
+  for (size_t k = 0; k + 1 < frames.size(); ++k) {
+    on += sums.OnBeat(frames[k]);
+    halfway += sums.OnBeat((frames[k] + frames[k + 1]) / 2);
+  }
+  if (where == Where::kOnBeatsOrHalfBeats) on = std::max(on, halfway);
+  const double even = sums.Between(frames.front(), frames.back()) *
+                      static_cast<double>((std::ssize(frames) - 1) * OnsetSums::kBeatFrames) /
+                      static_cast<double>(frames.back() - frames.front());
+  return on > even ? 1 - even / on : 0;
+}
+
+/// Of the beats around each.
 std::vector<double> Confidences(std::span<const Onset> onsets, std::span<const int64_t> frames) {
   const OnsetSums sums(onsets);
   std::vector<double> confidences;
-  for (int64_t i = 0; i < std::ssize(frames); ++i) {
-    const int64_t first = std::max<int64_t>(0, i - kConfidenceBeats);
-    const int64_t last = std::min<int64_t>(std::ssize(frames) - 1, i + kConfidenceBeats);
-    double on = 0;
-    for (int64_t k = first; k < last; ++k) on += sums.OnBeat(frames[static_cast<size_t>(k)]);
-    const int64_t from = frames[static_cast<size_t>(first)], to = frames[static_cast<size_t>(last)];
-    const double even = sums.Between(from, to) *
-                        static_cast<double>((last - first) * OnsetSums::kBeatFrames) /
-                        static_cast<double>(std::max<int64_t>(1, to - from));
-    confidences.push_back(on > even && on > 0 ? 1 - even / on : 0);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const size_t first = i - std::min(i, kConfidenceBeats);
+    const size_t last = std::min(frames.size() - 1, i + kConfidenceBeats);
+    confidences.push_back(Excess(sums, frames.subspan(first, last - first + 1), Where::kOnBeats));
   }
   return confidences;
 }
 
-using Path = std::vector<BarPointer::Step>;
+/// Of each beat: whether most around it have a pulse, on either side. Noise and held notes have
+/// none.
+std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
+  const OnsetSums sums(onsets);
+  std::vector<int64_t> frames;
+  for (const BarPointer::Step& step : path) frames.push_back(step.frame);
+  constexpr size_t kBeats = kConfidenceBeats;
+  const size_t last = frames.size() - std::min(frames.size(), kBeats + 1);
+  const auto is_clear = [&](size_t first) {
+    const auto stretch = std::span(frames).subspan(first, std::min(frames.size(), kBeats + 1));
+    return Excess(sums, stretch, Where::kOnBeatsOrHalfBeats) >= kLeastConfidence;
+  };
+  std::vector<size_t> clear{0};  // before each beat
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const bool is =
+        is_clear(std::min(i, last)) && is_clear(std::min(i - std::min(i, kBeats), last));
+    clear.push_back(clear.back() + (is ? 1 : 0));
+  }
+  std::vector<bool> have;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const size_t first = i - std::min(i, kBeats), end = std::min(frames.size(), i + kBeats + 1);
+    have.push_back(2 * (clear[end] - clear[first]) > end - first);
+  }
+  return have;
+}
 
 Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> patterns,
               const TempoLimits& limits) {
@@ -194,12 +232,16 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits) {
       return std::ranges::any_of(onset.rise, [](float rise) { return rise > 0; });
     };
     if (std::ranges::none_of(heard, begins)) continue;
-    for (const BarPointer::Step& step : PathOf(heard, limits)) {
-      const int64_t frame = part.begin + step.frame;
-      if (IsInPause(sounding, frame, step.period)) continue;
-      track.frames.push_back(frame);
-      track.in_bar.push_back(step.in_bar);
-      bars.push_back(step.beats);
+    Path path = PathOf(heard, limits);
+    std::erase_if(path, [&](const BarPointer::Step& step) {
+      return IsInPause(sounding, part.begin + step.frame, step.period);
+    });
+    const std::vector<bool> have_pulse = HavePulse(heard, path);
+    for (size_t i = 0; i < path.size(); ++i) {
+      if (!have_pulse[i]) continue;
+      track.frames.push_back(part.begin + path[i].frame);
+      track.in_bar.push_back(path[i].in_bar);
+      bars.push_back(path[i].beats);
     }
   }
   track.confidence = Confidences(onsets, track.frames);

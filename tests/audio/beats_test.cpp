@@ -72,6 +72,31 @@ TEST(BeatsTest, WhereNothingSoundsAreNone) {
   EXPECT_GT(BeatFMeasure(beats, song.beats, 19, 30), 0.9);
 }
 
+// Noise has onsets, but none that return.
+TEST(BeatsTest, WhereNoPulseIsAreNone) {
+  for (const double seconds : {8, 30}) {
+    const auto samples = static_cast<int64_t>(seconds * 22050);
+    EXPECT_TRUE(FindBeats(Sine(220, 22050, samples, 0.3)).frames.empty());
+    for (uint64_t seed = 0; seed < 4; ++seed)
+      EXPECT_TRUE(FindBeats(Noise(samples, seed, 0.1)).frames.empty()) << seconds << ", " << seed;
+  }
+  // Hiss in a pause.
+  const MadeSong song =
+      MakeSong({.seed = 9'000'250, .seconds = 35, .tempo = {{0, 128}}, .silent = {{12, 20}}});
+  std::vector<float> hissing = Noise(std::ssize(song.mono), 3, 0.002);
+  for (size_t i = 0; i < hissing.size(); ++i) hissing[i] += song.mono[i];
+  const std::vector<double> beats = FindBeats(hissing).Seconds();
+  EXPECT_GT(BeatFMeasure(beats, song.beats), 0.97);
+  EXPECT_LE(std::ranges::count_if(beats, [](double beat) { return beat > 12.5 && beat < 19.5; }),
+            2);
+}
+
+// Guitars that are louder than the drums, half a beat later.
+TEST(BeatsTest, LoudOffBeatsAreAPulseToo) {
+  const std::vector<float> metal = Metal(20, 0.5);
+  EXPECT_GT(FindBeats(metal).frames.size(), 35u);
+}
+
 TEST(BeatsTest, ADcOffsetIsNotHeard) {
   std::vector<float> song = MakeSong({.seed = 9'000'300, .seconds = 15}).mono;
   const BeatTrack plain = FindBeats(song);
@@ -83,9 +108,10 @@ TEST(BeatsTest, ADcOffsetIsNotHeard) {
 
 TEST(BeatsTest, BeatsAscendWithinTheLimitsInAnyMusic) {
   for (uint64_t seed = 0; seed < 6; ++seed) {
-    const std::vector<float> noise = Noise(10 * 22050, seed);
+    const std::vector<float> clicks =
+        Clicks(10 * 22050, 3000, 9000 + 1500 * static_cast<int64_t>(seed));
     for (const TempoLimits limits : {TempoLimits{}, TempoLimits{90, 100}}) {
-      const BeatTrack track = TrackBeats(FindOnsets(noise), limits);
+      const BeatTrack track = TrackBeats(FindOnsets(clicks), limits);
       ASSERT_EQ(track.in_bar.size(), track.frames.size());
       ASSERT_EQ(track.confidence.size(), track.frames.size());
       for (size_t i = 0; i < track.frames.size(); ++i) {
