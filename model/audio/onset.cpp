@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "model/audio/centred_frames.h"
 #include "model/audio/format.h"
@@ -53,6 +54,11 @@ struct OnsetTables {
   }
 };
 
+float Mean(std::span<const float> samples) {
+  return static_cast<float>(std::accumulate(samples.begin(), samples.end(), 0.0) /
+                            static_cast<double>(std::max<size_t>(1, samples.size())));
+}
+
 }  // namespace
 
 OnsetMeter::BandsDb OnsetMeter::Decibels(std::span<const float> window) {
@@ -100,8 +106,10 @@ Onset OnsetMeter::Add(std::span<const float> window) {
 
 std::vector<Onset> FindOnsets(std::span<const float> mono) {
   OnsetMeter meter;
-  return OfCentredFrames(mono, kOnsetWindow, kOnsetHop,
-                         [&](auto window) { return meter.Add(window); });
+  const auto second = std::min<size_t>(mono.size(), kModelSampleRate);
+  return OfCentredFrames(
+      mono, kOnsetWindow, kOnsetHop, [&](auto window) { return meter.Add(window); },
+      Mean(mono.first(second)), Mean(mono.last(second)));
 }
 
 std::vector<float> OnsetStrength(std::span<const Onset> onsets) {

@@ -51,8 +51,8 @@ class OnsetMeter {
 };
 
 /// All onsets of mono samples at 22 050 Hz. Frame f is centred at sample f * kOnsetHop; there are 1
-/// + samples / kOnsetHop. Audio before and after is silence. Throws Error(kInvalidArgument) for no
-/// samples.
+/// + samples / kOnsetHop. Before and after is silence at the mean of the nearest second, so that a
+/// DC offset has no onset. Throws Error(kInvalidArgument) for no samples.
 std::vector<Onset> FindOnsets(std::span<const float> mono);
 
 /// One value per frame: the mean over bands, with the bass weighted like the others together.

@@ -55,8 +55,7 @@ TEST(OnsetTest, ADcOffsetChangesNothing) {
   const std::vector<float> plain = Strength(wave);
   for (float& sample : wave) sample += 0.25F;
   const std::vector<float> offset = Strength(wave);
-  // Except at both ends, where the offset begins and ends.
-  for (size_t i = 6; i + 6 < plain.size(); ++i) EXPECT_NEAR(offset[i], plain[i], 0.05) << i;
+  for (size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(offset[i], plain[i], 0.05) << i;
 }
 
 TEST(OnsetTest, LoudnessIsThatOfTheLoudestBand) {
