@@ -100,35 +100,33 @@ class LimitedReader {
   int64_t read_ = 0, kept_ = 0;  // samples per channel so far
 };
 
-/// Compares the power of the channels with that of their mix.
-class Cancellation {
- public:
-  void Hear(std::span<const float> interleaved, int channels) {
-    const auto count = static_cast<size_t>(channels);
-    for (size_t i = 0; i + count <= interleaved.size(); i += count) {
-      double sum = 0;
-      for (size_t c = 0; c < count; ++c) {
-        sum += interleaved[i + c];
-        alone_ += double{interleaved[i + c]} * interleaved[i + c] / channels;
-      }
-      together_ += sum * sum / (channels * channels);
+/// Their mix has less of the channels' power: they correlate by less than -0.9.
+constexpr double kCancelled = 0.05;
+
+/// Whether channels cancel each other in these samples, whatever their DC offsets; then all become
+/// the first.
+bool MendCancelled(std::span<float> interleaved, int channels) {
+  const auto count = static_cast<size_t>(channels);
+  const auto samples = static_cast<double>(interleaved.size() / count);
+  std::vector<double> sums(count), squares(count);
+  double mixed = 0, mixed_squares = 0;
+  for (size_t i = 0; i + count <= interleaved.size(); i += count) {
+    double mix = 0;
+    for (size_t c = 0; c < count; ++c) {
+      const double sample = interleaved[i + c];
+      sums[c] += sample;
+      squares[c] += sample * sample;
+      mix += sample / channels;
     }
+    mixed += mix;
+    mixed_squares += mix * mix;
   }
-  /// The mix has less than a thousandth of the channels' power.
-  bool IsNearlyWhole() const { return together_ < 1e-3 * alone_; }
-
- private:
-  double alone_ = 0, together_ = 0;
-};
-
-constexpr const char* kCancels =
-    "its channels cancel each other (one is the other inverted); only the first is used";
-
-std::vector<float> FirstChannel(std::span<const float> interleaved, int channels) {
-  std::vector<float> first;
-  for (size_t i = 0; i < interleaved.size(); i += static_cast<size_t>(channels))
-    first.push_back(interleaved[i]);
-  return first;
+  double alone = 0;
+  for (size_t c = 0; c < count; ++c) alone += (squares[c] - sums[c] * sums[c] / samples) / channels;
+  if (alone <= 1e-12 * samples || mixed_squares - mixed * mixed / samples >= kCancelled * alone)
+    return false;
+  for (size_t i = 0; i < interleaved.size(); ++i) interleaved[i] = interleaved[i - i % count];
+  return true;
 }
 
 }  // namespace
@@ -139,7 +137,6 @@ DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, 
   DecodedAudio audio{.sample_rate = reader.sample_rate(), .channels = reader.channels()};
   const size_t channels = static_cast<size_t>(audio.channels);
   const int64_t skipped = std::llround(start * audio.sample_rate);
-  Cancellation cancellation;
   for (;;) {
     const int64_t left_out = std::min<int64_t>(skipped - reader.read(), kPieceSamples);
     const size_t size = audio.interleaved.size();
@@ -147,15 +144,20 @@ DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, 
     audio.interleaved.resize(size + static_cast<size_t>(wanted) * channels);
     const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size), left_out <= 0);
     audio.interleaved.resize(size + (left_out > 0 ? 0 : static_cast<size_t>(got) * channels));
-    cancellation.Hear(std::span(audio.interleaved).subspan(size), audio.channels);
     if (got == 0 || (left_out <= 0 && audio.seconds() >= seconds)) break;
   }
   audio.notes = reader.notes();
   audio.end_s = static_cast<double>(reader.read()) / audio.sample_rate;
-  if (audio.channels > 1 && cancellation.IsNearlyWhole() && audio.samples() > 0) {
-    audio.interleaved = FirstChannel(audio.interleaved, audio.channels);
-    audio.channels = 1;
-    audio.notes.push_back(kCancels);
+  const size_t second = static_cast<size_t>(audio.sample_rate) * channels;
+  size_t cancelled = 0, heard = 0;
+  for (size_t at = 0; at < audio.interleaved.size(); at += second, ++heard) {
+    const auto part = std::span(audio.interleaved).subspan(at);
+    if (MendCancelled(part.first(std::min(second, part.size())), audio.channels)) ++cancelled;
+  }
+  if (cancelled > 0) {
+    audio.notes.push_back("its channels cancel each other (one is the other inverted) in " +
+                          std::to_string(cancelled) + " of " + std::to_string(heard) +
+                          " s; there only the first is used");
   }
   return audio;
 }
@@ -171,29 +173,26 @@ std::vector<float> ToModelRate(const DecodedAudio& audio) {
 
 std::vector<float> DecodeMono(std::span<const std::byte> bytes,
                               const std::function<void()>& between) {
-  std::vector<float> mono;
-  for (const bool first_alone : {false, true}) {
-    LimitedReader reader(MemoryBytes(bytes), "audio");
-    const int channels = reader.channels();
-    Resampler resampler(reader.sample_rate(), first_alone ? 1 : channels);
-    std::vector<float> piece(kPieceSamples * static_cast<size_t>(channels));
-    Cancellation cancellation;
-    mono.clear();
-    while (const int64_t got = reader.Read(piece, true)) {
-      const auto read = std::span(piece).first(static_cast<size_t>(got * channels));
-      cancellation.Hear(read, channels);
-      if (first_alone) {
-        resampler.Push(FirstChannel(read, channels));
-      } else {
-        resampler.Push(read);
-      }
-      resampler.Pull(mono);
+  LimitedReader reader(MemoryBytes(bytes), "audio");
+  const auto channels = static_cast<size_t>(reader.channels());
+  Resampler resampler(reader.sample_rate(), reader.channels());
+  std::vector<float> second(static_cast<size_t>(reader.sample_rate()) * channels), mono;
+  for (size_t filled = second.size(); filled == second.size(); resampler.Pull(mono)) {
+    filled = 0;
+    while (filled < second.size()) {
+      const auto room = std::span(second).subspan(filled);
+      const int64_t got =
+          reader.Read(room.first(std::min(room.size(), kPieceSamples * channels)), true);
+      if (got == 0) break;
+      filled += static_cast<size_t>(got) * channels;
       if (between) between();
     }
-    resampler.Finish();
-    resampler.Pull(mono);
-    if (channels == 1 || !cancellation.IsNearlyWhole()) break;
+    const auto heard = std::span(second).first(filled);
+    MendCancelled(heard, reader.channels());
+    resampler.Push(heard);
   }
+  resampler.Finish();
+  resampler.Pull(mono);
   return mono;
 }
 

@@ -397,15 +397,31 @@ TEST_F(DecodeTest, TagsBeforeOtherSoundThanMp3ArePassedOver) {
 }
 
 TEST_F(DecodeTest, ChannelsThatCancelEachOtherAreHeardAndToldOf) {
-  const std::vector<float> left = Sine(440, 22050, 22050, 0.5);
-  std::vector<float> both;
-  for (const float sample : left) both.insert(both.end(), {sample, -sample});
-  const std::string bytes = Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_FLOAT, 22050, 2, both));
-  const DecodedAudio audio = Decode(bytes);
-  EXPECT_EQ(audio.interleaved, left);
-  ASSERT_EQ(audio.notes.size(), 1U);
-  EXPECT_THAT(audio.notes[0], HasSubstr("cancel"));
-  EXPECT_EQ(DecodeMono(std::as_bytes(std::span(bytes))), left);
+  const std::vector<float> left = Sine(440, 22050, 3 * 22050, 0.5);
+  struct Case {
+    size_t from;           // where the right channel becomes the left's inverse
+    float offset, common;  // of both
+    const char* told;
+  };
+  for (const auto& [from, offset, common, told] : {Case{0, 0, 0, "in 3 of 3 s"},
+                                                   {22050, 0, 0, "in 2 of 3 s"},
+                                                   {0, 0.3F, 0, "in 3 of 3 s"},
+                                                   {0, 0, 0.03F, "in 3 of 3 s"},
+                                                   {3 * 22050, 0.3F, 0, ""}}) {
+    const std::vector<float> tone = Sine(1000, 22050, 3 * 22050, common);
+    std::vector<float> both, mono;
+    for (size_t i = 0; i < left.size(); ++i) {
+      const float first = left[i] + offset + tone[i];
+      both.insert(both.end(), {first, (i < from ? left[i] : -left[i]) + offset + tone[i]});
+      mono.push_back(first);
+    }
+    const std::string bytes = Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_FLOAT, 22050, 2, both));
+    const DecodedAudio audio = Decode(bytes);
+    EXPECT_EQ(ToModelRate(audio), mono) << told;
+    EXPECT_EQ(DecodeMono(std::as_bytes(std::span(bytes))), mono) << told;
+    ASSERT_EQ(audio.notes.size(), *told == 0 ? 0U : 1U);
+    if (*told != 0) EXPECT_THAT(audio.notes[0], HasSubstr(told));
+  }
 }
 
 TEST_F(DecodeTest, APipeIsReadToItsEnd) {
