@@ -96,8 +96,7 @@ void Run(const DanceOptions& options) {
     CheckFiles(options, {out}, {options.report});
   }
   std::optional<Music> music;
-  if (options.song.empty() && options.beats != BeatOptions())
-    throw InvalidArgument("--beats", "and other options of beats need a song");
+  RequireSong(options.beats, options.song);
   if (!options.song.empty()) {
     music =
         ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()),

@@ -200,6 +200,7 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("--song", options->song, "Music that the dance was made to.")
       ->check(CLI::ExistingFile);
   AddSongStart(*command, options->song_start_s);
+  AddBeatOptions(*command, &options->beats);
   command->add_option("--report", options->report, "Report of the dance, which names its keys.")
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,

@@ -24,8 +24,9 @@ client::EditOptions HowToDance(const EditOptions& options, const Connection& con
 }
 
 void TakeSong(const EditOptions& options, double end_s, client::EditOptions* edit) {
+  RequireSong(options.beats, options.song);
   if (options.song.empty()) return;
-  const Music music = ReadMusic(options.song, end_s, options.song_start_s);
+  const Music music = ReadMusic(options.song, end_s, options.song_start_s, options.beats);
   edit->audio = AudioFor(music.audio, end_s);
   edit->music_beats = BeatsBefore(music, end_s);
   edit->music_passages = music.passages;

@@ -10,6 +10,7 @@
 
 #include "client/cli/connection.h"
 #include "client/cli/control_options.h"
+#include "client/cli/music_beats.h"
 #include "client/cli/report_keys.h"
 #include "client/edit.h"
 
@@ -33,6 +34,7 @@ struct EditOptions {
   std::optional<double> around_s;
   std::string song;
   double song_start_s = 0;
+  BeatOptions beats;
   std::string report;
   std::string new_report;
   std::optional<uint64_t> seed;

@@ -173,6 +173,11 @@ void AddBeatOptions(CLI::App& command, BeatOptions* options) {
       ->check(TimeInSeconds());
 }
 
+void RequireSong(const BeatOptions& options, const std::string& song) {
+  if (song.empty() && options != BeatOptions())
+    throw InvalidArgument("--beats", "and other options of beats need a song");
+}
+
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
   BeatTrack track = options.beats == "auto" ? TrackBeats(onsets, LimitsOf(options))
                                             : ReadBeats(options.beats, start);

@@ -24,6 +24,9 @@ struct BeatOptions {
 /// --beats, --tempo, --half-time, --double-time, --downbeat.
 void AddBeatOptions(CLI::App& command, BeatOptions* options);
 
+/// Throws Error(kInvalidArgument) for beat options without a song.
+void RequireSong(const BeatOptions& options, const std::string& song);
+
 /// A song's beats from second `start` on, found or read, depending on the options. Throws
 /// Error(kInvalidArgument), whose field is an option or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);

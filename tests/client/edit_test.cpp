@@ -14,6 +14,25 @@ using testing::HasSubstr;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
+// Four counts of two a second take four seconds in half time.
+TEST_F(EditTest, BeatsAreThoseThatAreAskedFor) {
+  const auto repeat = [&](const std::string& options) {
+    return Edit("--repeat 0 1 4c --song " + At("song.wav") + options + " --report " +
+                At("report.json") + " -o " + At("new.npz") + " --new-report " + At("new.json"));
+  };
+  const auto has_key_at = [&](int frame) {
+    const nlohmann::json report = ReadJson(folder_ / "new.json");
+    return std::ranges::any_of(report["keyframes"], [&](const auto& key) {
+      return std::abs(key["frame"].template get<int>() - frame) <= 2;
+    });
+  };
+  ASSERT_EQ(repeat("").code, 0);
+  EXPECT_TRUE(has_key_at(60));
+  const Outcome half = repeat(" --half-time");
+  ASSERT_EQ(half.code, 0) << half.said;
+  EXPECT_TRUE(has_key_at(120));
+}
+
 TEST_F(EditTest, AKeyChangesTheTwoIntervalsAroundItAlone) {
   const Outcome outcome =
       Edit("--key kick --at " + Seconds(keys_[2]) + " --song " + At("song.wav") + " --report " +
@@ -208,6 +227,8 @@ TEST_F(EditTest, SaysWhatCannotBe) {
   expect_failure("--key kick --at 2 --report " + At("deep.json"), "more than 64 levels");
   expect_failure("--key kick --at 2 --report " + At("song.wav"), "is not the report of a dance");
   expect_failure("--loop --new-report " + At("n.json"), "--new-report: needs --report");
+  expect_failure("--key kick --at 2 --half-time",
+                 "--beats: and other options of beats need a song");
 }
 
 }  // namespace choreo::edit_test
