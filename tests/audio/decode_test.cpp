@@ -420,7 +420,9 @@ TEST_F(DecodeTest, ChannelsThatCancelEachOtherAreHeardAndToldOf) {
     EXPECT_EQ(ToModelRate(audio), mono) << told;
     EXPECT_EQ(DecodeMono(std::as_bytes(std::span(bytes))), mono) << told;
     ASSERT_EQ(audio.notes.size(), *told == 0 ? 0U : 1U);
-    if (*told != 0) EXPECT_THAT(audio.notes[0], HasSubstr(told));
+    if (*told != 0) {
+      EXPECT_THAT(audio.notes[0], HasSubstr(told));
+    }
   }
 }
 
