@@ -81,7 +81,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {"studio", {core, audio, motion, formats, messages, wire, "client", "choreo"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, networks, paper_samplers, samplers, dance,
-          metrics, "server", "client", "choreo"}},
+          plan, metrics, "server", "client", "choreo"}},
     };
   }();
   return modules;

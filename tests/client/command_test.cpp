@@ -96,7 +96,7 @@ TEST_F(CommandTest, AnalyzesASong) {
   EXPECT_NEAR(part["duration_s"], 4.75, 1e-3);
   for (const double beat : part["beats"]) EXPECT_NEAR(std::remainder(beat - 0.25, 0.5), 0, 0.07);
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --song-start 9").said,
-              HasSubstr("--song-start: 9 s lies behind the end"));
+              HasSubstr("--song-start: 9 s is after the end"));
 }
 
 TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {

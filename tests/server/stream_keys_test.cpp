@@ -80,8 +80,8 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
   *config.mutable_continuation() = *after;
   config.set_frames(120);
   other.Send(config);
-  other.SendKeyframe(Key("a", 50));
   other.SendKeyframe(Key("never", 40));
+  other.SendKeyframe(Key("a", 50));
   const Answer& rest = other.Finish();
   ASSERT_TRUE(rest.status.ok()) << rest.status.error_message();
   EXPECT_EQ(rejections(rest), (std::vector<Said>{{"never", v1::REJECTION_CODE_ALREADY_DANCED}}));

@@ -42,7 +42,10 @@ inline PreparedClip SyntheticClip(const std::string& name, int frames, double ph
   if (music) {
     clip.audio.resize(40, frames);
     for (int f = 0; f < frames; ++f) {
-      for (int i = 0; i < 40; ++i) clip.audio(i, f) = static_cast<float>(std::sin(0.3 * f + i));
+      for (int i = 0; i < 40; ++i) {
+        const double beat = f % 15 < 2 ? 1 : 0;  // two a second
+        clip.audio(i, f) = static_cast<float>(0.1 * std::sin(0.3 * f + i) + beat);
+      }
     }
   }
   return clip;

@@ -293,7 +293,7 @@ TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
   const auto live = [&](const std::string& rest) { return Choreo("live " + rest + Server()); };
   WriteClicks(folder_ / "song.wav", 1);
   EXPECT_THAT(live("--input no-such-card").said, HasSubstr("--input: \"no-such-card\""));
-  EXPECT_THAT(live(At("song.wav") + " --song-start 2").said, HasSubstr("--song-start: 2 s lies"));
+  EXPECT_THAT(live(At("song.wav") + " --song-start 2").said, HasSubstr("--song-start: 2 s is after"));
   EXPECT_THAT(
       live(At("song.wav") + " --ahead 0.2").said,
       HasSubstr("--ahead: 0.2 s is not after what is settled already, --look-ahead 0.3 s"));
