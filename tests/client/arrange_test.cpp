@@ -216,7 +216,8 @@ TEST_F(ArrangeTest, AHeldPoseIsHeldAsMuchLonger) {
   ASSERT_EQ(Edit("dance", "--key kick --at 3 --hold 0.6 --around 1", "held", Server()).code, 0);
   const auto held = [this](const std::string& name) {
     std::vector<int64_t> frames;
-    for (const auto& key : ReadJson(folder_ / (name + ".json"))["keyframes"])
+    const nlohmann::json report = ReadJson(folder_ / (name + ".json"));
+    for (const auto& key : report["keyframes"])
       if (key.contains("holds")) frames.push_back(key["frame"]);
     return frames;
   };
