@@ -20,7 +20,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURES = ROOT / "docs/figures"
-PAGES = ("docs/results.md", "docs/weight.md", "docs/hearing.md", "docs/papers.md", "docs/papers_ablations.md")
+PAGES = ("docs/results.md", "docs/weight.md", "docs/hearing.md", "docs/papers.md", "docs/papers_ablations.md",
+         "docs/papers_ablations_c.md")
 WANTED = json.loads((FIGURES / "wanted.json").read_text())
 
 
