@@ -68,6 +68,14 @@ Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::V
   return within ? point : nearest;
 }
 
+Eigen::Vector2d WayToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others,
+                          double slack) {
+  const Eigen::Vector2d way = NearestInHull(point, std::move(others)) - point;
+  const double far = way.norm();
+  if (far <= slack) return Eigen::Vector2d::Zero();
+  return way * (1 - slack / far);
+}
+
 double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others) {
   if (others.empty()) return INFINITY;
   return (NearestInHull(point, std::move(others)) - point).norm();

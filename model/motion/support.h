@@ -23,6 +23,9 @@ inline constexpr double kSoleReach = 0.15;
 /// The point of the convex hull of `others` (at least one) nearest to a point of the floor; the
 /// point itself if it is inside.
 Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
+/// The way there, metres, shorter by `slack`: zero for a point that is at most so far off.
+Eigen::Vector2d WayToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others,
+                          double slack);
 /// The distance to that point, metres; infinite without others.
 double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
 

@@ -149,9 +149,7 @@ class PlanStander {
     }
     const Eigen::Vector3d& centre = centres_[static_cast<size_t>(frame) + 1];
     const Eigen::Vector2d point(centre.x(), centre.z());
-    const Eigen::Vector2d way = point - NearestInHull(point, hull);
-    const double sole = context_.options.sole;
-    return way.norm() > sole ? way * (1 - sole / way.norm()) : Eigen::Vector2d(0, 0);
+    return -WayToHull(point, std::move(hull), context_.options.sole);
   }
 
   // On a path the pelvis cannot sway to the feet, so the feet go to the body: each stance, but

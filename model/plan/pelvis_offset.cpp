@@ -175,13 +175,12 @@ class PelvisSolver {
       const double step = lever == 0 ? 0 : PlannedStep(frame)[axis] + OffsetStep(frame, axis);
       point[axis / 2] = Planned(frame)[axis] + Offset(frame, axis) - lever * step;
     }
-    const Eigen::Vector2d to = NearestInHull(point, At(frame).support) - point;
-    const double share = to.norm() > rules_.options.sole ? 1 - rules_.options.sole / to.norm() : 0;
+    const Eigen::Vector2d way = WayToHull(point, At(frame).support, rules_.options.sole);
     for (const int axis : {0, 2}) {
       const double now = Offset(frame, axis) - lever * OffsetStep(frame, axis);
       problem->Add({Term(frame - 1, axis, -lever), Term(frame, axis, 1 + 2 * lever),
                     Term(frame + 1, axis, -lever)},
-                   now + share * to[axis / 2], 1 / Square(rules_.options.balance));
+                   now + way[axis / 2], 1 / Square(rules_.options.balance));
     }
   }
 
@@ -197,12 +196,10 @@ class PelvisSolver {
       const double planned = Planned(frame)[axis] - Planned(frame - 1)[axis];
       point[axis / 2] = Planned(frame)[axis] + lead * planned + Captured(axis, lead);
     }
-    const Eigen::Vector2d to = NearestInHull(point, At(frame).support) - point;
-    const double share = to.norm() > rules_.options.sole ? 1 - rules_.options.sole / to.norm() : 0;
+    const Eigen::Vector2d way = WayToHull(point, At(frame).support, rules_.options.sole);
     for (const int axis : {0, 2}) {
       problem->Add({Term(frame, axis, 1 + lead), Term(frame - 1, axis, -lead)},
-                   Captured(axis, lead) + share * to[axis / 2],
-                   kFirm / Square(rules_.options.balance));
+                   Captured(axis, lead) + way[axis / 2], kFirm / Square(rules_.options.balance));
     }
   }
   double Captured(int axis, double lead) const {
