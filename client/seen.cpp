@@ -24,7 +24,7 @@ bool Seen::Admit(FrameBlock* block) {
   return true;
 }
 
-bool Seen::IsExpected(const KeyPlace& place) {
+bool Seen::TakeExpected(const KeyPlace& place) {
   const auto expected = expected_.find(place);
   if (expected == expected_.end()) return false;
   expected_.erase(expected);
@@ -34,13 +34,13 @@ bool Seen::IsExpected(const KeyPlace& place) {
 bool Seen::Admit(const DanceEvent& event) {
   if (const auto* rejected = std::get_if<KeyRejected>(&event)) {
     const KeyPlace place = {rejected->id, rejected->frame};
-    if (IsExpected(place)) return false;
+    if (TakeExpected(place)) return false;
     rejected_.insert(place);
     return true;
   }
   if (const auto* reached = std::get_if<KeyReached>(&event)) {
     const KeyPlace place = {reached->id, reached->frame};
-    IsExpected(place);
+    TakeExpected(place);
     return reached_.insert(place).second;
   }
   if (const auto* warning = std::get_if<Warning>(&event)) {

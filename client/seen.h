@@ -31,7 +31,7 @@ class Seen {
   bool Admit(const DanceEvent& event);
 
  private:
-  bool IsExpected(const KeyPlace& place);
+  bool TakeExpected(const KeyPlace& place);
 
   int64_t next_frame_;
   std::multiset<KeyPlace> rejected_;  // delivered

@@ -54,7 +54,7 @@ export class Seen {
       case 'keyframe_rejected':
         return this.#isNewRejection(placeOf(event.keyframe_rejected.id, event.frame));
       case 'keyframe_reached':
-        this.#isExpected(placeOf(event.keyframe_reached.id, event.frame));
+        this.#takeExpected(placeOf(event.keyframe_reached.id, event.frame));
         return this.#isNew(`reached ${placeOf(event.keyframe_reached.id, event.frame)}`);
       case 'warning':
         return this.#isNew(`warning ${event.frame} ${event.warning.message}`);
@@ -72,12 +72,12 @@ export class Seen {
   }
 
   #isNewRejection(place) {
-    if (this.#isExpected(place)) return false;
+    if (this.#takeExpected(place)) return false;
     this.#rejected.push(place);
     return true;
   }
 
-  #isExpected(place) {
+  #takeExpected(place) {
     const at = this.#expected.indexOf(place);
     if (at >= 0) this.#expected.splice(at, 1);
     return at >= 0;

@@ -57,7 +57,7 @@ class Seen:
         if kind == "keyframe_rejected":
             return self._is_new_rejection((event.keyframe_rejected.id, event.frame))
         if kind == "keyframe_reached":
-            self._is_expected((event.keyframe_reached.id, event.frame))
+            self._take_expected((event.keyframe_reached.id, event.frame))
             return self._is_new((kind, event.keyframe_reached.id, event.frame))
         if kind == "warning":
             return self._is_new((kind, event.warning.message, event.frame))
@@ -74,12 +74,12 @@ class Seen:
         return True
 
     def _is_new_rejection(self, place):
-        if self._is_expected(place):
+        if self._take_expected(place):
             return False
         self._rejected.append(place)
         return True
 
-    def _is_expected(self, place):
+    def _take_expected(self, place):
         if place not in self._expected:
             return False
         self._expected.remove(place)
