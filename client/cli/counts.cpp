@@ -19,8 +19,8 @@ size_t IntervalAt(double place, size_t beats) {
 
 /// How many beats a second is behind the first; two beats or more.
 double PlaceAmong(double seconds, std::span<const double> beats) {
-  const auto behind = std::ranges::upper_bound(beats, seconds) - beats.begin();
-  const size_t at = IntervalAt(static_cast<double>(behind - 1), beats.size());
+  const auto after = std::ranges::upper_bound(beats, seconds) - beats.begin();
+  const size_t at = IntervalAt(static_cast<double>(after - 1), beats.size());
   return static_cast<double>(at) + (seconds - beats[at]) / (beats[at + 1] - beats[at]);
 }
 

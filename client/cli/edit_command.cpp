@@ -64,7 +64,7 @@ void CheckOptions(const EditOptions& options) {
     throw InvalidArgument(
         "--key",
         "and --move, --remove, --repeat, --stretch, --loop go in a command of their own, "
-        "behind --from, --until, --mirror, --join, which change the whole dance");
+        "after --from, --until, --mirror, --join, which change the whole dance");
   }
   CheckReported(options);
   if (options.keys.size() != options.at_s.size()) {

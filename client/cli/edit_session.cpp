@@ -145,8 +145,8 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
 std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_s,
                                                  double until_s) const {
   std::vector<client::KeyEdit> phrase;
-  const auto end = keys_.lower_bound(Frame(until_s));
-  for (auto key = keys_.lower_bound(Frame(from_s)); key != end && key->first < Frame(until_s);
+  const int64_t until = Frame(until_s);
+  for (auto key = keys_.lower_bound(Frame(from_s)); key != keys_.end() && key->first < until;
        ++key) {
     client::KeyPose danced{.id = IdAt(key->first),
                            .frame = key->first,
@@ -177,7 +177,7 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
     if (*edit.key.frame - before < kMinKeyDistance) {
       throw InvalidArgument("--stretch", InFull(times) + " sets the key \"" + edit.key.id +
                                              "\" less than " + std::to_string(kMinKeyDistance) +
-                                             " frames behind the one before it");
+                                             " frames after the one before it");
     }
     before = LastFrame(edit);
   }

@@ -235,8 +235,8 @@ void DanceChain::Fail(Job& job, const Error& failure) {
   if (!job.sampled()) {
     job.Fail(failure);  // reported once all frames before it are handed out
   } else if (failure.code() != ErrorCode::kUnavailable) {
-    mailbox_.PostError(
-        failure);  // thrown by the sink; a closing queue does not take back sampled frames
+    // Thrown by the sink; a closing queue does not take back sampled frames.
+    mailbox_.PostError(failure);
   }
 }
 

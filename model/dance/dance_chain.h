@@ -116,7 +116,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   int64_t next_frame_;                    // the next to hand out
   bool handing_out_ = false, look_again_ = false;
   QualityMeter meter_;
-  std::vector<KeyReached> reached_before_;  // a resume, and not told of since
+  std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
   OutputRate output_;
   MusicBeats beats_;
   Recurrence recurrence_;

@@ -17,10 +17,10 @@ struct MotionReading {
   std::string up = {};
   double scale = 0;  ///< metres per unit of the file; 0: that of its format
   double fps = 0;    ///< for a file that states no rate; 0: 30
-  std::string animation =
-      {};  ///< of a glTF: its name, or its number from 0 on; empty: one that moves
-  std::string body =
-      {};  ///< of several bodies: its name, or its number from 0 on; empty: the first
+  /// Of a glTF: its name, or its number from 0 on; empty: one that moves.
+  std::string animation = {};
+  /// Of several bodies: its name, or its number from 0 on; empty: the first.
+  std::string body = {};
   std::vector<BoneChoice> bones = {};  ///< which node is which bone; overrides their names
   /// If given, receives one line for each deviation from the file and for each thing that looks
   /// wrong.
