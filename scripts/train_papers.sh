@@ -126,11 +126,12 @@ evaluate() {
   beside f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
   measure f-full f_ablations "${f[@]}" --best-of 3 --long-dances 6 --baseline interpolation "${others[@]}"
   local c=(--controls paper --splits "$run/random_splits.json" --data "$run/data/dancedb" --windows 4 --no-encoder "${baselines[@]}")
+  beside c-harvey
   # `default` learnt from the clips of the random fifth.
-  measure paper-c paper_c_random "${c[@]}" --split test_random
+  measure paper-c paper_c_random "${c[@]}" --split test_random "${others[@]}"
   beside harvey
   measure paper-c paper_c_unseen "${c[@]}" --split test "${shipped[@]}" "${others[@]}"
-  beside c-harvey c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
+  beside c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
   measure c-full c_ablations "${c[@]}" --split test_random "${others[@]}"
 }
 
