@@ -7,7 +7,7 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/flow/plan_options.h"
+#include "model/plan/plan_options.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo {

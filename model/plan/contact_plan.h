@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "model/flow/footwork_options.h"
+#include "model/plan/footwork_options.h"
 
 namespace choreo {
 

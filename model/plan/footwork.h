@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/flow/footwork_options.h"
+#include "model/plan/footwork_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

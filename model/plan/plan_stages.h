@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "model/flow/plan_options.h"
+#include "model/plan/plan_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 

@@ -1,4 +1,4 @@
-#include "model/flow/plan_options.h"
+#include "model/plan/plan_options.h"
 
 #include <gtest/gtest.h>
 

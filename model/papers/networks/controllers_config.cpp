@@ -1,6 +1,6 @@
 #include "model/papers/networks/controllers_config.h"
 
-#include "model/flow/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace choreo {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "model/flow/footwork_options.h"
+#include "model/plan/footwork_options.h"
 
 namespace choreo {
 

@@ -1,7 +1,7 @@
-#include "model/flow/plan_options.h"
+#include "model/plan/plan_options.h"
 
 #include "model/core/error.h"
-#include "model/flow/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace choreo {
 

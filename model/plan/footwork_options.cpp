@@ -1,10 +1,10 @@
-#include "model/flow/footwork_options.h"
+#include "model/plan/footwork_options.h"
 
 #include <string_view>
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/flow/json_fields.h"
+#include "model/core/json_fields.h"
 
 namespace choreo {
 

@@ -7,8 +7,8 @@ namespace choreo {
 
 /// Settings of footwork (model/plan/footwork.h). Stored in the model's checkpoint.
 struct FootworkOptions {
-  double step_cost =
-      0.05;  ///< cost of a step, in square metres that toes leave the plan for a frame
+  /// Cost of a step, in square metres that toes leave the plan for a frame.
+  double step_cost = 0.05;
   double flight_cost = 0.3;     ///< cost of a frame without a foot on the floor, likewise
   double shortest_step = 0.15;  ///< seconds in the air
   double longest_flight = 0.4;  ///< seconds without a foot on the floor
