@@ -35,6 +35,7 @@ class Tally {
     const std::lock_guard lock(mutex_);
     ++calls_[{std::string(call.method), call.status.error_code()}];
     if (call.refusal) ++refusals_[static_cast<size_t>(*call.refusal)];
+    if (call.method != kInfoMethod) ++(call.refusal ? sum_.refused : sum_.served);
   }
   Calls calls() const {
     const std::lock_guard lock(mutex_);
@@ -45,20 +46,13 @@ class Tally {
     return refusals_;
   }
 
-  /// Totals of calls that dance: those refused for lack of capacity or a token, and all others.
+  /// Totals of calls that dance: those that have a Refusal, and all others.
   struct Sum {
     uint64_t served = 0, refused = 0;
   };
   Sum sum() const {
-    Sum sum;
-    for (const auto& [call, count] : calls()) {
-      const auto& [method, status] = call;
-      if (method == kInfoMethod) continue;
-      const bool refused = status == grpc::StatusCode::RESOURCE_EXHAUSTED ||
-                           status == grpc::StatusCode::UNAUTHENTICATED;
-      (refused ? sum.refused : sum.served) += count;
-    }
-    return sum;
+    const std::lock_guard lock(mutex_);
+    return sum_;
   }
 
   std::atomic<uint64_t> frames = 0;  ///< received by ended calls
@@ -72,6 +66,7 @@ class Tally {
   mutable std::mutex mutex_;
   Calls calls_;             // lock: mutex_
   Refusals refusals_ = {};  // lock: mutex_
+  Sum sum_;                 // lock: mutex_
 };
 
 }  // namespace choreo
