@@ -45,6 +45,7 @@ grep -q "127.0.0.1:1" "$scratch/said"
 
 echo "== A model of one's own, from recordings"
 tests/lab/train_script.sh "$build"
+tests/lab/train_papers_script.sh "$build"
 
 echo "== The studio in a browser"
 scripts/install_packages.sh browser

@@ -199,6 +199,12 @@ TEST_F(LabEval, ThePapersTablesHaveEachNetworkRawAndAsServed) {
   EXPECT_LT(rows.at("paper_dances_clips/mine")["KPD cm²"], 1e-4);
   EXPECT_TRUE(rows.at("paper_dances_clips/keyless")["KPD cm²"].is_null());
   EXPECT_TRUE(rows.contains("paper_dances_clips/real"));
+  for (const char* figure : {"FID", "variability", "diversity"}) {
+    EXPECT_NE(rows.at("paper_dances_clips/mine, raw")[figure],
+              rows.at("paper_dances_clips/mine")[figure])
+        << figure;
+    EXPECT_TRUE(rows.at("paper_dances_clips/keyless, raw")[figure].is_number()) << figure;
+  }
   EXPECT_FALSE(rows.contains("paper_beats_clips/keyless"));
   EXPECT_TRUE(rows.contains("paper_beats_clips/mine, raw"));
   EXPECT_NE(rows.at("paper_l2p_clips/mine, raw")["cm at 10"],

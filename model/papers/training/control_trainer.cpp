@@ -17,7 +17,6 @@ namespace {
 constexpr int kNormalisationWindows = 512;
 constexpr int kControlValidationWindows = 48;
 constexpr int kOwnPasses = 2;  // passes of scheduled sampling; each costs a third of a step
-constexpr int kRaisedEvery = 5, kRaise = 4;  // epochs, frames of the curriculum's shortest
 
 ControllersConfig ConfigOf(const PaperOptions& options) {
   ControllersConfig config;
@@ -109,13 +108,9 @@ class ControlRun : public PaperRun {
   }
 
  private:
-  // The paper's curriculum: the maximum length grows by one frame per epoch, the minimum by four
-  // every five epochs. All epochs have equally many steps.
   ControlBatch Draw(Random* random) const {
-    const int shortest = options().shortest, longest = options().longest;
-    const int64_t epoch = step() * (longest - shortest + 1) / options().steps;
-    const int most = shortest + static_cast<int>(epoch);
-    const int least = std::min(most, shortest + static_cast<int>(epoch / kRaisedEvery) * kRaise);
+    const auto [least, most] =
+        CurriculumAt(step(), options().steps, options().shortest, options().longest);
     const auto frames = static_cast<int>(random->Integer(least, most + 1));
     return train_.Draw(options().batch, model_->config().history_frames, frames,
                        {.mirror = 0.5,

@@ -1,6 +1,15 @@
 #include "model/papers/training/paper_options.h"
 
+#include <algorithm>
+
 namespace choreo {
+
+LengthRange CurriculumAt(int64_t step, int64_t steps, int shortest, int longest) {
+  constexpr int kRaisedEvery = 5, kRaise = 4;
+  const auto epoch = static_cast<int>(step * (longest - shortest + 1) / steps);
+  const int most = shortest + epoch;
+  return {std::min(most, shortest + epoch / kRaisedEvery * kRaise), most};
+}
 
 std::string PaperOptions::Command() const {
   std::ostringstream command;

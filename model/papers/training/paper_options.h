@@ -31,6 +31,16 @@ struct ControllersOptions {
   bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
 };
 
+/// Lengths of transitions, frames, both included.
+struct LengthRange {
+  int least, most;
+  bool operator==(const LengthRange&) const = default;
+};
+/// Paper C's curriculum at a step, of `steps` in all: the longest grows from `shortest` by one
+/// frame an epoch until it is `longest`, the shortest by four every five epochs. All epochs have
+/// equally many steps.
+LengthRange CurriculumAt(int64_t step, int64_t steps, int shortest, int longest);
+
 /// A run of one of the papers' presets.
 struct PaperOptions : TrainOptions {
   int shortest = 5, longest = 100;  ///< N of the windows, frames
