@@ -20,9 +20,8 @@ class Seen {
 
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }
-  /// Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it
-  /// will answer the keys that stand before as rejected, or as reached: `late`, each as often as it
-  /// was spoken of.
+  /// Another server resumes at `frame` (model rate) and receives all messages again. It will reject
+  /// or confirm each key before `frame` again: `late` lists these, once per message.
   void Restart(int64_t frame, std::vector<KeyPlace> late);
   /// Cuts away the frames that were delivered already; false if none is left. Throws
   /// Error(kInternal) where frames are missing.

@@ -21,8 +21,8 @@ std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::stri
                                           std::vector<std::string>* places = nullptr);
 
 /// Keys that hold the pose of this one for `seconds`, so close together that the dancer only
-/// settles between them; uses its time, not its frame. Throws Error(kInvalidArgument, field) for a time of less
-/// than 0.1 or more than 60 s.
+/// settles between them; uses its time, not its frame. Throws Error(kInvalidArgument, field) for a
+/// time of less than 0.1 or more than 60 s.
 std::vector<client::KeyPose> Holding(const client::KeyPose& key, double seconds,
                                      const std::string& field);
 

@@ -8,8 +8,8 @@
 #include "model/audio/meter.h"
 #include "model/audio/onset.h"
 
-/// Decides what patterns tell badly, as any part of a beat may be struck in any of them: whether
-/// beats are halves, and the metre. The music's repetition tells.
+/// Decides by repetition what bar patterns cannot: whether tracked beats are half beats, and the
+/// metre.
 namespace choreo {
 
 /// The onsets at each half of each beat of a path: EvenOnsets' bands, the strongest nearby.

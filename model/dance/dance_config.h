@@ -127,9 +127,9 @@ using ValidTransition = Valid<GroupRequest>;
 /// begin without changing a bit.
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
 
-/// Where the audio of a dance that goes on from `first_frame` has to begin for all to be as if it
-/// had not been interrupted: at LatestFirstSample, or as far back as energy, and `beats` where they
-/// are listened for, are heard in; at its own first sample where it has no more of the music.
+/// The first sample that a dance needs to resume at `first_frame` bit for bit: LatestFirstSample, or
+/// earlier if energy or predicted `beats` depend on earlier sound, but never before the dance's own
+/// first sample.
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats);
 

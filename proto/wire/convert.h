@@ -13,8 +13,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Our own types <-> messages of the API, for server, client and studio: nobody else writes or
-/// reads these messages. What comes in is a server's: one that breaks the protocol raises
+/// Our own types <-> messages of the API, for server, client and studio. What comes in is a server's: one that breaks the protocol raises
 /// Error(kInternal). Pure functions, thread-safe.
 namespace choreo::wire {
 
