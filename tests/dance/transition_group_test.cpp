@@ -216,7 +216,8 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
         if (report.candidate == 0) continuation = report.continuation;
       }
       ASSERT_TRUE(continuation->stage && end.stage);
-      EXPECT_EQ(*continuation->stage, *end.stage);
+      EXPECT_EQ(continuation->stage->origin, end.stage->origin);
+      EXPECT_EQ(continuation->stage->heading, end.stage->heading);
       continuation->frame = from + request.frames;
     }
     EXPECT_EQ(key, dance.keys.size());
@@ -227,22 +228,28 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
   }
 }
 
+// On average: footwork moves the pelvis, too.
 TEST(TransitionGroup, MeetsTheMotionThatFollows) {
   const auto queue = FakeQueue();
-  std::mt19937 random(4);
-  GroupRequest request = RandomRequest(4);
-  const std::vector<Pose> next = MotionTo(RandomPose(random), 2, random, 0.02);
-  request.target = Target{next[0], {}};
-  const auto last_step = [&](const std::vector<Pose>& poses) -> Eigen::Vector3d {
-    return poses.back().root_position - poses[poses.size() - 2].root_position;
-  };
-  const Eigen::Vector3d wanted = next[1].root_position - next[0].root_position;
-  const auto unaware = Generate(*queue, request);
-  request.after = next[1];
-  const auto aware = Generate(*queue, request);
-  // Footwork moves the pelvis, too.
-  EXPECT_LT((last_step(aware->frames[0]) - wanted).norm(),
-            0.7 * (last_step(unaware->frames[0]) - wanted).norm());
+  double aware = 0, unaware = 0;
+  for (int seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    GroupRequest request = RandomRequest(seed);
+    const std::vector<Pose> next = MotionTo(RandomPose(random), 2, random, 0.02);
+    request.target = Target{next[0], {}};
+    const Eigen::Vector3d wanted = next[1].root_position - next[0].root_position;
+    const auto miss = [&] {
+      const auto sink = Generate(*queue, request);
+      const std::vector<Pose>& poses = sink->frames[0];
+      const Eigen::Vector3d last =
+          poses.back().root_position - poses[poses.size() - 2].root_position;
+      return (last - wanted).norm();
+    };
+    unaware += miss();
+    request.after = next[1];
+    aware += miss();
+  }
+  EXPECT_LT(aware, 0.7 * unaware);
 }
 
 TEST(TransitionGroup, CancellationAndRefusalGiveBackAllRoom) {
