@@ -11,7 +11,8 @@ struct StyleFigures {
   double recognised, chance;
   double low;  ///< lower end of the 95 % interval of `recognised`
 
-  bool shows() const { return low > chance; }
+  /// Whether people can see it: a quarter more often than by chance, and not by chance.
+  bool shows() const { return low > chance && recognised > 1.25 * chance; }
 };
 
 /// The measurements (docs/results.md) of the shipped checkpoint in a model's fingerprint, or none.

@@ -65,10 +65,7 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
     // Beats may lie after the music's end, as far as the last transition reached.
     CheckBeat(message.last_beat(), kMaxDanceFrames / model.fps, field + ".last_beat");
   }
-  if (message.stage_size() > 0) {
-    CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
-    continuation.stage = {message.stage(0), 0, message.stage(1)};
-  }
+  if (message.stage_size() > 0) CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
   for (const v1::ReachedKey& key : message.reached()) {
     continuation.reached.push_back({.id = key.id(),
                                     .frame = key.frame(),
@@ -88,6 +85,10 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
     }
     continuation.poses.push_back(std::move(pose));
   }
+  continuation.stage = GroundFrame::Of(continuation.poses.back());
+  if (message.stage_size() > 0)
+    continuation.stage->origin = {message.stage(0), 0, message.stage(1)};
+  if (message.has_front()) continuation.stage->heading = message.front();
   return continuation;
 }
 

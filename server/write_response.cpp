@@ -25,8 +25,9 @@ void FromContinuation(const Continuation& continuation, const ModelInfo& model, 
   out->set_skeleton(model.skeleton.name);
   if (continuation.last_beat) out->set_last_beat(*continuation.last_beat);
   if (continuation.stage) {
-    out->add_stage(static_cast<float>(continuation.stage->x()));
-    out->add_stage(static_cast<float>(continuation.stage->z()));
+    out->add_stage(static_cast<float>(continuation.stage->origin.x()));
+    out->add_stage(static_cast<float>(continuation.stage->origin.z()));
+    out->set_front(static_cast<float>(continuation.stage->heading));
   }
   for (const KeyReached& key : continuation.reached) {
     v1::ReachedKey* added = out->add_reached();

@@ -64,7 +64,7 @@ class DanceChain::Job : public SampleJob {
   const std::vector<Pose>& before() const { return before_; }
   /// Valid once it is sampled.
   const TransitionRun& run() const { return run_; }
-  Eigen::Vector3d StageBefore(int64_t frame) const {
+  GroundFrame StageBefore(int64_t frame) const {
     return run_.StageAfter(static_cast<size_t>(frame - segment_.from));
   }
   const DanceFrame& FrameAt(int64_t frame) const {

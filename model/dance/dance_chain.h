@@ -112,8 +112,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   std::optional<Error> failure_;  // why no transition can follow them
   // The last tau poses handed out; empty until the first frame of a dance that is given none.
   std::vector<Pose> history_;
-  std::optional<Eigen::Vector3d> stage_;  // where the dance stays; from the first transition on
-  int64_t next_frame_;                    // the next to hand out
+  std::optional<GroundFrame> stage_;  // where the dance stays; from the first transition on
+  int64_t next_frame_;                // the next to hand out
   bool handing_out_ = false, look_again_ = false;
   QualityMeter meter_;
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again

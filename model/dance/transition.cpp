@@ -92,7 +92,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   world_ = history.back();
   ground_ = GroundFrame::Of(world_);
   spec_.history = CanonicalHistory(ground_, history);
-  stage_ = request.stage.value_or(world_.root_position);
+  stage_ = request.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
   spec_.stage = ground_.ToLocal(stage_);
   if (world_target_) {
     Target& target = spec_.target.emplace(*world_target_);
@@ -218,12 +218,13 @@ void TransitionRun::MeasureArrival() {
                                .correction_m = correction_m_};
 }
 
-Eigen::Vector3d TransitionRun::StageAfter(size_t frames) const {
+GroundFrame TransitionRun::StageAfter(size_t frames) const {
   if (frames == 0) return stage_;
   const bool is_there =
       frames == frames_.size() && spec_.target && spec_.target->mask.root_position;
   const bool has_path = spec_.controls[kRootPath].IsGiven();
-  return is_there || has_path ? frames_[frames - 1].pose.root_position : stage_;
+  if (!is_there && !has_path) return stage_;
+  return {frames_[frames - 1].pose.root_position, stage_.heading};
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {

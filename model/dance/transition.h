@@ -45,9 +45,9 @@ struct Continuation {
   std::string fingerprint;  ///< of the model and build that danced
   /// The first sample that the resumed dance needs; none: unknown.
   std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};       ///< MusicBeats::last at this frame
-  std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, its height unread
-  std::vector<KeyReached> reached = {};       ///< before `frame`, ascending, without accelerations
+  std::optional<double> last_beat = {};   ///< MusicBeats::last at this frame
+  std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage, its height unread
+  std::vector<KeyReached> reached = {};   ///< before `frame`, ascending, without accelerations
 };
 
 /// The average speeds needed to reach a key. Paper F, Section 5.2: an interval too short for the
@@ -84,7 +84,7 @@ class TransitionRun {
   const std::optional<KeyReached>& arrival() const { return arrival_result_; }
   /// TransitionRequest::stage for a dance that continues after this many frames. A path, or a key
   /// with a root position, moves the stage there.
-  Eigen::Vector3d StageAfter(size_t frames) const;
+  GroundFrame StageAfter(size_t frames) const;
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;
 
@@ -102,8 +102,8 @@ class TransitionRun {
   GroundFrame ground_;
   int arrival_window_ = 0;  // 0: no steering
   bool footwork_;
-  Eigen::Vector3d stage_;  // of the request, world
-  Pose world_;             // the newest frame, whose signs are kept
+  GroundFrame stage_;  // of the request, world
+  Pose world_;         // the newest frame, whose signs are kept
 
   std::unique_ptr<Sampling> sampling_;
   Plan drawn_;              // once it is sampled

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "model/core/error.h"
 #include "model/dance/timeline.h"
@@ -131,10 +132,14 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
   }
   ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
   if (continuation.stage) {
-    for (const double value : *continuation.stage) {
+    const auto& [middle, front] = *continuation.stage;
+    for (const double value : middle) {
       if (std::abs(value) <= kMaxPosition) continue;  // false for NaN, too
       throw InvalidArgument(field + ".stage", Show(value) + " m is not within " +
                                                   Show(kMaxPosition) + " m of the origin");
+    }
+    if (!(std::abs(front) <= 2 * std::numbers::pi)) {
+      throw InvalidArgument(field + ".front", Show(front) + " radians are not within a turn of +Z");
     }
   }
   CheckReached(continuation, field + ".reached");

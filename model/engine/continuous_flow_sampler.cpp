@@ -27,7 +27,7 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
       request.key->root_position.y() = *spec.target->height;
     }
   }
-  request.stage = spec.stage.value_or(Eigen::Vector3d::Zero());
+  request.stage = spec.stage.value_or(GroundFrame());
   request.controls = spec.controls;
   request.beats = spec.beats;
   request.energy_shift = spec.energy;

@@ -11,12 +11,13 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
+#include "model/plan/footwork_options.h"
+#include "model/motion/canonical.h"
 #include "model/motion/controls.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
 #include "model/plan/arrival.h"
-#include "model/plan/footwork_options.h"
 
 /// Describes models and requests for transitions.
 namespace choreo {
@@ -61,9 +62,10 @@ struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
   std::optional<Target> target;  ///< none: dances to music alone
-  /// The middle of the floor area that the dance keeps to if nothing fixes its position; its height
-  /// is ignored. None: where the history ends.
-  std::optional<Eigen::Vector3d> stage = {};
+  /// The middle of the floor area that the dance keeps to if nothing fixes its position, and where
+  /// its audience is, faced if nothing fixes how she is turned. None: where the history ends and
+  /// faces.
+  std::optional<GroundFrame> stage = {};
   bool has_audio = false;  ///< false: ignores audio rows and dances without music
   /// MFCC rows, for models that hear music: [audio_features, tau] for the history's frames and
   /// [audio_features, frames] for its own, oldest first.

@@ -10,8 +10,10 @@
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/transition_judge.h"
 #include "model/evaluation/weight_table.h"
+#include "model/metrics/contrast.h"
 #include "model/metrics/critic.h"
 #include "model/metrics/pose_distance.h"
+#include "model/motion/canonical.h"
 
 namespace choreo {
 namespace {
@@ -216,8 +218,9 @@ FreeDances DanceFree(const Evaluation& evaluation, const Method& method) {
   return free;
 }
 
-void AddFree(const Evaluation& evaluation, const ModelInfo& model,
-             const std::vector<LongFigures>& dances, Table* table) {
+void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDances& free,
+             Table* table) {
+  const std::vector<LongFigures>& dances = free.whole;
   if (dances.empty()) return;
   const RealRange real = MeasureReal(evaluation.set, model).range;
   std::vector<float> speeds;
@@ -231,6 +234,14 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model,
   AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }), table);
   AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }), table);
   AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }), table);
+  // Real dancers' audience is where they face on average.
+  double real_away = 0, away = 0;
+  for (const PreparedClip& clip : evaluation.set.clips) {
+    const std::vector<Pose>& poses = clip.motion.frames;
+    real_away += FacesAway(poses, MeanFacing(poses)) / std::ssize(evaluation.set.clips);
+  }
+  for (const LivelyFigures& dance : free.lively) away += dance.faces_away / std::ssize(free.lively);
+  Add("free: faces away %", 100 * real_away, {}, 100 * away, away / real_away, table);
 }
 
 Table LivelinessTable(const Evaluation& evaluation, const Method& method, const KeyedDances& dances,
@@ -244,7 +255,7 @@ Table LivelinessTable(const Evaluation& evaluation, const Method& method, const 
     AddCritic(evaluation, dances, fps, &table);
   }
   AddFrechet(evaluation, method, &table);
-  AddFree(evaluation, method.sampler->model(), free.whole, &table);
+  AddFree(evaluation, method.sampler->model(), free, &table);
   table.note = std::to_string(dances.real.size()) + " clips, " + std::to_string(kSeeds) +
                " seeds, the clips' own poses each 2 s as keys and nothing else of them; free: " +
                std::to_string(free.whole.size()) +

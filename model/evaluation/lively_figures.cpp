@@ -5,6 +5,7 @@
 #include "model/dance/quality_report.h"
 #include "model/evaluation/beat_table.h"
 #include "model/metrics/contrast.h"
+#include "model/motion/canonical.h"
 #include "model/motion/kinematic_beats.h"
 
 namespace choreo {
@@ -19,6 +20,7 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   figures.speeds = MeanSpeeds(figures.track, model.fps);
   figures.median_speed = Percentile(figures.speeds, 0.5);
   figures.turns = WindowTurns(whole, model.fps);
+  figures.faces_away = FacesAway(whole, GroundFrame::Of(whole.front()).heading);
   std::vector<int> keys;
   for (const auto& [frame, pose] : plan.keys) keys.push_back(frame + 1);
   figures.limbs = MeasureLimbTravel(model.skeleton, figures.track, keys);

@@ -21,6 +21,7 @@ struct LivelyFigures {
   JointTrack track;                        ///< from the pose before the first frame on
   std::vector<float> speeds;               ///< mean joint speed of each frame, m/s
   std::vector<double> turns;               ///< WindowTurns, from that pose on
+  double faces_away = 0;                   ///< FacesAway, from where that pose faces
 };
 
 /// `poses`: the dance of this plan, or a replacement.

@@ -32,9 +32,9 @@ struct LongPlan {
 };
 
 struct LongDance {
-  std::vector<Pose> poses;                    ///< [frames]
-  std::map<int, double> keys;                 ///< final error at each key, m
-  std::optional<Eigen::Vector3d> stage = {};  ///< TransitionRequest::stage, once a key has set it
+  std::vector<Pose> poses;                ///< [frames]
+  std::map<int, double> keys;             ///< final error at each key, m
+  std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage, once a key has set it
 };
 
 using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]

@@ -148,7 +148,7 @@ class TorchFlowNetwork : public FlowNetwork {
 
 constexpr const char* kFormat = "choreo-continuous-flow-8";
 constexpr const char *kTurns = "turn_prior", *kCurve = "energy_curve", *kPowers = "variance_powers",
-                     *kResponse = "energy_response";
+                     *kResponse = "energy_response", *kFacing = "usual_facing";
 constexpr int kPowerNumbers = 7;
 
 }  // namespace
@@ -171,6 +171,7 @@ ContinuousFlowImpl::ContinuousFlowImpl(const ContinuousFlowConfig& config, const
   turns_ = register_buffer(kTurns, torch::zeros({TurnPrior::kInputs}));
   curve_ = register_buffer(kCurve, torch::zeros({EnergyCurve::kNumbers}));
   response_ = register_buffer(kResponse, torch::zeros({2, kBodyParts}));
+  facing_ = register_buffer(kFacing, torch::zeros({1}));
   const int64_t features =
       kFramesAToken * TokenFrameWidth(static_cast<int>(dimensions), FrameFeatures());
   embed_ = register_module("embed", torch::nn::Linear(features, width));
@@ -239,6 +240,7 @@ void ContinuousFlowImpl::SetPrior(const Eigen::MatrixXd& covariance, const Varia
   pose << usual.pose.root_position, usual.pose.rotations.reshaped();
   set(usual_, pose);
   set(usual_variance_, usual.variance);
+  SetFacing(usual.facing);
   set(mixing_, mixing);
   set(spread_, spread);
   set(velocity_, MotionPrior(covariance).VelocitySpread());
@@ -258,6 +260,11 @@ void ContinuousFlowImpl::SetEnergy(const EnergyPrior& energy) {
 void ContinuousFlowImpl::SetTurns(const TurnPrior& turns) {
   torch::NoGradGuard no_grad;
   turns_.copy_(torch::tensor(std::vector<double>(turns.weights.begin(), turns.weights.end())));
+}
+
+void ContinuousFlowImpl::SetFacing(double variance) {
+  torch::NoGradGuard no_grad;
+  facing_.fill_(variance);
 }
 
 void ContinuousFlowImpl::SetCurve(const EnergyCurve& curve) {
@@ -293,7 +300,8 @@ FlowModelParts ContinuousFlowImpl::Parts() const {
   const Eigen::VectorXd pose = ToEigen(usual_);
   UsualPose usual{
       .pose = {pose.head<3>(), pose.tail(pose.size() - 3).reshaped(3, pose.size() / 3 - 1)},
-      .variance = ToEigen(usual_variance_)};
+      .variance = ToEigen(usual_variance_),
+      .facing = facing_.item<double>()};
   EnergyPrior energy(config_.styles.size());
   const Eigen::MatrixXd measured = ToEigen(energy_), curve = ToEigen(curve_),
                         response = ToEigen(response_);
@@ -324,6 +332,7 @@ ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const s
       kTurns, NamedTensor{{TurnPrior::kInputs}, std::vector<float>(TurnPrior::kInputs)});
   whole.tensors.try_emplace(
       kCurve, NamedTensor{{EnergyCurve::kNumbers}, std::vector<float>(EnergyCurve::kNumbers)});
+  whole.tensors.try_emplace(kFacing, NamedTensor{{1}, {0}});
   whole.tensors.try_emplace(kResponse,
                             NamedTensor{{2, kBodyParts}, std::vector<float>(2 * kBodyParts)});
   if (const auto powers = whole.tensors.find(kPowers);

@@ -38,6 +38,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
                 const UsualPose& usual);
   void SetEnergy(const EnergyPrior& energy);
   void SetTurns(const TurnPrior& turns);
+  void SetFacing(double variance);  ///< UsualPose::facing
   void SetCurve(const EnergyCurve& curve);
   void SetResponse(const EnergyResponse& response);
   /// Everything that sampling needs besides the network.
@@ -52,7 +53,7 @@ class ContinuousFlowImpl : public torch::nn::Module {
   ContinuousFlowConfig config_;
   Skeleton skeleton_;
   torch::Tensor covariance_, powers_, usual_, usual_variance_, mixing_, spread_, velocity_, energy_,
-      turns_, curve_, response_;
+      turns_, curve_, response_, facing_;
   torch::nn::Linear embed_{nullptr}, inject_{nullptr}, condition_in_{nullptr},
       condition_out_{nullptr}, head_{nullptr}, head_modulation_{nullptr};
   torch::nn::ModuleList blocks_;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
 // Times a velocity's spread: a faster history was forced by a key and does not continue so.
 constexpr double kFastest = 8;
+// Radians that a dancer turns of herself in a window without a key: networks have seen little
+// beyond a whole turn, which the way on to her audience may complete.
+constexpr double kMostFreeTurn = std::numbers::pi;
 // Frames for which a dancer keeps turning.
 constexpr double kTurnHorizon = 12;
 
@@ -26,6 +30,22 @@ Eigen::VectorXd Way(const Pose& from, const Pose& to) {
   for (Eigen::Index j = 0; j < from.rotations.cols(); ++j)
     way.segment<3>(3 + 3 * j) = RotationDifference(from.rotations.col(j), to.rotations.col(j));
   return way;
+}
+
+// Of the history's displacements from its last pose, [dimensions, kPast], latest first.
+Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& history) {
+  Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(history.rows(), MotionPrior::kPast);
+  const Eigen::Index tau = history.cols();
+  for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p)
+    velocity.col(p) = history.col(tau - 1 - p) - history.col(tau - 2 - p);
+  const Eigen::ArrayXd fastest = kFastest * prior.VelocitySpread().array();
+  for (auto&& one : velocity.colwise()) one = one.array().min(fastest).max(-fastest);
+  return velocity;
+}
+
+// The vertical in the root's frame.
+Eigen::Vector3d UpOf(const Pose& pose) {
+  return ExpMap(pose.rotations.col(0)).transpose() * Eigen::Vector3d::UnitY();
 }
 
 }  // namespace
@@ -57,9 +77,27 @@ WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request
     mirrored.mask.joints[joint] = request.mask.joints[static_cast<size_t>(pairs[joint])];
   // A mirrored rotation vector keeps the component across the mirror; a position flips only that.
   if (request.turning) mirrored.turning->tail<2>() *= -1;
+  if (request.turn) *mirrored.turn *= -1;
   mirrored.controls.Mirror();
-  if (request.stage) mirrored.stage->x() *= -1;
+  if (request.stage) {
+    mirrored.stage->origin.x() *= -1;
+    mirrored.stage->heading *= -1;
+  }
   return mirrored;
+}
+
+double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double normal) {
+  const std::vector<Pose>& poses = request.history;
+  const size_t known = std::min<size_t>(poses.size(), MotionPrior::kPast + 1);
+  Eigen::MatrixXd history(prior.dimensions(), known);
+  for (size_t i = 0; i < known; ++i)
+    history.col(static_cast<Eigen::Index>(i)) = Way(poses.back(), poses[poses.size() - known + i]);
+  const MotionPrior::Bridge& free = (*prior.Bridges(request.frames, 0))[MotionPrior::kTurn];
+  const int end = request.frames - 1;
+  const Eigen::RowVectorXd turning =
+      UpOf(poses.back()).transpose() * LastVelocities(prior, history).middleRows<3>(3);
+  return std::clamp(free.past.row(end).dot(turning) + normal * free.spread.row(end).norm(),
+                    -kMostFreeTurn, kMostFreeTurn);
 }
 
 Eigen::MatrixXd LevelCurves(const WindowRequest& request,
@@ -92,15 +130,9 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   keyed_.assign(static_cast<size_t>(dimensions), false);
   displacement_ = Eigen::VectorXd::Zero(dimensions);
   history_ = Eigen::MatrixXd::Zero(dimensions, tau);
-  Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(dimensions, MotionPrior::kPast);
   for (int i = 0; i < tau; ++i)
     history_.col(i) = Way(last, request.history[static_cast<size_t>(i)]);
-  for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p) {
-    velocity.col(p) = history_.col(tau - 1 - p) - history_.col(tau - 2 - p);
-  }
-  const Eigen::ArrayXd fastest = kFastest * prior.VelocitySpread().array();
-  for (int p = 0; p < MotionPrior::kPast; ++p)
-    velocity.col(p) = velocity.col(p).array().min(fastest).max(-fastest);
+  const Eigen::MatrixXd velocity = LastVelocities(prior, history_);
   if (request.key) {
     const PoseMask& mask = request.mask;
     keyed_[0] = keyed_[2] = mask.root_position;
@@ -123,8 +155,8 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
     Pose home = usual;
     if (request.StageCounts()) {
       stage_ = prior.StageBridges(request.frames);
-      home.root_position.x() += request.stage->x();
-      home.root_position.z() += request.stage->z();
+      home.root_position.x() += request.stage->origin.x();
+      home.root_position.z() += request.stage->origin.z();
     }
     const Eigen::VectorXd back = Way(last, home);
     for (int d = 0; d < dimensions; ++d) {
@@ -152,6 +184,18 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
     mean_.row(d) = (bridge.past * velocity.row(d).transpose() + bridge.key * way[d]).transpose();
   }
   if (known > 0) surprise_ = squares / known;
+  if (request.FrontCounts() && prior.usual().facing > 0) {
+    // About the vertical: about her own axis, who bends forwards would bend backwards half a turn
+    // later.
+    facing_ = prior.FacingBridge(request.frames);
+    const Eigen::Vector3d up = UpOf(last);
+    const double turn = request.turn ? *request.turn : FreeTurn(prior, request, 0);
+    const Eigen::VectorXd turned =
+        facing_->key * (turn + WrapAngle(request.stage->heading - turn)) +
+        (facing_->past - (*free_)[MotionPrior::kTurn].past) *
+            (velocity.middleRows<3>(3).transpose() * up);
+    mean_.middleRows<3>(3) += up * turned.transpose();
+  }
   SetEnergy(prior, request);
   base_.resize(static_cast<size_t>(request.frames), last);
   base_turns_.resize(static_cast<size_t>(request.frames * joints));

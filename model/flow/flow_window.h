@@ -34,21 +34,31 @@ struct WindowRequest {
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   EnergyShift energy_shift = {};   ///< of the body parts whose velocity factors nobody asks for
   int style = -1;                  ///< index of a style, or -1
-  /// The middle of the floor that the dancer keeps to, or unknown; unread where a key or a path
-  /// says where the root goes.
-  std::optional<Eigen::Vector3d> stage = {};
+  /// The middle of the floor that the dancer keeps to, and where her audience is: she returns to
+  /// both where neither a key nor a path says where the root goes, or no key how it is turned.
+  std::optional<GroundFrame> stage = {};
 
   /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame
   /// that `ground` is in the request's.
   WindowRequest Part(int from, int count, std::span<const Pose> poses,
                      const GroundFrame& ground) const;
+  /// Without a key that says how the root is turned: about how far it turns about the vertical by
+  /// the window's end, radians. The facing of the audience nearest to it counts. None: as far as
+  /// the history suggests.
+  std::optional<double> turn = {};
+
   bool StageCounts() const {
     return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
   }
+  bool FrontCounts() const { return stage && !(key && mask.Asks(0)); }
 };
 
 /// The mirrored request, in the mirrored canonical frame.
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
+
+/// A turn for the request (WindowRequest::turn), as dancers turn whom nothing holds. `normal`: a
+/// standard normal number.
+double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double normal);
 
 /// EnergyLevel of each body part in each frame, [kBodyParts, w]; NaN if not requested.
 Eigen::MatrixXd LevelCurves(const WindowRequest& request,
@@ -101,10 +111,12 @@ class FlowWindow {
   Eigen::Quaterniond Turn(const Eigen::MatrixXd& x, int frame, int joint) const;
   const MotionPrior::Bridge& At(int dimension) const {
     const auto d = static_cast<size_t>(dimension);
+    if (dimension == MotionPrior::kTurn && facing_) return *facing_;
     return (keyed_[d] ? *to_key_ : d < 3 && stage_ ? *stage_ : *free_)[d];
   }
 
   std::shared_ptr<const std::vector<MotionPrior::Bridge>> to_key_, free_, stage_;
+  std::shared_ptr<const MotionPrior::Bridge> facing_;
   std::vector<bool> keyed_;
   Eigen::MatrixXd mean_, history_;
   Eigen::VectorXd displacement_;

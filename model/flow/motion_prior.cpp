@@ -17,9 +17,9 @@ namespace {
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
 constexpr double kStillness = 2e-4;  // per frame; slower dimensions don't move
 constexpr double kLeastScale = 0.5, kMostAsked = 4;
-constexpr double kLeastEnergy = 1e-3;  // metres a frame
-constexpr int kStaged = -1;            // stands for "no key, staged" in cache keys
-constexpr size_t kKept = 96;           // cached bridges; one of 96 frames takes 3 MB
+constexpr double kLeastEnergy = 1e-3;      // metres a frame
+constexpr int kStaged = -1, kFacing = -2;  // stand for "no key, staged" in cache keys
+constexpr size_t kKept = 96;               // cached bridges; one of 96 frames takes 3 MB
 
 }  // namespace
 
@@ -91,8 +91,8 @@ Eigen::MatrixXd MotionPrior::Scales(double surprise, const Eigen::MatrixXd& leve
   return scales;
 }
 
-MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key,
-                                      double usual_variance) const {
+MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key, double usual_variance,
+                                      double doubt) const {
   const Eigen::Index lags = covariance_.cols();
   const auto velocity = [&](int lag) { return lag < lags ? covariance_(dimension, lag) : 0.0; };
   const auto sum = [&](int lag) {  // over lags 1 to `lag`
@@ -121,7 +121,7 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key,
   }
   if (to_key > 0) {
     for (int p = 0; p < kPast; ++p) observed(p, kPast) = observed(kPast, p) = with_past(to_key, p);
-    observed(kPast, kPast) = both(to_key, to_key) + kJitter * velocity(0);
+    observed(kPast, kPast) = both(to_key, to_key) + kJitter * velocity(0) + doubt;
     for (int i = 0; i < frames; ++i) shared(i, kPast) = both(i + 1, to_key);
   }
   if (usual_variance > 0) {
@@ -177,8 +177,8 @@ MotionPrior::Made MotionPrior::Bridges(int frames, int to_key) const {
     std::vector<Bridge> bridges;
     for (int d = 0; d < dimensions(); ++d) {
       // No position is usual except on a stage, and no facing is.
-      const bool returns = to_key == 0 && d != 0 && d != 2 && d != 4;
-      bridges.push_back(Make(d, frames, to_key, returns ? UsualVariance(d) : 0));
+      const bool returns = to_key == 0 && d != 0 && d != 2 && d != kTurn;
+      bridges.push_back(Make(d, frames, to_key, returns ? UsualVariance(d) : 0, 0));
     }
     return bridges;
   });
@@ -187,9 +187,16 @@ MotionPrior::Made MotionPrior::Bridges(int frames, int to_key) const {
 MotionPrior::Made MotionPrior::StageBridges(int frames) const {
   return Cached({frames, kStaged}, [&] {
     std::vector<Bridge> bridges;
-    for (int d = 0; d < 3; ++d) bridges.push_back(Make(d, frames, 0, UsualVariance(d)));
+    for (int d = 0; d < 3; ++d) bridges.push_back(Make(d, frames, 0, UsualVariance(d), 0));
     return bridges;
   });
+}
+
+std::shared_ptr<const MotionPrior::Bridge> MotionPrior::FacingBridge(int frames) const {
+  const Made made = Cached({frames, kFacing}, [&] {
+    return std::vector<Bridge>{Make(kTurn, frames, frames, 0, usual_.facing)};
+  });
+  return {made, made->data()};
 }
 
 }  // namespace choreo

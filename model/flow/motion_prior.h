@@ -46,6 +46,9 @@ struct UsualPose {
   /// In the canonical frame, at the stage's middle.
   Pose pose = {};
   Eigen::VectorXd variance = {};  ///< [dimensions], m² and rad², of the spread about it
+  /// Of the angle between the root's heading and the audience, rad². 0: unknown, and dancers face
+  /// anywhere.
+  double facing = 0;
 };
 
 /// How poses move given only their past and a key: the velocity of each degree of freedom is a
@@ -58,6 +61,7 @@ class MotionPrior {
  public:
   static constexpr int kLags = 121;  ///< of a trained covariance: four seconds at 30 fps
   static constexpr int kPast = 3;    ///< velocities of the history that are known
+  static constexpr int kTurn = 4;    ///< the dimension of the root's turn about the vertical
   /// Bound of white coordinates, in deviations from the mean: recordings beyond it are faulty.
   static constexpr double kMostWhite = 5;
 
@@ -97,13 +101,17 @@ class MotionPrior {
   std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
   /// Without a key, for the root's position alone [3], on a stage with known middle.
   std::shared_ptr<const std::vector<Bridge>> StageBridges(int frames) const;
+  /// Without a key, for the root's turn about the vertical alone, on a stage with a known front: by
+  /// the window's end it faces the audience with the usual pose's variance.
+  std::shared_ptr<const Bridge> FacingBridge(int frames) const;
   const UsualPose& usual() const { return usual_; }
 
  private:
   using Made = std::shared_ptr<const std::vector<Bridge>>;
   Made Cached(std::pair<int, int> key, const std::function<std::vector<Bridge>()>& make) const;
   // `usual_variance`: about the usual pose, to which a window without a key returns; 0: none.
-  Bridge Make(int dimension, int frames, int to_key, double usual_variance) const;
+  // `doubt`: variance about the key.
+  Bridge Make(int dimension, int frames, int to_key, double usual_variance, double doubt) const;
   double UsualVariance(int dimension) const {
     return usual_.variance.size() > 0 ? usual_.variance[dimension] : 0;
   }

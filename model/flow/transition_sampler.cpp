@@ -1,5 +1,6 @@
 #include "model/flow/transition_sampler.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "model/motion/canonical.h"
@@ -34,10 +35,15 @@ void TransitionSampler::BeginWindow() {
   FlowNoise noise = noise_;
   noise.first_frame += frames_;
   if (!noise.like.empty()) noise.like.erase(noise.like.begin(), noise.like.begin() + frames_);
-  window_.emplace(
-      *model_, *network_,
-      request_.Part(frames_, frames, std::span(emitted_).last(request_.history.size()), ground_),
-      noise);
+  WindowRequest part =
+      request_.Part(frames_, frames, std::span(emitted_).last(request_.history.size()), ground_);
+  if (part.FrontCounts()) {
+    // Skips those of the energy's curve, too.
+    std::vector<float> normal(static_cast<size_t>(model_->prior.dimensions() + 2 * kBodyParts + 1));
+    noise.Fill(0, normal);
+    part.turn = FreeTurn(model_->prior, part, std::min(noise.temperature, 1.0) * normal.back());
+  }
+  window_.emplace(*model_, *network_, std::move(part), noise);
 }
 
 void TransitionSampler::EndWindow() {

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/motion/canonical.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -29,6 +31,13 @@ std::vector<double> WindowTurns(std::span<const Pose> poses, double fps) {
     if (t > 0 && t % length == 0) turns.push_back(std::exchange(turned, 0));
   }
   return turns;
+}
+
+double FacesAway(std::span<const Pose> poses, double front) {
+  const auto away = std::ranges::count_if(poses, [front](const Pose& pose) {
+    return std::abs(WrapAngle(GroundFrame::Of(pose).heading - front)) > std::numbers::pi / 2;
+  });
+  return poses.empty() ? 0 : static_cast<double>(away) / static_cast<double>(poses.size());
 }
 
 double HandsAtRest(const Skeleton& skeleton, double fps, const JointTrack& track) {

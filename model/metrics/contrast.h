@@ -16,6 +16,10 @@ inline constexpr double kContrastSeconds = 2;  ///< of a window
 /// sharing end poses, from the first pose on. Whole turns count.
 std::vector<double> WindowTurns(std::span<const Pose> poses, double fps);
 
+/// Share of the poses whose root faces more than a right angle away from `front`, radians about +Y.
+/// 0 for no poses.
+double FacesAway(std::span<const Pose> poses, double front);
+
 /// A hand slower than this relative to the root is at rest, m/s: hands of real, unseen dancers of
 /// dancedb are in 6.3 % of frames.
 inline constexpr double kRestSpeed = 0.16;

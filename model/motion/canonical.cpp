@@ -1,5 +1,7 @@
 #include "model/motion/canonical.h"
 
+#include <cmath>
+
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -23,12 +25,26 @@ Eigen::Vector3d GroundFrame::ToLocal(const Eigen::Vector3d& world) const {
   return HeadingRotation(-heading) * (world - origin);
 }
 
+GroundFrame GroundFrame::ToLocal(const GroundFrame& world) const {
+  return {ToLocal(world.origin), world.heading - heading};
+}
+
 Pose GroundFrame::ToWorld(const Pose& local) const {
   const Eigen::Matrix3d turn = HeadingRotation(heading);
   Pose world = local;
   world.root_position = turn * local.root_position + origin;
   world.rotations.col(0) = LogMap(turn * ExpMap(local.rotations.col(0)));
   return world;
+}
+
+double MeanFacing(std::span<const Pose> poses) {
+  double sideways = 0, ahead = 0;
+  for (const Pose& pose : poses) {
+    const double heading = Heading(ExpMap(pose.rotations.col(0)));
+    sideways += std::sin(heading);
+    ahead += std::cos(heading);
+  }
+  return std::atan2(sideways, ahead);
 }
 
 }  // namespace choreo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "model/motion/motion.h"
 
@@ -17,8 +18,12 @@ struct GroundFrame {
   /// World → this frame. Keeps rotations' branches, except the root's; see NearestBranch.
   Pose ToLocal(const Pose& world) const;
   Eigen::Vector3d ToLocal(const Eigen::Vector3d& world) const;
+  GroundFrame ToLocal(const GroundFrame& world) const;
   /// This frame → world.
   Pose ToWorld(const Pose& local) const;
 };
+
+/// The mean direction of the roots' headings, radians about +Y; 0 for no poses.
+double MeanFacing(std::span<const Pose> poses);
 
 }  // namespace choreo

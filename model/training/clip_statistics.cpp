@@ -82,8 +82,8 @@ UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> 
     for (const ClipTrack& track : tracks) {
       for (const Pose& pose : track.poses) {
         Pose here = GroundFrame::Of(pose).ToLocal(pose);
-        here.root_position.x() = pose.root_position.x() - track.stage.x();
-        here.root_position.z() = pose.root_position.z() - track.stage.z();
+        here.root_position.x() = pose.root_position.x() - track.stage.origin.x();
+        here.root_position.z() = pose.root_position.z() - track.stage.origin.z();
         what(here);
         what(Mirror(pairs, here));
       }
@@ -109,6 +109,15 @@ UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> 
           poses;
     }
   });
+  double poses_faced = 0;
+  for (const ClipTrack& track : tracks) {
+    for (const Pose& pose : track.poses) {
+      const double off = GroundFrame::Of(pose).heading - track.stage.heading;
+      usual.facing += WrapAngle(off) * WrapAngle(off);
+      ++poses_faced;
+    }
+  }
+  usual.facing /= poses_faced;
   return usual;
 }
 

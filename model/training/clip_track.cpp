@@ -53,7 +53,8 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
                                    : frames[first]);
   }
   for (const Pose& pose : track.poses)
-    track.stage += pose.root_position / static_cast<double>(track.poses.size());
+    track.stage.origin += pose.root_position / static_cast<double>(track.poses.size());
+  track.stage.heading = MeanFacing(track.poses);
   const BodyPartWeights weights = WeighBodyParts(skeleton);
   Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(kBodyParts, static_cast<int>(track.poses.size()));
   std::vector<float> speed;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/core/random.h"
+#include "model/motion/canonical.h"
 #include "model/motion/motion.h"
 #include "model/training/prepared_clip.h"
 
@@ -15,10 +16,10 @@ namespace choreo {
 struct ClipTrack {
   std::vector<Pose> poses = {};
   Eigen::MatrixXd energy = {};  ///< [kBodyParts, frames] smoothed velocity factors, metres a frame
-  std::vector<double> beats = {};                   ///< frames; of the grid in its notes
-  std::vector<double> kinematic = {};               ///< frames where it pauses
-  int style = -1;                                   ///< index into the styles, or -1
-  Eigen::Vector3d stage = Eigen::Vector3d::Zero();  ///< mean position of the root
+  std::vector<double> beats = {};      ///< frames; of the grid in its notes
+  std::vector<double> kinematic = {};  ///< frames where it pauses
+  int style = -1;                      ///< index into the styles, or -1
+  GroundFrame stage = {};              ///< mean position and facing of the root
 };
 
 /// Plays the clip at `tempo` times its speed. `styles`: ascending (StyleOf).

@@ -113,6 +113,8 @@ class FlowMatchingRun : public TrainingRun {
   void Prepare() override {
     if (!options().keep_statistics) Measure();
     const FlowModelParts parts = model_->Parts();
+    if (parts.prior.usual().facing == 0)
+      model_->SetFacing(MeasureUsualPose(train_.skeleton(), train_.tracks()).facing);
     if (!parts.turns.known()) model_->SetTurns(MeasureTurns(train_.skeleton(), KeyedRequests()));
     if (!parts.curve.known())
       model_->SetCurve(MeasureCurve(train_.tracks(), model_->config().median_factors));

@@ -58,10 +58,20 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
   }
 }
 
+// How far the root turns about the vertical from a pose over those after it; whole turns count.
+double TurnOver(const Pose& from, std::span<const Pose> poses) {
+  double heading = GroundFrame::Of(from).heading, turn = 0;
+  for (const Pose& pose : poses) {
+    const double now = GroundFrame::Of(pose).heading;
+    turn += WrapAngle(now - std::exchange(heading, now));
+  }
+  return turn;
+}
+
 // The request for a window of `frames` frames, the track's from `first` on. `history`, `way`, which
 // ends in the key, and `stage` are in the canonical frame.
 WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
-                  const Eigen::Vector3d& stage, const ClipTrack& track, int64_t first,
+                  const GroundFrame& stage, const ClipTrack& track, int64_t first,
                   const WindowClips::Variation& variation, int frames, Random* random) {
   WindowRequest request{.frames = frames, .to_key = static_cast<int>(way.size())};
   request.history.assign(history.begin(), history.end());
@@ -92,7 +102,9 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
     if (random->Uniform() < 0.4) path.values = SmoothRows(path.values, kDrawnSigma);
     path.asked[kPathHeight] = random->Uniform() < 0.3;
   }
-  if (random->Uniform() < variation.stage) request.stage = stage;
+  if (random->Uniform() >= variation.stage) return request;
+  request.stage = stage;
+  request.turn = TurnOver(history.back(), way.first(static_cast<size_t>(frames)));
   return request;
 }
 

@@ -365,7 +365,16 @@ INSTANTIATE_TEST_SUITE_P(
                       }),
                       kInvalid,
                       "config.continuation.stage",
-                      {"nan", "10000"}}),
+                      {"nan", "10000"}},
+        BadStreamCase{"ContinuationFacingNowhere",
+                      WithConfig([](auto& c) {
+                        v1::Continuation* from = c.mutable_continuation();
+                        FillContinuation(from);
+                        from->set_front(7);
+                      }),
+                      kInvalid,
+                      "config.continuation.front",
+                      {"7 radians", "a turn"}}),
     NameOf);
 
 }  // namespace choreo::bad_stream_test

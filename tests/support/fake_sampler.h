@@ -111,9 +111,9 @@ class FakeSampling : public Sampling {
   // The target, with the history's last pose on the stage in open degrees of freedom.
   Eigen::VectorXd Goal() const {
     Pose last = spec_.history.back();
-    const Eigen::Vector3d stage = spec_.stage.value_or(Eigen::Vector3d::Zero());
-    last.root_position.x() = stage.x();
-    last.root_position.z() = stage.z();
+    const Eigen::Vector3d middle = spec_.stage.value_or(GroundFrame()).origin;
+    last.root_position.x() = middle.x();
+    last.root_position.z() = middle.z();
     return Flat(spec_.target ? Masked(spec_.target->pose, spec_.target->mask, last) : last);
   }
 

@@ -89,11 +89,25 @@ TEST_F(WindowClipsTest, TheUsualPoseHasNoSides) {
   EXPECT_GT(usual.variance.minCoeff(), -1e-12);
   std::vector<ClipTrack> elsewhere(clips_.tracks().begin(), clips_.tracks().end());
   for (ClipTrack& track : elsewhere) {
-    track.stage.x() += 7;
+    track.stage.origin.x() += 7;
     for (Pose& pose : track.poses) pose.root_position.x() += 7;
   }
   const UsualPose there = MeasureUsualPose(clips_.skeleton(), elsewhere);
   EXPECT_LT((there.variance - usual.variance).norm(), 1e-9);
+}
+
+// Clips that are turned have their audience elsewhere, and face it as well.
+TEST_F(WindowClipsTest, FacingVariesAboutTheAudience) {
+  const UsualPose usual = MeasureUsualPose(clips_.skeleton(), clips_.tracks());
+  EXPECT_GT(usual.facing, 0);
+  std::vector<ClipTrack> turned(clips_.tracks().begin(), clips_.tracks().end());
+  for (ClipTrack& track : turned) {
+    for (Pose& pose : track.poses) pose = GroundFrame{{0, 0, 0}, 2}.ToWorld(pose);
+    track.stage.heading = MeanFacing(track.poses);
+  }
+  EXPECT_NEAR(MeasureUsualPose(clips_.skeleton(), turned).facing, usual.facing, 1e-9);
+  for (ClipTrack& track : turned) track.stage.heading += 1;
+  EXPECT_GT(MeasureUsualPose(clips_.skeleton(), turned).facing, usual.facing + 0.5);
 }
 
 // Without a known stage there is no usual place; a batch says which windows have one.
