@@ -54,6 +54,7 @@ void Run(const ConvertOptions& options) {
   options.bvh.Check(options.out);
   options.character.Check(options.out, true);
   if (!options.reading.up.empty()) ParseUp(options.reading.up);
+  CheckAngles(options.reading.angles);
   RequireOutputs({{"out", options.out}}, {{"in", options.in},
                                           {"--character", options.character.character},
                                           {"--map", options.character.map},
@@ -98,6 +99,9 @@ void AddConvertCommand(CLI::App& program) {
           "Metres in the file's unit, 0.01 for centimetres; default: as its format has it, "
           "or by the legs.")
       ->check(NumberFrom(1e-6, 1e6));
+  command->add_option("--angles", options->reading.angles,
+                      "The unit of the file's angles, degrees or radians; default: as its format "
+                      "has it, or the body can.");
   command->add_option(
       "--animation", options->reading.animation,
       "Of a file with several, its name or its number from 0 on; default: the first "

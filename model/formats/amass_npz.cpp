@@ -80,16 +80,42 @@ std::string LayoutNames() {
 }
 
 double ReadRate(const NpzArchive& npz, double otherwise, bool known, const MotionReading& reading) {
+  std::string stated;
+  double first = 0;
+  bool differ = false;
   for (const char* name : kRateNames) {
     if (!npz.Has(name)) continue;
-    const double rate = NpzNumber(npz, name);
-    if (rate > 0) return CheckRate(name, rate);
-    if (!(reading.fps > 0))
+    double rate = 0;
+    try {
+      rate = NpzNumber(npz, name);
+    } catch (const Error& error) {
+      if (reading.fps > 0) continue;
+      throw InvalidArgument(error.field(), std::string(error.Of("").what()) + "; --fps says one");
+    }
+    if (rate > 0) {
+      stated += (stated.empty() ? "" : ", ") + std::string(name) + ' ' + Rounded(rate);
+      if (first == 0) first = CheckRate(name, rate);
+      differ = differ || std::abs(rate - first) > 0.001 * first;
+    } else if (!(reading.fps > 0)) {
       throw InvalidArgument(name, Rounded(rate) + " frames a second are none; --fps says another");
+    }
   }
+  if (first > 0 && !differ) return first;
   if (reading.fps > 0) return reading.fps;
+  if (differ)
+    reading.Note("states " + stated + ": " + Rounded(first) +
+                 " frames a second is taken, --fps says another");
+  if (first > 0) return first;
   if (!known) reading.NoteRate(otherwise);
   return otherwise;
+}
+
+// Whether the arrays, or a dict at most so deep within, are a motion.
+bool HoldsMotion(const NpzArchive& npz, int depth) {
+  return FindLayout(npz) ||
+         (depth > 0 && std::ranges::any_of(npz.NestedNames(), [&](const std::string& name) {
+            return HoldsMotion(npz.Nested(name), depth - 1);
+          }));
 }
 
 // The name of the nested dict that holds a motion, or "". Of several, the one that --body names;
@@ -97,11 +123,19 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
 std::string DictWithin(const NpzArchive& npz, MotionReading* reading) {
   std::vector<std::string> holding;
   for (const std::string& name : npz.NestedNames()) {
-    if (FindLayout(npz.Nested(name))) holding.push_back(name);
+    if (HoldsMotion(npz.Nested(name), 1)) holding.push_back(name);
   }
   if (holding.empty()) return "";
   if (holding.size() == 1) return holding[0];
   if (!reading->body.empty()) return holding[ChooseBody(std::exchange(reading->body, ""), holding)];
+  // Tracks of people, but not several views of one, have numbers.
+  if (std::ranges::all_of(holding, [](const std::string& name) {
+        return NumberBelow(name, SIZE_MAX).has_value();
+      })) {
+    reading->Note("holds " + std::to_string(holding.size()) + " motions, " + ListBodies(holding) +
+                  "; 0 is read, --body chooses");
+    return holding[0];
+  }
   throw InvalidArgument("", "holds " + std::to_string(holding.size()) + " motions, " +
                                 ListBodies(holding) + ": choreo convert --body reads one");
 }
@@ -149,37 +183,29 @@ NpzArchive PersonOf(const NpzArchive& npz, const Layout& layout, int64_t people,
   for (const char* key : {layout.root, layout.body, layout.trans}) {
     if (key == nullptr || !npz.Has(key)) continue;
     const NpyArray all = npz.Array(key);
-    if (all.shape.size() > 1 && all.shape[0] == people) one.SetArray(key, PersonOf(all, person));
+    if (HoldsPeople(all, people)) one.SetArray(key, PersonOf(all, people, person));
   }
   return one;
 }
 
-// The rotations of a layout, [3 joints, frames].
-Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout) {
-  if (layout.root == nullptr) return ReadRotationRows(npz, layout.body, JointsOf(layout));
-  const Eigen::MatrixXd root = ReadRotationRows(npz, layout.root, {1});
-  const Eigen::MatrixXd body = ReadRotationRows(npz, layout.body, JointsOf(layout));
-  if (root.cols() != body.cols()) {
-    throw InvalidArgument(layout.body, std::to_string(body.cols()) + " frames, but there are " +
-                                           std::to_string(root.cols()) + " of " + layout.root);
+// The rotations of a layout, radians [3 joints, frames].
+Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout,
+                          const MotionReading& reading) {
+  RotationRows all = ReadRotationRows(npz, layout.body, JointsOf(layout));
+  if (layout.root != nullptr) {
+    const Eigen::MatrixXd body = std::move(all.turns);
+    const RotationRows root = ReadRotationRows(npz, layout.root, {1});
+    if (root.turns.cols() != body.cols()) {
+      throw InvalidArgument(layout.body, std::to_string(body.cols()) + " frames, but there are " +
+                                             std::to_string(root.turns.cols()) + " of " +
+                                             layout.root);
+    }
+    all.are_vectors = all.are_vectors && root.are_vectors;
+    all.turns.resize(3 + body.rows(), body.cols());
+    all.turns << root.turns, body;
   }
-  Eigen::MatrixXd all(3 + body.rows(), body.cols());
-  all << root, body;
-  return all;
-}
-
-// Whether most frames have a joint turned by more than two whole turns, as degrees have.
-bool AreDegrees(const Eigen::MatrixXd& turns) {
-  constexpr double kTwiceRound = 4 * M_PI;
-  std::vector<double> most;
-  for (Eigen::Index frame = 0; frame < turns.cols(); ++frame) {
-    most.push_back(Eigen::Map<const Eigen::Matrix3Xd>(turns.col(frame).data(), 3, turns.rows() / 3)
-                       .colwise()
-                       .norm()
-                       .maxCoeff());
-  }
-  const double middle = most.empty() ? 0 : Median(std::move(most));
-  return middle > kTwiceRound && middle < kTwiceRound * kDegrees;
+  ToRadians(layout.body, reading, &all);
+  return std::move(all.turns);
 }
 
 }  // namespace
@@ -228,8 +254,9 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   if (!found) {
     std::string names;
     for (const std::string& name : npz.Names()) names += (names.empty() ? "" : ", ") + name;
-    throw InvalidArgument("", "has no array of rotations by a name that is known, " +
-                                  LayoutNames() + " (it has: " + Printable(names) + ")");
+    throw InvalidArgument(
+        "", "has no array of rotations by a name that is known, " + LayoutNames() + " (it has: " +
+                (names.empty() ? "nothing" : Printable(names)) + "): " + kWriteArrays);
   }
   const Layout& layout = *found;
   const int64_t people = PeopleIn(
@@ -245,11 +272,7 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
     reading.Note("its pose_world and trans_world are read, not what its camera saw");
   const bool aist = npz.Has("smpl_scaling"), slices = std::string_view(layout.body) == "q";
   const bool edge = std::string_view(layout.body) == "smpl_poses" && !aist;
-  Eigen::MatrixXd turns = ReadTurns(npz, layout);
-  if (AreDegrees(turns)) {
-    turns /= kDegrees;
-    reading.Note(std::string("its ") + layout.body + " are taken as degrees, not radians");
-  }
+  const Eigen::MatrixXd turns = ReadTurns(npz, layout, reading);
   Eigen::MatrixXd trans = Eigen::MatrixXd::Zero(3, turns.cols());
   if (npz.Has(layout.trans)) {
     trans = NpzRows(npz, layout.trans, {3});
@@ -265,7 +288,8 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   const double fps = ReadRate(npz, aist ? 60 : kModelFps, aist || edge, reading);
   FileMotion file{.skeleton = Skeleton::Smpl24(),
                   .motion = Assemble(trans, turns, fps, layout.body),
-                  .other_shape = HasBetas(npz)};
+                  .other_shape = HasBetas(npz),
+                  .has_angles = true};
   if (!aist && !slices) file.up = Eigen::Vector3d::UnitZ();
   if (!edge)
     file.root_offset = IsSmplX(npz, turns.rows() / 3) ? SmplXRestPelvis() : SmplRestPelvis();

@@ -67,13 +67,14 @@ Motion ReadKind(const Kind& kind, const Rows& rows, const MotionReading& reading
   const std::string key = "[:, " + std::to_string(kind.turns) + ":]";
   npz.SetArray(key, {{rows.cols(), kind.joints, kind.each},
                      std::vector<double>(stated.data(), stated.data() + stated.size())});
-  const Eigen::MatrixXd turns = ReadRotationRows(npz, key, {kind.joints});
+  RotationRows stated_turns = ReadRotationRows(npz, key, {kind.joints});
+  ToRadians(key, reading, &stated_turns);
   const int joints = Skeleton::Smpl24().joints();
   const Eigen::Index known = 3 * std::min<int64_t>(kind.joints == 24 ? 24 : kRowJoints, joints);
   FileMotion file{
       .skeleton = Skeleton::Smpl24(),
-      .motion = MotionOfRows(rows.middleRows<3>(kind.place), turns.topRows(known), joints,
-                             Rate(kind.width, kind.of, kind.fps, reading), key)};
+      .motion = MotionOfRows(rows.middleRows<3>(kind.place), stated_turns.turns.topRows(known),
+                             joints, Rate(kind.width, kind.of, kind.fps, reading), key)};
   CheckMotionLimits(file.motion);
   if (kind.z_up) file.up = Eigen::Vector3d::UnitZ();
   if (kind.root != Place::kPelvis)
@@ -123,7 +124,7 @@ std::optional<Motion> ReadFrameRows(const NpyArray& array, const MotionReading& 
   if (const int64_t people = PeopleIn(array, is_frame); people > 1) {
     MotionReading inner = reading;
     inner.body.clear();
-    return ReadFrameRows(PersonOf(array, ChoosePerson(people, "rows", reading)), inner);
+    return ReadFrameRows(PersonOf(array, people, ChoosePerson(people, "rows", reading)), inner);
   }
   reading.RefuseBody();
   const int64_t width = array.shape.back();

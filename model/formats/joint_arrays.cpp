@@ -119,7 +119,8 @@ std::optional<NpyArray> FindJointArray(const NpzArchive& npz) {
 }
 
 bool AreJointPlaces(const NpyArray& array) {
-  if (PeopleIn(array, IsPlacedFrame) > 1) return AreJointPlaces(PersonOf(array, 0));
+  if (const int64_t people = PeopleIn(array, IsPlacedFrame); people > 1)
+    return AreJointPlaces(PersonOf(array, people, 0));
   const std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);
   // A single frame cannot show whether lengths are constant.
   return frames.size() > 1 && KeepLengths(frames);
@@ -129,7 +130,8 @@ Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& r
   if (const int64_t people = PeopleIn(array, IsPlacedFrame); people > 1) {
     MotionReading inner = reading;
     inner.body.clear();
-    return ReadJointPlaces(PersonOf(array, ChoosePerson(people, "joints", reading)), fps, inner);
+    const int64_t person = ChoosePerson(people, "joints", reading);
+    return ReadJointPlaces(PersonOf(array, people, person), fps, inner);
   }
   reading.RefuseBody();
   std::vector<Eigen::Matrix3Xd> frames = PlacesOfFrames(array);

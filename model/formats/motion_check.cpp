@@ -184,12 +184,13 @@ void NoteStillness(const Motion& motion, const MotionReading& reading) {
                " frames: is the movement in another animation or on other bones?");
 }
 
-void NoteBends(const Skeleton& skeleton, const Motion& motion, const MotionReading& reading) {
+void NoteBends(const FileMotion& file, const Motion& motion, const MotionReading& reading) {
   std::string example;
-  const double share = ShareOfFaults(skeleton, motion, &example);
+  const double share = ShareOfFaults(file.skeleton, motion, &example);
   if (share > 1 - kMostly) {
     reading.Note("in " + Share(share) + " of its frames a joint is bent as no body can, as in: " +
-                 example + "; are its bones taken for what they are?");
+                 example + "; are its bones taken for what they are?" +
+                 (file.has_angles ? " --angles says the unit of its angles" : ""));
   }
 }
 
@@ -256,7 +257,7 @@ Motion Settle(FileMotion file, const MotionReading& reading) {
   }
   MakeContinuous(motion);
   NoteStillness(motion, reading);
-  NoteBends(file.skeleton, motion, reading);
+  NoteBends(file, motion, reading);
   return motion;
 }
 

@@ -26,6 +26,8 @@ struct FileMotion {
   bool has_floor = true;
   /// Whether the recorded body had another shape than ours.
   bool other_shape = false;
+  /// Whether its angles have a unit, which --angles may state.
+  bool has_angles = false;
 };
 
 /// Turns Y up, sets the unit, puts the body on the floor if it certainly is not, and notes what

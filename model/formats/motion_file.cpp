@@ -82,10 +82,8 @@ SkeletonMotion ReadObjects(const std::filesystem::path& path, const Skeleton*,
     }
     if (auto motion = ReadFrameRows(array, reading))
       return {Skeleton::Smpl24(), std::move(*motion)};
-    throw InvalidArgument(
-        path.string(), "holds one array and does not say of what, as rows of " + FrameRowWidths() +
-                           " numbers do: write rotations and places by "
-                           "numpy.savez(\"FILE.npz\", poses=..., trans=..., fps=...)");
+    throw InvalidArgument(path.string(), "holds one array and does not say of what, as rows of " +
+                                             FrameRowWidths() + " numbers do: " + kWriteArrays);
   }
   return ReadPickled(parts.values, path, reading);
 }
@@ -130,24 +128,39 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
   return FitNodes(std::move(nodes), motion, reading);
 }
 
-// Converts radians to degrees if they may be radians: none exceeds a turn, and some exceed 1.
-std::optional<BvhFile> FromRadians(const BvhFile& file) {
+// Converts radians to degrees if they may be radians: no joint exceeds a turn but one that spins
+// on, slowly, and some exceed 1.
+std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
   constexpr Eigen::Index kFewest = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
-  if (file.frames() < kFewest) return std::nullopt;
+  if (reading.angles == "degrees" || (reading.angles.empty() && file.frames() < kFewest))
+    return std::nullopt;
   BvhFile turned = file;
-  double farthest = 0;
+  double farthest = 0, fastest = 0;
+  int spinning = 0;
   Eigen::Index row = 0;
   for (const BvhJoint& joint : file.joints) {
+    bool spins = false;
     for (const BvhChannel channel : joint.channels) {
       if (channel >= BvhChannel::kXRotation && channel <= BvhChannel::kZRotation) {
-        farthest = std::max(farthest, file.values.row(row).cwiseAbs().maxCoeff());
+        const Eigen::RowVectorXd angles = file.values.row(row);
+        const double most = angles.cwiseAbs().maxCoeff();
+        if (most < kTurn) {
+          farthest = std::max(farthest, most);
+        } else {
+          const Eigen::Index steps = angles.size() - 1;
+          fastest =
+              std::max(fastest, (angles.tail(steps) - angles.head(steps)).cwiseAbs().maxCoeff());
+          spins = true;
+        }
         turned.values.row(row) *= kDegrees;
       }
       ++row;
     }
+    spinning += spins;
   }
-  return farthest > kLimb && farthest < kTurn ? std::optional(std::move(turned)) : std::nullopt;
+  const bool may_be = farthest > kLimb && spinning <= 1 && fastest < kLimb;
+  return reading.angles == "radians" || may_be ? std::optional(std::move(turned)) : std::nullopt;
 }
 
 SkeletonMotion TakeBvh(const BvhFile& file, const Skeleton* wanted, const MotionReading& reading) {
@@ -167,7 +180,8 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
   if (!file.states_rate && reading.fps > 0) file.frame_time = 1 / reading.fps;
   if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) reading.NoteRate(file.fps());
   if (file.frames() == 0) return {Skeleton::Smpl24(), {}};
-  if (const std::optional<BvhFile> turned = FromRadians(file)) {
+  if (const std::optional<BvhFile> turned = FromRadians(file, reading)) {
+    if (!reading.angles.empty()) return TakeBvh(*turned, wanted, reading);
     std::vector<std::string> notes;
     MotionReading quietly = reading;
     quietly.notes = &notes;
@@ -175,11 +189,12 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
     // A dancer who sways a little in degrees would bend knees and elbows backwards in radians.
     if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
       reading.Note(
-          "its angles are taken as radians: none is above 6.28, and as degrees no joint would turn "
-          "further than that");
+          "its angles are taken as radians, as they are so small; --angles degrees says otherwise");
       for (const std::string& note : notes) reading.Note(note);
       return read;
     }
+    reading.Note(
+        "its angles are taken as degrees, though they are small; --angles radians says otherwise");
   }
   return TakeBvh(file, wanted, reading);
 }
@@ -260,6 +275,9 @@ SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted,
                     const MotionReading& reading) try {
   const std::string extension = SmallExtension(path);
   const bool gltf = extension == ".glb" || extension == ".gltf" || extension == ".vrma";
+  CheckAngles(reading.angles);
+  if (!reading.angles.empty() && gltf)
+    throw InvalidArgument("--angles", "is for arrays and .bvh, not for " + path.string());
   if (!reading.animation.empty() && !gltf)
     throw InvalidArgument("--animation", "is for .glb, .gltf and .vrma, not for " + path.string());
   if (!reading.bones.empty() && !gltf && extension != ".bvh")

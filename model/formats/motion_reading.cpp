@@ -18,6 +18,11 @@ void MotionReading::RefuseBody() const {
   if (!body.empty()) throw InvalidArgument("--body", "the file holds one body");
 }
 
+void CheckAngles(const std::string& angles) {
+  if (!angles.empty() && angles != "degrees" && angles != "radians")
+    throw InvalidArgument("--angles", '"' + Printable(angles) + "\" is none of degrees, radians");
+}
+
 Eigen::Vector3d ParseUp(const std::string& up) {
   const bool negative = up.starts_with('-');
   const std::string axis = up.substr(negative || up.starts_with('+') ? 1 : 0);

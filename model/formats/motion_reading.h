@@ -16,7 +16,10 @@ struct MotionReading {
   /// would lie.
   std::string up = {};
   double scale = 0;  ///< metres per unit of the file; 0: that of its format
-  double fps = 0;    ///< for a file that states no rate; 0: 30
+  double fps = 0;    ///< for a file that states no rate, or several; 0: 30
+  /// The unit of its angles, "degrees" or "radians"; empty: that of its format, unless the body
+  /// would bend as none can.
+  std::string angles = {};
   /// Of a glTF: its name, or its number from 0 on; empty: one that moves.
   std::string animation = {};
   /// Of several bodies: its name, or its number from 0 on; empty: the first.
@@ -28,7 +31,9 @@ struct MotionReading {
 
   /// Whether it says which bones are read, or how they lie: then not even our own file is read as
   /// it is.
-  bool chooses() const { return !bones.empty() || !body.empty() || !up.empty() || scale > 0; }
+  bool chooses() const {
+    return !bones.empty() || !body.empty() || !up.empty() || scale > 0 || !angles.empty();
+  }
   /// Throws Error(kInvalidArgument) if --body is given; call for files with one body.
   void RefuseBody() const;
   void Note(const std::string& text) const {
@@ -37,6 +42,10 @@ struct MotionReading {
   /// Notes that a file states no rate and is read at this one.
   void NoteRate(double taken) const;
 };
+
+/// How to write arrays that are read, for messages.
+inline constexpr const char* kWriteArrays =
+    "write rotations and places by numpy.savez(\"FILE.npz\", poses=..., trans=..., fps=...)";
 
 /// `text` as a number, if it is one and below `limit`.
 std::optional<size_t> NumberBelow(const std::string& text, size_t limit);
@@ -47,6 +56,9 @@ size_t ChooseBody(const std::string& body, const std::vector<std::string>& names
 
 /// `0 "A:Hips", 1 "B:Hips"`, for messages.
 std::string ListBodies(const std::vector<std::string>& names);
+
+/// Throws Error(kInvalidArgument), whose field is --angles, for what is no unit of angles.
+void CheckAngles(const std::string& angles);
 
 /// "y" → (0, 1, 0), "-z" → (0, 0, -1). Throws Error(kInvalidArgument) whose field is --up.
 Eigen::Vector3d ParseUp(const std::string& up);

@@ -7,16 +7,21 @@
 #include "model/core/npy.h"
 #include "model/formats/motion_reading.h"
 
-/// Arrays of several people, [people, frames, ...]. Private to this folder.
+/// Arrays of several people. Private to this folder.
 namespace choreo {
 
-/// The number of people in an array whose frames satisfy `is_frame`; 1 for an array of one person.
+/// The number of people in an array, [people, frames, ...] or [frames, people, ...], whose frames
+/// satisfy `is_frame`: the smaller one. 1 for an array of one person.
 int64_t PeopleIn(const NpyArray& array, const std::function<bool(int64_t width)>& is_frame);
 
-/// The person to read. Throws Error(kInvalidArgument), whose field is `key` if --body is not given.
+/// The person to read: the first, with a note, or the one of --body. Throws Error(kInvalidArgument)
+/// whose field is --body.
 int64_t ChoosePerson(int64_t people, const std::string& key, const MotionReading& reading);
 
-/// The array of one person.
-NpyArray PersonOf(const NpyArray& people, int64_t person);
+/// Whether one of the first two extents of an array is of so many people.
+bool HoldsPeople(const NpyArray& array, int64_t people);
+
+/// The array of one person of so many.
+NpyArray PersonOf(const NpyArray& array, int64_t people, int64_t person);
 
 }  // namespace choreo

@@ -155,10 +155,19 @@ class Unpickler {
     if (object->kind != kind) Refuse(std::string("expected a ") + kKindNames[kind]);
     return object;
   }
-  // What stands alone in a list, or in an array of objects, as numpy.save makes one of a dict.
+  // What stands alone in a list, or in an array of objects, as numpy.save makes one of a dict. Of
+  // several dicts, as of several bodies, a dict by their numbers.
   static Ref TakeOnly(const Ref& object) {
     const bool holds = object->kind == kList || (object->kind == kArray && !object->array);
-    return holds && object->items.size() == 1 ? object->items.front() : object;
+    if (!holds || object->items.empty()) return object;
+    if (object->items.size() == 1) return object->items.front();
+    if (object->items.front()->kind != kDict) return object;
+    auto dicts = std::make_shared<Object>(Object{.kind = kDict});
+    for (size_t i = 0; i < object->items.size(); ++i) {
+      if (object->items[i]->kind == kDict)
+        dicts->dict.SetNested(std::to_string(i), object->items[i]->dict);
+    }
+    return dicts;
   }
   Ref Item(const Ref& tuple, size_t index, Kind kind) const {
     if (index >= tuple->items.size()) Refuse("too short a tuple");

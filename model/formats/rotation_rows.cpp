@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/quantile.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"
 
@@ -172,8 +173,8 @@ bool AreRotations(int64_t width, const std::vector<int64_t>& joints) {
   });
 }
 
-Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
-                                 const std::vector<int64_t>& joints) {
+RotationRows ReadRotationRows(const NpzArchive& npz, const std::string& key,
+                              const std::vector<int64_t>& joints) {
   const auto is_width_of = [&](int64_t width, int64_t values) {
     return IsWidthOf(width, values, joints);
   };
@@ -181,13 +182,39 @@ Eigen::MatrixXd ReadRotationRows(const NpzArchive& npz, const std::string& key,
   const Rows rows = ReadRows(npz, key, [&](int64_t width) { return AreRotations(width, joints); });
   const bool says_matrices = rows.last == 9 || (rows.last == 3 && rows.last_but_one == 3);
   if (is_width_of(rows.width, 9) && (says_matrices || !is_width_of(rows.width, 3)))
-    return FromMatrices(rows, key);
+    return {FromMatrices(rows, key)};
   if (is_width_of(rows.width, 6) && (rows.last == 6 || !is_width_of(rows.width, 3)))
-    return FromSixD(rows, key);
+    return {FromSixD(rows, key)};
   if (is_quaternions(rows.width) && (rows.last == 4 || !is_width_of(rows.width, 3)))
-    return FromQuaternions(rows, key);
+    return {FromQuaternions(rows, key)};
   if (!is_width_of(rows.width, 3)) RefuseShape(key, rows, joints);
-  return rows.values;
+  return {rows.values, true};
+}
+
+void ToRadians(const std::string& key, const MotionReading& reading, RotationRows* rows) {
+  constexpr double kTwiceRound = 4 * M_PI;
+  if (!rows->are_vectors) {
+    if (reading.angles.empty()) return;
+    throw InvalidArgument("--angles", "is for rotation vectors, which its " + key + " are not");
+  }
+  std::vector<double> first, most;  // of each frame
+  for (const auto& frame : rows->turns.colwise()) {
+    const Eigen::VectorXd angles =
+        Eigen::Map<const Eigen::Matrix3Xd>(frame.data(), 3, frame.size() / 3).colwise().norm();
+    first.push_back(angles[0]);
+    most.push_back(angles.tail(angles.size() - 1).maxCoeff());
+  }
+  const double middle = most.empty() ? 0 : Median(std::move(most));
+  const bool found = middle > kTwiceRound && middle < kTwiceRound * kDegrees;
+  if (reading.angles.empty() ? found : reading.angles == "degrees") rows->turns /= kDegrees;
+  if (!reading.angles.empty()) return;
+  if (found) {
+    reading.Note("its " + key +
+                 " are taken as degrees, not radians; --angles radians says otherwise");
+  } else if (!first.empty() && Median(std::move(first)) > kTwiceRound) {
+    reading.Note("its root alone turns by more than two whole turns: its " + key +
+                 " are taken as radians, --angles degrees says otherwise");
+  }
 }
 
 }  // namespace choreo

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "model/core/npy.h"
 
@@ -47,6 +48,19 @@ inline void WritePickledDicts(const std::filesystem::path& path,
          << PickledItems(arrays) << 'u';
   }
   file << "u.";
+}
+
+/// Writes the equivalent of pickle.dump([{key: array, ...}, ...]) or, if `within` is not empty, of
+/// pickle.dump({within: [...]}).
+inline void WritePickledList(const std::filesystem::path& path, const std::string& within,
+                             const std::vector<std::map<std::string, NpyArray>>& dicts) {
+  std::ofstream file(path, std::ios::binary);
+  const auto size = static_cast<int32_t>(within.size());
+  file << "\x80\x04";
+  if (size > 0) file << "}(X" << std::string(reinterpret_cast<const char*>(&size), 4) << within;
+  file << "](";
+  for (const auto& arrays : dicts) file << "}(" << PickledItems(arrays) << 'u';
+  file << (size > 0 ? "eu." : "e.");
 }
 
 }  // namespace choreo

@@ -68,6 +68,24 @@ Eigen::Matrix3d Sways(const std::string& bone, int frame) {
   return About(1, 0.3, 0.2, 3 * std::sin(frame * 0.3 + static_cast<double>(bone.size())));
 }
 
+// Turns on without end, as one who turns about himself: the file does not wrap her angle.
+BvhFile Spinning(const RigNames& names) {
+  BvhFile file = Dancing(names);
+  for (Eigen::Index frame = 0; frame < file.frames(); ++frame)
+    file.values(5, frame) += 25.0 * static_cast<double>(frame);
+  return file;
+}
+Eigen::Matrix3d Spins(const std::string& bone, int frame) {
+  const Eigen::Matrix3d turn = Expressive(bone, frame);
+  return bone == "pelvis" ? turn * About(0, 1, 0, 25.0 * frame) : turn;
+}
+
+// Waves, as far as degrees below 6 allow.
+Eigen::Matrix3d Waves(const std::string& bone, int frame) {
+  return bone.ends_with("shoulder") ? About(0, 0, 1, 5 * std::sin(frame * 0.3))
+                                    : Eigen::Matrix3d::Identity();
+}
+
 // On its back, on the floor.
 Eigen::Matrix3d Lies(const std::string& bone, int frame) {
   if (bone == "pelvis") return About(1, 0, 0, -90);
@@ -86,6 +104,7 @@ struct Row {
   std::string bytes;
   RigTurn right = Expressive;
   const char* says = "";
+  const char* angles = "";  ///< --angles
 };
 
 TEST_F(CasesTest, TheLogOfBodiesInBvh) {
@@ -103,12 +122,19 @@ TEST_F(CasesTest, TheLogOfBodiesInBvh) {
            {"a prop first", BvhText(Together(Stick(), Dancing(names)))},
            {"names that all end alike", BvhText(Dancing(With("c_", names, "_bind_jnt")))},
            {"radians", BvhText(InRadians(Dancing(names))), Expressive, "are taken as radians"},
-           {"one who sways a little", BvhText(Dancing(names, Sways)), Sways},
+           {"radians of one who spins on", BvhText(InRadians(Spinning(names))), Spins,
+            "are taken as radians, as they are so small; --angles degrees"},
+           {"the same, told", BvhText(InRadians(Spinning(names))), Spins, "", "radians"},
+           {"degrees of one who spins on", BvhText(Spinning(names)), Spins},
+           {"one who sways a little", BvhText(Dancing(names, Sways)), Sways,
+            "are taken as degrees, though they are small; --angles radians"},
+           {"the same, told", BvhText(Dancing(names, Sways)), Sways, "", "degrees"},
+           {"arms that wave a little", BvhText(Dancing(names, Waves)), Waves, "", "degrees"},
            {"milliseconds", slow, Expressive, "which is taken as milliseconds"},
            {"on the floor of a Z-up file", BvhText(LyingZUp()), Lies, "taken as z up, not y"},
        }) {
     SCOPED_TRACE(row.name);
-    const Read read = ReadBytes("a.bvh", row.bytes);
+    const Read read = ReadBytes("a.bvh", row.bytes, {.angles = row.angles});
     EXPECT_EQ(read.motion.fps, 30);
     const Wrong wrong = Compare(read.motion, row.right);
     EXPECT_LT(wrong.limbs, 0.1);

@@ -132,6 +132,7 @@ MotionReading Options(const std::string& words) {
     if (option == "--up") reading.up = value;
     if (option == "--fps") reading.fps = std::stod(value);
     if (option == "--animation") reading.animation = value;
+    if (option == "--angles") reading.angles = value;
   }
   return reading;
 }
@@ -276,6 +277,14 @@ TEST_F(CasesTest, TheLogOfArrays) {
     const char* name;
     NpyArray poses;
     const char* says = "";
+    const char* options = "";
+  };
+  const auto scaled = [](double body, double root) {
+    // The root, as AMASS has it, is turned by a quarter.
+    return [=](const Eigen::Vector3d& turn) {
+      const Eigen::Vector3d all = turn * (turn.norm() > 1.5 ? root : body);
+      return std::vector<double>{all.begin(), all.end()};
+    };
   };
   for (const ArrayRow& row : std::vector<ArrayRow>{
            {"quaternions, x first", smpl.Poses({24, 4}, quaternion(false))},
@@ -289,20 +298,21 @@ TEST_F(CasesTest, TheLogOfArrays) {
                                                                   m(0, 0), m(0, 1), m(1, 0),
                                                                   m(1, 1), m(2, 0), m(2, 1)};
                                                             })},
-           {"degrees",
-            smpl.Poses({72},
-                       [](const Eigen::Vector3d& turn) {
-                         const Eigen::Vector3d degrees = turn * kDegrees;
-                         return std::vector<double>{degrees.begin(), degrees.end()};
-                       }),
-            "its poses are taken as degrees"},
+           {"degrees", smpl.Poses({72}, scaled(kDegrees, kDegrees)),
+            "its poses are taken as degrees, not radians; --angles radians"},
+           {"degrees, told", smpl.Poses({72}, scaled(kDegrees, kDegrees)), "", "--angles degrees"},
+           {"radians of a root that spins on",
+            smpl.Poses({72}, scaled(1, 1 + 8 * M_PI / (M_PI / 2))),
+            "its root alone turns by more than two whole turns: its poses are taken as radians"},
+           {"the same, told", smpl.Poses({72}, scaled(1, 1 + 8 * M_PI / (M_PI / 2))), "",
+            "--angles radians"},
        }) {
     SCOPED_TRACE(row.name);
     NpzArchive npz;
     npz.SetArray("poses", row.poses);
     npz.SetArray("trans", smpl.Trans());
     npz.SetArray("fps", rate);
-    const Read read = ReadNpz(npz);
+    const Read read = ReadNpz(npz, Options(row.options));
     EXPECT_LT(WorstJoint(smpl.motion, read.motion), 1e-6);
     EXPECT_EQ(read.notes.empty(), std::string(row.says).empty()) << Said(read);
     EXPECT_TRUE(read.notes.empty() || read.Says(row.says)) << Said(read);
@@ -313,12 +323,35 @@ TEST_F(CasesTest, TheLogOfArrays) {
   npz.SetText("fps", "30");
   EXPECT_EQ(ReadNpz(npz).motion.fps, 30);
   npz.SetText("fps", "many");
-  ExpectError(ErrorCode::kInvalidArgument, "fps: \"many\" is no number", [&] { ReadNpz(npz); });
+  ExpectError(ErrorCode::kInvalidArgument, "fps: \"many\" is no number; --fps says one",
+              [&] { ReadNpz(npz); });
+  EXPECT_EQ(ReadNpz(npz, {.fps = 25}).motion.fps, 25);
+  // Two rates that differ are said, and --fps decides.
+  npz.SetArray("fps", rate);
+  npz.SetArray("mocap_frame_rate", {{}, std::vector<double>{120}});
+  const Read two = ReadNpz(npz);
+  EXPECT_EQ(two.motion.fps, 120);
+  EXPECT_TRUE(two.Says("states mocap_frame_rate 120, fps 30: 120 frames a second is taken, --fps"))
+      << Said(two);
+  EXPECT_EQ(ReadNpz(npz, {.fps = 30}).motion.fps, 30);
+  EXPECT_TRUE(ReadNpz(npz, {.fps = 30}).notes.empty());
+  // Degrees so small that they may be radians bend knees as none can.
+  npz.SetArray("poses", smpl.Poses({72}, scaled(20, 1)));
+  EXPECT_TRUE(ReadNpz(npz, {.fps = 30, .angles = "radians"}).Says("--angles says the unit"));
   npz.SetArray("poses", smpl.Poses({24, 4}, [](const Eigen::Vector3d&) {
     return std::vector<double>{1, 1, 0, 0};
   }));
   ExpectError(ErrorCode::kInvalidArgument, "poses[0][0]: is no quaternion of length 1",
               [&] { ReadNpz(npz); });
+  npz.SetArray("poses", smpl.Poses({24, 4}, quaternion(true)));
+  ExpectError(ErrorCode::kInvalidArgument, "--angles: is for rotation vectors, which its poses are",
+              [&] { ReadNpz(npz, {.angles = "degrees"}); });
+  ExpectError(ErrorCode::kInvalidArgument, "--angles: \"turns\" is none of degrees, radians",
+              [&] { ReadNpz(npz, {.angles = "turns"}); });
+  WriteFile(folder_ / "a.npz", "PK\5\6" + std::string(18, '\0'));  // a zip of nothing
+  ExpectError(ErrorCode::kInvalidArgument,
+              "(it has: nothing): write rotations and places by numpy.savez",
+              [&] { ReadFile("a.npz"); });
 }
 
 TEST_F(CasesTest, ADictThatNumpySaved) {
