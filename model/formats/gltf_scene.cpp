@@ -25,17 +25,32 @@ constexpr size_t kMostNamed = 8;
 
 std::string AnimationName(size_t animation) { return GltfItem("animations", animation); }
 
+// `1 "walk" (2.5 s)`: its number, its name, if it has one, and its length.
+std::string Label(const tinygltf::Model& model, size_t animation) {
+  const std::string& name = model.animations[animation].name;
+  double end = 0;
+  for (const GltfChannel& channel : ReadGltfChannels(model, animation))
+    end = std::max(end, channel.times[channel.times.size() - 1]);
+  return std::to_string(animation) + (name.empty() ? "" : " \"" + Printable(name) + '"') + " (" +
+         Rounded(end) + " s)";
+}
+
+std::string Labels(const tinygltf::Model& model, std::optional<size_t> but = {}) {
+  std::string labels;
+  for (size_t i = 0; i < std::min(model.animations.size(), kMostNamed); ++i)
+    if (i != but) labels += (labels.empty() ? "" : ", ") + Label(model, i);
+  return labels + (model.animations.size() > kMostNamed ? " ..." : "");
+}
+
 // The animation with this name or number.
 size_t NamedAnimation(const tinygltf::Model& model, const std::string& name) {
-  std::string names;
-  for (size_t i = 0; i < model.animations.size(); ++i) {
-    if (model.animations[i].name == name) return i;
-    names += (i == 0 ? "\"" : ", \"") + Printable(model.animations[i].name) + '"';
-  }
+  const auto named = std::ranges::find(model.animations, name, &tinygltf::Animation::name);
+  if (!name.empty() && named != model.animations.end())
+    return static_cast<size_t>(named - model.animations.begin());
   if (const auto number = NumberBelow(name, model.animations.size())) return *number;
   throw InvalidArgument("--animation", '"' + Printable(name) + "\" is none of its " +
                                            std::to_string(model.animations.size()) +
-                                           " animations, " + names);
+                                           " animations, " + Labels(model));
 }
 
 // The nodes that an animation moves: those with differing keys or, if none differ, with keys.
@@ -98,7 +113,6 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
   if (TakeParts(model, reading, scene)) return 0;
   size_t chosen = 0;
   int most = -1;
-  std::string others;
   for (size_t i = 0; i < std::min(model.animations.size(), kMostAnimations); ++i) {
     std::vector<GltfChannel> channels = ReadGltfChannels(model, i);
     RigNodes rig = scene->rig;
@@ -115,13 +129,8 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
     }
   }
   if (scene->channels.empty()) throw InvalidArgument("animations", "none moves a node");
-  for (size_t i = 0; i < std::min(model.animations.size(), kMostNamed); ++i) {
-    if (i != chosen)
-      others += (others.empty() ? "\"" : ", \"") + Printable(model.animations[i].name) + '"';
-  }
-  reading.Note("has " + std::to_string(model.animations.size()) + " animations; \"" +
-               Printable(model.animations[chosen].name) + "\" is read, --animation chooses " +
-               others + (model.animations.size() > kMostNamed ? " ..." : ""));
+  reading.Note("has " + std::to_string(model.animations.size()) + " animations; " +
+               Label(model, chosen) + " is read, --animation chooses " + Labels(model, chosen));
   return chosen;
 }
 
@@ -238,6 +247,19 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, const MotionReadin
   scene.frames = static_cast<int64_t>(frames);
 }
 
+// Who asks for another body may mean another animation.
+HumanBones FindBodyOf(const tinygltf::Model& model, const RigNodes& rig,
+                      const MotionReading& reading) {
+  try {
+    return FindBody(rig, reading);
+  } catch (const Error& error) {
+    if (error.field() != "--body" || model.animations.size() < 2) throw;
+    throw Error(error.code(), "--body",
+                error.Of("").what() + std::string("; of its animations, ") + Labels(model) +
+                    ", --animation chooses");
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::Affine3d> GltfScene::Frame(int64_t frame) const {
@@ -257,7 +279,7 @@ GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& 
   const size_t animation = ChooseAnimation(model, reading, &scene);
   MotionReading quietly = reading;
   quietly.notes = nullptr;
-  scene.bound = BoundPlaces(model, scene.nodes, FindBody(scene.rig, quietly));
+  scene.bound = BoundPlaces(model, scene.nodes, FindBodyOf(model, scene.rig, quietly));
   CorrectTimes(reading, &scene);
   ChooseTimes(model, animation, reading, scene);
   return scene;

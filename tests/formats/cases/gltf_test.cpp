@@ -128,7 +128,16 @@ TEST_F(CasesTest, BonesAreFoundByWhatTheyAre) {
          other["channels"][0]["target"]["node"] = door;
          glb.document["animations"] = GlbRigs::Json::array({other, dance});
        },
-       "has 2 animations; \"dance\" is read, --animation chooses \"door\""},
+       "has 2 animations; 1 \"dance\" (0.63 s) is read, --animation chooses 0 \"door\" "
+       "(0.63 s)"},
+      {"animations without names",
+       [&](GlbRigs& glb) {
+         const int body = glb.AddBody(names);
+         glb.AddAnimation("", body, Expressive, 20);
+         glb.AddAnimation("", body, Walk, 31);
+         for (auto& animation : glb.document["animations"]) animation.erase("name");
+       },
+       "has 2 animations; 0 (0.63 s) is read, --animation chooses 1 (1 s)"},
       {"nodes that stand in the middle of the dance, and a skin bound at rest",
        [&](GlbRigs& glb) {
          const int body = glb.AddBody(names);
@@ -161,6 +170,21 @@ TEST_F(CasesTest, BonesAreFoundByWhatTheyAre) {
       EXPECT_TRUE(row.says.empty() || read.Says(row.says)) << Said(read);
     }
   }
+}
+
+TEST_F(CasesTest, WhoAsksForABodyIsToldOfAnimations) {
+  GlbRigs glb;
+  const int body = glb.AddBody(NamesOf(kHumanIkRig));
+  glb.AddAnimation("", body, Expressive, 20);
+  glb.AddAnimation("walk", body, Walk, 31);
+  const std::string bytes = glb.Bytes();
+  EXPECT_EQ(ReadBytes("a.glb", bytes, {.animation = "1"}).motion.frames.size(), 31U);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "--body: \"1\" is none of its bodies, 0 \"Hips\"; of its animations, 0 (0.63 s), "
+              "1 \"walk\" (1 s), --animation chooses",
+              [&] { ReadBytes("a.glb", bytes, {.body = "1"}); });
+  ExpectError(ErrorCode::kInvalidArgument, "--angles: is for arrays and .bvh",
+              [&] { ReadBytes("a.glb", bytes, {.angles = "degrees"}); });
 }
 
 TEST_F(CasesTest, SecondsCountFromTheFirstKey) {
@@ -212,7 +236,7 @@ TEST_F(CasesTest, AnAnimationIsChosen) {
   WriteFile(folder_ / "b.glb", posed.Bytes());
   EXPECT_LT(Compare(ReadFile("b.glb").motion, Expressive).turns, kOpen);
   ExpectError(ErrorCode::kInvalidArgument,
-              "--animation: \"jump\" is none of its 2 animations, \"walk\", \"dance\"",
+              "--animation: \"jump\" is none of its 2 animations, 0 \"walk\" (0.63 s), 1 \"dance\"",
               [&] { ReadFile("a.glb", {.animation = "jump"}); });
 }
 
