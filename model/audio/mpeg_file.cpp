@@ -101,6 +101,7 @@ struct Stretch {
   int64_t begin = 0, end = 0;
   int64_t frames = 0;             // without the tag's own
   std::optional<int64_t> stated;  // by the tag
+  int64_t delay = 0;              // samples of silence before the song, by the tag
 };
 
 /// The number of frames that an encoder's tag in this one promises.
@@ -109,6 +110,18 @@ std::optional<int64_t> StatedIn(const ByteSource& source, int64_t at, const Fram
   if (!source.Has(tag, "Xing") && !source.Has(tag, "Info")) return std::nullopt;
   const uint32_t flags = __builtin_bswap32(source.Word(tag + 4));
   return flags & 1 ? int64_t{__builtin_bswap32(source.Word(tag + 8))} : 0;
+}
+
+/// The samples that encoder and decoder put before the song, by the encoder's part of a tag; 0 if
+/// it has none.
+int64_t DelayIn(const ByteSource& source, int64_t at, const Frame& frame) {
+  constexpr int64_t kDecoderDelay = 529;
+  const int64_t tag = at + frame.info_at;
+  const uint32_t flags = __builtin_bswap32(source.Word(tag + 4));
+  const int64_t encoder = tag + 8 + (flags & 1 ? 4 : 0) + (flags & 2 ? 4 : 0) +
+                          (flags & 4 ? 100 : 0) + (flags & 8 ? 4 : 0);
+  if ((source.Word(encoder) & 0xff) == 0) return 0;
+  return kDecoderDelay + (__builtin_bswap32(source.Word(encoder + 21)) >> 20);
 }
 
 struct Walk {
@@ -135,7 +148,8 @@ Walk WalkFrames(const ByteSource& source) {
     }
     const std::optional<int64_t> stated = StatedIn(source, *at, *frame);
     if (walk.stretches.empty() || stated)
-      walk.stretches.push_back({.begin = *at, .stated = stated});
+      walk.stretches.push_back(
+          {.begin = *at, .stated = stated, .delay = stated ? DelayIn(source, *at, *frame) : 0});
     Stretch& stretch = walk.stretches.back();
     if (!stated) ++stretch.frames;
     *at += frame->bytes;
@@ -155,12 +169,13 @@ class StretchReader final : public SoundReader {
     mpg123_param(decoder_.get(), MPG123_ADD_FLAGS, MPG123_FORCE_FLOAT | MPG123_QUIET, 0);
     mpg123_param(decoder_.get(), MPG123_RESYNC_LIMIT, -1, 0);
     // A tag says how much silence the encoder added at both ends. A tag that counts too few frames
-    // would cut the song short.
+    // would cut the song short; its silence before the song is right even so.
     const bool is_right = stretch.stated && *stretch.stated >= stretch.frames;
     mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS,
                  0);
     if (mpg123_open_feed(decoder_.get()) != MPG123_OK || !Decode())
       throw InvalidArgument(name_, NoMpeg("no frame of it can be decoded"));
+    if (!is_right) Skip(stretch.delay);
     if (stretch.stated && *stretch.stated > 0 && *stretch.stated != stretch.frames)
       notes_.push_back("its header says " + std::to_string(*stretch.stated) + " frames, " +
                        std::to_string(stretch.frames) + " are there");
@@ -184,6 +199,15 @@ class StretchReader final : public SoundReader {
   struct Delete {
     void operator()(mpg123_handle* handle) const { mpg123_delete(handle); }
   };
+
+  void Skip(int64_t samples) {
+    for (size_t left = static_cast<size_t>(samples * channels_); left > 0;) {
+      const size_t part = std::min(left, decoded_.size() - taken_);
+      taken_ += part;
+      left -= part;
+      if (left > 0 && !Decode()) return;
+    }
+  }
 
   /// Refills decoded_; false at the end.
   bool Decode() {

@@ -295,6 +295,9 @@ TEST_F(DecodeTest, Mp3OfVaryingBitRateIsReadToItsEndWithoutAnIndex) {
   EXPECT_NEAR(joined.seconds(), 12.0, 0.2);
   ASSERT_FALSE(joined.notes.empty());
   EXPECT_THAT(joined.notes[0], HasSubstr("frames, "));
+  // Its silence before the song is right even so.
+  const std::vector<float> alone = Decode(bytes).interleaved;
+  EXPECT_TRUE(std::equal(alone.begin(), alone.begin() + 44100, joined.interleaved.begin()));
   // After a server's headers, or in the middle of a frame.
   EXPECT_NEAR(Decode("HTTP/1.1 200 OK\r\nContent-Type: audio/mpeg\r\n\r\n" + bytes).seconds(), 6,
               0.1);
