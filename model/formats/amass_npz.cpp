@@ -246,7 +246,14 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
         if (npz.Has(rate) && !nested.Has(rate)) nested.SetArray(rate, npz.Array(rate));
       }
       reading.Note("the arrays of its \"" + Printable(within) + "\" are read");
-      return ReadSmplMotion(nested, inner);
+      Motion motion = ReadSmplMotion(nested, inner);
+      if (const size_t dicts = npz.NestedNames().size();
+          dicts > 1 && motion.frames.size() == 1 && reading.body.empty()) {
+        throw InvalidArgument(
+            "", "holds " + std::to_string(dicts) +
+                    " dicts of one frame each, in any order: --body reads one, or " + kWriteArrays);
+      }
+      return motion;
     }
   }
   if (const auto joints = found ? std::nullopt : FindJointArray(npz))

@@ -116,6 +116,14 @@ TEST_F(CasesTest, TheLogOfBodiesInArrays) {
     EXPECT_LT(WorstJoint(base, first.motion), 1e-6);
     EXPECT_NEAR(way(ReadFile("a.pkl", {.up = "y", .body = "1"})), 0, 1e-9);
   }
+  // Frames of one tracked body are no bodies.
+  std::map<std::string, NpyArray> frame = arrays;
+  frame["poses"] = {{1, 66}, std::vector<double>(poses.begin(), poses.begin() + 66)};
+  frame["trans"] = {{1, 3}, std::vector<double>(3, 0.0)};
+  WritePickledList(folder_ / "a.pkl", "", {frame, frame, frame});
+  ExpectError(ErrorCode::kInvalidArgument, "a.pkl: holds 3 dicts of one frame each",
+              [&] { ReadFile("a.pkl"); });
+  EXPECT_EQ(ReadFile("a.pkl", {.body = "2"}).motion.frames.size(), 1U);
   ExpectError(ErrorCode::kInvalidArgument, "--body: the file holds one body",
               [&] { ReadNpz(flat, {.body = "0"}); });
 }
