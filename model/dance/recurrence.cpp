@@ -95,8 +95,7 @@ std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps) {
       cuts.push_back(std::llround(second * fps));
   }
   std::ranges::sort(cuts);
-  const auto doubled = std::ranges::unique(cuts);
-  cuts.erase(doubled.begin(), doubled.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());  // for clang 14
   return cuts;
 }
 
