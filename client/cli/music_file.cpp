@@ -29,34 +29,25 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   int descriptor() const { return descriptor_; }
+  void Clear() const {
+    if (ftruncate(descriptor_, 0) != 0 || lseek(descriptor_, 0, SEEK_SET) != 0)
+      throw Error(ErrorCode::kInternal, "", "no memory for a song");
+  }
   std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
  private:
   int descriptor_;
 };
 
-/// Has ffmpeg convert `path` to WAV in `wav`, from the container's second 0 on, as players do, even
-/// if the sound begins later. Writes its messages to `log`. Returns false if there is no ffmpeg or
-/// it fails.
-bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
-                     const MemoryFile& log) {
+/// Has ffmpeg convert `path` to WAV in `wav`. Writes its messages to `log`. Returns false if there
+/// is no ffmpeg or it fails.
+bool ConvertByFfmpeg(const std::filesystem::path& path, const std::string& filter,
+                     const MemoryFile& wav, const MemoryFile& log) {
   const std::string input = "file:" + path.string();  // a name, whatever it looks like
-  std::vector<std::string> words{"ffmpeg",
-                                 "-hide_banner",
-                                 "-nostats",
-                                 "-loglevel",
-                                 "level+info",
-                                 "-nostdin",
-                                 "-i",
-                                 input,
-                                 "-vn",
-                                 "-af",
-                                 "aresample=async=1:first_pts=0",
-                                 "-f",
-                                 "wav",
-                                 "-c:a",
-                                 "pcm_f32le",
-                                 "pipe:1"};
+  std::vector<std::string> words{"ffmpeg",     "-hide_banner", "-nostats",  "-loglevel",
+                                 "level+info", "-nostdin",     "-i",        input,
+                                 "-vn",        "-af",          filter,      "-f",
+                                 "wav",        "-c:a",         "pcm_f32le", "pipe:1"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -77,6 +68,7 @@ bool ConvertByFfmpeg(const std::filesystem::path& path, const MemoryFile& wav,
 /// ffmpeg's description of its input.
 struct FfmpegSays {
   int tracks = 0;          ///< of audio
+  bool restarts = false;   ///< the seconds that it wrote
   std::string error = {};  ///< the first one, or empty
 };
 
@@ -87,6 +79,7 @@ FfmpegSays Listen(const MemoryFile& log) {
   for (std::string line; std::getline(lines, line);) {
     const auto has = [&](const char* words) { return line.find(words) != std::string::npos; };
     of_input = of_input && !has("] Output #");
+    says.restarts = says.restarts || has("Non-monoto");
     if (of_input && has("Stream #0:") && has(": Audio: ")) ++says.tracks;
     for (const std::string level : {"[error] ", "[fatal] "}) {
       if (says.error.empty() && has(level.c_str()))
@@ -100,8 +93,17 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
                                            double start) {
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
   const MemoryFile wav, log;
-  const bool converted = ConvertByFfmpeg(path, wav, log);
-  const FfmpegSays says = Listen(log);
+  // From the container's second 0 on, as players do, even if the sound begins later.
+  bool converted = ConvertByFfmpeg(path, "aresample=async=1:first_pts=0", wav, log);
+  FfmpegSays says = Listen(log);
+  if (converted && says.restarts) {
+    // Its rate or channels change: ffmpeg begins again at second 0. A station's stream has no
+    // times.
+    wav.Clear();
+    log.Clear();
+    converted = ConvertByFfmpeg(path, "anull", wav, log);
+    says = Listen(log);
+  }
   if (!converted && says.error.empty()) return std::nullopt;
   if (!converted) {
     throw InvalidArgument(

@@ -34,6 +34,19 @@ bool IsAdts(const ByteSource& source) {  // AAC: twelve set bits, then layer 0
   return (source.Word(0) & 0xf6ff) == 0xf0ff;
 }
 
+/// A page that a server sent in place of a song, a playlist: ffmpeg takes it for a voice.
+bool IsText(const ByteSource& source) {
+  constexpr int64_t kRead = 4096, kAscii = 64;  // silence in mu-law has bytes of letters, too
+  std::string begin(static_cast<size_t>(std::min(source.size, kRead)), '\0');
+  source.read_at(0, std::as_writable_bytes(std::span(begin)));
+  if (begin.starts_with("\xef\xbb\xbf")) begin.erase(0, 3);
+  const auto is_control = [](char c) {
+    return (c >= '\0' && c < ' ' && c != '\t' && c != '\r' && c != '\n') || c == '\x7f';
+  };
+  return std::ranges::none_of(begin, is_control) &&
+         std::ranges::all_of(begin.substr(0, kAscii), [](char c) { return c > '\0'; });
+}
+
 std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& name) {
   if (source.size == 0) throw InvalidArgument(name, "0 bytes of audio");
   // Taggers put ID3 before what is no MP3, too.
@@ -49,6 +62,9 @@ std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& n
   std::string other = OtherFormat(source);
   if (other.empty() && IsAdts(source)) other = "AAC";
   if (other.empty() && LooksLikeMpeg(source)) return ReadMpeg(source, name);
+  if (IsText(source))
+    throw InvalidArgument(name, std::string("not ") + kSoundFormats +
+                                    " audio but text, such as a web page or a list of songs");
   throw Error(ErrorCode::kInvalidArgument, name,
               (other.empty() ? "not " : other + " is not ") + std::string(kSoundFormats) +
                   " audio: " + kAskFfmpeg + " converts anything that ffmpeg reads");

@@ -146,6 +146,12 @@ Walk WalkFrames(const ByteSource& source) {
       at = next;
       continue;
     }
+    constexpr int64_t kVbri = 36;
+    if (source.Has(*at + kVbri, "VBRI")) {  // another encoder's tag, in a frame that is no sound
+      *at += frame->bytes;
+      walk.stretches.push_back({.begin = *at, .end = *at, .stated = {}});
+      continue;
+    }
     const std::optional<int64_t> stated = StatedIn(source, *at, *frame);
     if (walk.stretches.empty() || stated)
       walk.stretches.push_back(

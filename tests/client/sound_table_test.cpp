@@ -151,6 +151,13 @@ TEST(SoundTable, AFilmsSoundCountsFromItsBeginning) {
   const std::vector<std::string> notes = DecodeSong(folder / "two.mka", INFINITY, 0).notes;
   ASSERT_EQ(notes.size(), 2U);
   EXPECT_NE(notes[1].find("has 2 sound tracks, of which ffmpeg chose one"), std::string::npos);
+  // A station's rate, and number of channels, may change: each part counts once.
+  Make("-f lavfi -i sine=330:duration=2:sample_rate=44100 -ac 1 -c:a libmp3lame -write_xing 0",
+       folder / "mono.mp3");
+  Make("-f lavfi -i sine=330:duration=3:sample_rate=48000 -ac 2 -c:a libmp3lame -write_xing 0",
+       folder / "stereo.mp3");
+  WriteFile(folder / "both.mp3", ReadFile(folder / "mono.mp3") + ReadFile(folder / "stereo.mp3"));
+  EXPECT_NEAR(DecodeSong(folder / "both.mp3", INFINITY, 0).seconds(), 5, 1.5 * kPadding);
   // A tag may hold sound of its own.
   Make("-f lavfi -i sine=330:duration=2 -c:a libmp3lame", folder / "a.mp3");
   const std::string song = ReadFile(folder / "a.mp3"), held = song.substr(0, song.size() / 2);
