@@ -130,7 +130,7 @@ std::optional<Motion> ReadFrameRows(const NpyArray& array, const MotionReading& 
   const int64_t width = array.shape.back();
   const std::vector<double> values = array.As<double>();
   const Rows rows(values.data(), width, static_cast<Eigen::Index>(values.size()) / width);
-  if (!rows.allFinite()) throw InvalidArgument("", "holds values that are not finite");
+  RequireFinite(rows, "");
   return width == kHumanMl ? ReadHumanMl(rows, reading) : ReadKind(*FindKind(width), rows, reading);
 }
 

@@ -57,6 +57,15 @@ Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz) {
                       joints, CheckRate("fps", NpzNumber(npz, "fps")), "rotations");
 }
 
+void RequireFinite(const Eigen::Ref<const Eigen::MatrixXd>& rows, const std::string& key) {
+  for (Eigen::Index frame = 0; frame < rows.cols(); ++frame) {
+    if (rows.col(frame).allFinite()) continue;
+    throw InvalidArgument(key, "holds values that are not finite, first in frame " +
+                                   std::to_string(frame) + " of " + std::to_string(rows.cols()) +
+                                   ": leave such frames out, or fill them");
+  }
+}
+
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns) {
   NpyArray array = npz.Array(key);
@@ -83,7 +92,7 @@ Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
   }
   const std::vector<double> values = array.As<double>();
   Eigen::MatrixXd rows = Eigen::Map<const Eigen::MatrixXd>(values.data(), width, array.shape[0]);
-  if (!rows.allFinite()) throw InvalidArgument(key, "holds values that are not finite");
+  RequireFinite(rows, key);
   return rows;
 }
 

@@ -27,6 +27,10 @@ void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
 /// The inverse, without contacts. Throws Error(kInvalidArgument) naming the array.
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 
+/// Throws Error(kInvalidArgument, key), which names the frame, for values of [columns, F] that are
+/// not finite.
+void RequireFinite(const Eigen::Ref<const Eigen::MatrixXd>& rows, const std::string& key);
+
 /// A finite array as [columns, F]. Also accepts the shapes [F, a, b], if a x b is one of `columns`,
 /// [1, F, a], and [a] for a single frame.
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,

@@ -7,6 +7,7 @@
 
 #include "model/core/error.h"
 #include "model/core/quantile.h"
+#include "model/formats/own_arrays.h"
 #include "model/motion/rotation.h"
 #include "model/motion/skeleton.h"
 
@@ -48,7 +49,7 @@ Rows ReadRows(const NpzArchive& npz, const std::string& key, const auto& is_widt
   rows.last_but_one = shape.size() > 2 ? shape[shape.size() - 2] : 0;
   const std::vector<double> values = array.As<double>();
   rows.values = Eigen::Map<const Eigen::MatrixXd>(values.data(), rows.width, rows.frames);
-  if (!rows.values.allFinite()) throw InvalidArgument(key, "holds values that are not finite");
+  RequireFinite(rows.values, key);
   return rows;
 }
 

@@ -343,6 +343,12 @@ TEST_F(CasesTest, TheLogOfArrays) {
   }));
   ExpectError(ErrorCode::kInvalidArgument, "poses[0][0]: is no quaternion of length 1",
               [&] { ReadNpz(npz); });
+  NpyArray lost = smpl.Poses({72}, vector);
+  std::get<std::vector<double>>(lost.values)[72 * 7] = NAN;
+  npz.SetArray("poses", lost);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "poses: holds values that are not finite, first in frame 7 of 20",
+              [&] { ReadNpz(npz); });
   npz.SetArray("poses", smpl.Poses({24, 4}, quaternion(true)));
   ExpectError(ErrorCode::kInvalidArgument, "--angles: is for rotation vectors, which its poses are",
               [&] { ReadNpz(npz, {.angles = "degrees"}); });
