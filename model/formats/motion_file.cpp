@@ -128,8 +128,8 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
   return FitNodes(std::move(nodes), motion, reading);
 }
 
-// Converts radians to degrees if they may be radians: no joint exceeds a turn but one that spins
-// on, slowly, and some exceed 1.
+// Converts radians to degrees if they may be radians: none exceeds a turn, but of one root that
+// spins on slowly, and some exceed 1.
 std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
   constexpr Eigen::Index kFewest = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
@@ -140,7 +140,8 @@ std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& rea
   int spinning = 0;
   Eigen::Index row = 0;
   for (const BvhJoint& joint : file.joints) {
-    bool spins = false;
+    const bool is_root = joint.parent < 0 || joint.channels.size() > 3;
+    bool exceeds = false;
     for (const BvhChannel channel : joint.channels) {
       if (channel >= BvhChannel::kXRotation && channel <= BvhChannel::kZRotation) {
         const Eigen::RowVectorXd angles = file.values.row(row);
@@ -148,16 +149,15 @@ std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& rea
         if (most < kTurn) {
           farthest = std::max(farthest, most);
         } else {
-          const Eigen::Index steps = angles.size() - 1;
-          fastest =
-              std::max(fastest, (angles.tail(steps) - angles.head(steps)).cwiseAbs().maxCoeff());
-          spins = true;
+          exceeds = true;
+          for (Eigen::Index frame = 1; frame < angles.size(); ++frame)
+            fastest = std::max(fastest, std::abs(angles[frame] - angles[frame - 1]));
         }
         turned.values.row(row) *= kDegrees;
       }
       ++row;
     }
-    spinning += spins;
+    if (exceeds) spinning += is_root ? 1 : 2;
   }
   const bool may_be = farthest > kLimb && spinning <= 1 && fastest < kLimb;
   return reading.angles == "radians" || may_be ? std::optional(std::move(turned)) : std::nullopt;

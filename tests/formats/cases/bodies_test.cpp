@@ -144,6 +144,20 @@ TEST_F(CasesTest, TheLogOfBodiesInBvh) {
   }
 }
 
+// One pose has no pace; whose head turns further than others sway is no root that spins on.
+TEST_F(CasesTest, FewAnglesAreTakenAsTheyAreTold) {
+  const RigNames names = NamesOf(kHumanIkRig);
+  BvhFile one = InRadians(Spinning(names));
+  one.values = one.values.rightCols(1).eval();
+  const Read read = ReadBytes("a.bvh", BvhText(one), {.angles = "radians"});
+  ASSERT_EQ(read.motion.frames.size(), 1U);
+  EXPECT_TRUE(read.notes.empty()) << Said(read);
+  const RigTurn looks = [](const std::string& bone, int frame) {
+    return bone == "head" ? About(0, 1, 0, 0.9 * frame) : Waves(bone, frame);
+  };
+  EXPECT_TRUE(ReadBytes("a.bvh", BvhText(Dancing(names, looks))).notes.empty());
+}
+
 struct GlbRow {
   const char* name;
   std::function<void(GlbRigs&, const RigNames&)> make;
