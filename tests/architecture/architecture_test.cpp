@@ -172,7 +172,7 @@ TEST(Architecture, ThePictureHasTheArrows) {
 }
 
 // The page lists the files that an audio chunk, a key, a style and a seed pass.
-TEST(Architecture, ThingsAreFollowedInTenFilesAtMost) {
+TEST(Architecture, WalkthroughsNeedAtMostTenFiles) {
   std::ifstream page(std::filesystem::path(CHOREO_SOURCE_DIR) / "docs/architecture.md");
   const std::regex file("`([a-z_/]+[.]cpp)`");
   int followed = 0;

@@ -24,7 +24,7 @@ TEST(BeatsTest, ClickTracksAreCountedAtTheirTempo) {
   }
 }
 
-TEST(BeatsTest, ClicksAreHeardWhenTheySound) {
+TEST(BeatsTest, ClicksAreFoundAtTheirTimes) {
   const double period = 11264.0 / 22050;
   const BeatTrack track = FindBeats(Clicks(20 * 22050, 7000, 11264));
   ASSERT_GT(track.frames.size(), 30u);
@@ -62,7 +62,7 @@ TEST(BeatsTest, TempoMayChangeAtOnceAndBitByBit) {
   EXPECT_GT(BeatFMeasure(ramped, ramp), 0.9);
 }
 
-TEST(BeatsTest, WhereNothingSoundsAreNone) {
+TEST(BeatsTest, SilentPartsHaveNone) {
   SongPlan plan{.seed = 9'000'200, .seconds = 30, .tempo = {{0, 110}}};
   plan.silent = {{10, 17}};
   const MadeSong song = MakeSong(plan);
@@ -73,7 +73,7 @@ TEST(BeatsTest, WhereNothingSoundsAreNone) {
 }
 
 // Noise has onsets, but none that return.
-TEST(BeatsTest, WhereNoPulseIsAreNone) {
+TEST(BeatsTest, PartsWithoutAPulseHaveNone) {
   for (const double seconds : {8, 30}) {
     const auto samples = static_cast<int64_t>(seconds * 22050);
     EXPECT_TRUE(FindBeats(Sine(220, 22050, samples, 0.3)).frames.empty());
@@ -97,7 +97,7 @@ TEST(BeatsTest, LoudOffBeatsAreAPulseToo) {
   EXPECT_GT(FindBeats(metal).frames.size(), 35u);
 }
 
-TEST(BeatsTest, ADcOffsetIsNotHeardNorWhereItEnds) {
+TEST(BeatsTest, DcOffsetAndItsEndAreIgnored) {
   for (const uint64_t seed : {9'000'300, 9'000'301, 9'000'302}) {
     std::vector<float> song = MakeSong({.seed = seed, .seconds = 15}).mono;
     for (float& sample : song) sample *= 0.5F;

@@ -120,7 +120,7 @@ class DecodeFormatTest : public DecodeTest, public ::testing::WithParamInterface
 INSTANTIATE_TEST_SUITE_P(Formats, DecodeFormatTest, ::testing::ValuesIn(kFormats),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(DecodeFormatTest, GivesBackWhatWasWritten) {
+TEST_P(DecodeFormatTest, RoundTrips) {
   const FileFormat& format = GetParam();
   const std::vector<float> wave = Wave();
   const auto path = WriteWave();
@@ -162,7 +162,7 @@ TEST_F(DecodeTest, FlacIsReadWhateverItsHeaderSays) {
   }
 }
 
-TEST_F(DecodeTest, EndsWhenItIsTold) {
+TEST_F(DecodeTest, EndsOnRequest) {
   const std::string bytes =
       Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 8000, 1, std::vector<float>(300'000)));
   int pieces = 0;
@@ -174,7 +174,7 @@ TEST_F(DecodeTest, EndsWhenItIsTold) {
   EXPECT_EQ(pieces, 2);
 }
 
-TEST_P(DecodeFormatTest, TruncatedFilesAreReadAsFarAsTheyGoAndToldOf) {
+TEST_P(DecodeFormatTest, TruncatedFilesAreReadWithANote) {
   const std::string bytes = Bytes(WriteWave());
   ASSERT_EQ(Refusal(bytes), "accepted");
   EXPECT_TRUE(Decode(bytes).notes.empty());
@@ -218,7 +218,7 @@ TEST_P(DecodeFormatTest, NoSamplesAreRefused) {
   EXPECT_NE(Refusal(bytes), "accepted");
 }
 
-TEST_F(DecodeTest, WhatIsNotSuchAudioIsRefused) {
+TEST_F(DecodeTest, RefusesOtherFiles) {
   EXPECT_THAT(Refusal(""), HasSubstr("audio: 0 bytes"));
   EXPECT_THAT(Refusal("Dance, dance, wherever you may be."),
               HasSubstr("not WAV, FLAC, Ogg or MP3 audio but text"));
@@ -387,7 +387,7 @@ TEST_F(DecodeTest, WavsWithSeveralChunksOfSamplesAreReadToTheirEnd) {
   EXPECT_THAT(Refusal(wav + other), HasSubstr("they must match"));
 }
 
-TEST_F(DecodeTest, JoinedFlacsOfTwoRatesAreToldOf) {
+TEST_F(DecodeTest, JoinedFlacsOfTwoRatesGetANote) {
   const int flac = SF_FORMAT_FLAC | SF_FORMAT_PCM_16;
   const std::string one = Bytes(Write(flac, 22050, 1, Sine(440, 22050, 22050)));
   const DecodedAudio joined = Decode(one + Bytes(Write(flac, 48000, 2, Noise(96000, 3))));
@@ -398,7 +398,7 @@ TEST_F(DecodeTest, JoinedFlacsOfTwoRatesAreToldOf) {
                     HasSubstr("re-encode")));
 }
 
-TEST_F(DecodeTest, TagsBeforeOtherSoundThanMp3ArePassedOver) {
+TEST_F(DecodeTest, TagsBeforeOtherFormatsAreSkipped) {
   const std::string tag = "ID3\x04" + std::string(5, '\0') + '\x20' + std::string(32, '\0');
   for (const int format : {SF_FORMAT_FLAC | SF_FORMAT_PCM_16, SF_FORMAT_OGG | SF_FORMAT_VORBIS}) {
     const std::string bytes = Bytes(Write(format, 22050, 1, Sine(440, 22050, 22050)));
@@ -408,7 +408,7 @@ TEST_F(DecodeTest, TagsBeforeOtherSoundThanMp3ArePassedOver) {
   }
 }
 
-TEST_F(DecodeTest, ChannelsThatCancelEachOtherAreHeardAndToldOf) {
+TEST_F(DecodeTest, CancellingChannelsAreReadWithANote) {
   const std::vector<float> left = Sine(440, 22050, 3 * 22050, 0.5);
   struct Case {
     size_t from;           // where the right channel becomes the left's inverse

@@ -73,9 +73,9 @@ TEST(MelSpectrumTest, FramesAreCentred) {
   EXPECT_EQ(db[12][60], -100.0);
 }
 
-TEST(MelSpectrumTest, RefusesWhatHasNoSpectrum) { EXPECT_THROW(MelSpectrogram({}, 512), Error); }
+TEST(MelSpectrumTest, RefusesInvalidSizes) { EXPECT_THROW(MelSpectrogram({}, 512), Error); }
 
-TEST(RealFourierTest, AgreesWithTheDefinitionAndComesBack) {
+TEST(RealFourierTest, AgreesWithTheDefinitionAndInverts) {
   RealFourier fourier(16);
   std::vector<double> signal(16);
   for (size_t i = 0; i < 16; ++i) signal[i] = std::cos(0.3 * static_cast<double>(i * i));

@@ -64,7 +64,7 @@ TEST(RowSoundTest, ASineIsAsLoudAsTheStandardSays) {
   EXPECT_NEAR(Loudness(high.power), -3.01 + 3.3, 0.5);
 }
 
-TEST(MusicDynamicsTest, ADropIsMoreThanThePadBeforeItAndSilenceIsTheLeast) {
+TEST(MusicDynamicsTest, DropExceedsPadAndSilenceIsLeast) {
   const auto energies =
       EnergiesOf(RowsOf(Joined({Pad(20), Drums(20), std::vector<float>(10 * kRate)})));
   const std::span all(energies);
@@ -75,7 +75,7 @@ TEST(MusicDynamicsTest, ADropIsMoreThanThePadBeforeItAndSilenceIsTheLeast) {
   EXPECT_NEAR(HearEnergy(std::vector<RowSound>(300)), MusicDynamicsOptions().silent, 1e-12);
 }
 
-TEST(MusicDynamicsTest, SteadyMusicHoversAroundTheMiddleOfItsOwnHoweverLoudItIs) {
+TEST(MusicDynamicsTest, SteadyMusicStaysAtTheMiddleAtAnyLoudness) {
   std::vector<float> song = Drums(60);
   const std::vector<double> energies = EnergiesOf(RowsOf(song));
   EXPECT_NEAR(Mean(energies), 0, 0.2);
@@ -91,7 +91,7 @@ TEST(MusicDynamicsTest, NothingIsKnownBeforeTheFirstSecond) {
   EXPECT_NE(HearEnergy(std::span(rows).first(60)), 0);
 }
 
-TEST(MusicDynamicsTest, IsTheSameHoweverSamplesAreCutAndWhereverTheyBegin) {
+TEST(MusicDynamicsTest, DoesNotDependOnChunksOrStart) {
   const std::vector<float> song = Joined({Pad(8), Drums(40)});
   const auto rows = RowsOf(song);
   const double expected = HearEnergy(rows);

@@ -33,7 +33,7 @@ TEST(OnsetTest, SilenceAndSteadyTonesHaveNone) {
   for (size_t i = 8; i + 8 < strength.size(); ++i) EXPECT_LT(strength[i], 0.1f) << i;
 }
 
-TEST(OnsetTest, BandsAreToldApart) {
+TEST(OnsetTest, BandsAreSeparated) {
   const auto strongest = [](double hz) {
     std::vector<float> wave(20000, 0.0f);
     const std::vector<float> tone = Sine(hz, 22050, 10000, 0.5);

@@ -34,13 +34,13 @@ double Found(const std::vector<Passage>& passages, double lag, double from, doub
   return found;
 }
 
-TEST(Passages, APartThatReturnsIsFound) {
+TEST(Passages, FindsAReturningPart) {
   const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 13}), {});
   EXPECT_GT(Found(passages, 2 * kPart, 2 * kPart, 3 * kPart), 0.8 * kPart);
   EXPECT_EQ(Found(passages, 2 * kPart, 0, 2 * kPart), 0);
 }
 
-TEST(Passages, ComeBackWholeBeatsLaterWhereTheseAreKnown) {
+TEST(Passages, RepeatAtWholeBeats) {
   std::vector<double> beats;
   for (double beat = 0.1; beat < 4 * kPart; beat += 0.5) beats.push_back(beat);
   const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 13}), beats);
@@ -49,13 +49,13 @@ TEST(Passages, ComeBackWholeBeatsLaterWhereTheseAreKnown) {
     EXPECT_NEAR(std::remainder(passage.from - passage.like, 0.5), 0, 1e-9) << passage.from;
 }
 
-TEST(Passages, BeginWithWhatTheyAreLike) {
+TEST(Passages, FirstOriginStartsWithTheSong) {
   const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 12, 11}), {});
   ASSERT_GE(passages.size(), 2U);
   EXPECT_EQ(passages.front().like, 0) << "with the song, not a moment behind it";
 }
 
-TEST(Passages, AreInOrderApartAndLikeWhatWasBefore) {
+TEST(Passages, AreSortedDisjointAndReferBackwards) {
   const std::vector<Passage> passages = FindPassages(SongOf({11, 12, 11, 12, 11}), {});
   double end = 0;
   for (const Passage& passage : passages) {
@@ -74,7 +74,7 @@ TEST(Passages, SilenceDoesNotComeBack) {
 }
 
 // Later music only changes the last seconds of passages.
-TEST(Passages, TheBeginningOfASongHasThemToo) {
+TEST(Passages, AreFoundAtTheStartOfASong) {
   const std::vector<float> song = SongOf({11, 12, 11, 12});
   const auto cut = [&](double seconds) {
     return FindPassages(std::span(song).first(static_cast<size_t>(seconds * kModelSampleRate)), {});
@@ -86,7 +86,7 @@ TEST(Passages, TheBeginningOfASongHasThemToo) {
 }
 
 // What is reported of a moment depends only on the music before it.
-TEST(Passages, AreHeardWhileTheySound) {
+TEST(Passages, AreDetectedLive) {
   const std::vector<float> song = SongOf({11, 12, 11});
   PassageListener listener;
   double returned = 0;

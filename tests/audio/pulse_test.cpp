@@ -101,7 +101,7 @@ TEST(PulseTest, SoftMusicHasTheSamePulse) {
   EXPECT_NEAR(soft.next, loud.next, 0.5);
 }
 
-TEST(PulseTest, TheLowDrumSaysWhichHalfOfABeatIsTheBeat) {
+TEST(PulseTest, LowDrumDecidesThePhase) {
   for (const double bpm : {100.0, 135.0}) {
     const std::vector<double> beats = Times(20, 60 / bpm, 20, 60 / bpm);
     const std::vector<float> onsets = Onsets(Metal(20, 60 / bpm));
@@ -146,7 +146,7 @@ double CertainShare(const std::vector<float>& onsets) {
   return static_cast<double>(certain) / all;
 }
 
-TEST(PulseTest, WhatHasNoPulseIsNotBeatenOn) {
+TEST(PulseTest, NoBeatsWithoutAPulse) {
   EXPECT_EQ(CertainShare(Onsets(std::vector<float>(30 * kRate, 0.0F))), 0);
   EXPECT_EQ(CertainShare(Onsets(Noise(30 * kRate, 3, 0.3))), 0);
   EXPECT_EQ(CertainShare(Onsets(Sine(220, kRate, 30 * kRate, 0.3))), 0);
@@ -157,7 +157,7 @@ TEST(PulseTest, WhatHasNoPulseIsNotBeatenOn) {
   EXPECT_FALSE(HearPulse({}).Certain());
 }
 
-TEST(PulseTest, AMusicThatHasStoppedIsNotBeatenOn) {
+TEST(PulseTest, NoBeatsAfterTheMusicStops) {
   std::vector<float> wave = ClicksAt(20, Times(20, 0.5, 20, 0.5));
   std::fill(wave.begin() + 12 * kRate, wave.end(), 0.0F);
   const std::vector<float> onsets = Onsets(wave);
@@ -176,7 +176,7 @@ TEST(PulseTest, OnsetsDoNotDependOnHowSamplesAreCut) {
     EXPECT_EQ(Onsets(wave, chunk), whole) << chunk;
 }
 
-TEST(PulseTest, AStreamThatStartsLaterHearsTheSame) {
+TEST(PulseTest, LaterStreamStartGivesTheSameBeats) {
   const std::vector<float> wave = ClicksAt(20, Times(20, 0.5, 20, 0.5));
   const std::vector<float> whole = Onsets(wave);
   constexpr int64_t kRow = 500;

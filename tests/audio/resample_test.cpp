@@ -47,7 +47,7 @@ class ResamplerRateTest : public ::testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Rates, ResamplerRateTest, ::testing::ValuesIn(kRates));
 
-TEST_P(ResamplerRateTest, SinesInThePassBandComeOutAsTheyWentIn) {
+TEST_P(ResamplerRateTest, PassBandSinesAreUnchanged) {
   for (const double hz : {100.0, 1000.0, 0.5 * LowerNyquist(), 0.9 * LowerNyquist()}) {
     const std::vector<float> mono = Resample(Sine(hz, rate(), rate() / 2), rate());
     const std::vector<float> ideal = Sine(hz, kModelSampleRate, static_cast<int64_t>(mono.size()));
@@ -57,7 +57,7 @@ TEST_P(ResamplerRateTest, SinesInThePassBandComeOutAsTheyWentIn) {
   }
 }
 
-TEST(ResamplerTest, WhatCannotBeRepresentedVanishes) {
+TEST(ResamplerTest, FrequenciesAboveNyquistVanish) {
   for (const int rate : {44100, 44101, 48000, 96000, 192000}) {
     for (const double factor : {1.0, 1.1, 1.5, 1.9}) {
       const double hz = factor * kModelSampleRate / 2;
@@ -123,7 +123,7 @@ TEST_P(ResamplerRateTest, WhereTheStreamStartsDoesNotChangeABit) {
   }
 }
 
-TEST_P(ResamplerRateTest, OutputIsReadyAsSoonAsItsSupportIsThereAndNoSooner) {
+TEST_P(ResamplerRateTest, OutputIsReadyOnceItsSupportArrived) {
   Resampler resampler(rate(), 1);
   const std::vector<float> wave = Noise(3000, 5);
   std::vector<float> mono;

@@ -43,7 +43,7 @@ std::vector<size_t> BeatsOf(const std::vector<SuggestedKey>& keys) {
   return beats;
 }
 
-TEST(SuggestKeysTest, AsManyAsAskedForOnBeatsAndApart) {
+TEST(SuggestKeysTest, GivesTheRequestedNumberOnSeparateBeats) {
   const Song song(120, 4);
   const std::vector<double> times = song.track.Seconds();
   for (const int64_t count : {1, 2, 3, 7, 16, 29, 40}) {
@@ -123,7 +123,7 @@ TEST(SuggestKeysTest, StandWherePhrasesBegin) {
   EXPECT_EQ(phrases[38], Phrase::kEight);  // as if nothing had returned
 }
 
-TEST(SuggestKeysTest, EightsBeginAnewWhereABarIsCutShort) {
+TEST(SuggestKeysTest, EightsRestartAfterAShortBar) {
   Song song(24, 1);
   song.Count(0, 3);  // two bars
   for (size_t i = 10; i < 24; ++i) song.track.in_bar[i] = static_cast<int>(i + 2) % 3;
@@ -162,7 +162,7 @@ TEST(SuggestKeysTest, NoOtherChoiceIsBetter) {
   }
 }
 
-TEST(SuggestKeysTest, ARealTrackOfClicksIsDividedWhereItsBeatsAre) {
+TEST(SuggestKeysTest, ClickTrackIsDividedAtItsBeats) {
   const std::vector<float> song = Clicks(30 * 22050, 7000, kPeriod * kOnsetHop);
   const std::vector<Onset> onsets = FindOnsets(song);
   const std::vector<float> envelope = OnsetStrength(onsets);

@@ -24,7 +24,7 @@ double Reach(double side) {
   return reach;
 }
 
-TEST(BodyDistance, IsThatOfTheHandsOfTwoWhoHoldTheirArmsOut) {
+TEST(BodyDistance, MeasuresHandsOfOutstretchedArms) {
   const MovingBody body(kSmpl, Standing(1));
   const double between = LeastDistance(body, body, {3, 0, 0}).metres;
   EXPECT_NEAR(between, 3 - Reach(1) - Reach(-1), 0.02);
@@ -33,7 +33,7 @@ TEST(BodyDistance, IsThatOfTheHandsOfTwoWhoHoldTheirArmsOut) {
   EXPECT_LT(LeastDistance(body, body, {0.5, 0, 0}).metres, 0);
 }
 
-TEST(BodyDistance, IsTheLeastOfAllFrames) {
+TEST(BodyDistance, IsTheMinimumOverFrames) {
   Motion comes = Standing(9);
   for (size_t i = 0; i < 9; ++i) comes.frames[i].root_position.x() += i == 5 ? 2.5 : 4;
   const BodyDistance nearest =

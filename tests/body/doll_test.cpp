@@ -79,7 +79,7 @@ TEST(Doll, MovesRigidlyWithItsJoints) {
   }
 }
 
-TEST(DollAboveFloor, IsMeasuredFromWhatTouchesFirst) {
+TEST(DollAboveFloor, IsMeasuredFromTheLowestPoint) {
   Pose pose = RestPose(kSmpl);
   EXPECT_NEAR(DollAboveFloor(kSmpl, pose), 0, 1e-9);
   pose.root_position.y() += 0.3;

@@ -88,7 +88,7 @@ TEST(RoundedCone, OneBallInsideTheOtherIsABall) {
   EXPECT_LT(Distance(cone, {5, 0, 0}, {1, 0, 0}), 0);  // behind
 }
 
-TEST(RoundedCone, LanesAreOfTheirOwn) {
+TEST(RoundedCone, LanesAreIndependent) {
   const BoundedCone near(RoundedCone{{0, 0.5f, 0}, {0, 1.5f, 0}, 0.1f, 0.1f});
   const BoundedCone far(RoundedCone{{3, 0.5f, 0}, {3, 1.5f, 0}, 0.2f, 0.1f});
   const std::vector<BoundedCone> both = {near, far};

@@ -78,7 +78,7 @@ TEST_F(ArrangeTest, PartsOfADanceMakeTheDance) {
   EXPECT_EQ(Keys("whole"), Keys("dance"));
 }
 
-TEST_F(ArrangeTest, WhatMeetsIsJoinedWhereItMeets) {
+TEST_F(ArrangeTest, JoinsMatchingPartsDirectly) {
   ASSERT_EQ(Edit("dance", "--until 4", "begin").code, 0);
   ASSERT_EQ(Edit("dance", "--from " + std::to_string(119.0 / 30), "end").code, 0);
   const Outcome outcome =
@@ -102,7 +102,7 @@ TEST_F(ArrangeTest, AMirrorImageIsOneOfBodyAndStage) {
   EXPECT_EQ(Keys("mirrored"), Keys("dance"));
 }
 
-TEST_F(ArrangeTest, TheWayToAnotherDanceIsDanced) {
+TEST_F(ArrangeTest, DancesTheTransitionToAnotherDance) {
   ASSERT_EQ(Dance("other", "--seed 8 --seconds 4").code, 0);
   const Outcome outcome = Edit("dance",
                                "--gap 0.8 --song " + At("song.wav") + " --join " + At("other.npz") +
@@ -127,7 +127,7 @@ TEST_F(ArrangeTest, TheWayToAnotherDanceIsDanced) {
   EXPECT_EQ(Keys("both"), keys);
 }
 
-TEST_F(ArrangeTest, APhraseComesAgainOnItsCounts) {
+TEST_F(ArrangeTest, RepeatsAPhraseOnItsCounts) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);
   // The keys of the second to the third, eight counts later: four seconds, as a count is half a
@@ -230,7 +230,7 @@ TEST_F(ArrangeTest, AHeldPoseIsHeldAsMuchLonger) {
     EXPECT_LE(ComparePoses(Body(), motion.frames[frame], motion.frames[90]).position_m, 0.001);
 }
 
-TEST_F(ArrangeTest, AKeyIsDweltOn) {
+TEST_F(ArrangeTest, HoldsAKey) {
   const Outcome outcome = Choreo("edit " + At("dance.npz") + Server() +
                                  "--key kick --at 5 --hold 0.6 --around 1 -o " + At("held.npz"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
@@ -241,7 +241,7 @@ TEST_F(ArrangeTest, AKeyIsDweltOn) {
   EXPECT_GT(ComparePoses(Body(), held.frames[180], held.frames[150]).position_m, 0.01);
 }
 
-TEST_F(ArrangeTest, SaysWhatCannotBe) {
+TEST_F(ArrangeTest, RefusesImpossibleArrangements) {
   const auto expect_failure = [this](const std::string& arguments, const std::string& part) {
     const Outcome outcome = Edit("dance", arguments, "new");
     EXPECT_EQ(outcome.code, 1) << arguments;
@@ -271,7 +271,7 @@ TEST_F(ArrangeTest, SaysWhatCannotBe) {
   expect_late("--key kick --at 9.8 --hold 1", "--at: 9.8 s: its pose would be held up to 10.8 s");
 }
 
-TEST(ArrangeLibraryTest, ContactsGoAlong) {
+TEST(ArrangeLibraryTest, KeepsContacts) {
   client::FinishedDance dance;
   dance.motion.frames.assign(60, RestPose(Body()));
   for (size_t i = 0; i < 60; ++i)

@@ -20,7 +20,7 @@ class BvhOptionsTest : public CommandTest {
   }
 };
 
-TEST_F(BvhOptionsTest, ADanceIsWrittenByTheirNamesInTheirUnit) {
+TEST_F(BvhOptionsTest, WritesTheRequestedNamesAndUnit) {
   const Outcome danced =
       Choreo("dance --seconds 1 -k none --names mixamo --unit m" + Server() + "-o " + At("m.bvh"));
   ASSERT_EQ(danced.code, 0) << danced.said;
@@ -42,7 +42,7 @@ TEST_F(BvhOptionsTest, ADanceIsWrittenByTheirNamesInTheirUnit) {
   }
 }
 
-TEST_F(BvhOptionsTest, WhatCannotBeIsNamed) {
+TEST_F(BvhOptionsTest, NamesImpossibleOptions) {
   WriteMotion(folder_ / "a.bvh", Skeleton::Smpl24(),
               {.fps = 30, .frames = {RestPose(Skeleton::Smpl24())}});
   const std::string convert = "convert " + At("a.bvh") + " ";

@@ -43,7 +43,7 @@ TEST_F(CharacterCommandTest, ACharacterDances) {
   EXPECT_EQ(back.motion.frames.size(), 23U);
 }
 
-TEST_F(CharacterCommandTest, NamesThatSayNothingAreAskedFor) {
+TEST_F(CharacterCommandTest, AsksForAMapOfMeaninglessNames) {
   WriteCharacter(folder_ / "hero.glb", {.rig = "", .arms_down = 20});
   ExpectRefused(Convert("--character " + At("hero.glb")), "do not say which bone is the pelvis");
   const nlohmann::json map = ReadJson(folder_ / "out.map.json");
@@ -55,7 +55,7 @@ TEST_F(CharacterCommandTest, NamesThatSayNothingAreAskedFor) {
   EXPECT_EQ(mapped.code, 0) << mapped.said;
 }
 
-TEST_F(CharacterCommandTest, AMapSaysOtherwiseThanNames) {
+TEST_F(CharacterCommandTest, MapOverridesNames) {
   WriteCharacter(folder_ / "hero.glb", {});
   const auto mapped = [&](const std::string& map) {
     std::ofstream(folder_ / "map.json") << map;
@@ -72,7 +72,7 @@ TEST_F(CharacterCommandTest, AMapSaysOtherwiseThanNames) {
   EXPECT_EQ(mapped(R"({"bones": {"left_foot": null, "spine3": 9}})").code, 0);
 }
 
-TEST_F(CharacterCommandTest, WhatCannotBeIsNamed) {
+TEST_F(CharacterCommandTest, NamesImpossibleRequests) {
   WriteCharacter(folder_ / "hero.glb", {});
   std::filesystem::copy(folder_ / "hero.glb", folder_ / "hero.gltf");
   std::ofstream(folder_ / "empty.glb");

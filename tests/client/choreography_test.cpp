@@ -32,7 +32,7 @@ TEST(ChoreographyTest, PutsKeysOnBeats) {
   }
 }
 
-TEST(ChoreographyTest, KeepsToTheWayOfAnother) {
+TEST(ChoreographyTest, FollowsAGivenPath) {
   // The library's poses stand elsewhere about the origin; these stand on it.
   std::vector<LibraryPose> poses(PoseLibrary().begin(), PoseLibrary().begin() + 6);
   for (LibraryPose& pose : poses) pose.pose.root_position = {0, 0.9, 0};
@@ -47,7 +47,7 @@ TEST(ChoreographyTest, KeepsToTheWayOfAnother) {
   EXPECT_TRUE(differs);
 }
 
-TEST(ChoreographyTest, CountsOnBeforeTheFirstBeatAndWithoutAny) {
+TEST(ChoreographyTest, CountsBeforeTheFirstBeatAndWithoutBeats) {
   const auto late =
       ComposeKeys({.seconds = 12, .beats = EvenBeats(6, 0.5, 12), .seed = 5}, PoseLibrary());
   EXPECT_GE(late.size(), 5U);
@@ -62,7 +62,7 @@ TEST(ChoreographyTest, PutsNoKeyAfterTheLastFrame) {
   EXPECT_LE(std::lround(keys.back().time_s * 30), std::lround(8.889 * 30) - 1);
 }
 
-TEST(ChoreographyTest, EndsInAPoseWhereItIsTold) {
+TEST(ChoreographyTest, EndsInAPoseOnRequest) {
   for (const double end_s : {1.97, 9.97, 10.0, 11.0, 11.3, 12.5, 13.97}) {
     for (const bool beats : {false, true}) {
       CompositionRequest request{.seconds = end_s + 0.04, .seed = 5, .end_s = end_s};
@@ -102,7 +102,7 @@ TEST(ChoreographyTest, NeverRepeatsAPoseAtOnceAndDancesThemAll) {
   EXPECT_EQ(danced.size(), PoseLibrary().size());
 }
 
-TEST(ChoreographyTest, WhatReturnsHasItsPosesAgain) {
+TEST(ChoreographyTest, ReturningPartsRepeatTheirPoses) {
   CompositionRequest request{.seconds = 60, .beats = EvenBeats(0, 0.5, 120), .seed = 4};
   const auto without = ComposeKeys(request, PoseLibrary());
   request.passages = {{.from = 32, .to = 44, .like = 8.1}};

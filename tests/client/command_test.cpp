@@ -37,7 +37,7 @@ TEST_F(CommandTest, MovesFromPoseToPose) {
   }
 }
 
-TEST_F(CommandTest, AlternativesAreRankedByLikelihoodWhereThatIsAsked) {
+TEST_F(CommandTest, RanksAlternativesByLikelihoodOnRequest) {
   const auto move = [&](const std::string& by, int seed) {
     return Choreo(
         "transition --from contrapposto --to kick --frames 40 --temperature 1 "
@@ -64,7 +64,7 @@ TEST_F(CommandTest, AlternativesAreRankedByLikelihoodWhereThatIsAsked) {
 }
 
 // Only what the frames hear is sent: a song may be longer than a message.
-TEST_F(CommandTest, ATransitionHearsItsPartOfALongSong) {
+TEST_F(CommandTest, TransitionReceivesItsPartOfALongSong) {
   WriteClicks(folder_ / "song.wav", 200);  // 16.8 MiB of samples
   const auto move = [&](const std::string& name, const std::string& more) {
     const Outcome outcome = Choreo("transition --from groove --to kick --frames 30 --at 195 -o " +
@@ -228,7 +228,7 @@ TEST_F(CommandTest, RendersAVideoWithItsSong) {
   EXPECT_THAT(said, HasSubstr("stream,aac"));
 }
 
-TEST_F(CommandTest, TellsAboutTheServerAndItsPoses) {
+TEST_F(CommandTest, DescribesTheServerAndItsPoses) {
   const nlohmann::json info = nlohmann::json::parse(Choreo("info --json" + Server()).said);
   EXPECT_EQ(info["models"][0]["name"], "fake");
   EXPECT_EQ(info["models"][0]["skeleton"]["joints"].size(), 24U);

@@ -64,7 +64,7 @@ TEST_F(ControlledCommandTest, DancesAlongAPathWithoutASong) {
   EXPECT_THAT(outcome.said, HasSubstr("key poses"));
 }
 
-TEST_F(ControlledCommandTest, AsksWhatItIsToldOfEachPart) {
+TEST_F(ControlledCommandTest, SendsVelocitiesOfEachPart) {
   WriteClicks(folder_ / "song.wav", 4);
   const auto left_hand = [&](const std::string& options) {
     const Outcome outcome =
@@ -145,7 +145,7 @@ TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
   EXPECT_EQ(outcome.code, 1) << "no output destroys an input";
 }
 
-TEST_F(ControlledCommandTest, AnEditTakesThemToo) {
+TEST_F(ControlledCommandTest, EditTakesControls) {
   ASSERT_EQ(Choreo("dance" + Walker() + "--seconds 6 -o " + At("d.npz")).code, 0);
   Write("path.json", R"({"points": [{"time": 1, "x": 0, "z": 0}, {"time": 5, "x": 2, "z": 0}]})");
   const Outcome outcome =
@@ -167,7 +167,7 @@ TEST_F(ControlledCommandTest, ADeterministicModelIsDancedToItsLastFrame) {
   EXPECT_THAT(Choreo("info --server " + server.address()).said, HasSubstr("deterministic: --seed"));
 }
 
-TEST_F(ControlledCommandTest, ADeterministicModelHasNoOtherDance) {
+TEST_F(ControlledCommandTest, DeterministicModelHasNoAlternatives) {
   const TestServer server(std::make_unique<DeterministicSampler>());
   const std::string to = " --server " + server.address() + " -o " + At("t.npz") + " ";
   const auto changes_nothing = [](const char* option) {
@@ -249,7 +249,7 @@ TEST_F(ControlledCommandTest, InfoShowsControlsAndReferences) {
   EXPECT_EQ(model["takes_music"], true);
 }
 
-TEST_F(ControlledCommandTest, ADeafModelDancesToTheBeatsOfASongThatItDoesNotHear) {
+TEST_F(ControlledCommandTest, ModelWithoutMusicInputDancesToBeats) {
   const TestServer deaf(std::make_unique<SilentSampler>());
   WriteClicks(folder_ / "song.wav", 6);
   const Outcome outcome =
@@ -306,7 +306,7 @@ TEST_F(ControlledCommandTest, APathOfTenHoursIsRefused) {
   ExpectRefused("--path " + At("path.json"), "path.json:points[1].time: 36000 s is beyond 3600 s");
 }
 
-TEST_F(ControlledCommandTest, WhatIsNoPathFileIsRefused) {
+TEST_F(ControlledCommandTest, RefusesInvalidPathFiles) {
   const std::string points =
       R"("points": [{"time": 20, "x": 0, "z": 0}, {"time": 21, "x": 1, "z": 0}])";
   Write("path.json", "{" + points + R"(, "velocity": 2})");
@@ -364,7 +364,7 @@ TEST_F(ControlledCommandTest, BadVelocitiesAreRefused) {
   EXPECT_THAT(outcome.said, HasSubstr("A song, or else --keyframes, --path or --seconds"));
 }
 
-TEST_F(ControlledCommandTest, AModelWithoutThemRefusesThem) {
+TEST_F(ControlledCommandTest, ModelWithoutControlsRefusesThem) {
   Write("path.json", kPath);
   Outcome outcome = Choreo("dance" + Server() + "--path " + At("path.json") + " -o " + At("x.npz"));
   EXPECT_EQ(outcome.code, 1);

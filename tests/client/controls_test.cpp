@@ -37,7 +37,7 @@ double Asked(const Pose& pose, BodyPart part) {
   return pose.rotations(0, Body().Find(kTellingJoints[static_cast<size_t>(part)]));
 }
 
-TEST(ControlsTest, OfTheConfigHoldFromTheFirstFrameOn) {
+TEST(ControlsTest, OfTheConfigApplyFromTheFirstFrame) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   const DanceResult dance = client.Dance({.frames = 250, .controls = Way()}, {}, {});
@@ -54,7 +54,7 @@ TEST(ControlsTest, OfTheConfigHoldFromTheFirstFrameOn) {
   EXPECT_NEAR(dance.report.part_speeds[1].asked, 0.04, 1e-6);
 }
 
-TEST(ControlsTest, AStyleIsDancedByBothCalls) {
+TEST(ControlsTest, BothCallsTakeAStyle) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   EXPECT_EQ(client.GetServerInfo().models.at(0).styles, (std::vector<std::string>{"calm", "wild"}));
@@ -171,7 +171,7 @@ TEST(ControlsTest, AreDescribedByTheServer) {
   EXPECT_TRUE(model.takes_music);
 }
 
-TEST(ControlsTest, OfNoBodyPartAreRefusedBeforeTheyAreSent) {
+TEST(ControlsTest, OfAnUnknownPartAreRefusedBeforeSending) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   Controls controls;

@@ -24,7 +24,7 @@ class ConvertCommandTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ConvertCommandTest, WhatAFileSaysWronglyIsNotedInOneLine) {
+TEST_F(ConvertCommandTest, NotesAWrongFileInOneLine) {
   const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   WriteBvh(folder_ / "z.bvh", MakeBvh({.world = z_up}));
   const Outcome taken = Convert("z.bvh");
@@ -46,7 +46,7 @@ TEST_F(ConvertCommandTest, NotesNameTheCommandThatHasTheOption) {
               HasSubstr("; choreo convert --up y lets it lie"));
 }
 
-TEST_F(ConvertCommandTest, AMotionWhoseNamesSayNothingHasAMap) {
+TEST_F(ConvertCommandTest, TakesAMapForMeaninglessNames) {
   const RigNames nameless = [](const std::string& bone) {
     return "bone" + std::to_string(RigIndex(bone));
   };
@@ -67,7 +67,7 @@ TEST_F(ConvertCommandTest, AMotionWhoseNamesSayNothingHasAMap) {
               HasSubstr("choreo convert writes a guess"));
 }
 
-TEST_F(ConvertCommandTest, AnAvatarsMotionGoesThereAndBack) {
+TEST_F(ConvertCommandTest, RoundTripsAnAvatarsMotion) {
   WriteBvh(folder_ / "a.bvh", MakeBvh({}));
   ASSERT_EQ(Convert("a.bvh", "", "a.vrma").code, 0);
   ASSERT_EQ(Convert("a.vrma", "", "b.npz").code, 0);

@@ -32,11 +32,9 @@ TEST(ClientConvertTest, RefusesFramesOfTheWrongLength) {
   ExpectError(ErrorCode::kInternal, "broke the protocol", [&] { FromProto(none, 3); });
 }
 
-TEST(ClientConvertTest, PassesOverEventsOfTheFuture) {
-  EXPECT_FALSE(FromProto(v1::Event()).has_value());
-}
+TEST(ClientConvertTest, IgnoresUnknownEvents) { EXPECT_FALSE(FromProto(v1::Event()).has_value()); }
 
-TEST(ClientConvertTest, ModelsOfOldServersHaveTheServersLimit) {
+TEST(ClientConvertTest, ModelsOfOldServersTakeTheServersLimit) {
   v1::GetServerInfoResponse response;
   response.mutable_limits()->set_max_transition_frames(1800);
   v1::ModelInfo* model = response.add_models();
@@ -57,7 +55,7 @@ TEST(ClientConvertTest, ModelsOfOldServersHaveTheServersLimit) {
   EXPECT_EQ(server.models[1].max_transition_frames, 1800);
 }
 
-TEST(ClientConvertTest, AKeyAsksForWhatItsMaskSays) {
+TEST(ClientConvertTest, KeyFollowsItsMask) {
   KeyPose key;
   key.id = "a";
   key.frame = 12;
@@ -73,7 +71,7 @@ TEST(ClientConvertTest, AKeyAsksForWhatItsMaskSays) {
   EXPECT_EQ(proto.pose().rotations(4), static_cast<float>(key.pose.rotations(1, 1)));
 }
 
-TEST(ClientConvertTest, RefusesContinuationsThatAreNone) {
+TEST(ClientConvertTest, RefusesInvalidContinuations) {
   DanceConfig config;
   config.continuation =
       Continuation{.frame = 3, .audio_from_sample = 0, .fingerprint = "", .bytes = "\xff\xff"};

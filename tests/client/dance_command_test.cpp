@@ -115,7 +115,7 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
-TEST_F(CommandTest, DancesWithoutKeysWhereNoneIsSaid) {
+TEST_F(CommandTest, DancesWithoutKeysOnRequest) {
   WriteClicks(folder_ / "song.wav", 3);
   const Outcome outcome =
       Choreo("dance --keyframes none " + At("song.wav") + Server() + "--report " + At("r.json"));
@@ -128,7 +128,7 @@ TEST_F(CommandTest, DancesWithoutKeysWhereNoneIsSaid) {
   EXPECT_EQ(Choreo("dance -k none" + Server()).code, 2);  // it says of no length
 }
 
-TEST_F(CommandTest, BeginsWhereTheSongIsToBegin) {
+TEST_F(CommandTest, BeginsAtTheRequestedSecondOfTheSong) {
   WriteClicks(folder_ / "song.wav", 6);
   const Outcome outcome =
       Choreo("dance --song-start 2.5 -k none " + At("song.wav") + Server() + "-o " + At("d.npz"));

@@ -97,7 +97,7 @@ TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {
   EXPECT_THAT(outcome.said, HasSubstr("cm under the floor"));
 }
 
-TEST_F(CommandTest, WritesWhatCameOfADanceThatIsCutOff) {
+TEST_F(CommandTest, WritesReceivedFramesOfACutDance) {
   WriteClicks(folder_ / "song.wav", 8);
   TestServer breaking(std::make_unique<BreakingSampler>(200));
   const Outcome outcome =
@@ -138,7 +138,8 @@ TEST_F(CommandTest, NamesAKeyAsItWasWritten) {
   write("held.json", R"("id": "a", "time": 1, "hold": 1)", R"("id": "b", "time": 12)");
   refused("-k " + At("held.json"), "held.json:keyframes[1].time: key \"b\" at 12 s is after");
   write("long.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2, "hold": 4)");
-  refused("-k " + At("long.json"), "long.json:keyframes[1].hold: key \"b held 11\" at 4.2 s is after");
+  refused("-k " + At("long.json"),
+          "long.json:keyframes[1].hold: key \"b held 11\" at 4.2 s is after");
   write("one.json", R"("id": "a", "time": 1)", R"("id": "b", "time": 2)");
   write("two.json", R"("id": "c", "time": 3)", R"("id": "a", "time": 3.5)");
   refused("-k " + At("one.json") + " -k " + At("two.json"),
@@ -216,7 +217,7 @@ TEST_F(CommandTest, NoOutputDestroysAnotherOrAnInput) {
   EXPECT_EQ(read("d.npz"), motion);
 }
 
-TEST_F(CommandTest, RefusesNumbersThatAreNone) {
+TEST_F(CommandTest, RefusesInvalidNumbers) {
   WriteClicks(folder_ / "song.wav", 3);
   const auto refused = [&](const std::string& arguments, const std::string& part) {
     const Outcome outcome = Choreo(arguments + Server());

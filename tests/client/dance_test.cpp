@@ -131,7 +131,7 @@ TEST(DanceTest, ErrorsAreTheServersOwn) {
               [&] { dance->SendSamples(std::vector<float>(4)); });
 }
 
-TEST(DanceTest, NamesAServerThatIsNotThere) {
+TEST(DanceTest, NamesAMissingServer) {
   const Client client({.addresses = {"127.0.0.1:1"}, .retry_s = 0.05, .first_backoff_s = 0.01});
   ExpectError(ErrorCode::kUnavailable, "127.0.0.1:1", [&] { client.GetServerInfo(); });
   ExpectError(ErrorCode::kUnavailable, "127.0.0.1:1",
@@ -293,7 +293,7 @@ TEST(ResumeTest, EndsWhenNoServerIsLeft) {
               [&] { Steer(Client(options), 30, [&] { dying.Die(); }); });
 }
 
-TEST(ResumeTest, ReportsTheWholeAndSaysWhatItMeasured) {
+TEST(ResumeTest, ReportsTheWholeAndTheMeasuredPart) {
   TestServer dying;
   TestServer heir;
   const SteeredDance dance =
@@ -303,7 +303,7 @@ TEST(ResumeTest, ReportsTheWholeAndSaysWhatItMeasured) {
   EXPECT_EQ(Steer(Client({.addresses = {heir.address()}}), 30, [] {}).report.measured_from, 0);
 }
 
-TEST(DanceTest, WhatCameIsThereWhenTheDanceIsCutOff) {
+TEST(DanceTest, KeepsReceivedFramesOfACutDance) {
   TestServer breaking(std::make_unique<BreakingSampler>(130));
   TestServer sound;
   DanceResult whole;
@@ -356,7 +356,7 @@ TEST(TransitionTest, GoesOnIntoADance) {
   EXPECT_EQ(dance.motion.frames.size(), 60U);
 }
 
-TEST(TransitionTest, AsksAnotherReplicaWhenOneIsAway) {
+TEST(TransitionTest, TriesAnotherReplicaWhenOneIsAway) {
   TestServer server;
   const Client client(FastRetries({"127.0.0.1:1", server.address()}));
   TransitionRequest request;

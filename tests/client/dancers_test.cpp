@@ -35,7 +35,7 @@ double Apart(const Motion& a, const Motion& b) {
   return LeastDistance({Body(), a}, {Body(), b}).metres;
 }
 
-TEST_F(DancersTest, OneOnAStageDancesAsAlone) {
+TEST_F(DancersTest, SingleDancerEqualsASoloDance) {
   ASSERT_EQ(Dance("alone", "--seed 3").code, 0);
   Write(R"({"id": "ada", "place": [0, 0]}, {"id": "ben", "place": [50, 10], "facing": 90})");
   const Outcome outcome = DanceAll();
@@ -136,7 +136,7 @@ TEST_F(DancersTest, AreInOneFileAndOnOnePicture) {
 }
 
 // One format: what a project says is what --dancers says.
-TEST_F(DancersTest, AreOfAProject) {
+TEST_F(DancersTest, ReadAProject) {
   const std::string all = R"("apart": 0.3, "dancers": [{"id": "ada", "place": [-1, 0]},
       {"id": "ben", "place": [1, 0], "mirrored": true, "after": "2 counts"}])";
   std::ofstream(folder_ / "p.json")
@@ -163,7 +163,7 @@ TEST_F(DancersTest, AreOfAProject) {
   EXPECT_THAT(shown.said, HasSubstr("--vmc: shows one dancer"));
 }
 
-TEST_F(DancersTest, SaysWhatCannotBe) {
+TEST_F(DancersTest, RefuseImpossibleRequests) {
   const auto expect_failure = [this](const std::string& dancers, const std::string& part,
                                      const std::string& more = "") {
     Write(dancers, more);
@@ -188,7 +188,7 @@ TEST_F(DancersTest, SaysWhatCannotBe) {
   EXPECT_NE(DanceAll("--vmc 127.0.0.1:39539").code, 0);
 }
 
-TEST(FormationTest, IsWidenedAsFarAsItMust) {
+TEST(FormationTest, IsWidenedAsFarAsNeeded) {
   Motion stands{.fps = 30, .frames = std::vector<Pose>(3, RestPose(Body()))};
   std::vector<MovingBody> bodies;
   const std::vector<Eigen::Vector3d> places = {{-0.5, 0, 0}, {0.5, 0, 0}};
@@ -204,7 +204,7 @@ TEST(FormationTest, IsWidenedAsFarAsItMust) {
   EXPECT_NEAR(cli::FindNearest(bodies, cli::MovesOf(places, factor)).distance.metres, 0.3, 0.002);
 }
 
-TEST(CountsTest, GoOnAtTheirPace) {
+TEST(CountsTest, ContinueAtTheirTempo) {
   const std::vector<double> beats = {1, 1.5, 2, 3};
   const auto after = [&](const std::string& text, double seconds) {
     return cli::ParseDelay(text, "x").After(seconds, beats, "x");

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-TEST_F(EditTest, AMovedKeyStandsAtItsNewSecondAlone) {
+TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   const std::string id = ReadJson(folder_ / "report.json")["keyframes"][2]["id"];
   const std::string with_reports = "--report " + At("report.json") + " --new-report " +
                                    At("new.json") + " -o " + At("new.npz") + " --move '" + id;
@@ -64,7 +64,7 @@ TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   EXPECT_THAT(outcome.said, HasSubstr("--move: needs --report"));
 }
 
-TEST_F(EditTest, AHeldEndStaysBeforeTheWayBack) {
+TEST_F(EditTest, LoopKeepsAHeldEnd) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},
                            {"id": "b", "time": 3, "pose": "kick", "place": [0, 0], "hold": 0.4},

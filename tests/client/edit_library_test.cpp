@@ -21,7 +21,7 @@ client::FinishedDance Standing(size_t frames) {
 }
 
 // Only what the new frames hear is sent: a song may be longer than a message.
-TEST(EditLibraryTest, HearsTheMusicAroundTheKeyAlone) {
+TEST(EditLibraryTest, SendsOnlyMusicAroundTheKey) {
   TestServer server(std::make_unique<HearingSampler>());
   const client::Client client({.addresses = {server.address()}});
   client::EditOptions options;
@@ -64,7 +64,7 @@ TEST(EditLibraryTest, WarnsOfTheKneeThatBendsFurthestBackwards) {
   EXPECT_LT(warnings[0].frame, 100);
 }
 
-TEST(EditLibraryTest, RefusesWhatIsNoInterval) {
+TEST(EditLibraryTest, RefusesInvalidIntervals) {
   TestServer server;
   const client::Client client({.addresses = {server.address()}});
   client::EditOptions options;

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
 // Four counts of two a second take four seconds in half time.
-TEST_F(EditTest, BeatsAreThoseThatAreAskedFor) {
+TEST_F(EditTest, UsesTheRequestedBeats) {
   const auto repeat = [&](const std::string& options) {
     return Edit("--repeat 0 1 4c --song " + At("song.wav") + options + " --report " +
                 At("report.json") + " -o " + At("new.npz") + " --new-report " + At("new.json"));
@@ -58,7 +58,7 @@ TEST_F(EditTest, AKeyChangesTheTwoIntervalsAroundItAlone) {
   EXPECT_LE(reported[2]["final_error_m"], 0.001);
 }
 
-TEST_F(EditTest, TheNewReportKeepsTheWarningsOfWhatStays) {
+TEST_F(EditTest, ReportKeepsWarningsOfUnchangedParts) {
   nlohmann::json report = ReadJson(folder_ / "report.json");
   report["warnings"] = nlohmann::json::array();
   for (const size_t frame : {keys_[3] + 1, keys_[3], keys_[1] + 1, keys_[1]})
@@ -118,7 +118,7 @@ TEST_F(EditTest, ALoopLeadsBackIntoTheFirstFrame) {
   EXPECT_LE(LargestAcceleration(loop, 298, 301), 1.6 * usual);
 }
 
-TEST_F(EditTest, AnotherFrameRateKeepsItsFramesToo) {
+TEST_F(EditTest, KeepsFramesAtAnotherRate) {
   ASSERT_EQ(
       Choreo("dance " + At("song.wav") + Server() + "--seed 3 --fps 60 -o " + At("dance.npz")).code,
       0);
@@ -177,7 +177,7 @@ TEST_F(EditTest, TheFirstAndTheLastFrameCanBeKeys) {
   EXPECT_EQ(before.frames[239].rotations, after.frames[239].rotations);
 }
 
-TEST_F(EditTest, ADanceThatTurnedMoreThanOnceIsNoObstacle) {
+TEST_F(EditTest, EditsADanceOfSeveralTurns) {
   Motion spin{.fps = 30, .frames = std::vector<Pose>(120, RestPose(Body()))};
   for (size_t i = 0; i < spin.frames.size(); ++i)
     spin.frames[i].rotations(1, 0) = 4 * M_PI * static_cast<double>(i) / 119;
@@ -190,7 +190,7 @@ TEST_F(EditTest, ADanceThatTurnedMoreThanOnceIsNoObstacle) {
   EXPECT_LT(ComparePoses(Body(), edited.frames[110], spin.frames[110]).position_m, 1e-4);
 }
 
-TEST_F(EditTest, SaysWhatCannotBe) {
+TEST_F(EditTest, RefusesImpossibleEdits) {
   std::ofstream(folder_ / "other.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 900}]})";
   const auto expect_failure = [this](const std::string& arguments, const std::string& part) {

@@ -58,7 +58,7 @@ Motion Undisturbed() {
   return Dance(Client(Replicas({server.address()}))).motion;
 }
 
-TEST(FailoverTest, PassesAReplicaOfAnotherFingerprint) {
+TEST(FailoverTest, SkipsAReplicaOfAnotherFingerprint) {
   TestServer dying;
   TestServer other("fake-2");
   TestServer heir;
@@ -71,7 +71,7 @@ TEST(FailoverTest, PassesAReplicaOfAnotherFingerprint) {
 }
 
 // The one that dies comes back meanwhile.
-TEST(FailoverTest, ComesBackToAReplicaOfTheSameFingerprint) {
+TEST(FailoverTest, ReturnsToAReplicaOfTheSameFingerprint) {
   auto first = std::make_unique<TestServer>();
   const std::string address = first->address();
   TestServer other("fake-2");
@@ -87,7 +87,7 @@ TEST(FailoverTest, ComesBackToAReplicaOfTheSameFingerprint) {
   EXPECT_EQ(danced.resumed[0].address, address);
 }
 
-TEST(FailoverTest, EndsWithTheReasonOfThoseThatAreThere) {
+TEST(FailoverTest, EndsWithTheReasonOfReachableReplicas) {
   TestServer dying;
   TestServer other("fake-2");
   Options options = Replicas({dying.address(), other.address()});
@@ -138,7 +138,7 @@ TEST(FailoverTest, InternalAtOneReplicaIsTriedAtAnother) {
 }
 
 // A name with several addresses, as a headless service has.
-TEST(FailoverTest, TakesTurnsAtTheAddressesOfAName) {
+TEST(FailoverTest, RotatesThroughTheAddressesOfAName) {
   TestServer one;
   TestServer other;
   const Client client(Replicas({"ipv4:" + one.address() + ',' + other.address()}));
@@ -154,7 +154,7 @@ TEST(FailoverTest, TakesTurnsAtTheAddressesOfAName) {
   EXPECT_GT(other.calls(), 0);
 }
 
-TEST(FailoverTest, PassesAnAddressThatDrains) {
+TEST(FailoverTest, SkipsADrainingAddress) {
   TestServer leaving;
   TestServer staying;
   const auto dance = Client(Replicas({leaving.address()})).StartDance({.frames = 30});

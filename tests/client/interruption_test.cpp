@@ -49,7 +49,7 @@ class InterruptionTest : public CommandTest {
   }
 };
 
-TEST_F(InterruptionTest, WhatCameOfADanceIsKept) {
+TEST_F(InterruptionTest, KeepsReceivedFrames) {
   WriteClicks(folder_ / "song.wav", 60);
   for (const int signal : {SIGINT, SIGTERM}) {
     std::atomic<int> steps = 0;
@@ -68,7 +68,7 @@ TEST_F(InterruptionTest, WhatCameOfADanceIsKept) {
   }
 }
 
-TEST_F(InterruptionTest, AVideoLeavesNothing) {
+TEST_F(InterruptionTest, LeavesNoPartialVideo) {
   if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   WriteMotion(folder_ / "a.npz", Body(),

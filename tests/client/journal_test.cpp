@@ -27,7 +27,7 @@ int Drain(Journal* journal) {
   return taken;
 }
 
-TEST(JournalTest, SaysEverythingInOrderAndAgainAfterARewind) {
+TEST(JournalTest, SendsEverythingInOrderAndAgainAfterARewind) {
   Journal journal(4, 0);
   journal.Append(KeyAt("a", 10));
   journal.AppendMusic(std::string(8, 'x'));
@@ -64,7 +64,7 @@ TEST(JournalTest, ForgetsMusicThatIsNoLongerNeededAndNothingElse) {
   EXPECT_EQ(Drain(&journal), 4);
 }
 
-TEST(JournalTest, KeepsWhatWasNotSentAndAllOfAFile) {
+TEST(JournalTest, KeepsUnsentMessagesAndWholeFiles) {
   Journal samples(4, 0);
   samples.AppendMusic(std::string(40, 'x'));
   samples.ForgetMusicBefore(1000);

@@ -52,7 +52,7 @@ TEST(KeyFileTest, ReadsAKeyAsItIsWritten) {
   EXPECT_TRUE(keys[0].mask.joints.empty());
 }
 
-TEST(KeyFileTest, KeepsTheOrderAndNamesTheNameless) {
+TEST(KeyFileTest, KeepsTheOrderAndNamesUnnamedKeys) {
   const std::string nameless = R"({"frame": 90, "rotations": )" + Rotations() + "}";
   const auto keys = Parse(R"({"keyframes": [)" + nameless + "," +
                           R"({"id": "b", "time": 1, "rotations": )" + Rotations() + "}]}");
@@ -62,7 +62,7 @@ TEST(KeyFileTest, KeepsTheOrderAndNamesTheNameless) {
   EXPECT_EQ(keys[1].id, "b");
 }
 
-TEST(KeyFileTest, MasksWhatIsLeftOut) {
+TEST(KeyFileTest, MasksOmittedFields) {
   const auto keys =
       Parse(File(R"("time": 1, "joints": ["left_elbow", "head"], "rotations": )" + Rotations()));
   EXPECT_FALSE(keys[0].mask.root_position);
@@ -297,7 +297,7 @@ TEST_F(MotionKeysTest, TakesTheShortestWayAfterAnyNumberOfTurns) {
   }
 }
 
-TEST_F(MotionKeysTest, RefusesTimesThatAreNone) {
+TEST_F(MotionKeysTest, RefusesInvalidTimes) {
   for (const char* times : {"", "x", "1,", "-1", "1.2x", "1=", "nan"}) {
     ExpectError(ErrorCode::kInvalidArgument, "is not a time, 0 to 1e+09 seconds",
                 [&] { ReadKeys(path_ + "@" + times, Body()); });

@@ -36,7 +36,7 @@ TEST(LocalServerTest, NoticesThatItIsGone) {
   EXPECT_EQ(server.process(), -1);
 }
 
-TEST(LocalServerTest, SaysWhenThereIsNothingToStart) {
+TEST(LocalServerTest, ReportsAMissingProgram) {
   ExpectError(ErrorCode::kNotFound, "/absent/choreod",
               [] { LocalServer server{std::filesystem::path("/absent/choreod")}; });
   // It ends without a word.

@@ -34,7 +34,7 @@ testing::Matcher<double> Near(double seconds) {
   return DoubleNear(seconds, 0.5 * kOnsetHop / kModelSampleRate);
 }
 
-TEST_F(MusicBeats, AreThoseOfTheFileWithItsCounts) {
+TEST_F(MusicBeats, AreReadWithCountsFromAFile) {
   const BeatTrack track = Read("0.5 3\n\n1.0 1  # the first bar\n1.5 2\n2.0 3\n");
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(0.5), Near(1), Near(1.5), Near(2)));
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1)));
@@ -42,32 +42,32 @@ TEST_F(MusicBeats, AreThoseOfTheFileWithItsCounts) {
   EXPECT_NEAR(track.tempo_bpm, 120, 1);
 }
 
-TEST_F(MusicBeats, CountInFoursFromTheFirstWhereNothingIsCounted) {
+TEST_F(MusicBeats, WithoutCountsAreCountedInFours) {
   const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n");
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1), Near(5)));
 }
 
-TEST_F(MusicBeats, TheSongBeginsWhereTheDanceDoes) {
+TEST_F(MusicBeats, SecondsCountFromTheDancesStart) {
   EXPECT_THAT(Read("1\n2\n3\n", {}, 1.5).Seconds(), ElementsAre(Near(0.5), Near(1.5)));
 }
 
-TEST_F(MusicBeats, OfWhichEverySecondIsLeftOutKeepTheirDownbeats) {
+TEST_F(MusicBeats, HalfTimeKeepsDownbeats) {
   const BeatTrack track = Read("1 4\n2 1\n3 2\n4 3\n5 4\n6 1\n", {.half_time = true});
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(2), Near(4), Near(6)));
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(2)));
 }
 
-TEST_F(MusicBeats, InDoubleTimeHaveOneBetweenEachTwo) {
+TEST_F(MusicBeats, DoubleTimeAddsOneBetweenTwo) {
   const BeatTrack track = Read("1\n2\n3\n", {.double_time = true});
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(1.5), Near(2), Near(2.5), Near(3)));
 }
 
-TEST_F(MusicBeats, CountFromTheDownbeatThatIsSaid) {
+TEST_F(MusicBeats, CountsFromTheChosenDownbeat) {
   const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n", {.downbeat_s = 2.9});
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(3)));
 }
 
-TEST_F(MusicBeats, OfWhichDownbeatsAloneAreCountedCountOnFromThose) {
+TEST_F(MusicBeats, CountsFromGivenDownbeats) {
   const BeatTrack track = Read("0.5 1\n1\n1.5\n2 1\n2.5\n3\n");
   EXPECT_EQ(track.beats_in_bar, 3);
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(0.5), Near(2)));

@@ -114,7 +114,7 @@ TEST_F(NetworkTest, LossDelayAndDisorderChangeNothing) {
             << " resumes; bits as undisturbed\n";
 }
 
-TEST_F(NetworkTest, ADanceGoesOnWhereTheLinkWasCut) {
+TEST_F(NetworkTest, DanceContinuesAfterACutLink) {
   constexpr int64_t kFrames = 240;
   const Danced wanted = Dance(2, kFrames, /*in_time=*/false);
   const std::jthread cut([] {
@@ -132,7 +132,7 @@ TEST_F(NetworkTest, ADanceGoesOnWhereTheLinkWasCut) {
             << " resumes; bits as undisturbed\n";
 }
 
-TEST_F(NetworkTest, ALinkThatStaysCutIsToldOfWithinTheClientsLimits) {
+TEST_F(NetworkTest, ReportsALostLinkWithinTheClientsLimits) {
   const Client client(ClientOptions(/*retry_s=*/3));
   const auto dance = client.StartDance({.seed = 3, .frames = 300, .generate_until = 0});
   dance->GenerateUntil(10);
@@ -149,7 +149,7 @@ TEST_F(NetworkTest, ALinkThatStaysCutIsToldOfWithinTheClientsLimits) {
   std::cout << "cut for good: told after " << SecondsSince(begin) << " s\n";
 }
 
-TEST_F(NetworkTest, WhoSaysAndReadsNothingForAWhileLosesNothing) {
+TEST_F(NetworkTest, IdleClientLosesNothing) {
   const Client client(ClientOptions(250));
   const auto dance = client.StartDance({.seed = 5, .frames = 60, .generate_until = 0});
   dance->GenerateUntil(10);
@@ -162,7 +162,7 @@ TEST_F(NetworkTest, WhoSaysAndReadsNothingForAWhileLosesNothing) {
 }
 
 // More of them than there are places: those whose clients are out of reach come back.
-TEST_F(NetworkTest, PlacesOfClientsThatAreOutOfReachComeBack) {
+TEST_F(NetworkTest, UnreachableClientsFreeTheirPlaces) {
   constexpr int kCalls = 6;
   for (int i = 0; i < kCalls; ++i) {
     const Client client(ClientOptions(/*retry_s=*/30));

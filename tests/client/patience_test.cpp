@@ -29,13 +29,13 @@ TEST(PatienceTest, EndsAfterItsTimeWithoutProgress) {
 
 TEST(PatienceTest, NoTimeIsNoRetry) { EXPECT_FALSE(Patience({.retry_s = 0}).Next(kGone, true)); }
 
-TEST(PatienceTest, WhatWouldFailAgainIsNotTriedAgain) {
+TEST(PatienceTest, DoesNotRetryPermanentErrors) {
   EXPECT_FALSE(Patience({.retry_s = 1e6}).Next({grpc::StatusCode::INVALID_ARGUMENT, "no"}, true));
 }
 
 const grpc::Status kBroken(grpc::StatusCode::INTERNAL, "the device is gone");
 
-TEST(PatienceTest, WhatIsBrokenIsTriedElsewhereUntilAllAre) {
+TEST(PatienceTest, BrokenReplicaIsRetriedElsewhereUntilAllAreBroken) {
   EXPECT_FALSE(Patience({.retry_s = 1e6}).Next(kBroken, false));
   Patience patience({.addresses = {"a:1", "b:1", "c:1"}, .retry_s = 1e6});
   EXPECT_TRUE(patience.Next(kBroken, true));
@@ -43,7 +43,7 @@ TEST(PatienceTest, WhatIsBrokenIsTriedElsewhereUntilAllAre) {
   EXPECT_FALSE(patience.Next(kBroken, true));
 }
 
-TEST(PatienceTest, OneThatIsAwayMayComeBackAndDoBetter) {
+TEST(PatienceTest, RetriesAReplicaThatWasAway) {
   Patience patience({.addresses = {"a:1", "b:1"}, .retry_s = 1e6, .first_backoff_s = 1e-6});
   for (int i = 0; i < 20; ++i) {
     ASSERT_TRUE(patience.Next(kBroken, true));

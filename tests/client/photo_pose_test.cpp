@@ -118,7 +118,7 @@ TEST_F(PhotoPoseTest, PosesOfTheLibraryComeBackFromTheirLandmarks) {
   }
 }
 
-TEST_F(PhotoPoseTest, WhatIsHardlySeenSaysHardlyAnything) {
+TEST_F(PhotoPoseTest, LowVisibilityHasLittleWeight) {
   const Pose& pose = FindLibraryPose("kick").pose;
   const Eigen::Matrix3Xd seen = Landmarks(pose, 0, 1);
   const auto with_wrist = [&](double y, double visibility) {
@@ -137,7 +137,7 @@ TEST_F(PhotoPoseTest, WhatIsHardlySeenSaysHardlyAnything) {
   }
 }
 
-TEST_F(PhotoPoseTest, TheCommandMakesAKeyOfIt) {
+TEST_F(PhotoPoseTest, CommandWritesAKey) {
   const Pose& pose = FindLibraryPose("kick").pose;
   Write("seen.json", {{"poseWorldLandmarks", AsJson(Landmarks(pose, 0, 1))}});
   const Outcome outcome = Choreo("pose --from-landmarks '" + At("seen.json") +
@@ -181,7 +181,7 @@ TEST_F(PhotoPoseTest, PosesOfEstimatorsAreReadInEveryShape) {
   }
 }
 
-TEST_F(PhotoPoseTest, WhatCannotBeIsNamed) {
+TEST_F(PhotoPoseTest, NamesInvalidLandmarks) {
   const json good = AsJson(Landmarks(FindLibraryPose("kick").pose, 0, 1));
   const auto refused = [&](const json& list, const std::string& message) {
     const std::string path = Write("l.json", list);

@@ -47,7 +47,7 @@ class PlotCommandTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(PlotCommandTest, DrawsWaysHeightsAndSpeeds) {
+TEST_F(PlotCommandTest, DrawsPathsHeightsAndSpeeds) {
   for (const std::string of : {"path", "height", "trunk", "left_arm"}) {
     const Outcome outcome = Plot(of + " " + At("slow.npz") + " " + At("fast.npz"));
     EXPECT_EQ(outcome.code, 0) << outcome.said;
@@ -55,7 +55,7 @@ TEST_F(PlotCommandTest, DrawsWaysHeightsAndSpeeds) {
   }
 }
 
-TEST_F(PlotCommandTest, DrawsWhatWasAskedBesideThem) {
+TEST_F(PlotCommandTest, DrawsRequestsBesideResults) {
   const std::string both = At("slow.npz") + " " + At("fast.npz");
   const auto ink = [&](const std::string& arguments) {
     const Outcome outcome = Plot(arguments);

@@ -46,7 +46,7 @@ TEST_F(PoseCommandTest, WritesAKeyAndAPicture) {
   EXPECT_NEAR(elbow.axis.dot(pose.rotations.col(elbow.joint)), M_PI / 2, 0.3);
 }
 
-TEST_F(PoseCommandTest, WhatIsWrittenIsReadAgainAndIsAKeyOfADance) {
+TEST_F(PoseCommandTest, OutputIsAValidKey) {
   ASSERT_EQ(Choreo("pose --from groove --at 2.5 --description 'Low \"and\" loose' --tag standing "
                    "--out " +
                    At("mine.json"))
@@ -104,14 +104,14 @@ TEST_F(PoseCommandTest, ErrorsNameTheOptionTheValueAndTheLimit) {
           "--reach right_hand=0,4,0: is out of reach: right_hand ended");
 }
 
-TEST_F(PoseCommandTest, AFootsHeightIsItsSoles) {
+TEST_F(PoseCommandTest, FootHeightIsMeasuredAtTheSole) {
   PoseRecipe recipe;
   recipe.reach = {"left_foot=0.4,0,0.2"};
   const Pose pose = MakePose(recipe, Body()).pose;
   EXPECT_NEAR(DollAboveFloor(Body(), pose), 0, 0.01);
 }
 
-TEST_F(PoseCommandTest, WarnsOfWhatNoBodyDoes) {
+TEST_F(PoseCommandTest, WarnsOfImpossiblePoses) {
   ASSERT_EQ(Choreo("pose --reach pelvis=0,0.5,0 --out " + At("low.json")).code, 0);
   const Outcome outcome = Choreo("pose --from " + At("low.json") +
                                  " --set left_knee=0 --set right_knee=0 --set left_hip=0,0,0 "

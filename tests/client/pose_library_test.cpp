@@ -173,7 +173,7 @@ TEST(PoseLibrary, HasEnoughForADanceAndFindsThemByName) {
 }
 
 // Whoever changes a recipe makes the poses anew.
-TEST(PoseLibrary, IsWhatItsRecipesMake) {
+TEST(PoseLibrary, AgreesWithItsRecipes) {
   const TemporaryFolder folder;
   const Outcome outcome =
       Shell("CHOREO='" CHOREO_PROGRAM "' '" SOURCE_FOLDER "/scripts/make_poses.sh' '" +

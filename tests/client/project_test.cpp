@@ -138,7 +138,7 @@ TEST_F(ProjectTest, ItsPathLeadsAsAPathFileDoes) {
   EXPECT_EQ(Bytes("won.bvh"), Bytes("spelt.bvh"));
 }
 
-TEST_F(ProjectTest, ASongThatIsNotBesideItIsNamed) {
+TEST_F(ProjectTest, NamesAMissingSong) {
   project_["song"] = "other.wav";
   ExpectRefused("p.json:song: ");
   const Outcome outcome = Dance(At("song.wav") + " --project " + At("p.json"), "a.bvh");
@@ -151,7 +151,7 @@ TEST_F(ProjectTest, WithoutASongItIsSilent) {
   EXPECT_EQ(outcome.code, 0) << outcome.said;
 }
 
-TEST_F(ProjectTest, WhatCannotBeIsNamed) {
+TEST_F(ProjectTest, NamesInvalidFields) {
   const json good = project_;
   const auto with = [&](const char* member, const json& value, const std::string& message) {
     project_ = good;

@@ -153,7 +153,7 @@ TEST(ReplicaFaultTest, EveryDanceIsTheSameWhateverReplicasAreLost) {
             << quantile(0.5) << " s, p99 " << quantile(0.99) << " s; all as undisturbed\n";
 }
 
-TEST(ReplicaFaultTest, WhoIsAskedToLeaveHandsItsDancesOnAndExitsWithZero) {
+TEST(ReplicaFaultTest, TerminatedReplicaHandsOverAndExitsWithZero) {
   LocalServer leaving(FAKE_CHOREOD);
   const LocalServer heir(FAKE_CHOREOD);
   const Client client({.addresses = {leaving.address(), heir.address()}, .retry_s = 250});

@@ -63,7 +63,7 @@ class SecurityTest : public testing::Test {
 
 using TlsTest = SecurityTest;
 
-TEST_F(TlsTest, WhoTrustsItDancesAndNobodyElse) {
+TEST_F(TlsTest, OnlyTrustingClientsConnect) {
   const Certificate own = authority_.Issue("own");
   const auto server = Start([&](ServerConfig& config) { Serve(own, config); });
   const Options trusting = Trusting(*server, authority_);
@@ -113,7 +113,7 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
   }
 }
 
-TEST_F(TlsTest, ClientsShowACertificateWhereOneIsWanted) {
+TEST_F(TlsTest, ClientsShowARequiredCertificate) {
   const Certificate own = authority_.Issue("own");
   const auto server = Start([&](ServerConfig& config) {
     Serve(own, config);
@@ -215,7 +215,7 @@ class TokensTest : public SecurityTest {
   }
 };
 
-TEST_F(TokensTest, WhoHasOneIsServedUntilItIsStruckOut) {
+TEST_F(TokensTest, HoldersAreServedUntilRemoval) {
   const std::filesystem::path file = folder_ / "tokens";
   Write("tokens", "# who may call\n\n" + LineOf("correct-horse", "alice") + LineOf("b", "bob"));
   const auto server = Start([&](ServerConfig& config) { config.tokens = file; });
@@ -240,7 +240,7 @@ TEST_F(TokensTest, WhoHasOneIsServedUntilItIsStruckOut) {
 }
 
 // Whatever becomes of the file, who was struck out stays out.
-TEST_F(TokensTest, AFileThatGoesBadKeepsNobodyIn) {
+TEST_F(TokensTest, BrokenFileAdmitsNobody) {
   const std::filesystem::path file = folder_ / "tokens";
   const std::string alice = LineOf("a", "alice"), bob = LineOf("b", "bob");
   Write("tokens", alice + bob);
@@ -319,7 +319,7 @@ TEST_F(TokensTest, NoneIsLogged) {
   EXPECT_THAT(log.str(), Not(HasSubstr("horse")));
 }
 
-TEST_F(TokensTest, AreSentOverTlsOrToThisMachineAlone) {
+TEST_F(TokensTest, AreSentOnlyOverTlsOrLocally) {
   Write("token", "correct-horse");
   ExpectError(ErrorCode::kInvalidArgument, "over TLS alone", [&] {
     Client({.addresses = {"127.0.0.1:1", "example.test:1"}, .token_file = folder_ / "token"});
@@ -330,7 +330,7 @@ TEST_F(TokensTest, AreSentOverTlsOrToThisMachineAlone) {
   }
 }
 
-TEST_F(TokensTest, AnEmptyOneIsNobodys) {
+TEST_F(TokensTest, EmptyTokensAreRefused) {
   Write("tokens", LineOf("", "nobody"));
   std::string holder;
   const Tokens tokens(folder_ / "tokens");
@@ -338,7 +338,7 @@ TEST_F(TokensTest, AnEmptyOneIsNobodys) {
   EXPECT_EQ(holder, "");
 }
 
-TEST_F(TokensTest, WhatIsOfTlsNeedsIt) {
+TEST_F(TokensTest, TlsOptionsNeedTls) {
   ExpectError(ErrorCode::kInvalidArgument, "ca_certificate",
               [&] { Client({.ca_certificate = folder_ / "ca.pem"}); });
 }

@@ -39,7 +39,7 @@ TEST(SeenTest, NoticesMissingFrames) {
   ExpectError(ErrorCode::kInternal, "1 came where 0 was due", [&] { seen.Admit(&late); });
 }
 
-TEST(SeenTest, TellsKeysBeatsAndWarningsOnce) {
+TEST(SeenTest, ReportsKeysBeatsAndWarningsOnce) {
   Seen seen(0);
   for (const bool is_new : {true, false}) {
     EXPECT_EQ(seen.Admit(DanceEvent(KeyReached{.id = "a", .frame = 30})), is_new);
@@ -51,7 +51,7 @@ TEST(SeenTest, TellsKeysBeatsAndWarningsOnce) {
   EXPECT_TRUE(seen.Admit(DanceEvent(Beat{.frame = 13, .time_s = 0.44})));  // of who gives them so
 }
 
-TEST(SeenTest, HidesTheRejectionsThatAResumptionBringsAboutAndNoOthers) {
+TEST(SeenTest, HidesOnlyRejectionsCausedByAResumption) {
   const auto rejected = [](const std::string& id, int64_t frame) {
     return DanceEvent(KeyRejected{.id = id, .frame = frame, .earliest_frame = 90, .reason = ""});
   };
@@ -66,7 +66,7 @@ TEST(SeenTest, HidesTheRejectionsThatAResumptionBringsAboutAndNoOthers) {
   EXPECT_TRUE(seen.Admit(rejected("late", 80)));
 }
 
-TEST(SeenTest, HidesNoRejectionOfAKeyThatAResumptionTellsToBeReached) {
+TEST(SeenTest, ShowsRejectionsOfReachedKeysAfterAResumption) {
   const DanceEvent reached(KeyReached{.id = "a", .frame = 30});
   Seen seen(0);
   EXPECT_TRUE(seen.Admit(reached));

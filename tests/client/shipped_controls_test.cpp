@@ -84,7 +84,7 @@ class ShippedControlsTest : public testing::Test {
   static inline std::unique_ptr<Client> client_;
 };
 
-TEST_F(ShippedControlsTest, SaysWhatItTakes) {
+TEST_F(ShippedControlsTest, ListsItsControls) {
   const ServerDescription server = client_->GetServerInfo();
   const ModelDescription& model = server.models.front();
   EXPECT_EQ(model.controls, (std::vector<std::string>{"root_path", "velocity_factors"}));
@@ -106,7 +106,7 @@ TEST_F(ShippedControlsTest, TheFormerModelsNameIsThatOfTheDefault) {
   EXPECT_THAT(outcome.said, testing::HasSubstr("warning: --model: \"controllers\" is now another"));
 }
 
-TEST_F(ShippedControlsTest, TheCommandTellsSpeeds) {
+TEST_F(ShippedControlsTest, CommandPrintsSpeeds) {
   const TemporaryFolder folder;
   const Outcome outcome = Choreo("dance --seconds 4 --velocity all=2 --server " +
                                  server_->address() + " -o " + (folder / "d.npz").string());
@@ -115,13 +115,13 @@ TEST_F(ShippedControlsTest, TheCommandTellsSpeeds) {
   EXPECT_THAT(outcome.said, testing::HasSubstr("speeds danced (and asked)"));
 }
 
-TEST_F(ShippedControlsTest, InfoTellsWhatItsTrainingWentOnFrom) {
+TEST_F(ShippedControlsTest, InfoNamesThePretrainedModel) {
   const Outcome outcome = Choreo("info --cards --server " + server_->address());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, testing::HasSubstr("went on from"));
 }
 
-TEST_F(ShippedControlsTest, KeepsToADrawnPathThroughKeys) {
+TEST_F(ShippedControlsTest, FollowsADrawnPathThroughKeys) {
   const Controls controls{.root_path = Arc()};
   const DanceResult dance = Dance(controls);
   ASSERT_EQ(dance.motion.frames.size(), static_cast<size_t>(kFrames));
@@ -141,7 +141,7 @@ TEST_F(ShippedControlsTest, KeepsToADrawnPathThroughKeys) {
   EXPECT_LT(dance.report.skate_ratio, 0.25);
 }
 
-TEST_F(ShippedControlsTest, MakesAnArmLivelierOrCalmer) {
+TEST_F(ShippedControlsTest, MakesAnArmFasterOrSlower) {
   Controls controls{.root_path = Arc()};
   const auto danced = [&](double factor) {
     controls.velocity_factors = {.parts = {"left_arm"}, .factors = {factor}};
@@ -150,7 +150,7 @@ TEST_F(ShippedControlsTest, MakesAnArmLivelierOrCalmer) {
   EXPECT_GT(danced(2) / danced(0.5), 1.1);
 }
 
-TEST_F(ShippedControlsTest, TellsHowFastPartsAreAndWhichCanNotBeAsAsked) {
+TEST_F(ShippedControlsTest, ReportsPartSpeedsAndMissedOnes) {
   Controls controls{.root_path = Arc()};
   EXPECT_TRUE(Dance(controls).report.part_speeds.empty()) << "nothing was asked";
   controls.velocity_factors = {.parts = {"left_arm", "left_leg"}, .factors = {1, 0}};
@@ -169,7 +169,7 @@ TEST_F(ShippedControlsTest, TellsHowFastPartsAreAndWhichCanNotBeAsAsked) {
   EXPECT_THAT(dance.warnings[0].message, testing::HasSubstr(" instead of 0"));
 }
 
-TEST_F(ShippedControlsTest, ArmsAreTheFasterTheMoreIsAsked) {
+TEST_F(ShippedControlsTest, ArmSpeedGrowsWithTheRequest) {
   Controls controls{.root_path = Arc()};
   // The way through these keys is itself faster than arms usually are.
   double before = 0;
@@ -192,7 +192,7 @@ TEST_F(ShippedControlsTest, NeitherTremblesNorStopsNorFlips) {
   }
 }
 
-TEST_F(ShippedControlsTest, GoesDownWhereThePathDoes) {
+TEST_F(ShippedControlsTest, FollowsThePathDown) {
   Controls controls{.root_path = Arc()};
   for (int frame = 0; frame < kFrames; ++frame) {
     const double u = std::clamp((frame - 60) / 60.0, 0.0, 1.0);  // down and up again before key 2

@@ -77,7 +77,7 @@ std::string OutcomeOf(const std::filesystem::path& file) {
   return "by ffmpeg";
 }
 
-TEST(SoundTable, IsWhatBecomesOfThem) {
+TEST(SoundTable, MatchesWhatTheClientReads) {
   if (Shell("ffmpeg -version").code != 0)
     GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   const std::string encoders = Shell("ffmpeg -hide_banner -encoders").said;
@@ -110,7 +110,7 @@ TEST(SoundTable, IsWhatBecomesOfThem) {
 }
 
 // Why it can't read what it can't.
-TEST(SoundTable, WhatFfmpegSaysIsPassedOn) {
+TEST(SoundTable, ReportsFfmpegsErrors) {
   if (Shell("ffmpeg -version").code != 0)
     GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   const TemporaryFolder folder;

@@ -48,7 +48,7 @@ TEST(WrittenDanceTest, MeasuresAKeyInTheMotion) {
   CheckKeys(dance);
 }
 
-TEST(WrittenDanceTest, DoesNotTakeTheServersWordForIt) {
+TEST(WrittenDanceTest, MeasuresKeysDespiteTheReport) {
   const WrittenDance dance = Examine(HeaderAt(30), Hit(20), Slide(30, 60), {KeyAt(20, 0.205)});
   ExpectError(ErrorCode::kInternal, "a: was missed by 5 mm", [&] { CheckKeys(dance); });
   ExpectError(ErrorCode::kInternal, "b: the dance has no such key pose", [&] {
@@ -71,7 +71,7 @@ TEST(WrittenDanceTest, CountsFromTheFirstFrameAtTheFilesRate) {
   }
 }
 
-TEST(WrittenDanceTest, BetweenFramesTheServersWordCounts) {
+TEST(WrittenDanceTest, UsesTheReportBetweenFrames) {
   client::Report report = Hit(61);
   // Nothing in the file is at the key's time: how far its nearest frame is off is no miss.
   CheckKeys(Examine(HeaderAt(24), report, Slide(24, 100), {KeyAt(61, 0.3)}));

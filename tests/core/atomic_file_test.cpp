@@ -41,7 +41,7 @@ TEST_F(AtomicFileTest, AppearsWhenItIsComplete) {
   EXPECT_EQ(Files(), 1U);
 }
 
-TEST_F(AtomicFileTest, IsThrownAwayUnlessCommitted) {
+TEST_F(AtomicFileTest, IsDiscardedUnlessCommitted) {
   {
     const AtomicFile file(path_);
     std::ofstream(file.partial()) << "new";
@@ -68,7 +68,7 @@ TEST_F(AtomicFileTest, AWriteThatFailsLeavesWhatWasThere) {
   EXPECT_EQ(Files(), 1U);
 }
 
-TEST_F(AtomicFileTest, ALinkStaysOne) {
+TEST_F(AtomicFileTest, KeepsALink) {
   WriteFile(folder_ / "there", "old");
   std::filesystem::create_symlink("there", path_);
   WriteFile(path_, "new");
@@ -76,14 +76,14 @@ TEST_F(AtomicFileTest, ALinkStaysOne) {
   EXPECT_EQ(Text(folder_ / "there"), "new");
 }
 
-TEST_F(AtomicFileTest, ADeviceIsWrittenWhereItIs) {
+TEST_F(AtomicFileTest, WritesDevicesInPlace) {
   WriteFile("/dev/null", "nothing");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   ExpectError(ErrorCode::kInternal, "/dev/full: cannot be written: No space left",
               [] { WriteFile("/dev/full", "something"); });
 }
 
-TEST_F(AtomicFileTest, SaysWhyItCannotBe) {
+TEST_F(AtomicFileTest, ReportsTheReasonOfAFailure) {
   ExpectError(ErrorCode::kInternal, "a: cannot be written: No such file or directory",
               [this] { WriteFile(folder_ / "absent" / "a", "x"); });
 }

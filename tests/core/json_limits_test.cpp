@@ -8,12 +8,12 @@
 
 namespace choreo::json_limits_test {
 
-TEST(JsonNumbers, ThoseOfAnIntPassWhereverTheyStand) {
+TEST(JsonNumbers, AcceptsIntsAnywhere) {
   CheckJsonNumbers(nlohmann::json::parse(R"({"a": [1, -2147483647, 0.5, {"b": 2147483647}]})"), "");
   CheckJsonNumbers(nlohmann::json::parse(R"(["9e9", null, true])"), "");
 }
 
-TEST(JsonNumbers, LargerOnesAreRefusedByName) {
+TEST(JsonNumbers, RefusesLargerOnesByName) {
   for (const char* number : {"9e9", "-9e9", "2147483648", "18446744073709551615", "1e308"}) {
     const auto json = nlohmann::json::parse("{\"a\": [{\"b\": " + std::string(number) + "}]}");
     ExpectError(ErrorCode::kInvalidArgument, "skeleton: the number ",
@@ -21,7 +21,7 @@ TEST(JsonNumbers, LargerOnesAreRefusedByName) {
   }
 }
 
-TEST(JsonNumbers, NestedDeeperThanAnybodyWritesIsRefused) {
+TEST(JsonNumbers, RefusesDeepNesting) {
   const auto json = nlohmann::json::parse(std::string(100'000, '[') + std::string(100'000, ']'));
   ExpectError(ErrorCode::kInvalidArgument, "more than 16 levels",
               [&] { CheckJsonNumbers(json, "skeleton"); });

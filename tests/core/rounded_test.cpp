@@ -6,7 +6,7 @@
 
 namespace choreo::rounded_test {
 
-TEST(RoundedTest, ShowsWhatPeopleReadAndNoMore) {
+TEST(RoundedTest, ShowsFewDigits) {
   EXPECT_EQ(Rounded(0.123457), "0.12");
   EXPECT_EQ(Rounded(1.0 / 30), "0.033");
   EXPECT_EQ(Rounded(-0.00098765), "-0.00099");

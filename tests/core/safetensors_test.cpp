@@ -34,7 +34,7 @@ class SafetensorsTest : public testing::Test {
   std::filesystem::path path_ = folder_ / "tensors";
 };
 
-TEST_F(SafetensorsTest, WhatIsWrittenIsRead) {
+TEST_F(SafetensorsTest, RoundTrips) {
   const Safetensors content = {
       {{"none", {{0, 3}, {}}}, {"one", {{1}, {7}}}, {"two", {{2, 2}, {1, 2, 3, 4}}}},
       {{"key", "value"}}};
@@ -49,7 +49,7 @@ TEST_F(SafetensorsTest, WhatIsWrittenIsRead) {
   EXPECT_EQ(ContentHash(read), ContentHash(content));
 }
 
-TEST_F(SafetensorsTest, WhatFitsIntoBfloat16TakesHalfTheBytes) {
+TEST_F(SafetensorsTest, Bfloat16ValuesTakeHalfTheBytes) {
   std::vector<float> fits(5001), exact(5001);
   for (size_t i = 0; i < fits.size(); ++i) {
     fits[i] = static_cast<float>(i % 200) * 0.25F - 20;

@@ -75,7 +75,7 @@ TEST(Arrival, HitsEveryKeyFromAnywhere) {
   }
 }
 
-TEST(Arrival, LeavesUntouchedWhatTheKeyDoesNotAskFor) {
+TEST(Arrival, LeavesMaskedCoordinatesUntouched) {
   std::mt19937 random(2);
   for (int round = 0; round < 50; ++round) {
     const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
@@ -140,7 +140,7 @@ TEST(Arrival, TouchesNothingBeforeItsWindowAndNothingWhenOff) {
 }
 
 // A model that already moves evenly onto the key is left alone: the loop adds nothing of its own.
-TEST(Arrival, AddsNothingToAnEvenWayOntoTheKey) {
+TEST(Arrival, AddsNothingToASteadyApproach) {
   std::mt19937 random(4);
   const std::vector<Pose> way = MotionTo(RandomPose(random), 42, random, 0.02);
   Arrival arrival(kWindow, 40, {way.back(), {}}, {way[0], way[1]});

@@ -41,7 +41,7 @@ TEST(AudioFeedTest, ForgottenRowsAreGoneAndTheOthersStay) {
   EXPECT_EQ(RowOf(feed, -1), RowOf(whole, -1));  // silence's, before all music
 }
 
-TEST(AudioFeedTest, PartialFramesAndWhatIsNoNumberAreRefusedAndChangeNothing) {
+TEST(AudioFeedTest, RefusesPartialFramesAndNonFiniteSamples) {
   const std::vector<float> wave = Noise(2 * 30000, 5);
   AudioFeed whole(44100, 2, 0), feed(44100, 2, 0);
   whole.Push(wave, 0, [] {});

@@ -53,7 +53,7 @@ class ControlTrackTest : public testing::Test {
   std::optional<Target> target_;
 };
 
-TEST_F(ControlTrackTest, SaysNothingWhereNothingWasSaid) {
+TEST_F(ControlTrackTest, GivesNothingOutsideThePath) {
   EXPECT_EQ(For(0, 60).controls[kRootPath].values.cols(), 0);
   track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
   EXPECT_EQ(For(0, 100).controls[kRootPath].values.cols(), 0);
@@ -62,7 +62,7 @@ TEST_F(ControlTrackTest, SaysNothingWhereNothingWasSaid) {
   EXPECT_EQ(For(100, 60).controls[kVelocityFactors].values.cols(), 0);
 }
 
-TEST_F(ControlTrackTest, LaterPathsTakeOverInTransitionsFromTheirFrameOn) {
+TEST_F(ControlTrackTest, LaterPathsApplyToLaterTransitions) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 300}, {1, 1}), 60, "controls");
   EXPECT_NEAR(For(0, 120).controls[kRootPath].values(0, 119), 1.19, 1e-9);
@@ -78,14 +78,14 @@ TEST_F(ControlTrackTest, APathMayComeInPieces) {
   EXPECT_TRUE(For(0, 200).warnings.empty());
 }
 
-TEST_F(ControlTrackTest, WhatIsNeverDancedChangesNothing) {
+TEST_F(ControlTrackTest, PathsOutsideTheDanceChangeNothing) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   track_.Set(Way({0, 50}, {9, 9}), 60, "controls");     // over before it counts
   track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // after all that is danced
   EXPECT_NEAR(For(60, 140).controls[kRootPath].values(0, 139), 1.99, 1e-9);
 }
 
-TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
+TEST_F(ControlTrackTest, WarnsOfADistantPathStart) {
   track_.Set(Way({0, 300}, {0.4, 3}), 0, "controls");
   EXPECT_TRUE(For(0, 60).warnings.empty()) << "a step aside";
   track_.Set(Way({30, 300}, {5, 7}), 0, "controls");
@@ -100,7 +100,7 @@ TEST_F(ControlTrackTest, SaysHowFarThePathIsWhereItTakesOver) {
       << "and from where she stands";
 }
 
-TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
+TEST_F(ControlTrackTest, NamesPartsThatMissedTheirSpeed) {
   QualityReport report;
   report.measured_from = 10;
   report.frames = 90;
@@ -122,7 +122,7 @@ TEST_F(ControlTrackTest, NamesPartsThatWereNotAsFastAsAsked) {
             "instead of 2, right_arm 1.18 instead of 1, left_leg 0.2 instead of 0");
 }
 
-TEST_F(ControlTrackTest, HeightsComeFromThePathOrFromTheDancer) {
+TEST_F(ControlTrackTest, HeightsComeFromPathOrDancer) {
   here_.root_position.y() = 0.5;
   track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), standing_, 1e-9);
@@ -135,7 +135,7 @@ TEST_F(ControlTrackTest, HeightsComeFromThePathOrFromTheDancer) {
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 50), 1.3, 1e-9);
 }
 
-TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
+TEST_F(ControlTrackTest, UnplacedKeyStandsUnlessThePathHasHeights) {
   track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
   AimAt(0);
   target_->mask.root_position = false;
@@ -157,7 +157,7 @@ TEST_F(ControlTrackTest, AKeyWithoutAPlaceStandsUnlessThePathSaysHowHighItIs) {
   EXPECT_GT(For(0, 90).controls[kRootPath].values(1, 89), standing_ + 0.2);
 }
 
-TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
+TEST_F(ControlTrackTest, WarnsOfAKeyOffThePathsHeight) {
   AimAt(0);
   target_->mask.root_position = false;
   const auto told = [&](double height) {
@@ -184,7 +184,7 @@ TEST_F(ControlTrackTest, SaysWhereAKeyStandsElsewhereThanThePathHasIt) {
   EXPECT_TRUE(told(1.3).empty());
 }
 
-TEST_F(ControlTrackTest, OneOfWhomNothingIsKnownStandsWhereThePathBegins) {
+TEST_F(ControlTrackTest, WithoutHistoryStartsOnThePath) {
   EXPECT_EQ(track_.Stance(0, {}).root_position, RestPose(sampler_.model().skeleton).root_position);
   track_.Set(Way({30, 90}, {4, 5}, {0.5, 0.5}), 0, "controls");
   EXPECT_EQ(track_.Stance(0, {}).root_position.x(), 0);
@@ -213,7 +213,7 @@ TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
   EXPECT_FALSE(track_.BehindEnd(100));
 }
 
-TEST_F(ControlTrackTest, TheKeyWinsAndItIsSaidByHowMuch) {
+TEST_F(ControlTrackTest, KeyOverridesThePathWithAWarning) {
   track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
   AimAt(1.09);
   const Asked asked = For(0, 90);
@@ -254,7 +254,7 @@ TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), 0.5, 1e-9);
 }
 
-TEST_F(ControlTrackTest, APathThatNobodyCanWalkIsSaidToBeTooFast) {
+TEST_F(ControlTrackTest, WarnsOfATooFastPath) {
   track_.Set(Way({0, 30}, {0, 4.5}), 0, "controls");
   EXPECT_TRUE(For(0, 31).warnings.empty());
   track_.Set(Way({0, 30}, {0, 6}), 0, "controls");
@@ -301,7 +301,7 @@ TEST_F(ControlTrackTest, InterpolatesBetweenFramesAndReplacesPartByPart) {
   EXPECT_FLOAT_EQ(For(15, 25).controls[kVelocityFactors].values(3, 0), 0);
 }
 
-TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
+TEST_F(ControlTrackTest, RefusesImpossibleVelocities) {
   VelocityRequest request;
   request.factors = {-0.5};
   ExpectRefused(Velocity(request), "controls.velocity_factors.factors[0]: -0.5 is not in [0, 10]");
@@ -344,7 +344,7 @@ TEST_F(ControlTrackTest, RefusesVelocitiesThatNoBodyHas) {
                 "calm");
 }
 
-TEST_F(ControlTrackTest, RefusesWhatTheModelDoesNotTake) {
+TEST_F(ControlTrackTest, RefusesUnsupportedControls) {
   const FakeSampler plain;
   const auto refused = [&](const ControlRequest& request, const std::string& message) {
     ExpectError(ErrorCode::kInvalidArgument, message,

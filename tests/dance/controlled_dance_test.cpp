@@ -76,14 +76,14 @@ TEST_F(ControlledDanceTest, BeginsWhereThePathBegins) {
   }
 }
 
-TEST_F(ControlledDanceTest, APathThatBeginsAfterTheEndIsToldOf) {
+TEST_F(ControlledDanceTest, WarnsOfAPathAfterTheEnd) {
   const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(120, 240, 0, 1)); }, 120);
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.warnings.size(), 1u);
   EXPECT_EQ(dance.warnings[0].code, Warning::Code::kPathBehindEnd);
 }
 
-TEST_F(ControlledDanceTest, ControlsHoldFromTheFirstFrameThatIsNotFrozen) {
+TEST_F(ControlledDanceTest, ControlsApplyFromTheFirstUnfrozenFrame) {
   const Recording dance = Perform([](DanceStream& s) {
     s.SetControls(Factor(BodyPart::kLeftArm, 2));
     s.GenerateUntil(100);
@@ -100,7 +100,7 @@ TEST_F(ControlledDanceTest, ControlsHoldFromTheFirstFrameThatIsNotFrozen) {
   EXPECT_NEAR(LeftArm(dance.poses[299]), 0.08, 1e-6);
 }
 
-TEST_F(ControlledDanceTest, WithoutGenerateUntilTheyHoldAfterTheLastKey) {
+TEST_F(ControlledDanceTest, WithoutGenerateUntilControlsApplyAfterTheLastKey) {
   const Recording dance = Perform([](DanceStream& s) {
     s.SetKey("a", AtFrame{80}, KeyAt(0, 0));
     s.SetControls(Factor(BodyPart::kLeftArm, 5));
@@ -243,7 +243,7 @@ TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
   }
 }
 
-TEST_F(ControlledDanceTest, APathThatIsOverBeforeItCanHoldIsToldOf) {
+TEST_F(ControlledDanceTest, WarnsOfAPathThatComesTooLate) {
   const Recording dance = Perform([](DanceStream& s) {
     s.GenerateUntil(100);
     s.SetControls(Way(10, 90, 0, 1));
@@ -325,7 +325,7 @@ class GroupRecorder : public GroupSink {
   Recording recording_;
 };
 
-TEST_F(ControlledDanceTest, ASingleTransitionTellsOfAPathThatItHasNoFrameOf) {
+TEST_F(ControlledDanceTest, SingleTransitionWarnsOfAPathOutsideIt) {
   for (const auto& [from, kind] : {std::pair{0, Warning::Code::kControlsTooLate},
                                    std::pair{160, Warning::Code::kPathBehindEnd}}) {
     GroupRequest request;
@@ -340,7 +340,7 @@ TEST_F(ControlledDanceTest, ASingleTransitionTellsOfAPathThatItHasNoFrameOf) {
   }
 }
 
-TEST_F(ControlledDanceTest, ASingleTransitionIsThatOfTheStream) {
+TEST_F(ControlledDanceTest, SingleTransitionEqualsTheStreams) {
   const ControlRequest path = Way(0, 200, 3, 4);
   const Pose key = KeyAt(3.9, 3.2);
   const Recording dance = Perform(

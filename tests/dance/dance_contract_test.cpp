@@ -227,7 +227,7 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnce) {
   EXPECT_TRUE(Perform(*queue, RandomDance(32)).summary);
 }
 
-TEST_F(DanceContract, LatencyCountsWindowFilterResamplingAndWhatAModelHears) {
+TEST_F(DanceContract, LatencyIncludesTheModelsLookAhead) {
   const ModelInfo model = FakeSampler().model();
   DanceConfig config;
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 0);
@@ -247,7 +247,7 @@ class CalmSampler : public FakeSampler {
   CalmSampler() { model_.max_temperature = 1.25; }
 };
 
-TEST(DanceWarnings, TemperatureBeyondTheModelsIsTold) {
+TEST(DanceWarnings, WarnsOfTemperatureBeyondTheModels) {
   for (const float asked : {1.25F, 1.5F}) {
     const auto queue = QueueOf<CalmSampler>();
     Dance dance = RandomDance(3);

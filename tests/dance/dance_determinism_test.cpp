@@ -34,7 +34,7 @@ TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
   EXPECT_FALSE(SameDance(expected, Perform(*alone, dance)));
 }
 
-TEST(DanceStream, TheModelIsToldOfTheBeats) {
+TEST(DanceStream, ModelReceivesTheBeats) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(13, 4);
   const Recording timed = Perform(*queue, dance);
@@ -111,7 +111,7 @@ TEST(DanceStream, OrderOfKeysDoesNotMatterAfterTheFrontier) {
   }
 }
 
-TEST(DanceStream, EndsTheSameWhicheverEndIsKnownFirst) {
+TEST(DanceStream, OrderOfMusicEndAndKeysEndDoesNotMatter) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(16, 3.3);
   dance.keys.resize(1);

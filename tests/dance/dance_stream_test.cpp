@@ -73,7 +73,7 @@ TEST(DanceStream, FramesFlowWhileTheMusicStillArrives) {
 }
 
 // It is sampled whole, so all of its music must be there; the sixtieth frame's needs no more.
-TEST(DanceStream, AModelThatHearsMusicWaitsForThatOfATransition) {
+TEST(DanceStream, ModelWithMusicInputWaitsForItsMusic) {
   const auto queue = FakeQueue();
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
@@ -129,7 +129,7 @@ TEST(DanceStream, ALongDanceWithoutKeysStaysFinite) {
 }
 
 // It may be led away by keys; then it keeps to where they left it.
-TEST(DanceStream, KeepsToWhereItBeganOrWasLastPlaced) {
+TEST(DanceStream, StaysNearItsStartOrLastPlace) {
   const auto queue = FakeQueue();
   Dance dance;
   dance.config.temperature = 0;
@@ -170,7 +170,7 @@ TEST(DanceStream, CancellationEndsItOnce) {
 }
 
 // The only worker makes what can be danced, and the first is the same as alone.
-TEST(DanceStream, WhoWaitsForMusicHoldsUpNobody) {
+TEST(DanceStream, WaitingForMusicBlocksNobody) {
   const auto queue = QueueOf<FakeSampler>();
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
@@ -217,7 +217,7 @@ TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
 }
 
 // Whatever becomes of it, its listener is let go.
-TEST(DanceStream, NothingOfADanceIsLeftBehind) {
+TEST(DanceStream, FreesAllOfADance) {
   const auto queue = FakeQueue();
   for (const bool whole : {true, false}) {
     const auto sink = std::make_shared<Recorder>();
@@ -241,7 +241,7 @@ class ForgetfulRecorder final : public Recorder {
   void OnContinuation(const Continuation&) override { throw std::bad_alloc(); }
 };
 
-TEST(DanceStream, EndsInAnErrorWhereMemoryIsOut) {
+TEST(DanceStream, FailsWhenMemoryRunsOut) {
   const auto queue = FakeQueue();
   auto sink = std::make_shared<ForgetfulRecorder>();
   DanceStream stream(*queue, {}, sink);
@@ -265,7 +265,7 @@ class BrokenSampler : public FakeSampler {
 };
 
 // The transitions before are handed out.
-TEST(DanceStream, AModelThatBreaksEndsTheDanceAlone) {
+TEST(DanceStream, BrokenModelEndsOnlyItsDance) {
   const auto queue = QueueOf<BrokenSampler>();
   Dance dance = RandomDance(21);
   dance.keys = {{"a", 39, dance.keys[0].pose, {}}, {"b", 99, dance.keys[1].pose, {}}};

@@ -34,7 +34,7 @@ std::vector<float> Drum(double seconds, double period) {
   return samples;
 }
 
-TEST(MusicBeats, ALiveDanceHearsThem) {
+TEST(MusicBeats, LiveDanceDetectsThem) {
   const auto queue = FakeQueue();
   for (const bool keyed : {true, false}) {
     Dance dance = LiveDance(41, 20);
@@ -175,7 +175,7 @@ TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
 
 // Whatever the tempo, and wherever the dance is cut into transitions, also into those of which only
 // a part is danced: on a boundary, too.
-TEST(MusicBeats, AreToldOnceEach) {
+TEST(MusicBeats, AreReportedOnce) {
   for (int bpm = 60; bpm <= 145; bpm += 5) {
     const double period = 60.0 / bpm;
     const double step = bpm < 70 ? period / 2 : period;  // so slow a pulse is counted by halves
@@ -204,7 +204,7 @@ TEST(MusicBeats, AreToldOnceEach) {
 // Until the first one given and after the last: what was said ahead silences nothing before it.
 // A program that says its grid again and again, each time a few milliseconds elsewhere, as a MIDI
 // clock is heard, tells of the same beats.
-TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {
+TEST(MusicBeats, RepeatedGridIsReportedOnce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
   for (const int64_t lead : {0, 6, 20}) {
@@ -232,7 +232,7 @@ TEST(MusicBeats, AGridThatIsSaidAgainIsToldOnce) {
   }
 }
 
-TEST(MusicBeats, AreHeardBesideThoseGiven) {
+TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   AudioFeed feed(22050, 1, 0);
   feed.Push(Song(22050, 20), 0, [] {});
   feed.Finish();
@@ -261,7 +261,7 @@ TEST(MusicBeats, AreHeardBesideThoseGiven) {
 }
 
 // Only what lies before a transition says where it beats.
-TEST(MusicBeats, WhatFollowsChangesNothing) {
+TEST(MusicBeats, LaterMusicChangesNothing) {
   std::vector<float> song = Song(22050, 20);
   const auto around = [&song] {
     AudioFeed feed(22050, 1, 0);

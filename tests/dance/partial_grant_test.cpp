@@ -117,7 +117,7 @@ TEST_F(PartialGrantTest, AnEditAfterTheFrontierChangesWhatFollowsAlone) {
 }
 
 // From the end of each transition, and from each cut, to the same messages again.
-TEST_F(PartialGrantTest, ResumedInsideAnIntervalItIsTheSame) {
+TEST_F(PartialGrantTest, ResumesInsideAnInterval) {
   Dance dance = Editable(54);
   std::mt19937 random(54);
   std::vector<std::pair<Step, int64_t>> steps;

@@ -32,7 +32,7 @@ TEST(QualityReport, SkatingIsAToeThatSlidesNearTheFloor) {
   EXPECT_DOUBLE_EQ(MeasureMotion(skeleton, motion).skate_ratio, 10.0 / 30);
 }
 
-TEST(QualityReport, SupportIsTheShareOfFramesThatAreBorneOrThrown) {
+TEST(QualityReport, SupportIsTheShareOfSupportedOrBallisticFrames) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0, 31)).support, 1);
   EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0.1, 31)).support, 0);  // she hovers
@@ -46,7 +46,7 @@ TEST(QualityReport, SupportIsTheShareOfFramesThatAreBorneOrThrown) {
   EXPECT_FALSE(MeasureMotion(headless, motion).support);
 }
 
-TEST(QualityReport, SpeedsArePartsMeansOverFramesThatAreAsked) {
+TEST(QualityReport, SpeedsAreMeansOverRequestedFrames) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const Motion motion = Sliding(0.3, 0, 31);
   QualityMeter meter(skeleton, 30, 0);
@@ -112,7 +112,7 @@ TEST(QualityReport, AccelerationsAroundKeys) {
   EXPECT_DOUBLE_EQ(report.keys[0].raw_error_m, 0.5);
 }
 
-TEST(QualityReport, WhereAModelHasNoLikelihoodThereIsNone) {
+TEST(QualityReport, HasNoLikelihoodIfTheModelHasNone) {
   QualityMeter meter(Skeleton::Smpl24(), 30, 0);
   meter.Add({.pose = Standing()});
   EXPECT_FALSE(meter.Report().log_likelihood);

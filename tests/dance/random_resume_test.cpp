@@ -129,7 +129,7 @@ void ResumeEverywhere(SampleQueue& queue, uint32_t seed, Dance dance, int64_t fr
   }
 }
 
-TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
+TEST(RandomResume, ContinuesBitForBitAfterRandomMessages) {
   const auto queue = QueueOf<ControlledSampler>();
   Counts counts;
   for (uint32_t seed = 1; seed <= 30; ++seed)
@@ -143,7 +143,7 @@ TEST(RandomResume, GoesOnBitForBitWhateverWasSaidInWhateverOrder) {
 
 // A minute that swells and falls silent: what is heard of its energy and its beats goes back half
 // of that, and no farther.
-TEST(RandomResume, HearsAsMuchOfLongMusicAsBefore) {
+TEST(RandomResume, ReceivesTheSameFeaturesOfLongMusic) {
   const auto queue = QueueOf<ControlledSampler>();
   Counts counts;
   for (uint32_t seed = 101; seed <= 104; ++seed) {

@@ -12,7 +12,7 @@ namespace choreo::recurrence_test {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(Recurrence, AFrameIsLikeTheFirstOneThatItComesBackAs) {
+TEST(Recurrence, OriginIsTheFirstOccurrence) {
   const std::vector<Passage> passages{{10, 20, 0}, {30, 40, 12}};
   const Recurrence recurrence(30, passages);
   EXPECT_EQ(recurrence.Origin(299), 299);
@@ -24,14 +24,14 @@ TEST(Recurrence, AFrameIsLikeTheFirstOneThatItComesBackAs) {
   EXPECT_THAT(recurrence.Origins(298, 302), ElementsAre(298, 299, 0, 1));
 }
 
-TEST(Recurrence, ALoopIsLikeItsFirstRound) {
+TEST(Recurrence, LoopRefersToItsFirstRound) {
   const std::vector<Passage> passages{{2, 12, 0}};
   const Recurrence recurrence(30, passages);
   EXPECT_EQ(recurrence.Origin(60), 0);
   EXPECT_EQ(recurrence.Origin(60 * 5 + 7), 7);
 }
 
-TEST(Recurrence, WhatIsGivenLaterHoldsForTransitionsAfterTheFrozenFrames) {
+TEST(Recurrence, LaterPassagesApplyAfterTheFrozenFrames) {
   const std::vector<Passage> first{{10, 20, 0}}, later{{12, 30, 4}};
   Recurrence recurrence(30, first);
   recurrence.Give(later, 450, "p");
@@ -54,7 +54,7 @@ TEST(Recurrence, TakesAsManyAsAStreamMayGive) {
               [&] { recurrence.Give(one, 0, "p"); });
 }
 
-TEST(Recurrence, CutsAreWherePassagesAndTheirLikesBeginAndEnd) {
+TEST(Recurrence, CutsAreAtPassageAndOriginBounds) {
   const std::vector<Passage> passages{{10, 20, 0}, {30, 36, 20}};
   EXPECT_THAT(CutsOf(passages, 30), ElementsAre(0, 300, 600, 780, 900, 1080));
 }
@@ -93,7 +93,7 @@ double Apart(const Recording& dance, size_t a, size_t b) {
   return sum;
 }
 
-TEST(RecurringDance, ComesBackAsMuchAsItIsNotToVary) {
+TEST(RecurringDance, RepeatsMoreWithLessVariation) {
   const std::vector<Passage> passages{{8, 14, 0}};
   const Recording apart = DanceTo({}, 0, {});
   ASSERT_TRUE(apart.summary) << apart.error->what();
@@ -106,7 +106,7 @@ TEST(RecurringDance, ComesBackAsMuchAsItIsNotToVary) {
   EXPECT_TRUE(SameDance(DanceTo(passages, 1, {}), DanceTo(passages, 1, {})));
 }
 
-TEST(RecurringDance, IsTheUsualOneWhereAllMayVary) {
+TEST(RecurringDance, FullVariationEqualsTheUsualDance) {
   EXPECT_TRUE(SameDance(DanceTo({{8, 14, 0}}, 1, {}), DanceTo({}, 1, {})));
 }
 

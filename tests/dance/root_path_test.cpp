@@ -86,7 +86,7 @@ TEST(PathCurve, TurnsWithItsPoints) {
   }
 }
 
-TEST(RootPath, RefusesWhatIsNoPath) {
+TEST(RootPath, RefusesInvalidPaths) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](const RootPath& path, const std::string& message) {
     ExpectError(ErrorCode::kInvalidArgument, message, [&] { ValidatePath(path, "root_path"); });
@@ -141,7 +141,7 @@ TEST_F(LeadTest, FollowsTheCurveOfADancerWhoIsOnIt) {
   EXPECT_TRUE(lead.missed.isZero());
 }
 
-TEST_F(LeadTest, ComesBackToTheCurveWithoutAJump) {
+TEST_F(LeadTest, ReturnsSmoothlyToTheCurve) {
   request_.start.position += Eigen::Vector3d(0, 0, -0.6);
   const Lead lead = LeadPath(request_);
   ExpectSmooth(lead, 0.01);
@@ -150,7 +150,7 @@ TEST_F(LeadTest, ComesBackToTheCurveWithoutAJump) {
   EXPECT_LT((lead.path.col(27) - curve_.At(127).position).norm(), 1e-12);
 }
 
-TEST_F(LeadTest, EndsWhereItHasTo) {
+TEST_F(LeadTest, EndsAtItsTarget) {
   request_.end = PathPoint{curve_.At(189).position + Eigen::Vector3d(0.3, 0, 0.4), {0, 0, 0}};
   const Lead lead = LeadPath(request_);
   EXPECT_LT((lead.path.col(89) - request_.end->position).norm(), 1e-12);
@@ -159,7 +159,7 @@ TEST_F(LeadTest, EndsWhereItHasTo) {
   ExpectSmooth(lead, 0.01);
 }
 
-TEST_F(LeadTest, BridgesWhatNoCurveSpeaksOf) {
+TEST_F(LeadTest, BridgesFramesWithoutACurve) {
   std::fill_n(request_.curves.begin(), 50, nullptr);
   std::fill_n(request_.curves.begin() + 70, 20, nullptr);
   request_.start.position += Eigen::Vector3d(0, 0, -1);
@@ -187,7 +187,7 @@ TEST_F(LeadTest, BendsTheCurveToAnEndTooSoonAfterIt) {
   }
 }
 
-TEST_F(LeadTest, AnEndOnTheWayOnContradictsNothing) {
+TEST_F(LeadTest, TargetFurtherAlongTheCurveIsNotMissed) {
   std::fill(request_.curves.end() - 3, request_.curves.end(), nullptr);
   for (const int further : {0, 1, 3}) {
     request_.end =
@@ -199,7 +199,7 @@ TEST_F(LeadTest, AnEndOnTheWayOnContradictsNothing) {
   }
 }
 
-TEST_F(LeadTest, HoldsThePlaceWhereNothingIsAsked) {
+TEST_F(LeadTest, HoldsThePlaceWithoutACurve) {
   std::fill(request_.curves.begin() + 30, request_.curves.end(), nullptr);
   const Lead lead = LeadPath(request_);
   for (int frame = 30; frame < 90; ++frame) {
@@ -216,7 +216,7 @@ TEST_F(LeadTest, GoesOverToAnotherCurve) {
   ExpectSmooth(lead, 0.02);
 }
 
-TEST_F(LeadTest, LeadsItsAxesAlone) {
+TEST_F(LeadTest, ChangesOnlyItsAxes) {
   request_.axes = {0, 1, 0};
   request_.curves.assign(90, nullptr);
   request_.start.position.y() = 0.6;

@@ -67,7 +67,7 @@ TEST(Timeline, TransitionsWithoutAKeyEndAtCuts) {
                                                 {360, 420, ""}}));
 }
 
-TEST(Timeline, CutsHoldForWhatWasPlannedBeforeTheyWereKnown) {
+TEST(Timeline, CutsApplyToEarlierPlans) {
   Timeline timeline({.end_frame = 200});
   timeline.GenerateUntil(200);
   timeline.SetCuts({70, 75});
@@ -75,7 +75,7 @@ TEST(Timeline, CutsHoldForWhatWasPlannedBeforeTheyWereKnown) {
             (std::vector<Span>{{0, 70, ""}, {70, 130, ""}, {130, 190, ""}, {190, 250, ""}}));
 }
 
-TEST(Timeline, TransitionsToAKeyKnowNoCuts) {
+TEST(Timeline, CutsDoNotSplitTransitionsToAKey) {
   Timeline timeline({});
   timeline.SetCuts({20});
   EXPECT_EQ(Set(timeline, "a", AtFrame{40}), std::nullopt);
@@ -155,7 +155,7 @@ TEST(Timeline, LateMessagesAreRejectedWithTheEarliestFrame) {
 }
 
 // Keys that freeze by themselves surprise who edits: what would have helped is said.
-TEST(Timeline, RejectionsTellWhoNeverGrantedWhatFroze) {
+TEST(Timeline, RejectionsExplainFreezingWithoutGrants) {
   for (const bool grants : {false, true}) {
     Timeline timeline({});
     if (grants) timeline.GenerateUntil(100);
@@ -172,7 +172,7 @@ TEST(Timeline, RejectionsTellWhoNeverGrantedWhatFroze) {
   }
 }
 
-TEST(Timeline, RefusesWhatCanNeverBe) {
+TEST(Timeline, RefusesImpossibleKeys) {
   Timeline timeline({.end_frame = 300});
   timeline.GenerateUntil(0);
   Set(timeline, "a", AtFrame{30});
@@ -247,7 +247,7 @@ TEST(Timeline, EndsWhereTheConfigSays) {
   EXPECT_FALSE(timeline.Certain(100));
 }
 
-TEST(Timeline, PastTheMusicOnlyAFrozenKeyMakesFramesCertain) {
+TEST(Timeline, FramesAfterTheMusicNeedAFrozenKey) {
   Timeline timeline({.has_music = true});
   timeline.GenerateUntil(120);
   timeline.SetAudioEnd(80);
@@ -262,7 +262,7 @@ TEST(Timeline, PastTheMusicOnlyAFrozenKeyMakesFramesCertain) {
   EXPECT_EQ(timeline.End(), 131);
 }
 
-TEST(Timeline, IdsThatWereOnlyEverLateCanBeRemovedAndComeAgain) {
+TEST(Timeline, RejectedIdsCanBeReused) {
   Timeline timeline({.granted = 60});
   ASSERT_TRUE(Set(timeline, "a", AtFrame{30}));
   ASSERT_TRUE(timeline.Remove("a", "remove"));
@@ -272,7 +272,7 @@ TEST(Timeline, IdsThatWereOnlyEverLateCanBeRemovedAndComeAgain) {
 }
 
 // A dance that goes on is told all again, of keys that moved across its first frame, too.
-TEST(Timeline, KeysBeforeTheFirstFrameStandWhereTheyStood) {
+TEST(Timeline, KeysBeforeTheFirstFrameKeepTheirFrames) {
   Timeline timeline({.first_frame = 60, .granted = 0});
   ASSERT_EQ(Set(timeline, "a", AtFrame{100}), std::nullopt);
   const auto before = Set(timeline, "a", AtFrame{50});
@@ -286,7 +286,7 @@ TEST(Timeline, KeysBeforeTheFirstFrameStandWhereTheyStood) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{60, 81, "b"}}));
 }
 
-TEST(Timeline, AGrantAlonePlansNothingAnew) {
+TEST(Timeline, GrantAloneDoesNotReplan) {
   for (const int64_t stride : {1, 7, 200}) {
     Timeline timeline({.has_music = true, .granted = 0});
     Set(timeline, "a", AtFrame{99});
@@ -317,7 +317,7 @@ TEST(Timeline, AChangeAheadStopsTheTransitionAtTheFrontier) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 40, "a"}, {40, 50, "c"}, {50, 80, "a"}}));
 }
 
-TEST(Timeline, WhatDisturbsATransitionStopsIt) {
+TEST(Timeline, DisturbanceStopsTheTransition) {
   Timeline timeline({.has_music = true, .granted = 30});
   timeline.Disturb(60, 90);  // after it
   timeline.Disturb(0, 29);   // danced

@@ -127,7 +127,7 @@ TEST(TransitionGroup, RanksBySteeringThenSkateThenLikelihood) {
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
 }
 
-TEST(TransitionGroup, RanksByLikelihoodAloneWhereThatIsAsked) {
+TEST(TransitionGroup, RanksByLikelihoodAloneOnRequest) {
   const auto report = [](int candidate, double steered, std::optional<double> likelihood) {
     CandidateReport made;
     made.candidate = candidate;
@@ -145,7 +145,7 @@ TEST(TransitionGroup, RanksByLikelihoodAloneWhereThatIsAsked) {
   EXPECT_EQ(list.front().candidate, 0);
 }
 
-TEST(TransitionGroup, AGroupIsRankedAsItAsksAndAModelWithoutLikelihoodRefuses) {
+TEST(TransitionGroup, RanksAsRequestedIfTheModelCan) {
   const auto queue = FakeQueue(2);
   GroupRequest request = RandomRequest(1);
   request.candidates = 6;
@@ -165,7 +165,7 @@ TEST(TransitionGroup, AGroupIsRankedAsItAsksAndAModelWithoutLikelihoodRefuses) {
               [&] { request.Validate(without); });
 }
 
-TEST(TransitionGroup, RanksWhoStandsOnHerFeetBeforeWhoGlidesLess) {
+TEST(TransitionGroup, RanksSupportBeforeSkating) {
   const auto report = [](int candidate, std::optional<double> support, double skate) {
     CandidateReport made;
     made.candidate = candidate;
@@ -252,7 +252,7 @@ TEST(TransitionGroup, MeetsTheMotionThatFollows) {
   EXPECT_LT(aware, 0.7 * unaware);
 }
 
-TEST(TransitionGroup, CancellationAndRefusalGiveBackAllRoom) {
+TEST(TransitionGroup, CancellationAndRefusalFreeAllRoom) {
   const auto queue = FakeQueue(1, 5);
   GroupRequest request = RandomRequest(5);
   request.frames = 1800;

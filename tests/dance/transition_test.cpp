@@ -95,7 +95,7 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   EXPECT_EQ(arrival->correction_m, 0);
 }
 
-TEST(Transition, SpeedsThatTheWayAsksFor) {
+TEST(Transition, MeasuresRequiredSpeeds) {
   const FakeSampler sampler;
   TransitionRequest request;
   request.frames = 15;

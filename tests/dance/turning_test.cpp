@@ -56,7 +56,7 @@ TEST_P(TurningTest, VectorsAreThoseNearTheFrameBefore) {
   }
 }
 
-TEST_P(TurningTest, ResumedTheyAreTheSame) {
+TEST_P(TurningTest, ResumedVectorsAreTheSame) {
   const Recording whole = Turn(GetParam(), 30);
   ASSERT_GT(whole.continuations.size(), 2U);
   for (const Continuation& continuation : whole.continuations) {

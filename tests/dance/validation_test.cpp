@@ -50,7 +50,7 @@ TEST(Validation, PosesNameFieldValueAndLimit) {
   }
 }
 
-TEST(Validation, MasksFitTheSkeletonAndAskForSomething) {
+TEST(Validation, MasksFitTheSkeletonAndAreNotEmpty) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const auto refusal = [&skeleton](const PoseMask& mask) {
     return Refusal([&] { ValidateMask(skeleton, mask, "target.mask"); });

@@ -81,7 +81,7 @@ TEST(ContactSheet, IsAPictureOfTheMotion) {
   EXPECT_GT(key.Count(kKeyColour), 200);
 }
 
-TEST(ContactSheet, TheWordKeyStandsBelowItsTileAndHidesNobody) {
+TEST(ContactSheet, LabelsKeysBelowTheirTiles) {
   const TemporaryFolder folder;
   ContactSheetOptions options = Small({0});
   options.frames = options.columns = 1;
@@ -110,7 +110,7 @@ TEST(ContactSheet, BreaksIntoRows) {
   EXPECT_GT(png.height, 160);
 }
 
-TEST(ContactSheet, ALongTitleHasALineOfItsOwnAndRowsCanBeApart) {
+TEST(ContactSheet, PutsALongTitleOnItsOwnLineAndSpacesRows) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 32, 31);
   const auto draw = [&](const std::string& title, int width, bool apart) {

@@ -70,7 +70,7 @@ TEST(Plot, LeavesOutPointsThatAreNoNumbers) {
   EXPECT_GT(gap.Count(kFirstLine), 50);
 }
 
-TEST(Plot, IsDrawnEvenOfNothingOrOfOneValue) {
+TEST(Plot, DrawsNoneOrOneValue) {
   const TemporaryFolder folder;
   DrawPlot(Plot{}, folder / "nothing.png");
   EXPECT_EQ(DecodedPng(folder / "nothing.png").width, 1000);
@@ -82,7 +82,7 @@ TEST(Plot, IsDrawnEvenOfNothingOrOfOneValue) {
   }
 }
 
-TEST(Plot, WhatWasAskedIsDashedInTheColourOfWhatCame) {
+TEST(Plot, DrawsRequestsDashedInTheColourOfResults) {
   const TemporaryFolder folder;
   Plot plot = Example();
   DrawPlot(plot, folder / "both.png");
@@ -97,7 +97,7 @@ TEST(Plot, WhatWasAskedIsDashedInTheColourOfWhatCame) {
   EXPECT_LT(DecodedPng(folder / "first.png").Count(kFirstLine), asked.Count(kFirstLine) - 100);
 }
 
-TEST(Plot, ALineThatLiesOnAnEarlierOneIsDashedAndBothAreSeen) {
+TEST(Plot, DashesALineOverAnEqualOne) {
   const TemporaryFolder folder;
   Plot plot = Example();
   plot.series[0].y = plot.series[1].y;
@@ -144,7 +144,7 @@ TEST(Plot, BarsOfNamedPlacesStandSideBySideOnZero) {
   EXPECT_GT(high, 200);
 }
 
-TEST(Plot, ManyNamesAreLeftOutRatherThanWrittenOverEachOther) {
+TEST(Plot, OmitsNamesThatWouldOverlap) {
   const TemporaryFolder folder;
   Plot plot;
   plot.series = {{"one", {0}, {1}}};
@@ -156,7 +156,7 @@ TEST(Plot, ManyNamesAreLeftOutRatherThanWrittenOverEachOther) {
   EXPECT_LT(dark(200), 2 * dark(5));
 }
 
-TEST(Plot, OnAMapAUnitIsAsLongUpAsToTheRight) {
+TEST(Plot, MapsHaveEqualScalesOnBothAxes) {
   const TemporaryFolder folder;
   Plot plot;
   plot.series = {{"square", {0, 1, 1, 0, 0}, {0, 0, 1, 1, 0}}};

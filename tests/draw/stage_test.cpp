@@ -39,7 +39,7 @@ TEST(Stage, EverybodyIsSeenFromTheFront) {
   }
 }
 
-TEST(Stage, RefusesWhatCannotBeSeenTogether) {
+TEST(Stage, RefusesDancersThatFitNoPicture) {
   ExpectError(ErrorCode::kInvalidArgument, "nobody", [] { CheckStage({}); });
   ExpectError(ErrorCode::kInvalidArgument, "0 frames", [] { CheckStage({At(0, 0, 0)}); });
   Stage stage = {At(0, 0, 2), At(1, 0, 2)};

@@ -36,7 +36,7 @@ TEST_F(ControlsTest, AreTakenBothOrEitherOrNone) {
   EXPECT_NO_THROW(ValidateSpec(spec_, model_));
 }
 
-TEST_F(ControlsTest, OfAnotherModelAreRefused) {
+TEST_F(ControlsTest, UnknownControlsAreRefused) {
   std::erase(model_.controls, "root_path");
   ExpectRefused("controls.root_path: the model 'walker' does not take it");
   spec_.controls[kRootPath].values.resize(3, 0);
@@ -52,7 +52,7 @@ TEST_F(ControlsTest, OfTheWrongSizeAreRefused) {
   ExpectRefused("controls.velocity_factors: 6 frames, must be 5");
 }
 
-TEST_F(ControlsTest, ThatAreNoNumbersOrNegativeAreRefused) {
+TEST_F(ControlsTest, NonFiniteOrNegativeAreRefused) {
   spec_.controls[kVelocityFactors].values(2, 3) = -0.01F;
   ExpectRefused("controls.velocity_factors: -0.01");
   spec_.controls[kRootPath].values(1, 4) = std::numeric_limits<float>::quiet_NaN();

@@ -48,7 +48,7 @@ TEST(DevicesTest, ACpuBuildAskedForCudaSaysWhatItHas) {
   EXPECT_THAT(error.what(), HasSubstr("this build has no CUDA, only: cpu"));
 }
 
-TEST(DevicesTest, AMissingGpuSaysWhichThereAre) {
+TEST(DevicesTest, MissingGpuListsAvailableOnes) {
   EXPECT_THAT(Failure("cuda:0,2", kTwoGpus).what(), HasSubstr("there are: cpu, cuda:0, cuda:1"));
   EXPECT_THAT(Failure("cuda:0", {.cuda_build = true}).what(), HasSubstr("no CUDA device answers"));
 }

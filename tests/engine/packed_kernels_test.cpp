@@ -30,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Cpus, PackedKernelsTest, testing::ValuesIn(AllKernels()
 
 TEST_P(PackedKernelsTest, RowsAreIndependent) { EXPECT_TRUE(RowsAreIndependent(*GetParam())); }
 
-TEST_P(PackedKernelsTest, MultipliesWhateverTheShape) {
+TEST_P(PackedKernelsTest, MultipliesAnyShape) {
   Random random(5);
   for (const long rows : {1, 2, 3, 4, 5, 7, 12, 13, 30, 35, 53}) {
     for (const long depth : {1, 41, 130}) {
@@ -61,7 +61,7 @@ TEST_P(PackedKernelsTest, MultipliesWhateverTheShape) {
   }
 }
 
-TEST_P(PackedKernelsTest, CurvesAreThoseOfTheLibrary) {
+TEST_P(PackedKernelsTest, CurvesMatchTheLibrary) {
   std::vector<float> x, expected;
   for (double at = -120; at <= 120; at += 0.0137) {
     x.push_back(static_cast<float>(at));
@@ -87,7 +87,7 @@ TEST_P(PackedKernelsTest, CurvesAreThoseOfTheLibrary) {
   }
 }
 
-TEST_P(PackedKernelsTest, GeluIsThatOfTheLibrary) {
+TEST_P(PackedKernelsTest, GeluMatchesTheLibrary) {
   std::vector<float> x;
   for (double at = -30; at <= 30; at += 0.0137) x.push_back(static_cast<float>(at));
   std::vector<float> gelu = x;
@@ -99,7 +99,7 @@ TEST_P(PackedKernelsTest, GeluIsThatOfTheLibrary) {
   }
 }
 
-TEST_P(PackedKernelsTest, RowsAreNormalisedWhateverTheirLength) {
+TEST_P(PackedKernelsTest, NormalisesRowsOfAnyLength) {
   for (const size_t width : {1, 5, 16, 33, 70, 160}) {
     std::vector<float> x(width), gain(width), bias(width), out(width);
     uint64_t seed = width;

@@ -46,7 +46,7 @@ class SampleQueueTest : public testing::Test {
   std::promise<void> entered, gate;
 };
 
-TEST_F(SampleQueueTest, WhoIsDueFirstGoesFirstSliceBySlice) {
+TEST_F(SampleQueueTest, EarliestDeadlineGoesFirstSliceBySlice) {
   SampleQueue queue(FakeSamplers(), {});
   const auto held = Gate();
   Close(queue, held);
@@ -62,7 +62,7 @@ TEST_F(SampleQueueTest, WhoIsDueFirstGoesFirstSliceBySlice) {
   EXPECT_EQ(queue.stats().frames, 40U);
 }
 
-TEST_F(SampleQueueTest, WhoIsDueEarlierGoesBetweenTheSlicesOfAnother) {
+TEST_F(SampleQueueTest, EarlierDeadlinePreemptsBetweenSlices) {
   SampleQueue queue(FakeSamplers(), {});
   const auto urgent = Job("urgent", 2, 1);
   const auto slow = Job("slow", 3, 2);
@@ -74,7 +74,7 @@ TEST_F(SampleQueueTest, WhoIsDueEarlierGoesBetweenTheSlicesOfAnother) {
   EXPECT_THAT(log.all(), ElementsAre("slow", "urgent", "urgent", "slow", "slow"));
 }
 
-TEST_F(SampleQueueTest, DancesThatAreDueGoBeforeBulkAndItBeforeOthers) {
+TEST_F(SampleQueueTest, DueDancesGoBeforeBulkAndBulkBeforeOthers) {
   SampleQueue queue(FakeSamplers(), {});
   const auto held = Gate();
   Close(queue, held);
@@ -89,7 +89,7 @@ TEST_F(SampleQueueTest, DancesThatAreDueGoBeforeBulkAndItBeforeOthers) {
 }
 
 // A clock that nobody can read is no right to go first.
-TEST_F(SampleQueueTest, ADeadlineThatIsNoNumberIsNever) {
+TEST_F(SampleQueueTest, NanDeadlineIsNever) {
   SampleQueue queue(FakeSamplers(), {});
   const auto held = Gate();
   Close(queue, held);
@@ -102,7 +102,7 @@ TEST_F(SampleQueueTest, ADeadlineThatIsNoNumberIsNever) {
   EXPECT_THAT(log.all(), ElementsAre("gate", "other", "nan"));
 }
 
-TEST_F(SampleQueueTest, CancelledJobsEndWhereverTheyAre) {
+TEST_F(SampleQueueTest, CancelledJobsEndInAnyState) {
   SampleQueue queue(FakeSamplers(), {});
   const auto held = Gate(/*deadline=*/5);
   const auto begun = Job("begun", 100, 10), waiting = Job("waiting", 100, 20);
@@ -125,7 +125,7 @@ TEST_F(SampleQueueTest, CancelledJobsEndWhereverTheyAre) {
   EXPECT_TRUE(queue.WaitUntilIdle(std::chrono::seconds(30)));
 }
 
-TEST_F(SampleQueueTest, WhatAJobThrowsEndsItAlone) {
+TEST_F(SampleQueueTest, ExceptionEndsOnlyItsJob) {
   SampleQueue queue(FakeSamplers(), {});
   const auto fail = [&](const std::function<void()>& thrower) {
     const auto job = Job("job", 5, 0);
@@ -157,7 +157,7 @@ TEST_F(SampleQueueTest, AJobMaySubmitTheNext) {
   EXPECT_FALSE(next->Result());
 }
 
-TEST_F(SampleQueueTest, StoppedItEndsAllAndTakesNone) {
+TEST_F(SampleQueueTest, StopEndsAllJobsAndTakesNone) {
   SampleQueue queue(FakeSamplers(), {});
   const auto held = Gate(), waiting = Job("waiting", 1, 0);
   Close(queue, held);
@@ -171,7 +171,7 @@ TEST_F(SampleQueueTest, StoppedItEndsAllAndTakesNone) {
   EXPECT_THAT(log.all(), ElementsAre("gate"));
 }
 
-TEST_F(SampleQueueTest, BulkHasRoomForSoManyAndGivesItBack) {
+TEST_F(SampleQueueTest, BulkRoomIsLimitedAndFreed) {
   auto queue = std::make_unique<SampleQueue>(FakeSamplers(), SampleQueue::Options{.max_bulk = 5});
   SampleQueue::Reservation three = queue->ReserveBulk(3);
   ExpectError(ErrorCode::kResourceExhausted,
@@ -184,7 +184,7 @@ TEST_F(SampleQueueTest, BulkHasRoomForSoManyAndGivesItBack) {
   queue.reset();  // they may outlive it
 }
 
-TEST_F(SampleQueueTest, WorkersShareWhatWaits) {
+TEST_F(SampleQueueTest, WorkersShareWaitingJobs) {
   SampleQueue queue(FakeSamplers(3), {});
   EXPECT_EQ(queue.stats().workers, 3);
   EXPECT_EQ(queue.devices().size(), 3U);
@@ -203,7 +203,7 @@ TEST_F(SampleQueueTest, WorkersShareWhatWaits) {
   for (const auto& job : jobs) EXPECT_FALSE(job->Result());
 }
 
-TEST_F(SampleQueueTest, LatenessCountsFromWhenItWasDueOrAskedFor) {
+TEST_F(SampleQueueTest, LatenessCountsFromDeadlineOrRequest) {
   SampleQueue queue(FakeSamplers(), {});
   for (const double deadline : {0.0, kNever}) {
     const auto job = Job("job", 1, deadline);
@@ -217,7 +217,7 @@ TEST_F(SampleQueueTest, LatenessCountsFromWhenItWasDueOrAskedFor) {
   EXPECT_LT(lateness.sum, 100) << "the one was asked for just then, the other is never late";
 }
 
-TEST_F(SampleQueueTest, RefusesWhatMakesNoQueue) {
+TEST_F(SampleQueueTest, RefusesInvalidOptions) {
   ExpectError(ErrorCode::kInvalidArgument, "samplers", [] { SampleQueue({}, {}); });
   ExpectError(ErrorCode::kInvalidArgument, "max_bulk",
               [] { SampleQueue(FakeSamplers(), {.max_bulk = -1}); });

@@ -8,7 +8,7 @@
 
 namespace choreo::warm_up_test {
 
-TEST(WarmUp, MeasuresWhatAFrameTakes) {
+TEST(WarmUp, MeasuresFrameTime) {
   class SlowSampler final : public FakeSampler {
    public:
     void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {
@@ -22,7 +22,7 @@ TEST(WarmUp, MeasuresWhatAFrameTakes) {
 }
 
 // With beats transitions of `default` take twice as long, and most have them.
-TEST(WarmUp, CountsWhatBeatsCost) {
+TEST(WarmUp, IncludesTheCostOfBeats) {
   class GuidedSampler final : public FakeSampler {
    public:
     void OnFrame(const TransitionSpec& spec, Plan* /*plan*/) override {
@@ -44,7 +44,7 @@ TEST(SamplingCost, FollowsTheMachine) {
   EXPECT_NEAR(cost.LoadOf(30), 60e-3, 1e-5);
 }
 
-TEST(SamplingCost, OfWhichNobodyMeasuredAnythingIsUnknown) {
+TEST(SamplingCost, IsUnknownWithoutMeasurements) {
   SamplingCost cost(0);
   cost.Add(1, 60);
   EXPECT_EQ(cost.LoadOf(30), 0);

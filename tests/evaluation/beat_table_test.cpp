@@ -8,7 +8,7 @@
 
 namespace choreo::beat_table_test {
 
-TEST(ScoreBeats, CountsMaximaAtMostTwoFramesOff) {
+TEST(ScoreBeats, CountsSpeedMaximaWithinTwoFrames) {
   std::vector<float> speeds;
   for (int step = 0; step < 100; ++step)  // maxima at frames 10, 20, ..., 100
     speeds.push_back(static_cast<float>(std::cos(2 * M_PI * (step + 1) / 10)));

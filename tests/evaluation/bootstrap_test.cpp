@@ -10,7 +10,7 @@
 
 namespace choreo::bootstrap_test {
 
-TEST(Bootstrap, EqualClipsLeaveNoDoubt) {
+TEST(Bootstrap, EqualClipsHaveAnEmptyInterval) {
   const std::vector<double> above = {1, 2, 3}, below = {2, 4, 6};
   const auto interval = BootstrapRatio(above, below);
   ASSERT_TRUE(interval);
@@ -46,7 +46,7 @@ TEST(Bootstrap, GroupsWeighAlikeInAMeanOfMeans) {
   EXPECT_TRUE(std::isnan(MeanOfMeans({}).value));
 }
 
-TEST(Bootstrap, ARatioOfNothingIsNone) {
+TEST(Bootstrap, RatioOverZeroIsNone) {
   EXPECT_DOUBLE_EQ(Ratio({{0, 1}, {1, 2}}, {{0, 2}, {1, 4}}).value, 0.5);
   EXPECT_TRUE(std::isnan(Ratio({}, {{0, 1}}).value));
   EXPECT_TRUE(std::isnan(Ratio({{0, 1}}, {}).value));

@@ -127,7 +127,7 @@ TEST_F(ControlTablesTest, RealMotionIsTheYardstick) {
   }
 }
 
-TEST_F(ControlTablesTest, InterpolationIsTheUnitWhoeverDancesIt) {
+TEST_F(ControlTablesTest, InterpolationIsTheUnitForEverySampler) {
   for (const std::string length : {"50", "150"}) {
     EXPECT_EQ(Figure("lrp_ratio", {"interpolation"}, length), 1);
     EXPECT_NEAR(Figure("lrp_ratio", {"model, network alone"}, length), 1, 1e-3);
@@ -148,7 +148,7 @@ TEST_F(ControlTablesTest, ARootWithinSevenCentimetresCounts) {
   EXPECT_LT(Figure("art", {"plain, network alone"}, "150"), 1);
 }
 
-TEST_F(ControlTablesTest, WhoObeysItsFactorsMultipliesItsSpeeds) {
+TEST_F(ControlTablesTest, FactorsMultiplySpeeds) {
   for (const auto& [times, scale] :
        std::map<std::string, double>{{"0.5", 0.5}, {"1.0", 1}, {"1.5", 1.5}}) {
     EXPECT_NEAR(Figure("multipliers", {"swinging, network alone", times}, "left_arm"), scale, 0.01);
@@ -159,7 +159,7 @@ TEST_F(ControlTablesTest, WhoObeysItsFactorsMultipliesItsSpeeds) {
   EXPECT_TRUE(std::isnan(Figure("multipliers", {"plain", "0.5"}, "left_arm")));
 }
 
-TEST_F(ControlTablesTest, ConstantFactorsAreHeldAgainstTheReference) {
+TEST_F(ControlTablesTest, ConstantFactorsAreComparedWithTheReference) {
   for (const auto& [times, scale] :
        std::map<std::string, double>{{"0.5", 0.5}, {"1.0", 1}, {"1.5", 1.5}}) {
     EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "left_arm"), scale, 0.01);
@@ -171,12 +171,12 @@ TEST_F(ControlTablesTest, ConstantFactorsAreHeldAgainstTheReference) {
   EXPECT_TRUE(std::isnan(Figure("constant", {"plain", "0.5"}, "left_arm")));
 }
 
-TEST_F(ControlTablesTest, WhoSwingsToAndFroRepeatsHerself) {
+TEST_F(ControlTablesTest, SwingingMotionIsRepetitive) {
   EXPECT_GT(Figure("repetition", {"swinging, network alone"}, "repeated, 250"), 0.5);
   EXPECT_LT(Figure("repetition", {"real"}, "repeated, 250"), 0.5);
 }
 
-TEST_F(ControlTablesTest, DrawnPathsAreKeptToAndEndAtTheKey) {
+TEST_F(ControlTablesTest, DrawnPathsAreFollowedAndEndAtTheKey) {
   for (const std::string path : {"as danced", "straight", "on the spot", "a bow"}) {
     EXPECT_LT(Figure("drawn", {path, "model"}, "root off path mean cm"), 1) << path;
     EXPECT_LT(Figure("drawn", {path, "model"}, "key missed cm"), 0.01) << path;
@@ -196,7 +196,7 @@ TEST_F(ControlTablesTest, DrawnPathsAreKeptToAndEndAtTheKey) {
   EXPECT_LT(asked("on the spot"), 0.15);
 }
 
-TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
+TEST_F(ControlTablesTest, OmitsTransitionsThatAreTooLongForTheModel) {
   class Brief : public ControlledSampler {
    public:
     Brief() { model_.max_transition_frames = 150; }
@@ -213,7 +213,7 @@ TEST_F(ControlTablesTest, WhoCanNotDanceAsLongHasNoFigure) {
   EXPECT_TRUE(std::isnan(row->cells[4].value));
 }
 
-TEST_F(ControlTablesTest, OfAModelThatTakesNoneThereAreNone) {
+TEST_F(ControlTablesTest, ModelWithoutControlsHasNoTables) {
   EXPECT_TRUE(Evaluate(set_, {{"model", Method::Kind::kModel, &plain_}}, options_).empty());
 }
 

@@ -124,7 +124,7 @@ TEST_F(Tables, KeysAreMissedRawAndMetAsServed) {
   EXPECT_GT(free[5].value, 10);
 }
 
-TEST_F(Tables, AreTheSameAgain) {
+TEST_F(Tables, AreDeterministic) {
   const std::vector<Table> again = EvaluateTransitions(evaluation_);
   ASSERT_EQ(again.size(), tables_.size());
   for (size_t i = 0; i < again.size(); ++i) EXPECT_EQ(ToJson(again[i]), ToJson(tables_[i]));
@@ -170,7 +170,7 @@ TEST(CheckReportPath, MakesFoldersAndNamesWhatCannotBeWrittenFirst) {
   EXPECT_EQ(PictureBeside(there, "pair_set_a, b/c").filename(), "figures_pair_set_a__b_c.png");
 }
 
-TEST(Contest, RefusesNamesThatAreTakenBeforeItLoadsAnything) {
+TEST(Contest, RefusesTakenNamesBeforeLoading) {
   for (const auto& [others, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"a=/absent", "a=/absent/too"}, "another row is called 'a'"},
            {{"real=/absent"}, "another row is called 'real'"},
@@ -189,7 +189,7 @@ TEST(Contest, RefusesNamesThatAreTakenBeforeItLoadsAnything) {
   ExpectError(ErrorCode::kInvalidArgument, "--name", [&] { MakeContest(options); });
 }
 
-TEST(SetNames, AreThoseOfFoldersEachOnce) {
+TEST(SetNames, AreUniqueFolderNames) {
   EXPECT_THAT(SetNames({"data/a", "data/b/"}), testing::ElementsAre("a", "b"));
   ExpectError(ErrorCode::kInvalidArgument, "'data/a/': another set is called 'a'", [] {
     SetNames({"data/a", "data/a/"});

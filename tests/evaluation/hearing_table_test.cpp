@@ -35,7 +35,7 @@ double Figure(const std::string& row, size_t setting) {
   return NAN;
 }
 
-TEST(HearingTable, HasAllFiguresAtUsualSettingsAndThoseThatMatterAtOthers) {
+TEST(HearingTable, HasAllFiguresAtUsualSettingsAndFewAtOthers) {
   ASSERT_EQ(HeardByTheFake().rows.size(), 9U);
   for (const char* row :
        {"drums ÷ pad", "silence ÷ drums", "loudness and speed, made", "loudness and speed, mine",
@@ -50,7 +50,7 @@ TEST(HearingTable, HasAllFiguresAtUsualSettingsAndThoseThatMatterAtOthers) {
 }
 
 // The fake model is shaken by noise and nods on beats; loudness does not change its speed.
-TEST(HearingTable, TellsWhatADanceHears) {
+TEST(HearingTable, MeasuresTheEffectOfMusic) {
   EXPECT_NEAR(Figure("silence ÷ drums", 0), 1, 0.2);
   EXPECT_LT(Figure("a part again", 2), Figure("a part again", 3) - 0.1);
   EXPECT_GT(Figure("two songs", 0), 0.5);

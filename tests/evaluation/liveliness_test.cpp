@@ -56,7 +56,7 @@ TEST(KeyedDances, TakeTheWholeClipUpToAMinuteFromItsMiddle) {
   EXPECT_EQ(PlanKeyedDances(model, Clips(2500), 0)[0].frames, 1800);
 }
 
-TEST(KeyedDances, BeatsAreRegularOrAsManyShuffled) {
+TEST(KeyedDances, BeatsAreRegularOrShuffled) {
   const std::vector<double> beats = RegularBeats(90, 0.5, 30, 1800);
   EXPECT_LT(beats.front(), -20);
   EXPECT_GT(beats.back(), 1800);
@@ -72,7 +72,7 @@ TEST(KeyedDances, BeatsAreRegularOrAsManyShuffled) {
   }
 }
 
-TEST(KeyedDances, RealMotionThroughFootworkKeepsItsKeysAndSkatesLess) {
+TEST(KeyedDances, FootworkKeepsKeysOfRealMotionAndReducesSkating) {
   const ModelInfo model = FakeSampler().model();
   // A standing dancer, pulled over the floor.
   ClipSet set = Clips(780);
@@ -127,7 +127,7 @@ double Value(const Table& table, const std::string& figure, const std::string& c
   return row->cells[static_cast<size_t>(at - table.columns.begin())].value;
 }
 
-TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
+TEST(Liveliness, InterpolationMovesInStraightLines) {
   InterpolationSampler line(FakeSampler().model());
   Method method{"model", Method::Kind::kModel, &line};
   method.finished = false;  // feet that step are no straight line
@@ -153,7 +153,7 @@ TEST(Liveliness, OfInterpolationIsThatOfAStraightLine) {
   }
 }
 
-TEST(Liveliness, TellsSeedsAndSongsApartAndTheSameStoryTwice) {
+TEST(Liveliness, SeparatesSeedsAndSongsAndRepeatsItself) {
   FakeSampler sampler;
   const ClipSet set = Clips(700);
   InterpolationSampler line(sampler.model());

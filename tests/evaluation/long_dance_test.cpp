@@ -32,7 +32,7 @@ EvalOptions Short() {
   return options;
 }
 
-TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
+TEST(DanceLong, ReachesKeysAndContinuesWithoutThem) {
   const ClipSet set = Clips(false);
   FakeSampler sampler;
   const auto plans = PlanLongDances(sampler.model(), set, KeyTimes::kEachTwoSeconds, 4, Short());
@@ -55,7 +55,7 @@ TEST(DanceLong, ReachTheirKeysAndGoOnAlone) {
 }
 
 // As in a stream, whose last transition is cut, not shortened.
-TEST(DanceLong, OneThatEndsEarlierIsTheBeginning) {
+TEST(DanceLong, ShorterDanceIsAPrefix) {
   const ClipSet set = Clips(false);
   FakeSampler sampler;
   LongPlan plan = PlanLongDances(sampler.model(), set, KeyTimes::kNone, 1, Short()).front();
@@ -67,7 +67,7 @@ TEST(DanceLong, OneThatEndsEarlierIsTheBeginning) {
     ASSERT_EQ(part.poses[t].rotations, whole.poses[t].rotations) << t;
 }
 
-TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
+TEST(PlanLongDances, DanceEndsWithItsMusic) {
   const ClipSet set = Clips(true);
   for (const LongPlan& plan :
        PlanLongDances(FakeSampler().model(), set, KeyTimes::kNone, 2, Short())) {
@@ -77,7 +77,7 @@ TEST(PlanLongDances, BesideMusicADanceEndsWithIt) {
   }
 }
 
-TEST(PlanLongDances, KeysAreOfTheRealMotionBesideADance) {
+TEST(PlanLongDances, KeysComeFromTheRealMotion) {
   const ClipSet set = Clips(false);
   for (const LongPlan& plan :
        PlanLongDances(FakeSampler().model(), set, KeyTimes::kEachTwoSeconds, 4, Short())) {
@@ -91,7 +91,7 @@ TEST(PlanLongDances, KeysAreOfTheRealMotionBesideADance) {
   }
 }
 
-TEST(PlanLongDances, KeysOnBeatsStandOnTheBeatNearestToTheEqualOnes) {
+TEST(PlanLongDances, KeysMoveToTheNearestBeat) {
   ClipSet set = Clips(true);
   std::vector<double> beats;
   for (double at = 0; at < 230; at += 24) beats.push_back(at);  // of the clip
@@ -109,7 +109,7 @@ TEST(PlanLongDances, KeysOnBeatsStandOnTheBeatNearestToTheEqualOnes) {
   }
 }
 
-TEST(LongFigures, SeeDriftFreezeExplosionAndABentKnee) {
+TEST(LongFigures, DetectDriftFreezeExplosionAndABentKnee) {
   const PreparedClip clip = SyntheticClip("a", 150, 0.1, false);
   const LongFigures real = MeasureLong(Body(), 30, clip.motion.frames, {50});
   EXPECT_EQ(real.key_accelerations.size(), 1U);
@@ -149,7 +149,7 @@ TEST(LongFigures, CountSnapsOfTheWholeDance) {
   EXPECT_EQ(figures.snaps.elbows, 0);
 }
 
-TEST(LongFigures, StillestIsTheSlowestFifthWhereverItIs) {
+TEST(LongFigures, StillestIsTheSlowestFifth) {
   // Ten seconds at 1 m/s, but for 40 frames at a tenth of it; a fifth has 60 steps.
   const auto walk = [](int slow_from, int slow_frames) {
     std::vector<Pose> poses(301, RestPose(Body()));
@@ -177,7 +177,7 @@ TEST(LongFigures, StillestIsTheSlowestFifthWhereverItIs) {
   EXPECT_GT(figures.stillest, 0);
 }
 
-TEST(MeasureReal, IsOfTheClipsWithKeysEachTwoSeconds) {
+TEST(MeasureReal, MeasuresClipsWithKeysEveryTwoSeconds) {
   const ClipSet set = Clips(false);
   const RealDances real = MeasureReal(set, FakeSampler().model());
   ASSERT_EQ(real.clips.size(), 2U);
@@ -200,7 +200,7 @@ std::vector<Pose> Minute(const std::function<Eigen::Vector3d(double)>& path,
   return poses;
 }
 
-TEST(LongFigures, DriftIsWalkingAwaySinkingOrAnotherPace) {
+TEST(LongFigures, DriftIsTravelSinkingOrAPaceChange) {
   const auto measure = [](auto path, auto wave) {
     return MeasureLong(Body(), 30, Minute(path, wave), {});
   };
@@ -248,7 +248,7 @@ std::vector<Table> Evaluate(const std::function<std::vector<Table>(const Evaluat
   return evaluate({set, methods, options, runner});
 }
 
-TEST(EvaluateLongDances, TellsTheSameStoryTwice) {
+TEST(EvaluateLongDances, IsDeterministic) {
   FakeSampler sampler;
   for (const bool music : {false, true}) {
     const ClipSet set = Clips(music);
@@ -268,7 +268,7 @@ TEST(EvaluateLongDances, TellsTheSameStoryTwice) {
   }
 }
 
-TEST(EvaluateStress, WarnsOfWhatNobodyCanDoAndMeetsItsKeys) {
+TEST(EvaluateStress, WarnsOfImpossibleKeysAndMeetsThem) {
   FakeSampler sampler;
   const Table table = Evaluate(EvaluateStress, Clips(false), sampler).front();
   const auto row = [&](const std::vector<std::string>& labels) {

@@ -62,7 +62,7 @@ TEST(MotionEncoder, NamesItsDataAndNeedsSome) {
   ExpectError(ErrorCode::kInvalidArgument, "0 windows", [] { MotionEncoder({Clips(20)}); });
 }
 
-TEST(MeanApart, OfDancesThatAreKnown) {
+TEST(MeanApart, HasKnownValues) {
   // Codes of two windows; the third dance has but one, which is compared alone.
   Eigen::MatrixXd a(2, 2), b(2, 2), c(2, 1);
   a << 0, 0, 0, 0;

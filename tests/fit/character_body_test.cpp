@@ -66,7 +66,7 @@ TEST(CharacterBody, LyingFilesAndThoseWithoutToesAreStoodUp) {
   EXPECT_EQ(made.nodes[static_cast<size_t>(made.skeleton.feet[1])], -1);
 }
 
-TEST(CharacterBody, RefusesWhatIsNoBody) {
+TEST(CharacterBody, RefusesNonBodies) {
   const Eigen::Matrix3Xd places = JointPositions(Smpl(), RestPose(Smpl()));
   const HumanBones all = FindHumanBones(Smpl().joint_names);
   const auto refuse = [&](const std::string& message, const HumanBones& bones,

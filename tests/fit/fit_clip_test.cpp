@@ -51,7 +51,7 @@ TEST(Fit, GroundsDriftButNotJumps) {
 }
 
 // Some recordings sink a foot into the floor for half a second, which must not lift the body.
-TEST(Ground, IsNotLedByAFootThatARecordingSinks) {
+TEST(Ground, IgnoresASunkenFoot) {
   Motion motion;
   motion.frames.assign(300, RestPose(Smpl()));
   for (int frame = 150; frame < 168; ++frame) {

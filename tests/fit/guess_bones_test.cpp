@@ -55,7 +55,7 @@ TEST(GuessBones, WhicheverAxisIsUpAndAhead) {
   }
 }
 
-TEST(GuessBones, GuessesNothingOfWhatIsNoBody) {
+TEST(GuessBones, GuessesNothingWithoutABody) {
   const Eigen::Matrix3Xd line = Eigen::Matrix3Xd::Zero(3, 30);
   std::vector<int> parents;
   for (int i = 0; i < 30; ++i) parents.push_back(i - 1);

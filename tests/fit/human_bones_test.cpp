@@ -164,7 +164,7 @@ TEST(HumanBones, SaysWhatARigCallsABone) {
   EXPECT_EQ(NameInRig(kUnrealRig, "tail"), "");
 }
 
-TEST(HumanBones, NamesThatSayNothingAreNoBones) {
+TEST(HumanBones, MeaninglessNamesAreNoBones) {
   EXPECT_TRUE(FindHumanBones({"bone", "bone", "", "Box001"}).bones.empty());
   EXPECT_TRUE(FindHumanBones({}).bones.empty());
 }

@@ -81,7 +81,7 @@ TEST(DrawJoints, SaysHowFarOffItEnded) {
   EXPECT_TRUE(drawn.pose.rotations.allFinite());
 }
 
-TEST(DrawJoints, AskedForWhatIsThereItChangesNextToNothing) {
+TEST(DrawJoints, HardlyChangesAMetTarget) {
   const Pose standing = Standing();
   const DrawnPose drawn =
       DrawJoints(Body(), standing, std::vector{Target("left_hand", At(standing, "left_hand"))});

@@ -131,7 +131,7 @@ TEST(Fit, FollowsAnElbowPastHalfATurn) {
   }
 }
 
-TEST(Fit, TurnsWhatTargetsLeaveOpenTheWayThatIsGiven) {
+TEST(Fit, OpenTurnsFollowTheGivenDirection) {
   const Pose rest = RestPose(Smpl());
   const int wrist = 20, hand = 22;
   const Eigen::Vector3d forearm = Smpl().offsets.col(hand).normalized();

@@ -47,7 +47,7 @@ TEST(Retarget, LimbsKeepTheirDirectionsAndFeetTheFloor) {
   EXPECT_NEAR(JointPositions(other, Retarget(Smpl(), pose, other))(1, other.feet[1]), 0.32, 0.01);
 }
 
-TEST(Retarget, ThereAndBackAMotionIsTheSameDance) {
+TEST(Retarget, RoundTripKeepsTheDance) {
   const Motion motion = fixtures::SmoothMotion(Smpl(), 5, 40);
   const Skeleton& other = Native().skeleton;
   const Motion back = Retarget(other, Retarget(Smpl(), motion, other), Smpl());
@@ -81,7 +81,7 @@ TEST(Retarget, ABodyWithoutKneesIsRefusedByName) {
               [&] { Retarget(Smpl(), RestPose(Smpl()), stick); });
 }
 
-TEST(SkeletonJson, ComesBackAsItWas) {
+TEST(SkeletonJson, RoundTrips) {
   for (const Skeleton* skeleton : {&Smpl(), &Native().skeleton}) {
     EXPECT_EQ(SkeletonFromJson(SkeletonToJson(*skeleton)), *skeleton);
   }

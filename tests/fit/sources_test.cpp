@@ -76,7 +76,7 @@ TEST(Tang2018Source, StaysOnTheFloorWhenTheSourcesHipsMoveInTheBody) {
   }
 }
 
-TEST(IdentitySource, LeavesHandsOut) {
+TEST(IdentitySource, OmitsHands) {
   const Skeleton& body = Skeleton::Smpl24();
   const Pose rest = RestPose(body);
   Eigen::Matrix3Xd targets = JointPositions(body, rest);

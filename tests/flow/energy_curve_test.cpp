@@ -35,7 +35,7 @@ TEST(EnergyCurve, ComesBackFromItsNumbers) {
   EXPECT_FALSE(EnergyCurve().known());
 }
 
-TEST(EnergyCurve, SamplesVaryAsToldAndTogether) {
+TEST(EnergyCurve, SamplesHaveTheGivenSpreadAndCorrelation) {
   const EnergyCurve curve = Curve();
   constexpr int kSamples = 2000;
   double square = 0, later = 0, arms = 0;
@@ -50,14 +50,14 @@ TEST(EnergyCurve, SamplesVaryAsToldAndTogether) {
   EXPECT_NEAR(arms, 0.2, 0.03);
 }
 
-TEST(EnergyCurve, BeginsWhereTheHistoryWasAndForgetsIt) {
+TEST(EnergyCurve, StartsAtTheHistorysLevelAndForgetsIt) {
   const Eigen::MatrixXd calm =
       Curve().Sample(Levels::Constant(-1), Eigen::MatrixXd::Zero(kBodyParts, kFrames));
   EXPECT_NEAR(calm(0, 0), -std::exp(-0.5), 1e-9);
   EXPECT_NEAR(calm(0, 20), -std::exp(-2.5), 1e-9);
 }
 
-TEST(EnergyCurve, AFramesNumbersChangeNoneBeforeIt) {
+TEST(EnergyCurve, RandomNumbersDoNotChangeEarlierFrames) {
   Eigen::MatrixXd normal = Normal(1);
   const Eigen::MatrixXd before = Curve().Sample(Levels::Zero(), normal);
   normal(0, 30) += 1;
@@ -66,7 +66,7 @@ TEST(EnergyCurve, AFramesNumbersChangeNoneBeforeIt) {
   EXPECT_NE(before(0, 30), after(0, 30));
 }
 
-TEST(EnergyCurve, SamplesWhatFewClipsMeasured) {
+TEST(EnergyCurve, SamplesFromImplausibleCorrelationsToo) {
   EnergyCurve curve = Curve();
   curve.correlation.setConstant(-1);  // of no process
   curve.correlation[0] = 1;

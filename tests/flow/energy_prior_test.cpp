@@ -28,11 +28,11 @@ TEST(EnergyPrior, ComesBackFromItsNumbers) {
   EXPECT_EQ(back.styles, prior.styles);
 }
 
-TEST(EnergyPrior, UntrainedEverybodyIsAsLivelyAsTheMedian) {
+TEST(EnergyPrior, UntrainedGivesTheMedianEnergy) {
   EXPECT_EQ(EnergyPrior().Sample({.surprise = 3}, Levels::Ones()), Levels::Zero());
 }
 
-TEST(EnergyPrior, AFartherKeyAndALivelierPastCountAsTrainingFound) {
+TEST(EnergyPrior, AppliesWeightsOfKeyDistanceAndHistory) {
   EnergyPrior prior;
   prior.keyed(1, 1) = 0.5;   // surprise → left arm
   prior.keyed(2, 4) = 0.25;  // what the right arm did → right arm
@@ -48,7 +48,7 @@ TEST(EnergyPrior, AFartherKeyAndALivelierPastCountAsTrainingFound) {
   EXPECT_EQ(prior.Sample(free, Levels::Zero())[2], 0) << "a dance does not follow itself";
 }
 
-TEST(EnergyPrior, AWayThatAKeyLeavesOpenIsTheUsualOne) {
+TEST(EnergyPrior, UnknownDistancesAreTheUsualOnes) {
   EnergyPrior prior;
   constexpr int kWay = EnergyPrior::kHistoryInput + kBodyParts, kInWorld = kWay + kBodyParts;
   prior.keyed(3, kWay + 3) = 0.5;
@@ -63,7 +63,7 @@ TEST(EnergyPrior, AWayThatAKeyLeavesOpenIsTheUsualOne) {
   EXPECT_NEAR(prior.Sample(known, Levels::Zero())[3], 3, 1e-12);
 }
 
-TEST(EnergyPrior, WhatTrainingNeverSawCountsAsTheMostThatItSaw) {
+TEST(EnergyPrior, ClampsInputsToTheTrainingRange) {
   EnergyPrior prior;
   prior.keyed(1, 1) = 1;
   prior.spread.setIdentity();
@@ -74,14 +74,14 @@ TEST(EnergyPrior, WhatTrainingNeverSawCountsAsTheMostThatItSaw) {
   EXPECT_NEAR(prior.Sample(far, Levels::Ones())[1], 2.5, 1e-12);
 }
 
-TEST(EnergyPrior, SomeStylesAreLivelier) {
+TEST(EnergyPrior, EnergyDependsOnTheStyle) {
   EnergyPrior prior(2);
   prior.styles(4, 1) = 0.3;
   EXPECT_EQ(prior.Sample({.style = 0}, Levels::Zero())[4], 0);
   EXPECT_EQ(prior.Sample({.style = 1}, Levels::Zero())[4], 0.3);
 }
 
-TEST(EnergyPrior, WindowsOfOtherLengthsMayCountOtherwise) {
+TEST(EnergyPrior, EnergyDependsOnTheWindowsLength) {
   EnergyPrior prior;
   prior.keyed(0, EnergyPrior::kInputs / 2) = -0.5;
   const auto trunk = [&](int frames) {

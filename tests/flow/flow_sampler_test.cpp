@@ -51,7 +51,7 @@ class Lopsided : public Silent {
   }
 };
 
-TEST(FlowSampler, TheMeanOfWhatIsMirroredIsItsMirrorImageWhateverTheNetwork) {
+TEST(FlowSampler, MeanOfMirroredRequestIsMirrored) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
   const std::vector<int> pairs = MirrorPairs(parts.skeleton);
@@ -66,7 +66,7 @@ TEST(FlowSampler, TheMeanOfWhatIsMirroredIsItsMirrorImageWhateverTheNetwork) {
   EXPECT_GT(apart(1), 0.01);
 }
 
-TEST(FlowSampler, TheMeanIsOneStepFromBothSidesAndNoSeedChangesIt) {
+TEST(FlowSampler, MeanTakesOneStepAndIgnoresTheSeed) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
   const Silent network;
@@ -76,7 +76,7 @@ TEST(FlowSampler, TheMeanIsOneStepFromBothSidesAndNoSeedChangesIt) {
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(Apart(one[i], other[i]), 0);
 }
 
-TEST(FlowSampler, SeedsTakeOtherWaysToTheSameKey) {
+TEST(FlowSampler, SeedsGiveDifferentMotionsToTheSameKey) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
   const Silent network;
@@ -106,7 +106,7 @@ class Listening : public Silent {
   mutable Eigen::MatrixXf all;
 };
 
-TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
+TEST(FlowSampler, SamplesOnlyEnergyThatIsNotRequested) {
   const Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
@@ -128,7 +128,7 @@ TEST(FlowSampler, EnergyThatNobodyAsksForIsSampledAndWhatIsAskedForStays) {
 }
 
 // Levels per frame, whose energy averages to the window's.
-TEST(FlowSampler, EnergyGoesUpAndDownAboutTheWindowsWhereTheModelKnowsHow) {
+TEST(FlowSampler, EnergyCurveVariesAroundTheWindowsEnergy) {
   const Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
@@ -158,7 +158,7 @@ TEST(FlowSampler, EnergyGoesUpAndDownAboutTheWindowsWhereTheModelKnowsHow) {
   EXPECT_EQ(moving, kBodyParts);
 }
 
-TEST(FlowSampler, ANetworkIsToldWhatMakesItDanceAsIsAsked) {
+TEST(FlowSampler, RequestedEnergyIsCorrectedByTheResponse) {
   Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
@@ -179,7 +179,7 @@ TEST(FlowSampler, ANetworkIsToldWhatMakesItDanceAsIsAsked) {
   EXPECT_NEAR((told() - plain).maxCoeff(), 0.1, 1e-5) << "as lively as training saw";
 }
 
-TEST(FlowSampler, TheMusicsEnergyIsAddedOnceToWhatNobodyAsksFor) {
+TEST(FlowSampler, MusicShiftsOnlySampledEnergyAndOnce) {
   const Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
@@ -204,7 +204,7 @@ TEST(FlowSampler, TheMusicsEnergyIsAddedOnceToWhatNobodyAsksFor) {
   EXPECT_NEAR((told(arm) - follows).minCoeff(), -0.25, 1e-5);
 }
 
-TEST(FlowSampler, LaterWindowsFollowWhatTheMusicMadeOfTheFirst) {
+TEST(FlowSampler, LaterWindowsStartFromTheFirstsEnergyShift) {
   WindowRequest request = MakeScene(30).request;
   request.energy_shift = {.before = 0.1, .now = 0.7};
   const GroundFrame ground = GroundFrame::Of(request.history.back());
@@ -250,7 +250,7 @@ void ExpectGuidance(WindowRequest request, FlowModelParts parts) {
   EXPECT_EQ(network.evaluations, parts.config.steps);
 }
 
-TEST(FlowSampler, WhatBeatsAndStyleChangeIsDoneAsOftenAsTheModelSays) {
+TEST(FlowSampler, GuidanceScalesTheEffectOfBeatsAndStyle) {
   Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.styles = {"waltz", "tango"};
@@ -263,7 +263,7 @@ TEST(FlowSampler, WhatBeatsAndStyleChangeIsDoneAsOftenAsTheModelSays) {
   ExpectGuidance(scene.request, parts);
 }
 
-TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {
+TEST(FlowSampler, FollowsAPathExactlyAndItsHeightsIfGiven) {
   Scene scene = MakeScene(30);
   scene.request.controls[kRootPath].values.resize(3, 30);
   for (int i = 0; i < 30; ++i)
@@ -282,7 +282,7 @@ TEST(FlowSampler, APathIsMetExactlyAndItsHeightsWhereTheyAreAskedFor) {
   }
 }
 
-TEST(FlowSampler, LongTransitionsAreCutWithoutAJumpAndReachTheirKey) {
+TEST(FlowSampler, LongTransitionsJoinSmoothlyAndReachTheirKey) {
   const Scene scene = MakeScene(100);
   const FlowModelParts parts = Parts();
   const Silent network;
@@ -315,7 +315,7 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
 }
 
 // A long way needs energy; a key tells it as far as it is known.
-TEST(KnownOfEnergy, TellsTheWayToTheKey) {
+TEST(KnownOfEnergy, ContainsTheDistanceToTheKey) {
   const FlowModelParts parts = Parts();
   const Skeleton& skeleton = parts.skeleton;
   constexpr auto kTrunk = static_cast<int>(BodyPart::kTrunk);
@@ -340,7 +340,7 @@ TEST(KnownOfEnergy, TellsTheWayToTheKey) {
             (*still.way)[kLeftArm]);
 }
 
-TEST(KnownOfEnergy, TellsNothingOfWhatAKeyLeavesOpen) {
+TEST(KnownOfEnergy, OmitsDistancesThatTheMaskLeavesOpen) {
   const FlowModelParts parts = Parts();
   const Skeleton& skeleton = parts.skeleton;
   const std::vector<Pose> history(2, RestPose(skeleton));

@@ -18,7 +18,7 @@ Eigen::MatrixXd SmoothCovariance() {
   return covariance;
 }
 
-TEST(MotionPrior, AMeanReachesItsKeyWhateverTheHistory) {
+TEST(MotionPrior, MeanReachesItsKeyFromAnyHistory) {
   const MotionPrior prior(SmoothCovariance());
   const auto bridges = prior.Bridges(30, 30);
   for (const auto& bridge : *bridges) {
@@ -27,7 +27,7 @@ TEST(MotionPrior, AMeanReachesItsKeyWhateverTheHistory) {
   }
 }
 
-TEST(MotionPrior, AMeanLeavesWithTheLastVelocity) {
+TEST(MotionPrior, MeanStartsWithTheLastVelocity) {
   const MotionPrior prior(SmoothCovariance());
   for (const int to_key : {0, 60}) {
     const auto& bridge = prior.Bridges(60, to_key)->front();
@@ -37,7 +37,7 @@ TEST(MotionPrior, AMeanLeavesWithTheLastVelocity) {
   }
 }
 
-TEST(MotionPrior, NothingIsLeftOpenAtTheKeyAndMostHalfway) {
+TEST(MotionPrior, SpreadVanishesAtTheKeyAndIsGreatestHalfway) {
   const MotionPrior prior(SmoothCovariance());
   const auto keyed = prior.Bridges(40, 40), free = prior.Bridges(40, 0);
   const auto spread = [](const MotionPrior::Bridge& bridge, int frame) {
@@ -50,7 +50,7 @@ TEST(MotionPrior, NothingIsLeftOpenAtTheKeyAndMostHalfway) {
   }
 }
 
-TEST(MotionPrior, AWindowBeforeAFarKeyIsTheBeginningOfTheWholeWay) {
+TEST(MotionPrior, WindowBeforeAFarKeyStartsTheWholeTransition) {
   const MotionPrior prior(SmoothCovariance());
   const auto whole = prior.Bridges(50, 50), part = prior.Bridges(20, 50);
   for (size_t d = 0; d < 2; ++d) {
@@ -60,7 +60,7 @@ TEST(MotionPrior, AWindowBeforeAFarKeyIsTheBeginningOfTheWholeWay) {
   }
 }
 
-TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
+TEST(MotionPrior, SamplesAreAsSmoothAsTheRecordings) {
   const MotionPrior prior(SmoothCovariance());
   const auto& bridge = prior.Bridges(60, 60)->front();
   // Variance of second differences in the middle: that of a velocity's step, 2 (r(0) - r(1)).
@@ -71,7 +71,7 @@ TEST(MotionPrior, SamplesAreAsSmoothAsTheMotionThatTheyAreOf) {
 }
 
 // Poses are stationary: how they return follows from their spread and that of ways.
-TEST(MotionPrior, WithoutAKeyDancersComeBackToTheirUsualPose) {
+TEST(MotionPrior, WithoutAKeyReturnsToTheUsualPose) {
   const Eigen::MatrixXd covariance = SmoothCovariance().replicate(3, 1);
   Eigen::VectorXd variance = Eigen::VectorXd::Constant(6, 1);
   const MotionPrior prior(covariance, {}, {.variance = variance}), wanderer(covariance);
@@ -95,13 +95,13 @@ TEST(MotionPrior, WithoutAKeyDancersComeBackToTheirUsualPose) {
   EXPECT_NEAR((*home)[3].key[89] / (0.5 * way), 1, 0.25);
 }
 
-TEST(MotionPrior, RefusesWhatIsNoCovariance) {
+TEST(MotionPrior, RefusesInvalidCovariances) {
   ExpectError(ErrorCode::kInvalidArgument, "velocity_covariance",
               [] { MotionPrior(Eigen::MatrixXd::Zero(2, 3)); });
 }
 
 // Keys may bend toes that no recording bends; a network must not see a storm.
-TEST(MotionPrior, WhatRecordingsLackIsToldInTheUnitsOfTheOthers) {
+TEST(MotionPrior, UnmovedDimensionsHaveTheMeanSpreadOfTheOthers) {
   Eigen::MatrixXd covariance = SmoothCovariance().replicate(9, 1);
   covariance.row(4) *= 4;
   covariance.row(8) *= 1e-8;

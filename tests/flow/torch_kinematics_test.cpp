@@ -19,7 +19,7 @@ Pose RandomPose(const Skeleton& skeleton, Random* random) {
   return pose;
 }
 
-TEST(TorchKinematics, AgreesWithTheDoubleOne) {
+TEST(TorchKinematics, AgreesWithDoublePrecision) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const TorchKinematics kinematics(skeleton);
   Random random(3);

@@ -16,14 +16,14 @@ double YawOf(const TurnPrior& prior, const WindowRequest& request, double normal
   return prior.Sample(Body(), request, normal, temperature)->y();
 }
 
-TEST(TurnPrior, TakesTheShorterWayUnlessADancerTurnsTheOther) {
+TEST(TurnPrior, TurnsTheShorterWayUnlessAlreadyTurningTheOther) {
   EXPECT_NEAR(YawOf(GoesOn(), To(2)), 2, 1e-9);
   EXPECT_NEAR(YawOf(GoesOn(), To(2, 0.1)), 2, 1e-9);
   EXPECT_NEAR(YawOf(GoesOn(), To(2, -0.2)), 2 - 2 * kPi, 1e-9);
   EXPECT_NEAR(YawOf(GoesOn(), To(-2, 0.2)), 2 * kPi - 2, 1e-9);
 }
 
-TEST(TurnPrior, AMirroredDancerTurnsTheMirroredWay) {
+TEST(TurnPrior, MirroredDancerTurnsTheOtherWay) {
   for (const double yaw : {0.3, 1.5, 3.0}) {
     for (const double rate : {-0.2, -0.05, 0.0, 0.1}) {
       const auto one = TurnPrior::Describe(Body(), To(yaw, rate));
@@ -34,7 +34,7 @@ TEST(TurnPrior, AMirroredDancerTurnsTheMirroredWay) {
   }
 }
 
-TEST(TurnPrior, EachWayIsSampledAsOftenAsItIsLikely) {
+TEST(TurnPrior, SamplesEachDirectionByItsProbability) {
   const WindowRequest request = To(2.6, -0.02);
   const double chance = GoesOn().ChanceOfOther(*TurnPrior::Describe(Body(), request));
   ASSERT_GT(chance, 0.2);
@@ -45,13 +45,13 @@ TEST(TurnPrior, EachWayIsSampledAsOftenAsItIsLikely) {
   EXPECT_NEAR(others / 4000.0, chance, 0.03);
 }
 
-TEST(TurnPrior, WhoBendsDoesNotTurnASomersault) {
+TEST(TurnPrior, BendingIsNoSomersault) {
   WindowRequest request = To(0);
   request.key->rotations.col(0) = Eigen::Vector3d(1.2, 0.1, 0);
   EXPECT_FALSE(GoesOn().Sample(Body(), request, 3, 1));
 }
 
-TEST(TurnPrior, SaysNothingWhereNothingIsKnown) {
+TEST(TurnPrior, GivesNothingWithoutStatistics) {
   EXPECT_FALSE(TurnPrior().Sample(Body(), To(2), 0, 0));
   EXPECT_FALSE(GoesOn().Sample(Body(), To(0), 0, 0)) << "the axis of no turn is noise";
   WindowRequest open = To(2);

@@ -72,7 +72,7 @@ TEST(Bvh, FrameTimesAreRoundingsOfRates) {
   EXPECT_NEAR(fps(1 / 12.34), 12.34, 1e-9);
 }
 
-TEST(Bvh, OursComesBackAndStandsWhereForwardKinematicsPutsIt) {
+TEST(Bvh, RoundTripsOnForwardKinematics) {
   const Motion motion = fixtures::SmoothMotion(kSmpl, 11, 50, 60);
   const BvhFile file = ParseBvh(BvhText(MotionToBvh(kSmpl, motion)), "ours");
   const Motion back = BvhToMotion(file, kSmpl).value();

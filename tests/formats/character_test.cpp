@@ -109,7 +109,7 @@ TEST_F(CharacterTest, TheSameDanceGivesTheSameBytes) {
   EXPECT_EQ(first.binary, second.binary);
 }
 
-TEST_F(CharacterTest, VrmsOwnTableGoesBeforeNames) {
+TEST_F(CharacterTest, PrefersVrmsTableToNames) {
   const auto table = [](const Glb& glb, bool old) {
     json bones = old ? json::array() : json::object();
     for (int node = 0; node < 24; ++node) {
@@ -189,7 +189,7 @@ TEST_F(CharacterTest, ScalesThatDifferByAxisBendNothingMuch) {
   EXPECT_LT(WorstDirection(), 15);
 }
 
-TEST_F(CharacterTest, WhatWeCannotReadIsCarriedAlong) {
+TEST_F(CharacterTest, UnknownDataIsKept) {
   DanceChanged([](Glb& glb) {
     glb.document["extensionsRequired"] = {"EXT_meshopt_compression"};
     glb.document["buffers"].push_back({{"byteLength", 1 << 30}});  // where it would be unpacked
@@ -254,7 +254,7 @@ TEST_F(CharacterTest, RefusesWhatCannotDance) {
   refuse("is no binary glTF", [](Glb& glb) { glb.document = json::array(); });
 }
 
-TEST_F(CharacterTest, RefusesFilesThatAreNone) {
+TEST_F(CharacterTest, RefusesInvalidFiles) {
   WriteCharacter(folder_ / "hero.glb", {});
   std::ifstream file(folder_ / "hero.glb", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};

@@ -91,7 +91,7 @@ TEST_F(GltfTest, TheSameMotionGivesTheSameBytes) {
   EXPECT_EQ(a.binary, b.binary);
 }
 
-TEST_F(GltfTest, GivesBackAnyRateAndASingleFrame) {
+TEST_F(GltfTest, RoundTripsAnyRateAndASingleFrame) {
   for (const double fps : {30.0, 59.94, 24.0, 120.0, 12.5}) {
     Motion motion = motion_;
     motion.fps = fps;
@@ -106,7 +106,7 @@ TEST_F(GltfTest, GivesBackAnyRateAndASingleFrame) {
   EXPECT_LT(WorstJoint(one, ReadGlb(folder_ / "a.glb").motion), 2e-6);
 }
 
-TEST_F(GltfTest, FindsTheRateWhereNobodyStatesIt) {
+TEST_F(GltfTest, FindsAnUnstatedRate) {
   const Motion back = ReadChanged([](Glb& glb) { glb.document["animations"][0].erase("extras"); });
   EXPECT_EQ(back.fps, 30);
   EXPECT_LT(WorstJoint(motion_, back), 2e-6);

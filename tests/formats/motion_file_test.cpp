@@ -202,7 +202,7 @@ TEST(MotionFile, AMotionOfSmplIsRetargetedToAnotherSkeletonAndBack) {
   }
 }
 
-TEST(MotionFile, AMotionOfOtherBonesIsRefusedWhereItMustStayAsItIs) {
+TEST(MotionFile, RefusesOtherBonesWhereNoneMayChange) {
   const TemporaryFolder folder;
   const Skeleton& native = testing_support::Native().skeleton;
   WriteMotion(folder / "a.npz", native, fixtures::SmoothMotion(native, 2, 4));

@@ -33,7 +33,7 @@ NpzArchive Example() {
   return npz;
 }
 
-TEST(Npz, GivesBackWhatWasWritten) {
+TEST(Npz, RoundTrips) {
   const TemporaryFolder folder;
   Example().Write(folder / "a.npz");
   const NpzArchive npz = NpzArchive::Read(folder / "a.npz");
@@ -98,7 +98,7 @@ TEST(Npz, NumpyReadsIt) {
             "1099511627776 (0, 72) neutral 'F\\xfcr \\xc9lise \\U0001f3b9' ''\n");
 }
 
-TEST(Npz, NamesWhatIsMissingOrOfAnotherKind) {
+TEST(Npz, NamesMissingAndMistypedArrays) {
   const NpzArchive npz = NpzArchive::Read(kByNumpy);
   ExpectError(ErrorCode::kInvalidArgument, "has no array 'rotations'",
               [&] { npz.Array("rotations"); });
@@ -109,7 +109,7 @@ TEST(Npz, NamesWhatIsMissingOrOfAnotherKind) {
   ExpectError(ErrorCode::kInvalidArgument, "UTF-8", [&] { other.SetText("name", "\xff"); });
 }
 
-TEST(Npz, RefusesFilesThatAreNoneOrDamaged) {
+TEST(Npz, RefusesInvalidFiles) {
   const TemporaryFolder folder;
   ExpectError(ErrorCode::kNotFound, "nowhere.npz",
               [&] { NpzArchive::Read(folder / "nowhere.npz"); });

@@ -91,7 +91,7 @@ TEST(PickleTest, RunsNothing) {
 /// dict(fps=30, gender='f', betas=None, names=['a', 'b'], more={'k': 1}, poses=[3.5]), and that in
 /// an array of objects, as numpy.save(path, dict) writes it, of which the array's own header is
 /// cut.
-TEST(PickleTest, LeavesOutWhatIsNoArray) {
+TEST(PickleTest, OmitsNonArrays) {
   const std::string dict =
       "}(U\x03"
       "fpsK\x1eU\x06genderU\x01"

@@ -92,7 +92,7 @@ TEST(LabTest, KnowsTheCommandsOfThePapersPages) {
   }
 }
 
-TEST(LabTest, ADeviceThatIsNotThereIsNamedInOneLine) {
+TEST(LabTest, NamesAMissingDeviceInOneLine) {
   const Outcome outcome = Lab(kTrain + "--device cuda:99");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.said, HasSubstr("choreo-lab: --device: cuda:99 was asked for, but"));
@@ -212,7 +212,7 @@ TEST_F(LabEval, ThePapersTablesHaveEachNetworkRawAndAsServed) {
   EXPECT_EQ(rows.at("paper_l2p_clips/interpolation")["÷ interpolation at 10"], 1);
 }
 
-TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
+TEST_F(LabEval, RefusesImpossibleOptionsAtOnce) {
   for (const auto& [arguments, why] : std::vector<std::pair<std::string, std::string>>{
            {"--data clips/", "choreo-lab: --data: 'clips/': another set is called 'clips'"},
            {"--other a=b --other a=c", "choreo-lab: --other: 'a=c': another row is called 'a'"},
@@ -225,7 +225,7 @@ TEST_F(LabEval, WhatCannotBeIsRefusedAtOnce) {
   }
 }
 
-TEST_F(LabEval, TrainingRefusesWhatAPresetDoesNotHave) {
+TEST_F(LabEval, TrainingRefusesOptionsOutsideAPreset) {
   for (const auto& [options, why] : std::vector<std::pair<std::string, std::string>>{
            {"ablation --one-lstm", "--one-lstm: is no ablation of the preset ablation"},
            {"default --hidden 64", "--hidden: is no option of the preset default"},

@@ -18,14 +18,14 @@ WeightFigures Measure(const JointTrack& track) {
   return MeasureWeight(Body(), 30, track, kRestFloor);
 }
 
-TEST(DancedFloor, IsTheHeightOfFeetThatStand) {
+TEST(DancedFloor, IsTheHeightOfStandingFeet) {
   const JointTrack track = Carried(100, [](double s) {
     return Eigen::Vector3d(s, s < 2 ? -0.94 : 0, 0);  // two thirds on a floor that is off
   });
   EXPECT_NEAR(DancedFloor(Body(), track), kRestFloor - 0.94, 0.005);
 }
 
-TEST(Weight, WhoStandsHasIt) {
+TEST(Weight, StandingBodyIsSupported) {
   const WeightFigures still =
       Measure(Carried(60, [](double) { return Eigen::Vector3d::Zero().eval(); }));
   EXPECT_EQ(still.hover_share, 0);
@@ -37,7 +37,7 @@ TEST(Weight, WhoStandsHasIt) {
   EXPECT_EQ(still.contact_frames, 60);
 }
 
-TEST(Weight, WhoIsLiftedHasNone) {
+TEST(Weight, LiftedBodyHasNoSupport) {
   const WeightFigures lifted =
       Measure(Carried(60, [](double s) { return Eigen::Vector3d(0.3 * s, 0.2, 0); }));
   EXPECT_EQ(lifted.hover_share, 1);
@@ -47,7 +47,7 @@ TEST(Weight, WhoIsLiftedHasNone) {
   EXPECT_EQ(lifted.contact_frames, 0);
 }
 
-TEST(Weight, WhoJumpsFliesAndDoesNotHover) {
+TEST(Weight, JumpingBodyDoesNotHover) {
   // Half a second in the air, once a second.
   const JointTrack track = Carried(120, [](double s) {
     const double t = std::fmod(s, 1);
@@ -64,7 +64,7 @@ TEST(Weight, WhoJumpsFliesAndDoesNotHover) {
   EXPECT_NEAR(carried.longest_hover_s, 0.53, 0.07);
 }
 
-TEST(Weight, WhoLeansOverIsOutsideOfHerFeet) {
+TEST(Weight, LeaningBodyIsOutsideItsFeet) {
   JointTrack track = Carried(60, [](double) { return Eigen::Vector3d::Zero().eval(); });
   const Eigen::Matrix3d tilt = ExpMap({0.25, 0, 0});
   for (size_t t = 30; t < 60; ++t) {
@@ -78,7 +78,7 @@ TEST(Weight, WhoLeansOverIsOutsideOfHerFeet) {
   EXPECT_EQ(leaning.hover_share, 0);
 }
 
-TEST(Weight, AContactIsAsLongAsTheFootStays) {
+TEST(Weight, ContactLastsAsLongAsTheFootRests) {
   JointTrack track = Carried(120, [](double) { return Eigen::Vector3d::Zero().eval(); });
   // Each foot alternately 20 frames down, 10 up.
   for (int t = 0; t < 120; ++t) {
@@ -92,7 +92,7 @@ TEST(Weight, AContactIsAsLongAsTheFootStays) {
   EXPECT_EQ(Measure(track).hover_share, 0);
 }
 
-TEST(Weight, IsThatOfABodyWhoseMassIsKnown) {
+TEST(Weight, NeedsKnownMassesAndFrames) {
   Skeleton body = Body();
   body.joint_names[static_cast<size_t>(body.Find("head"))] = "skull";
   ExpectError(ErrorCode::kInvalidArgument, "'smpl24' of 24 joints", [&] {

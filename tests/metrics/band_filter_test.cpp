@@ -19,7 +19,7 @@ double Rms(const Eigen::VectorXd& values) {
   return std::sqrt(values.segment(90, 120).squaredNorm() / 120);
 }
 
-TEST(BandFilter, KeepsWhatIsSlowerHalvesTheEdgeAndDropsTheRest) {
+TEST(BandFilter, KeepsLowHalvesCutoffAndDropsHighFrequencies) {
   const auto gain = [](double hz) { return Rms(LowPass(Sampled(hz), 30, 3)) / Rms(Sampled(hz)); };
   EXPECT_NEAR(gain(0.5), 1, 0.01);
   EXPECT_NEAR(gain(3), 0.5, 0.01);

@@ -115,14 +115,14 @@ std::vector<Pose> Swinging(int frames, double turns, double sweep) {
   return poses;
 }
 
-TEST(RepetitionTest, FindsWhatRepeatsWhereverItIsDanced) {
+TEST(RepetitionTest, FindsRepetitionAnywhereOnTheFloor) {
   const Repetition repetition = MeasureRepetition(Body(), Swinging(240, 1, 0), 30);
   EXPECT_EQ(repetition.frozen, 0);
   // All but the first second, of 226 windows.
   EXPECT_NEAR(repetition.repeated, 196.0 / 226, 1e-12);
 }
 
-TEST(RepetitionTest, FindsNothingInWhatNeverComesAgain) {
+TEST(RepetitionTest, FindsNoRepetitionInNewMotion) {
   // One way, slowly.
   std::vector<Pose> poses;
   for (int frame = 0; frame < 150; ++frame) {

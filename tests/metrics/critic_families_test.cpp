@@ -57,7 +57,7 @@ TEST(CriticFamilies, CutAMotionIntoWindowsOfTwoSeconds) {
   EXPECT_TRUE(windows[2].features.back().allFinite());
 }
 
-TEST(CriticFamilies, EachSeesItsOwnSideAlone) {
+TEST(CriticFamilies, EachSeesItsOwnAspectAlone) {
   const FamilyWindows real = Dancers(1, 0, 0.2);
   // With ten clips, what eight teach may mislead about two: below a half also means nothing.
   for (const double area : FamilyAreas(real, Dancers(2, 0, 0.2))) EXPECT_LT(area, 0.7);
@@ -71,7 +71,7 @@ TEST(CriticFamilies, EachSeesItsOwnSideAlone) {
   EXPECT_LT(AreaOf("floor", real, calm), 0.7);
 }
 
-TEST(CriticFamilies, AreOfABodyWhoseMassIsKnown) {
+TEST(CriticFamilies, NeedKnownMasses) {
   Skeleton body = Body();
   body.joint_names[static_cast<size_t>(body.Find("head"))] = "skull";
   FamilyWindows windows;

@@ -47,14 +47,14 @@ TEST(Critic, CutsAMotionIntoSeconds) {
   EXPECT_TRUE(windows.features[0].allFinite());  // of one who stands still, too
 }
 
-TEST(Critic, IsFairToOneKindAndSeesAnother) {
+TEST(Critic, SeparatesDifferentKindsAlone) {
   const CriticWindows real = Dancers(1, 1);
   EXPECT_NEAR(RealAgainstReal(real), 0.5, 0.05);
   EXPECT_GT(CriticArea(real, Dancers(2, 0.5)), 0.9);
   EXPECT_GT(CriticArea(real, Dancers(2, 0.5)), CriticArea(real, Dancers(2, 0.8)));
 }
 
-TEST(Critic, JudgesNoClipThatItHasSeen) {
+TEST(Critic, JudgesUnseenClipsAlone) {
   // The sides differ within each clip, not across clips.
   CriticWindows one = Dancers(3, 1), other = Dancers(4, 1);
   EXPECT_LT(CriticArea(one, other), 0.75);

@@ -17,7 +17,7 @@ std::vector<Pose> Standing(int frames) {
   return std::vector<Pose>(static_cast<size_t>(frames), RestPose(Body()));
 }
 
-TEST(PoseDistance, L2PIsTheMeanWayOfAJoint) {
+TEST(PoseDistance, L2PIsTheMeanJointDistance) {
   const std::vector<Pose> real = Standing(4);
   std::vector<Pose> moved = real;
   for (Pose& pose : moved) pose.root_position += Eigen::Vector3d(0.3, 0, 0.4);
@@ -53,7 +53,7 @@ Eigen::MatrixXd Wave(int cycles, int frames, double height) {
   return wave;
 }
 
-TEST(Npss, IsTheWayThatPowerHasToMove) {
+TEST(Npss, IsTheEarthMoversDistanceOfPower) {
   constexpr int kFrames = 40;
   const auto value = [](const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real) {
     const Npss npss = MeasureNpss(danced, real);
@@ -92,7 +92,7 @@ TEST(PhysicalFootContact, NeedsBothFeetToSlideWhileTheBodyAccelerates) {
   EXPECT_EQ(PhysicalFootContact(Body(), Hop(0, left, right)), 0);
 }
 
-TEST(PhysicalFootContact, TakesWhatFeetGoOverTheFloorAlone) {
+TEST(PhysicalFootContact, CountsHorizontalFootMotionAlone) {
   // A jump lifts both feet without sliding.
   const Eigen::Vector3d up(0, 0.05, 0), right(0, 0, 0.03);
   EXPECT_EQ(PhysicalFootContact(Body(), Hop(0.1, up, up)), 0);

@@ -12,7 +12,7 @@ using testing_support::Wave;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
-TEST(LimbTravel, IsTheChordsLengthForWhoGoesStraight) {
+TEST(LimbTravel, OfStraightMotionEqualsItsChord) {
   const JointTrack track = Carried(121, [](double s) { return Eigen::Vector3d(s, 0, 0); });
   const LimbTravel travel = MeasureLimbTravel(Body(), track, {60, 120});
   EXPECT_NEAR(travel.chord, 4 * 4, 1e-9);  // four limbs, four seconds at 1 m/s
@@ -30,7 +30,7 @@ TEST(LimbTravel, CountsEveryDetourBetweenKeysAndNothingAfterTheLast) {
   EXPECT_EQ(MeasureLimbTravel(Body(), track, {}).path, 0);
 }
 
-TEST(LimbTravel, SeesTheHandThatWaves) {
+TEST(LimbTravel, CountsAWavingHand) {
   std::vector<Pose> poses(61, RestPose(Body()));
   for (size_t t = 0; t < poses.size(); ++t)
     poses[t].rotations(2, Body().left_elbow) = Wave(1, static_cast<double>(t) / 30);
@@ -49,7 +49,7 @@ TEST(LimbTravel, NeedsLimbs) {
               [&] { MeasureLimbTravel(pole, {Eigen::Matrix3Xd::Zero(3, 1)}, {}); });
 }
 
-TEST(PelvisBounce, IsTheRmsOfWhatIsFasterThanASecond) {
+TEST(PelvisBounce, IsTheRmsAboveOneHertz) {
   const auto bounce = [](double hz) {
     return PelvisBounce(
         Carried(600, [&](double s) { return Eigen::Vector3d(s, 0.03 * Wave(hz, s), 0); }), 30);
@@ -65,7 +65,7 @@ TEST(Jerk, IsTheMedianOfTheThirdDerivative) {
   EXPECT_NEAR(SmoothJerk(cubic, 30), 1, 0.02);
 }
 
-TEST(Jerk, OfARecordingsNoiseIsFilteredOut) {
+TEST(Jerk, FiltersOutRecordingNoise) {
   const auto dance = [](double noise) {
     return Carried(
         300, [=](double s) { return Eigen::Vector3d(0.3 * Wave(1, s), noise * Wave(14, s), 0); });

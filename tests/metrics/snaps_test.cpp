@@ -65,7 +65,7 @@ TEST(Snaps, CountAlikeAtAnyFrameRate) {
   EXPECT_EQ(SnapsOf(0, {4.2, 19}, 15).knees, 0);
 }
 
-TEST(Snaps, OfASkeletonWithoutElbowsAreThoseOfItsKnees) {
+TEST(Snaps, WithoutElbowsCountKneesAlone) {
   Skeleton armless = Body();
   armless.left_elbow = armless.right_elbow = -1;
   const Hinge knee = Hinges(Body())[0];

@@ -43,7 +43,7 @@ CriticWindows Dances(uint64_t seed) {
   return all;
 }
 
-TEST(StyleClassifier, TellsStylesOfDancersThatItHasNotSeen) {
+TEST(StyleClassifier, ClassifiesUnseenDancers) {
   const StyleClassifier classifier(Dances(1), 3);
   for (size_t style = 0; style < 3; ++style) {
     const CriticWindows unseen = Dance(99, style);
@@ -54,7 +54,7 @@ TEST(StyleClassifier, TellsStylesOfDancersThatItHasNotSeen) {
   }
 }
 
-TEST(StyleClassifier, WantsToHaveSeenEach) {
+TEST(StyleClassifier, NeedsTwoStyles) {
   ExpectError(ErrorCode::kInvalidArgument, "styles", [] { StyleClassifier(Dances(1), 4); });
 }
 

@@ -42,7 +42,7 @@ TEST(JointAngles, TurnAboutXThenYThenZ) {
   EXPECT_NEAR(hand.z(), Seen("left_shoulder", {70, 0, 0}, "left_elbow").z(), 1e-12);
 }
 
-TEST(JointAngles, GoThereAndBack) {
+TEST(JointAngles, RoundTrip) {
   for (int joint = 0; joint < Body().joints(); ++joint) {
     const std::vector<double> degrees =
         std::ranges::any_of(Hinges(Body()),

@@ -16,7 +16,7 @@ TEST(KinematicBeats, AreMaximaOfSpeed) {
   EXPECT_TRUE(KinematicBeats(falling, kUnsmoothed).empty());
 }
 
-TEST(KinematicBeats, ShakingIsNone) {
+TEST(KinematicBeats, IgnoreShaking) {
   std::vector<float> speed;
   for (int i = 0; i < 120; ++i) {
     const double sway = std::cos(2 * 3.14159265358979 * (i - 20) / 30);

@@ -69,7 +69,7 @@ TEST(Kinematics, APoseStandsWithItsLowestFootOnTheFloor) {
   EXPECT_DOUBLE_EQ(*StandingHeight(smpl, kick), smpl.pelvis_height);
 }
 
-TEST(Kinematics, WhoseLegsAreOpenStandsAtNoHeight) {
+TEST(Kinematics, MaskedLegsHaveNoStandingHeight) {
   const Skeleton& smpl = Skeleton::Smpl24();
   PoseMask mask;
   mask.joints.assign(24, true);
@@ -82,7 +82,7 @@ TEST(Kinematics, WhoseLegsAreOpenStandsAtNoHeight) {
   EXPECT_FALSE(StandingHeight(Chain(), chain)) << "a skeleton without feet";
 }
 
-TEST(Kinematics, AMaskedKeyIsTheOtherPoseWhereItIsOpen) {
+TEST(Kinematics, MaskedKeyTakesTheOtherPoseWhereOpen) {
   const Skeleton& smpl = Skeleton::Smpl24();
   std::mt19937 generator(1);
   const Pose key = fixtures::RandomPose(smpl, generator),

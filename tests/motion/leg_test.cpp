@@ -22,7 +22,7 @@ Pose Crouch(double bend) {
   return pose;
 }
 
-TEST(Leg, ToesGoWhereTheyAreAskedAndTheFootKeepsItsTurn) {
+TEST(Leg, ToesReachTheirTargetAndTheFootKeepsItsRotation) {
   Random random(3);
   for (int trial = 0; trial < 100; ++trial) {
     Pose pose = Crouch(0.5);
@@ -81,7 +81,7 @@ TEST(Leg, AStraightLegBendsItsKneeForward) {
 
 // Recorded and generated knees go slightly beyond straight. A knee that kept bending that way would
 // break.
-TEST(Leg, AKneeThatIsBeyondStraightBendsForwardToo) {
+TEST(Leg, OverstretchedKneeBendsForward) {
   const Leg leg = Leg::Of(Body())[0];
   for (const double beyond : {0.02, 0.12, 0.2, 0.4}) {
     for (const double side : {-0.15, 0.0, 0.15}) {
@@ -100,7 +100,7 @@ TEST(Leg, AKneeThatIsBeyondStraightBendsForwardToo) {
 
 // Through its full length and back, a leg never snaps: toes that move three millimetres (a tenth of
 // a metre a second) turn the knee by less than three degrees.
-TEST(Leg, StraightensSmoothlyWhateverItIsAskedFor) {
+TEST(Leg, StraightensSmoothlyTowardsAnyTarget) {
   const Leg leg = Leg::Of(Body())[0];
   for (const double bend : {-0.1, -0.055, 0.0, 0.1, 0.2, 0.4}) {
     const Pose pose = Crouch(bend);
@@ -116,7 +116,7 @@ TEST(Leg, StraightensSmoothlyWhateverItIsAskedFor) {
   }
 }
 
-TEST(Leg, AskedForWhatIsThereItChangesNothing) {
+TEST(Leg, MetTargetChangesNothing) {
   Random random(4);
   for (int trial = 0; trial < 100; ++trial) {
     // Near straight, on either side of it.
@@ -149,7 +149,7 @@ TEST(Leg, OutOfReachItStretchesTowardsTheGoal) {
   EXPECT_LT((wanted - got).norm(), 1e-6);
 }
 
-TEST(Leg, WithinReachIsOnTheWayThere) {
+TEST(Leg, LimitsTargetsToItsReach) {
   const Skeleton& body = Skeleton::Smpl24();
   const Leg leg = Leg::Of(body)[0];
   Pose pose = RestPose(body);

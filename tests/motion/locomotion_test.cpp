@@ -124,7 +124,7 @@ TEST(Contacts, HysteresisHoldsBetweenTheThresholds) {
   EXPECT_EQ(detector.Next(lifted(0.0), lifted(0.02), 30), (Contacts{0, 0, 0, 0}));
 }
 
-TEST(Contacts, OfAMotionStandingStillAreAllDownFromTheFirstFrame) {
+TEST(Contacts, StandingStillIsAllContactFromTheFirstFrame) {
   const Skeleton& smpl = Skeleton::Smpl24();
   Motion motion;
   motion.frames.assign(3, RestPose(smpl));

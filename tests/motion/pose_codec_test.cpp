@@ -45,7 +45,7 @@ TEST(PoseCodec, IsThePapersVector) {
   }
 }
 
-TEST(PoseCodec, TheBranchIsThatOfThePreviousFrame) {
+TEST(PoseCodec, BranchFollowsThePreviousFrame) {
   const PoseCodec codec(Smpl());
   Pose previous = RestPose(Smpl());
   previous.rotations.col(0) = Eigen::Vector3d(0, 9.4, 0);

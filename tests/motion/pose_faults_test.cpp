@@ -25,7 +25,7 @@ std::vector<std::string> Messages(const std::vector<TimedPose>& poses) {
   return messages;
 }
 
-TEST(PoseFaults, NamesWhatNoBodyDoes) {
+TEST(PoseFaults, NamesImpossibleAngles) {
   EXPECT_THAT(PoseFaults(Body(), At(0)), IsEmpty());
   EXPECT_THAT(PoseFaults(Body(), At(0, 0.4)), IsEmpty());  // a jump
   EXPECT_THAT(PoseFaults(Body(), At(0, -0.12)),
@@ -45,7 +45,7 @@ TEST(PoseFaults, NamesWhatNoBodyDoes) {
   EXPECT_THAT(BendFaults(Body(), At(0, 1.5)), IsEmpty());
 }
 
-TEST(PoseFaults, WhatIsNotAskedForIsNoFault) {
+TEST(PoseFaults, MaskedJointsHaveNoFaults) {
   Pose pose = At(0, -0.3);
   const Hinge hinge = Hinges(Body())[0];
   pose.rotations.col(hinge.joint) = -hinge.axis;
@@ -60,7 +60,7 @@ TEST(PoseFaults, WhatIsNotAskedForIsNoFault) {
   EXPECT_THAT(PoseFaults(Body(), pose, place), IsEmpty());
 }
 
-TEST(DanceFaults, NamesWaysThatAreTooFast) {
+TEST(DanceFaults, NamesTooFastTransitions) {
   EXPECT_THAT(Messages({{"a", 1, At(0)}, {"b", 1.5, At(4)}}), IsEmpty());
   Pose up = At(0), down = At(0);
   up.rotations(2, Body().left_shoulder) = 1.5;

@@ -164,7 +164,7 @@ TEST(Rotation, SixDRoundTripsAndRepairsScaleAndSkew) {
   }
 }
 
-TEST(Rotation, SixDRefusesWhatSpansNoPlane) {
+TEST(Rotation, SixDRefusesParallelVectors) {
   Eigen::Matrix<double, 6, 1> parallel;
   parallel << 1, 2, 3, -2, -4, -6;
   EXPECT_THROW(MatrixFromSixD(parallel), Error);

@@ -27,7 +27,7 @@ std::vector<BodyPoints> PointsOf(const BalanceGauge& gauge, int frames,
   return points;
 }
 
-TEST(MassWeights, AreSharesOfOneAndPutTheCentreWherePeopleHaveIt) {
+TEST(MassWeights, SumToOneWithAHumanCentreOfMass) {
   const Eigen::VectorXd weights = MassWeights(Body());
   ASSERT_EQ(weights.size(), Body().joints());
   EXPECT_NEAR(weights.sum(), 1, 1e-12);
@@ -45,7 +45,7 @@ TEST(MassWeights, AreSharesOfOneAndPutTheCentreWherePeopleHaveIt) {
   EXPECT_GT((JointPositions(Body(), bent) * weights).z(), centre.z() + 0.1);
 }
 
-TEST(MassWeights, AreNoneOfABodyThatLacksSegments) {
+TEST(MassWeights, AreEmptyWithoutAllSegments) {
   for (const char* joint : {"head", "left_elbow", "right_knee"}) {
     Skeleton body = Body();
     body.joint_names[static_cast<size_t>(body.Find(joint))] = "other";
@@ -56,7 +56,7 @@ TEST(MassWeights, AreNoneOfABodyThatLacksSegments) {
   EXPECT_TRUE(BalanceGauge::Fits(Body()));
 }
 
-TEST(DistanceToHull, IsNoneWithinAndThatToTheNearestPointOutside) {
+TEST(DistanceToHull, IsZeroInsideAndToTheNearestPointOutside) {
   const Points square = {{0, 0}, {1, 1}, {1, 0}, {0.5, 0.5}, {0, 1}, {0, 0}};
   EXPECT_EQ(DistanceToHull({0.3, 0.6}, square), 0);
   EXPECT_EQ(DistanceToHull({1, 0.5}, square), 0);
@@ -68,7 +68,7 @@ TEST(DistanceToHull, IsNoneWithinAndThatToTheNearestPointOutside) {
   EXPECT_EQ(DistanceToHull({0, 0}, {{0, 0}, {0, 0}, {0, 0}}), 0);
 }
 
-TEST(BalanceGauge, WhoStandsAtRestIsOnBothFeetAndSupported) {
+TEST(BalanceGauge, StandingBodyIsSupportedByBothFeet) {
   const BalanceGauge gauge(Body(), 30, kRestFloor);
   const auto points = PointsOf(gauge, 20, [](double) { return Rest(); });
   for (size_t t = 0; t < points.size(); ++t) {
@@ -81,7 +81,7 @@ TEST(BalanceGauge, WhoStandsAtRestIsOnBothFeetAndSupported) {
   }
 }
 
-TEST(BalanceGauge, WhoIsThrownFallsAsStonesDoAndWhoIsCarriedDoesNot) {
+TEST(BalanceGauge, ThrownBodyIsBallisticAndCarriedBodyIsNot) {
   const BalanceGauge gauge(Body(), 30, kRestFloor);
   const auto thrown = PointsOf(gauge, 40, [](double s) -> Eigen::Matrix3Xd {
     return Rest().colwise() + Eigen::Vector3d(s, 3 + 4 * s - 0.5 * kGravity * s * s, 0);
@@ -102,7 +102,7 @@ TEST(BalanceGauge, WhoIsThrownFallsAsStonesDoAndWhoIsCarriedDoesNot) {
   }
 }
 
-TEST(BalanceGauge, WhoTiltsIsOutsideByTheSineOfTheAngle) {
+TEST(BalanceGauge, TiltedBodyIsOutsideByTheSineOfTheAngle) {
   const BalanceGauge gauge(Body(), 30, kRestFloor);
   const Eigen::VectorXd weights = MassWeights(Body());
   const Eigen::Matrix3Xd rest = Rest();
@@ -123,7 +123,7 @@ TEST(BalanceGauge, WhoTiltsIsOutsideByTheSineOfTheAngle) {
   }
 }
 
-TEST(BalanceGauge, WhoSpeedsUpLeansOnWhatIsBehind) {
+TEST(BalanceGauge, AccelerationMovesTheZmpBackwards) {
   const BalanceGauge gauge(Body(), 30, kRestFloor);
   const double push = 4;
   const auto points = PointsOf(gauge, 40, [&](double s) -> Eigen::Matrix3Xd {
@@ -138,7 +138,7 @@ TEST(BalanceGauge, WhoSpeedsUpLeansOnWhatIsBehind) {
   EXPECT_FALSE(balance.Supported());
 }
 
-TEST(SupportMeter, SeesFrameByFrameWhatIsSeenOfTheWhole) {
+TEST(SupportMeter, StreamingEqualsTheWhole) {
   Random random(3);
   for (const int frames : {1, 2, 5, 8, 15, 16, 90}) {
     std::vector<Eigen::Matrix3Xd> track;
@@ -165,6 +165,6 @@ TEST(SupportMeter, SeesFrameByFrameWhatIsSeenOfTheWhole) {
   }
 }
 
-TEST(SupportMeter, OfNothingIsWhole) { EXPECT_EQ(SupportMeter(Body(), 30).Share(), 1); }
+TEST(SupportMeter, IsOneWithoutFrames) { EXPECT_EQ(SupportMeter(Body(), 30).Share(), 1); }
 
 }  // namespace choreo::support_test

@@ -34,7 +34,7 @@ int FramesInAir(const std::array<std::vector<Stance>, 2>& stances) {
   return count;
 }
 
-TEST(PlanContacts, WhoStandsStands) {
+TEST(PlanContacts, StandingFeetStayInContact) {
   for (const auto& stances : PlanContacts({Standing(0.1), Standing(-0.1)}, kFps, {})) {
     ASSERT_EQ(stances.size(), 1U);
     EXPECT_EQ(stances[0].from, 0);
@@ -42,7 +42,7 @@ TEST(PlanContacts, WhoStandsStands) {
   }
 }
 
-TEST(PlanContacts, AFootThatThePlanLiftsIsInTheAirAndTheOtherCarries) {
+TEST(PlanContacts, LiftedFootIsInTheAirAndTheOtherSupports) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   Lift(&feet[0], 20, 35, 0.3);
   const auto stances = PlanContacts(feet, kFps, {});
@@ -69,7 +69,7 @@ TEST(PlanContacts, AGlidingFootSteps) {
   }
 }
 
-TEST(PlanContacts, WhoHoversComesDown) {
+TEST(PlanContacts, HoveringBodyGetsContacts) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   for (FootTrack& foot : feet) Lift(&foot, 0, kFrames, 0.12);
   EXPECT_EQ(FramesInAir(PlanContacts(feet, kFps, {})), 0);
@@ -84,7 +84,7 @@ TEST(PlanContacts, NoFlightLastsLongerThanTheLongest) {
   EXPECT_LE(FramesInAir(PlanContacts(feet, kFps, options)), options.longest_flight * kFps);
 }
 
-TEST(PlanContacts, TheKeyHasTheLastWord) {
+TEST(PlanContacts, KeyDecidesItsContacts) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   feet[0].end = FootTrack::End::kInAir;
   Lift(&feet[0], kFrames - 1, kFrames, 0.4);
@@ -127,7 +127,7 @@ TEST(PlanContacts, AFootThatStaysUpDoesNotFall) {
   EXPECT_EQ(stances[1][0].to, 5);
 }
 
-TEST(PlanContacts, WhereTheSceneLiesChangesNothing) {
+TEST(PlanContacts, DoesNotDependOnTheScenesPlace) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   for (size_t i = 0; i < kFrames; ++i) feet[0].toes[i].z() += 0.015 * static_cast<double>(i);
   Lift(&feet[1], 10, 20, 0.2);

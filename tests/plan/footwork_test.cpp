@@ -51,7 +51,7 @@ double LowestFoot(const Pose& pose) {
   return lowest;
 }
 
-TEST(StandOnFeet, WhoStandsStays) {
+TEST(StandOnFeet, LeavesAStandingBody) {
   std::vector<Pose> plan(kFrames, At({0, 0, 0}));
   const Footwork footwork = StandOnFeet(Context(), &plan);
   ASSERT_EQ(footwork.contacts.size(), plan.size());
@@ -81,7 +81,7 @@ TEST(StandOnFeet, FeetOfAGlidingBodyStandAndStep) {
   EXPECT_GE(steps, 3);
 }
 
-TEST(StandOnFeet, WhoHoversIsPutOnTheFloor) {
+TEST(StandOnFeet, LowersAHoveringBody) {
   std::vector<Pose> plan = Glide(0.005, 0.12);
   ASSERT_GT(LowestFoot(plan[kFrames / 2]), 0.1);
   StandOnFeet(Context(), &plan);
@@ -112,7 +112,7 @@ TEST(StandOnFeet, NothingTouchesAKey) {
   EXPECT_EQ(plan.back().rotations, key.rotations);
 }
 
-TEST(StandOnFeet, FeetComeToWhereTheKeyHasThem) {
+TEST(StandOnFeet, FeetReachTheKeysFootprints) {
   std::vector<Pose> plan = Glide(0.01);
   FootworkContext context = Context();
   context.keyed = true;
@@ -189,7 +189,7 @@ TEST(StandOnFeet, LongPlansGoOnWhereTheirPiecesMeet) {
   EXPECT_NEAR((rest[0].root_position - first[29].root_position).norm(), before, 0.01);
 }
 
-TEST(StandOnFeet, WhoHasNoLegsIsLeftAlone) {
+TEST(StandOnFeet, LeavesASkeletonWithoutLegs) {
   Skeleton legless = Body();
   legless.feet = {-1, -1, -1, -1};
   FootworkContext context{.skeleton = legless, .history = kHistory, .fps = kFps};
@@ -199,7 +199,7 @@ TEST(StandOnFeet, WhoHasNoLegsIsLeftAlone) {
 }
 
 // Bodies below the floor, tumbling or thrown about are no dancers, but must not fail.
-TEST(StandOnFeet, WhateverIsPlannedStaysFinite) {
+TEST(StandOnFeet, ExtremePlansStayFinite) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     Random random(seed);
     const double height = random.Uniform(-3, 3), way = random.Uniform(0, 0.5),

@@ -21,11 +21,11 @@ std::vector<SupportFrame> Still(double beside) {
   return std::vector<SupportFrame>(kFrames, frame);
 }
 
-TEST(PelvisOffset, WhoIsBalancedStays) {
+TEST(PelvisOffset, LeavesABalancedPelvis) {
   EXPECT_NEAR(PelvisOffset(Still(0), {0, kHeight, 0}, {.fps = kFps}).norm(), 0, 1e-9);
 }
 
-TEST(PelvisOffset, WhoseFeetAreBesideGoesThere) {
+TEST(PelvisOffset, MovesOverTheFeet) {
   const Eigen::Matrix3Xd offset = PelvisOffset(Still(0.3), {0, kHeight, 0}, {.fps = kFps});
   EXPECT_GT(offset(0, kFrames - 1), 0.1);
   EXPECT_NEAR(offset.row(2).norm(), 0, 1e-9);
@@ -34,7 +34,7 @@ TEST(PelvisOffset, WhoseFeetAreBesideGoesThere) {
 }
 
 // An inverted pendulum that topples has its zero moment point at its feet all the way.
-TEST(PelvisOffset, WhoTopplesIsHeld) {
+TEST(PelvisOffset, HoldsATopplingBody) {
   std::vector<SupportFrame> frames = Still(0);
   const auto beside = [](int frame) {
     return 0.01 * std::cosh(std::sqrt(kGravity / kHeight) * frame / kFps);
@@ -46,14 +46,14 @@ TEST(PelvisOffset, WhoTopplesIsHeld) {
   EXPECT_LT(offset(0, 45), -0.1);
 }
 
-TEST(PelvisOffset, LegsThatAreTooShortDrawItDown) {
+TEST(PelvisOffset, LowersForShortLegs) {
   std::vector<SupportFrame> frames = Still(0);
   for (int i = 20; i < 40; ++i) frames[static_cast<size_t>(i)].legs[0].to_ankle.y() = -0.85;
   const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
   EXPECT_NEAR(offset(1, 30), 0.985 * 0.8 - 0.85, 0.01);
 }
 
-TEST(PelvisOffset, WhoFliesFalls) {
+TEST(PelvisOffset, FallsInFlight) {
   std::vector<SupportFrame> frames = Still(0);
   for (int i = 25; i < 35; ++i) {
     frames[static_cast<size_t>(i)].support.clear();
@@ -68,7 +68,7 @@ TEST(PelvisOffset, WhoFliesFalls) {
   EXPECT_GT(offset(1, 30), offset(1, 20) + 0.05);  // so it leaps
 }
 
-TEST(PelvisOffset, AKeyAndAPathStayWhereTheyAre) {
+TEST(PelvisOffset, KeepsKeysAndPaths) {
   const Eigen::Vector3d before(0, kHeight, 0);
   const Eigen::Matrix3Xd keyed = PelvisOffset(Still(0.3), before, {.returns = true, .fps = kFps});
   EXPECT_EQ(keyed.col(kFrames - 1).norm(), 0);
@@ -81,7 +81,7 @@ TEST(PelvisOffset, AKeyAndAPathStayWhereTheyAre) {
   EXPECT_LT(on_path(1, 30), -0.03);
 }
 
-TEST(PelvisOffset, APieceGoesOnFromTheOneBefore) {
+TEST(PelvisOffset, ContinuesFromThePreviousPiece) {
   Eigen::Matrix<double, 3, 2> before;
   before << 0.10, 0.11, 0, 0, 0, 0;
   const Eigen::Matrix3Xd offset =

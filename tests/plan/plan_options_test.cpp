@@ -8,7 +8,7 @@
 
 namespace choreo::plan_options_test {
 
-TEST(PlanOptions, WhatACheckpointDoesNotStateHasItsDefault) {
+TEST(PlanOptions, MissingOptionsHaveDefaults) {
   nlohmann::json stored = PlanOptions{.accent = 0.1, .hinge_softness = 0.2};
   stored.erase("hinge_softness");
   const auto read = stored.get<PlanOptions>();

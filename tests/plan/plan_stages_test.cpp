@@ -33,7 +33,7 @@ TEST(LimitHinges, HingesStopSoftlyWhereTheyAreStraight) {
   }
 }
 
-TEST(LimitHinges, WhatIsNoHingeAndWhatTurnsAboutOtherAxesStays) {
+TEST(LimitHinges, OtherJointsAndAxesStay) {
   Pose before = RestPose(Body());
   before.rotations.setConstant(0.3);
   std::vector<Pose> plan = {before};
@@ -47,7 +47,7 @@ TEST(LimitHinges, WhatIsNoHingeAndWhatTurnsAboutOtherAxesStays) {
   }
 }
 
-TEST(ReturnToFloor, AFloatingDanceComesDownAndOneOnTheFloorStays) {
+TEST(ReturnToFloor, LowersAFloatingDanceAlone) {
   for (const double height : {0.2, 0.0, -0.1}) {
     std::vector<Pose> poses(60, RestPose(Body()));
     for (Pose& pose : poses) pose.root_position.y() += height;
@@ -61,7 +61,7 @@ TEST(ReturnToFloor, AFloatingDanceComesDownAndOneOnTheFloorStays) {
   }
 }
 
-TEST(LimitHinges, NoLimbFoldsThroughItself) {
+TEST(LimitHinges, LimbsDoNotFoldThroughThemselves) {
   for (const Hinge& hinge : Hinges(Body())) {
     double before = 0;
     for (double bend = 2; bend < 3.5; bend += 0.1) {

@@ -35,7 +35,7 @@ void CheckMessage(const pb::Descriptor& type) {
   for (int i = 0; i < type.nested_type_count(); ++i) CheckMessage(*type.nested_type(i));
 }
 
-TEST(ProtoCommentsTest, EverythingSaysWhatItIs) {
+TEST(ProtoCommentsTest, EveryElementIsDocumented) {
   pb::FileDescriptorSet files;  // as protoc wrote it, with comments
   std::ifstream stream(CHOREO_DESCRIBED_API, std::ios::binary);
   ASSERT_TRUE(files.ParseFromIstream(&stream)) << CHOREO_DESCRIBED_API;

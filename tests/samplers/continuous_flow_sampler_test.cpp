@@ -50,7 +50,7 @@ class ContinuousFlowSamplerTest : public testing::Test {
 
 // Logs and metrics repeat the name; whoever may put a file in a folder must not fill them, nor the
 // memory. Every error says which file it is about.
-TEST_F(ContinuousFlowSamplerTest, IsRefusedUnderANameThatNobodyCanPrintAndBeyondAGigabyte) {
+TEST_F(ContinuousFlowSamplerTest, RefusesUnprintableNamesAndFilesOverAGigabyte) {
   const auto refused = [&](const std::string& why) {
     try {
       MakeSampler(path_, {});
@@ -84,7 +84,7 @@ TEST_F(ContinuousFlowSamplerTest, IsRefusedUnderANameThatNobodyCanPrintAndBeyond
   refused("1073741825 bytes, the limit is 1073741824");
 }
 
-TEST_F(ContinuousFlowSamplerTest, TellsWhatItTakes) {
+TEST_F(ContinuousFlowSamplerTest, ListsItsControls) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.controls, ControlNames());
   EXPECT_FALSE(model.deterministic);
@@ -166,7 +166,7 @@ TEST_F(ContinuousFlowSamplerTest, SeedsAndCandidatesChangeItUnlessItIsTheMean) {
   ExpectSameBits(Dance(spec), Dance(other));
 }
 
-TEST_F(ContinuousFlowSamplerTest, BeatsAndLimbsThatAreAskedForChangeIt) {
+TEST_F(ContinuousFlowSamplerTest, RequestedBeatsAndLimbSpeedsChangeIt) {
   const TransitionSpec spec = Spec(2);
   const auto plain = Dance(spec);
   TransitionSpec other = spec;
@@ -181,7 +181,7 @@ TEST_F(ContinuousFlowSamplerTest, BeatsAndLimbsThatAreAskedForChangeIt) {
   ExpectSameBits(plain, Dance(other));
 }
 
-TEST_F(ContinuousFlowSamplerTest, AStyleThatIsAskedForChangesIt) {
+TEST_F(ContinuousFlowSamplerTest, RequestedStyleChangesIt) {
   EXPECT_EQ(sampler_->model().styles, std::vector<std::string>{"waltz"});
   const TransitionSpec spec = Spec(2);
   TransitionSpec waltz = spec;

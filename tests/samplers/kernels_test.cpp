@@ -17,7 +17,7 @@ std::string Fingerprint(const SmallCheckpoint& checkpoint, const std::string& ke
   return MakeSamplers(checkpoint.path(), {&cpu, 1}, kind, kernels).front()->model().fingerprint;
 }
 
-TEST(KernelsTest, AreThoseThatAreNamed) {
+TEST(KernelsTest, AreChosenByName) {
   const SmallCheckpoint checkpoint(Shape::kEncoded);
   for (const PackedKernels* kernels : PackedKernelsHere()) {
     EXPECT_THAT(Fingerprint(checkpoint, kernels->name),
@@ -33,7 +33,7 @@ TEST(KernelsTest, AreThoseThatAreNamed) {
   }
 }
 
-TEST(KernelsTest, ThatAreNotHereAreNamed) {
+TEST(KernelsTest, UnavailableOnesAreNamed) {
   const SmallCheckpoint checkpoint(Shape::kEncoded);
   const auto refusal = [&](const std::string& kernels, EngineKind kind) -> std::string {
     try {

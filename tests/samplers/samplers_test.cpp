@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Samplers, SamplersTest,
                                   ShapeName(std::get<1>(instance.param));
                          });
 
-TEST_P(SamplersTest, TellsWhatItIs) {
+TEST_P(SamplersTest, DescribesItself) {
   const auto sampler = Make();
   const ModelInfo& info = sampler->model();
   EXPECT_EQ(info.name, "random-weights-of-a-test");

@@ -79,7 +79,7 @@ TEST(ShippedCheckpoints, TheFreeOneNamesFreeDataAlone) {
   }
 }
 
-TEST(ShippedCheckpoints, TheLicenceNamesTheTermsOfAllThatAModelWentOnFrom) {
+TEST(ShippedCheckpoints, LicenceCoversPretrainedModels) {
   const auto sampler = MakeSampler(Shipped().at("default"), {});
   nlohmann::json card = nlohmann::json::parse(sampler->model().card);
   int runs = 0;

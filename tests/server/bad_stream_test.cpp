@@ -26,7 +26,7 @@ bool IsPath(const google::protobuf::Descriptor& type, const std::string& path) {
   return field->message_type() != nullptr && IsPath(*field->message_type(), path.substr(end + 1));
 }
 
-TEST(FieldPathTest, IsThatOfTheMessageThatWasSent) {
+TEST(FieldPathTest, NamesTheFieldOfTheSentMessage) {
   const std::pair<const char*, const char*> paths[] = {
       {"keyframes[3].rotations[16]", "keyframe.pose.rotations[16]"},
       {"keyframes[0].root_position[1]", "keyframe.pose.root_position.y"},

@@ -133,7 +133,7 @@ class BulkTest : public ServerTest {
   std::shared_ptr<Log> log = std::make_shared<Log>();
 };
 
-TEST_F(BulkTest, ADanceIsDancedBeforeALongCallOfManyCandidatesGoesOn) {
+TEST_F(BulkTest, DancesPreemptLongTransitionCalls) {
   const Answer::Joined alone = Dance().Join();
   ExpectIdle();
   BulkCall bulk(stub(), Bulk());
@@ -161,7 +161,7 @@ TEST_F(BulkTest, ADanceIsDancedBeforeALongCallOfManyCandidatesGoesOn) {
 }
 
 // As a dance cancels when it is edited, and a page when its reader has left.
-TEST_F(BulkTest, CallsThatAreCancelledCostTheirSliceAtMost) {
+TEST_F(BulkTest, CancelledCallsCostAtMostTheirSlice) {
   constexpr int kCalls = 20;
   for (int i = 0; i < kCalls; ++i) {
     const int64_t before = log->Count(Log::Did::kBulkSlice);

@@ -52,7 +52,7 @@ class CallSessionTest : public testing::Test {
   std::shared_ptr<PausedOrNot> dance = std::make_shared<PausedOrNot>();
 };
 
-TEST_F(CallSessionTest, WhatIsUnreadBeforeTheDanceIsThereHoldsItUp) {
+TEST_F(CallSessionTest, UnreadMessagesPauseTheLaterDance) {
   SendMuch();
   session.Adopt(dance);
   EXPECT_TRUE(dance->paused);
@@ -60,7 +60,7 @@ TEST_F(CallSessionTest, WhatIsUnreadBeforeTheDanceIsThereHoldsItUp) {
   EXPECT_FALSE(dance->paused);
 }
 
-TEST_F(CallSessionTest, WhatIsReadByThenHoldsUpNothing) {
+TEST_F(CallSessionTest, ReadMessagesPauseNothing) {
   SendMuch();
   session.outbox().OnWriteDone(true);
   session.Adopt(dance);

@@ -122,7 +122,7 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
   }
 };
 
-TEST_P(CleanupTest, AllComesBack) {
+TEST_P(CleanupTest, FreesEverything) {
   const auto [kind, end] = GetParam();
   StartServer();
   Call(Kind::kStream, End::kSuccess);  // gRPC sets things up at its first call

@@ -53,7 +53,7 @@ TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {
   EXPECT_EQ(line.config->io_threads, 5);
 }
 
-TEST(ServerConfigTest, AFileWithASettingThatIsNoneIsRefused) {
+TEST(ServerConfigTest, RefusesAFileWithAnUnknownSetting) {
   for (const std::string text : {"workers = 3\nworkerz = 4\n", "[workerz]\nworkers = 4\n"}) {
     const std::string path = testing::TempDir() + "choreod_config_extra_test.toml";
     std::ofstream(path) << text;
@@ -67,7 +67,7 @@ TEST(ServerConfigTest, AFileWithASettingThatIsNoneIsRefused) {
   }
 }
 
-TEST(ServerConfigTest, AFileThatIsNotThereIsNamed) {
+TEST(ServerConfigTest, NamesAMissingFile) {
   testing::internal::CaptureStderr();
   const CommandLine line = Parse({"--config", "/nonexistent.toml"});
   const std::string message = testing::internal::GetCapturedStderr();
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--max-connection-seconds", "2073601"}, BadSetting{"--frobnicate", "1"}));
 
 // A server that was to ask for tokens does not start without.
-TEST(ServerConfigTest, AnEmptyNameOfAFileIsRefusedWhereverItStands) {
+TEST(ServerConfigTest, RefusesAnEmptyFileName) {
   const std::string path = testing::TempDir() + "choreod_config_empty_test.toml";
   std::ofstream(path) << "tokens = \"\"\n";
   testing::internal::CaptureStderr();
@@ -144,7 +144,7 @@ TEST(ServerConfigTest, AnEmptyNameOfAFileIsRefusedWhereverItStands) {
             "choreod: --tokens: is empty; leave it out where none is wanted\n");
 }
 
-TEST(ServerConfigTest, ThoseThatAreKnownAreListed) {
+TEST(ServerConfigTest, ListsValidChoices) {
   testing::internal::CaptureStderr();
   EXPECT_FALSE(Parse({"--kernels", "avx9"}).config);
   EXPECT_FALSE(Parse({"--engine", "fast"}).config);
@@ -184,7 +184,7 @@ TEST(ServerConfigTest, EverySettingHasAVariable) {
 }
 
 // Beyond this machine: only with TLS, or when told so.
-TEST(ServerConfigTest, PlaintextBeyondThisMachineIsAskedFor) {
+TEST(ServerConfigTest, PlaintextBeyondLocalhostNeedsAFlag) {
   for (const char* everywhere : {"0.0.0.0:0", "[::]:0", "203.0.113.1:1"}) {
     testing::internal::CaptureStderr();
     EXPECT_FALSE(Parse({"--listen", everywhere}).config);
@@ -196,7 +196,7 @@ TEST(ServerConfigTest, PlaintextBeyondThisMachineIsAskedFor) {
   }
 }
 
-TEST(ServerConfigTest, FlagsAreSwitchedByTheEnvironmentToo) {
+TEST(ServerConfigTest, EnvironmentSetsFlags) {
   ::setenv("CHOREO_INSECURE", "true", 1);
   ::setenv("CHOREO_REFLECTION", "false", 1);
   const CommandLine line = Parse({"--listen", "0.0.0.0:0"});

@@ -86,7 +86,7 @@ TEST(ControlRows, AreTheApisControls) {
   }
 }
 
-TEST(ControlRows, ComeThroughTheWireAsTheyWere) {
+TEST(ControlRows, SurviveTheWire) {
   ControlRequest asked;
   asked.root_path = {.frames = {0, 9}, .points = {{1, 2}, {3, 4}}, .heights = {0.5, 1}};
   asked.velocity_factors = {.frames = {3},
@@ -106,7 +106,7 @@ TEST(ControlRows, ComeThroughTheWireAsTheyWere) {
   EXPECT_EQ(came.velocity_factors->reference, asked.velocity_factors->reference);
 }
 
-TEST_F(ControlsServerTest, InfoTellsWhichModelTakesWhich) {
+TEST_F(ControlsServerTest, InfoListsEachModelsControls) {
   grpc::ClientContext context;
   v1::GetServerInfoResponse info;
   ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());
@@ -138,7 +138,7 @@ TEST_F(ControlsServerTest, ADanceFollowsAPathAndItsHeights) {
   EXPECT_NEAR(root(119, 2), 1, 1e-4);
 }
 
-TEST_F(ControlsServerTest, ADanceHasTheVelocitiesThatAreAskedOfItsParts) {
+TEST_F(ControlsServerTest, DanceHasTheRequestedPartVelocities) {
   v1::Controls controls =
       Factors({1, 0, 3, 0.5F}, {v1::BODY_PART_LEFT_ARM, v1::BODY_PART_RIGHT_LEG}, {10, 110});
   Answer answer = DanceWith(controls);
@@ -158,7 +158,7 @@ TEST_F(ControlsServerTest, ADanceHasTheVelocitiesThatAreAskedOfItsParts) {
   EXPECT_NEAR(Asked(answer.Join(), BodyPart::kRightArm, 60), 0.123, 1e-5);
 }
 
-TEST_F(ControlsServerTest, ATransitionIsControlledToo) {
+TEST_F(ControlsServerTest, TransitionFollowsControls) {
   v1::GenerateTransitionRequest request = Transition(Path({0, 59}, {0, 0, 1, 1}));
   *request.mutable_controls()->mutable_velocity_factors() =
       Factors({2}, {v1::BODY_PART_TRUNK}).velocity_factors();
@@ -212,7 +212,7 @@ TEST_F(ControlsServerTest, ContradictionsAreWarningsWithTheAmount) {
   EXPECT_LT(answer.summary->report().keyframes(0).errors().final_error_m(), 1e-3);
 }
 
-TEST_F(ControlsServerTest, ATransitionCallsItsTargetAsItWasTold) {
+TEST_F(ControlsServerTest, TransitionUsesTheTargetsId) {
   for (const std::string id : {"", "landing"}) {
     v1::GenerateTransitionRequest request = Transition(Path({0, 59}, {0, 0, 1, 0}));
     *request.mutable_target() = Key("", 0, /*x=*/2, /*z=*/0).pose();
@@ -226,7 +226,7 @@ TEST_F(ControlsServerTest, ATransitionCallsItsTargetAsItWasTold) {
   }
 }
 
-TEST_F(ControlsServerTest, AKeyThatStandsElsewhereThanThePathHasItIsToldOf) {
+TEST_F(ControlsServerTest, WarnsOfAKeyOffThePath) {
   v1::StreamDanceRequest config, key;
   *config.mutable_config() = Config();
   *key.mutable_keyframe() = Key("plie", 90);
@@ -239,7 +239,7 @@ TEST_F(ControlsServerTest, AKeyThatStandsElsewhereThanThePathHasItIsToldOf) {
   EXPECT_THAT(answer.events[0].warning().message(), HasSubstr("0.38 m too low for its feet"));
 }
 
-TEST_F(ControlsServerTest, APathAfterTheEndIsToldOfByBothCalls) {
+TEST_F(ControlsServerTest, BothCallsWarnOfAPathAfterTheEnd) {
   const v1::Controls controls = Path({120, 180}, {0, 0, 1, 1});
   const Answer dance = DanceWith(controls), transition = Generate(Transition(controls));
   for (const Answer* answer : {&dance, &transition}) {
@@ -250,7 +250,7 @@ TEST_F(ControlsServerTest, APathAfterTheEndIsToldOfByBothCalls) {
   }
 }
 
-TEST_F(ControlsServerTest, APathThatComesTooLateIsToldOf) {
+TEST_F(ControlsServerTest, WarnsOfAPathThatComesTooLate) {
   v1::StreamDanceRequest config, until;
   *config.mutable_config() = Config();
   config.mutable_config()->set_frames(120);
@@ -261,7 +261,7 @@ TEST_F(ControlsServerTest, APathThatComesTooLateIsToldOf) {
   EXPECT_EQ(answer.events[0].warning().code(), v1::WARNING_CODE_CONTROLS_TOO_LATE);
 }
 
-TEST_F(ControlsServerTest, AModelWithoutThemRefusesThemByName) {
+TEST_F(ControlsServerTest, ModelWithoutControlsRefusesThemByName) {
   Answer answer = DanceWith(Path({0, 59}, {0, 0, 1, 1}), "plain");
   EXPECT_EQ(answer.status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(answer.status.error_message(),
@@ -272,7 +272,7 @@ TEST_F(ControlsServerTest, AModelWithoutThemRefusesThemByName) {
             "controls[0].velocity_factors: the model \"plain\" does not have this control");
 }
 
-TEST_F(ControlsServerTest, NoneComesAfterKeyframesComplete) {
+TEST_F(ControlsServerTest, RefusedAfterKeyframesComplete) {
   v1::StreamDanceRequest config, complete;
   *config.mutable_config() = Config();
   config.mutable_config()->set_frames(9000);  // not danced before that comes

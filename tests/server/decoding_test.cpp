@@ -55,7 +55,7 @@ class DecodingTest : public ServerTest {
 };
 
 // Two of them for the two threads that decode.
-TEST_F(DecodingTest, HoldsUpNobodyElseAndEndsWithItsCall) {
+TEST_F(DecodingTest, DoesNotBlockOthersAndEndsWithItsCall) {
   Start(1, [](ServerConfig& config) { config.io_threads = 2; });
   const auto slowest = [this] {
     double slowest_s = 0;
@@ -99,7 +99,7 @@ TEST_F(DecodingTest, HoldsUpNobodyElseAndEndsWithItsCall) {
 }
 
 // A header is no reason for a refusal, and what it says is never allocated.
-TEST_F(DecodingTest, AFileThatSaysThatItIsTooMuchIsReadAsFarAsItGoes) {
+TEST_F(DecodingTest, FileWithAnExcessiveHeaderIsReadToItsEnd) {
   Start();
   v1::GenerateTransitionRequest heavy = Transition();
   heavy.mutable_config()->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);

@@ -44,7 +44,7 @@ bool Eventually(const std::function<bool()>& condition) {
 
 // More connections than the server may have descriptors: those beyond are sent away, and once the
 // others are gone it serves as before.
-TEST(DescriptorsTest, ComeBackAfterTooManyConnections) {
+TEST(DescriptorsTest, AreFreedAfterTooManyConnections) {
   constexpr int kDescriptors = 200;
   constexpr int kConnections = 260;
   std::optional<LocalServer> server;
@@ -88,7 +88,7 @@ TEST(ListenerTest, TakesEveryAddressOfAHostWithOnePort) {
   }
 }
 
-TEST(ListenerTest, NamesWhatCanNotBeListenedOn) {
+TEST(ListenerTest, NamesAnUnusableAddress) {
   const Listener taken("127.0.0.1:0");
   for (const std::string& address :
        {"127.0.0.1:" + std::to_string(taken.port()), std::string("203.0.113.1:0"),

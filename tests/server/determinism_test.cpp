@@ -110,7 +110,7 @@ TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
   ExpectIdle();
 }
 
-TEST_F(DeterminismTest, ResumedItIsTheSame) {
+TEST_F(DeterminismTest, ResumedDanceIsTheSame) {
   Start();
   const Answer whole = Stream(21, 1 << 20);
   ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();

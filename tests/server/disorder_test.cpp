@@ -160,7 +160,7 @@ class DisorderTest : public ServerTest {
 };
 
 // Nothing of the music has come, so nobody knows where the dance ends.
-TEST_F(DisorderTest, PacingOnAfterTheLastKeyIsHarmless) {
+TEST_F(DisorderTest, PacingAfterTheLastKeyIsHarmless) {
   const Watchdog watchdog(seconds(60));
   Start(/*workers=*/2);
   DanceClient client(stub());

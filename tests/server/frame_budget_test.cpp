@@ -37,7 +37,7 @@ class FrameBudgetTest : public ::testing::Test {
   const char calls[200] = {};  // whose addresses name calls
 };
 
-TEST_F(FrameBudgetTest, ACrowdIsTakenAsFarAsTheEnginesHold) {
+TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
   FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
   EXPECT_NEAR(budget.loads()["fake"], 0.9, 1e-9);
@@ -53,7 +53,7 @@ TEST_F(FrameBudgetTest, ModelsShareTheTime) {
   EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 9);
 }
 
-TEST_F(FrameBudgetTest, OneAddressDoesNotTakeItAll) {
+TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
   FrameBudget budget({.of_all = 0.9, .of_peer = 0.45});
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
   ExpectError(ErrorCode::kResourceExhausted,
@@ -62,7 +62,7 @@ TEST_F(FrameBudgetTest, OneAddressDoesNotTakeItAll) {
   EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 9);
 }
 
-TEST_F(FrameBudgetTest, TransitionsAreChargedWithTheirFramesAndWithHalfAtMost) {
+TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
   FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
   budget.TakeTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
   EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
@@ -72,7 +72,7 @@ TEST_F(FrameBudgetTest, TransitionsAreChargedWithTheirFramesAndWithHalfAtMost) {
   EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
 }
 
-TEST_F(FrameBudgetTest, WhoIsAloneIsTakenHoweverSlowTheEnginesAre) {
+TEST_F(FrameBudgetTest, AdmitsASingleDanceOnAnyEngine) {
   std::vector<std::unique_ptr<Sampler>> samplers;
   samplers.push_back(std::make_unique<FakeSampler>());
   samplers.back()->set_seconds_a_frame(1);
@@ -84,7 +84,7 @@ TEST_F(FrameBudgetTest, WhoIsAloneIsTakenHoweverSlowTheEnginesAre) {
   EXPECT_EQ(TakeDances(budget, *models[2], "b", calls), 1);
 }
 
-TEST_F(FrameBudgetTest, AboveOneNobodyIsRefused) {
+TEST_F(FrameBudgetTest, FactorAboveOneRefusesNobody) {
   FrameBudget budget({.of_all = 1.1, .of_peer = 1.1});
   for (const char& call : calls) budget.TakeDance(&call, *models[0], "a");
   EXPECT_NEAR(budget.loads()["fake"], 10, 1e-9);

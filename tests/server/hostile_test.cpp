@@ -69,7 +69,7 @@ TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
 
 // Of calls of gRPC's own services nobody is told whose they are: they end no connection, and the
 // server goes on listening.
-TEST_F(HostileTest, ReflectionThatIsLeftOpenEndsNobodysConnection) {
+TEST_F(HostileTest, IdleReflectionClosesNoConnection) {
   Start(1);
   constexpr int kConnections = 8, kCalls = 100;
   std::vector<std::unique_ptr<Http2>> open;
@@ -202,7 +202,7 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
             << Milliseconds(alone, 0.5) << " ms and p99 " << Milliseconds(alone, 0.99) << " ms\n";
 }
 
-TEST_F(HostileTest, ConnectionsThatSayNothingHoldUpNobody) {
+TEST_F(HostileTest, SilentConnectionsBlockNobody) {
   constexpr int kConnections = 2'000;
   RaiseDescriptorLimit();
   const cli::LocalServer server_of_its_own(FAKE_CHOREOD);

@@ -50,7 +50,7 @@ std::string CallRaw(const std::shared_ptr<grpc::Channel>& channel, const std::st
 
 class InfoTest : public ServerTest {};
 
-TEST_F(InfoTest, TellsModelLimitsAndDevices) {
+TEST_F(InfoTest, ReportsModelLimitsAndDevices) {
   Start(3);
   grpc::ClientContext context;
   v1::GetServerInfoResponse info;
@@ -89,7 +89,7 @@ class BriefSampler : public FakeSampler {
 };
 
 // The server's limit is one thing, what its model can do another.
-TEST_F(InfoTest, EachModelTellsItsLongestTransition) {
+TEST_F(InfoTest, ReportsEachModelsLongestTransition) {
   for (const auto& [of_model, told] : {std::pair{150, 150}, {5'000, 1'800}}) {
     StartWith(std::make_unique<BriefSampler>(of_model));
     grpc::ClientContext context;
@@ -123,7 +123,7 @@ TEST_F(InfoTest, SeveralModels) {
   EXPECT_THROW(Start(1, {}, {"twin", "twin"}), Error);
 }
 
-TEST_F(InfoTest, APortThatIsTakenIsNamed) {
+TEST_F(InfoTest, NamesATakenPort) {
   Start();
   ServerConfig config;
   config.listen = "127.0.0.1:" + std::to_string(server->port());
@@ -159,7 +159,7 @@ class FailingSampler final : public FakeSampler {
   const std::atomic<bool>* const fails_;
 };
 
-TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
+TEST_F(InfoTest, HealthReportsABrokenEngine) {
   const auto before = spdlog::default_logger();
   std::ostringstream log;
   spdlog::set_default_logger(std::make_shared<spdlog::logger>(
@@ -190,7 +190,7 @@ TEST_F(InfoTest, HealthTellsOfABrokenEngine) {
               testing::ContainsRegex(R"(\[error\] model "fake": its engine has failed)"));
 }
 
-TEST_F(InfoTest, HealthTellsOfEachModel) {
+TEST_F(InfoTest, HealthReportsEachModel) {
   std::atomic<bool> fails = true;
   ServerConfig config;
   config.listen = "127.0.0.1:0";
@@ -214,7 +214,7 @@ TEST_F(InfoTest, HealthTellsOfEachModel) {
   server.reset();  // it looks at `fails`
 }
 
-TEST_F(InfoTest, HealthTellsOfModelsThatComeAndGo) {
+TEST_F(InfoTest, HealthReportsAddedAndRemovedModels) {
   Start(1, {}, {"first"});
   const auto health = [this](const std::string& model) {
     const std::string name = v1::Choreography::service_full_name() + ("/" + model);

@@ -46,7 +46,7 @@ class LifecycleTest : public ServerTest {
   }
 };
 
-TEST_F(LifecycleTest, ACancelledDanceGivesItsPlaceBack) {
+TEST_F(LifecycleTest, CancelledDanceFreesItsPlace) {
   Start(/*workers=*/1, [](ServerConfig& config) { config.max_waiting = 0; });
   for (int round = 0; round < 3; ++round) {
     const auto client = OpenEndedDance();
@@ -58,7 +58,7 @@ TEST_F(LifecycleTest, ACancelledDanceGivesItsPlaceBack) {
   ExpectServes();
 }
 
-TEST_F(LifecycleTest, ADeadlineGivesItsPlaceBack) {
+TEST_F(LifecycleTest, ExpiredDanceFreesItsPlace) {
   Start();
   const auto client = OpenEndedDance(milliseconds(300));
   EXPECT_FALSE(client->ReadFrames(1'000));  // waits for music that never comes
@@ -66,7 +66,7 @@ TEST_F(LifecycleTest, ADeadlineGivesItsPlaceBack) {
   ExpectIdle();
 }
 
-TEST_F(LifecycleTest, CancelledTransitionsGiveTheirRoomBack) {
+TEST_F(LifecycleTest, CancelledTransitionsFreeTheirRoom) {
   Start(/*workers=*/2);
   probe->closed = true;
   v1::GenerateTransitionRequest request;
@@ -121,7 +121,7 @@ TEST_F(LifecycleTest, TransitionsBeyondTheirRoomAreRefused) {
 }
 
 // Nothing is read: HTTP/2 fills, the outbox fills, the dance pauses. Then all of it comes.
-TEST_F(LifecycleTest, AClientThatDoesNotReadPausesItsDanceAlone) {
+TEST_F(LifecycleTest, SlowReaderPausesOnlyItsOwnDance) {
   Start(1, [](ServerConfig& config) { config.outbox_kib = 16; });
   DanceClient slow(stub());
   v1::DanceConfig config = Config();
@@ -148,7 +148,7 @@ TEST_F(LifecycleTest, AClientThatDoesNotReadPausesItsDanceAlone) {
 
 // What is sent is refused, message by message, and no refusal is read: soon no more is taken. Then
 // every message has its answer.
-TEST_F(LifecycleTest, AClientThatDoesNotReadIsNotReadEither) {
+TEST_F(LifecycleTest, ServerDoesNotReadFromASlowReader) {
   Start(1, [](ServerConfig& config) { config.outbox_kib = 1; });
   grpc::ChannelArguments small_windows;
   small_windows.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
@@ -220,7 +220,7 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
 }
 
 // Another server takes over with nothing to dance twice.
-TEST_F(LifecycleTest, AStreamThatHasToLeaveEndsAtATransition) {
+TEST_F(LifecycleTest, DrainedStreamEndsAfterATransition) {
   Start();
   DanceClient client(stub());
   v1::DanceConfig config = Config();
@@ -241,7 +241,7 @@ TEST_F(LifecycleTest, AStreamThatHasToLeaveEndsAtATransition) {
 }
 
 // The connection was there before, and nobody looked at it when the server went.
-TEST_F(LifecycleTest, WhoComesLateIsNotCancelled) {
+TEST_F(LifecycleTest, LateCallsAreNotCancelled) {
   for (int round = 0; round < 3; ++round) {
     Start();
     ExpectServes();
@@ -264,7 +264,7 @@ int64_t ResidentBytes() {
 }
 
 // Clients that go in the middle of a song that is a file: the server holds all of it until its end.
-TEST_F(LifecycleTest, MemoryComesBackFromClientsThatAreGone) {
+TEST_F(LifecycleTest, FreesMemoryOfLostClients) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer keeps what is freed";
   Start();
   constexpr int64_t kPiece = 4 << 20;
@@ -323,7 +323,7 @@ TEST_F(LifecycleTest, MusicFilesShareOneBudget) {
   EXPECT_EQ(third.Finish().status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);  // no music
 }
 
-TEST_F(LifecycleTest, AServerMayGoWithCallsInProgress) {
+TEST_F(LifecycleTest, ServerMayStopWithCallsInProgress) {
   Start();
   const auto client = OpenEndedDance();
   ASSERT_TRUE(client->ReadFrames(5));

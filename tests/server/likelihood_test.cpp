@@ -41,7 +41,7 @@ class LikelihoodTest : public ServerTest {
   }
 };
 
-TEST_F(LikelihoodTest, CandidatesOfPaperFAreRankedByItWhereThatIsAsked) {
+TEST_F(LikelihoodTest, RanksPaperFCandidatesByItOnRequest) {
   std::vector<double> by_quality = Likelihoods(v1::RANK_BY_QUALITY);
   const std::vector<double> by_likelihood = Likelihoods(v1::RANK_BY_LIKELIHOOD);
   EXPECT_EQ(by_quality, Likelihoods(v1::RANK_BY_UNSPECIFIED));
@@ -50,7 +50,7 @@ TEST_F(LikelihoodTest, CandidatesOfPaperFAreRankedByItWhereThatIsAsked) {
   EXPECT_EQ(by_quality, by_likelihood);  // the same candidates, in another order
 }
 
-TEST_F(LikelihoodTest, AModelWithoutOneSaysSoAndRefuses) {
+TEST_F(LikelihoodTest, ModelWithoutOneSaysSoAndRefuses) {
   v1::GetServerInfoResponse info;
   grpc::ClientContext context;
   ASSERT_TRUE(stub().GetServerInfo(&context, {}, &info).ok());

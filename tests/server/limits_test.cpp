@@ -44,7 +44,7 @@ class WireLimitsTest : public ServerTest, public testing::WithParamInterface<con
 INSTANTIATE_TEST_SUITE_P(Calls, WireLimitsTest,
                          testing::Values("GenerateTransition", "StreamDance"));
 
-TEST_P(WireLimitsTest, PosesOfAHistory) {
+TEST_P(WireLimitsTest, RefusesTooManyPosesInAHistory) {
   ExpectRefused(History(Repeated(kEmptyPose, 1001)), "config.history.poses", "1001 poses, more");
   ExpectRefused(Repeated(History(kEmptyPose), 1001), "config.history.poses", "1000");
 }
@@ -54,19 +54,19 @@ TEST_P(WireLimitsTest, AThousandPosesAreRead) {
                 "missing");
 }
 
-TEST_P(WireLimitsTest, FieldsOfAnyKind) {
+TEST_P(WireLimitsTest, RefusesTooManyUnknownFields) {
   const std::string unknown = WireField(1000, "");
   ExpectRefused(Repeated(unknown, 16'385), "unknown field", "16384");
   ExpectRefused(WireField(kConfig, Repeated(unknown, 16'384)), "config.unknown field", "16384");
 }
 
-TEST_P(WireLimitsTest, BytesBesideTheMusic) {
+TEST_P(WireLimitsTest, RefusesTooManyBytesBesideMusic) {
   const std::string name = WireField(v1::DanceConfig::kModelFieldNumber, std::string(5 << 20, 'x'));
   ExpectRefused(WireField(kConfig, name), "request", "4194304");
 }
 
 // A message that can't be read is not the end of the stream.
-TEST_P(WireLimitsTest, BytesThatAreNoMessage) {
+TEST_P(WireLimitsTest, RefusesBytesThatAreNoMessage) {
   ExpectRefused("this is none", "request", GetParam());
   ExpectRefused(WireField(kConfig, "\x0b\x0c"), "request", "DanceConfig");  // a group
   ExpectRefused(WireField(kConfig, WireField(v1::DanceConfig::kModelFieldNumber, "\xff\xfe")),
@@ -95,7 +95,7 @@ TEST_F(LimitsTest, AreDeclared) {
   EXPECT_EQ(info.limits().max_audio_file_samples(), 240'000'000);
 }
 
-TEST_F(LimitsTest, AFingerprintIsNotEchoedWhateverItsLength) {
+TEST_F(LimitsTest, FingerprintsAreNotEchoed) {
   Start();
   v1::StreamDanceRequest request;
   *request.mutable_config() = Config();
@@ -150,7 +150,7 @@ TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
 }
 
 // As gRPC's SETTINGS say: HTTP/2, RFC 9113, 6.5.
-TEST_F(LimitsTest, AConnectionHasSoManyCalls) {
+TEST_F(LimitsTest, CallsPerConnectionAreLimited) {
   Start(1, [](ServerConfig& config) { config.max_streams = 7; });
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};

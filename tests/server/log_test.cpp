@@ -51,7 +51,7 @@ class LogTest : public ServerTest {
       "00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7-01";
 };
 
-TEST_F(LogTest, ACallLeavesOneLineThatNamesItsTrace) {
+TEST_F(LogTest, CallLogsOneLineWithItsTrace) {
   const auto lines = LinesOfCall(false, kTraceparent);
   EXPECT_THAT(lines, testing::Contains(HasSubstr("GetServerInfo ipv4:127.0.0.1")).Times(1));
   EXPECT_THAT(lines, testing::Contains(HasSubstr("trace 4bf92f3577b34da6a3ce929d0e0e4736: OK")));
@@ -81,7 +81,7 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
 }
 
 // Linux has file names of any bytes.
-TEST_F(LogTest, AsJsonWhatIsNoUtf8IsReplaced) {
+TEST_F(LogTest, JsonReplacesInvalidUtf8) {
   const auto before = spdlog::default_logger();
   testing::internal::CaptureStderr();
   StartLog("info", true);
@@ -108,13 +108,13 @@ TEST_F(LogTest, GrpcsLinesAreBounded) {
   EXPECT_THAT(said, HasSubstr("failed"));
 }
 
-TEST_F(LogTest, TheStartSaysWhoMayCome) {
+TEST_F(LogTest, StartLogsWhoMayConnect) {
   const auto lines = LinesOfCall(false, kTraceparent);
   EXPECT_THAT(lines, testing::Contains(HasSubstr(
                          "TLS is off, certificates of clients are not asked for, tokens are not")));
 }
 
-TEST_F(LogTest, WhatIsNoTraceparentIsLeftOut) {
+TEST_F(LogTest, OmitsAnInvalidTraceparent) {
   for (const char* bad : {"00-4bf92f3577b34da6a3ce929d0e0e4736-00f067aa0ba902b7",
                           "00-4BF92F3577B34DA6A3CE929D0E0E4736-00f067aa0ba902b7-01",
                           "00-00000000000000000000000000000000-00f067aa0ba902b7-01",

@@ -61,7 +61,7 @@ class MetricsTest : public ServerTest {
   }
 };
 
-TEST_F(MetricsTest, TellWhatWasDone) {
+TEST_F(MetricsTest, CountFinishedWork) {
   Start(2, [](ServerConfig& config) { config.metrics = "0"; });
   DanceClient client(stub());
   client.Send(Config());
@@ -89,7 +89,7 @@ TEST_F(MetricsTest, TellWhatWasDone) {
   EXPECT_THAT(Metrics(), HasSubstr(R"(device="fake:0")"));
 }
 
-TEST_F(MetricsTest, TellWhatGoesOn) {
+TEST_F(MetricsTest, ShowWorkInProgress) {
   Start(1, [](ServerConfig& config) {
     config.metrics = "0";
     config.max_streams = 4;
@@ -112,7 +112,7 @@ TEST_F(MetricsTest, TellWhatGoesOn) {
 }
 
 // A counter that fell would be a jump for whoever asks its rate.
-TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
+TEST_F(MetricsTest, ContinueAcrossAModelReload) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto dance = [&] {
     DanceClient client(stub());
@@ -134,7 +134,7 @@ TEST_F(MetricsTest, GoOnWhereAModelIsReplaced) {
 }
 
 // Who looks at them is not told for ever of what was served once, nor does the list grow.
-TEST_F(MetricsTest, OfAModelThatHasGoneEndWithItsLastDance) {
+TEST_F(MetricsTest, OfARemovedModelEndWithItsLastDance) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; }, {"fake", "other"});
   DanceClient client(stub());
   v1::DanceConfig config = Config();
@@ -153,7 +153,7 @@ TEST_F(MetricsTest, OfAModelThatHasGoneEndWithItsLastDance) {
 }
 
 // Each series of a query, with the labels that it is summed by.
-TEST_F(MetricsTest, TheDashboardAsksForWhatThereIs) {
+TEST_F(MetricsTest, DashboardUsesExistingMetrics) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const std::string all = Metrics();
   std::ifstream file(std::filesystem::path(SOURCE_FOLDER) / "docker/grafana.json");
@@ -199,7 +199,7 @@ TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
   }
 }
 
-TEST_F(MetricsTest, TellWhyCallsAreRefused) {
+TEST_F(MetricsTest, CountRefusalsByReason) {
   Start(1, [](ServerConfig& config) {
     config.metrics = "0";
     config.max_streams = 2;
@@ -230,7 +230,7 @@ TEST_F(MetricsTest, TellWhyCallsAreRefused) {
   drain.join();
 }
 
-TEST_F(MetricsTest, TellWhatTheProcessUses) {
+TEST_F(MetricsTest, ShowProcessResources) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   EXPECT_EQ(Figure("choreo_draining"), 0);
   EXPECT_GT(Figure("process_cpu_seconds_total"), 0);
@@ -244,7 +244,7 @@ TEST_F(MetricsTest, TellWhatTheProcessUses) {
   EXPECT_LT(age, 24 * 3600);
 }
 
-TEST_F(MetricsTest, AreAskedForAsHttpSays) {
+TEST_F(MetricsTest, FollowHttp) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto answer = [&](const std::string& line) {
     return AnswerTo(server->metrics_port(), line);
@@ -260,7 +260,7 @@ TEST_F(MetricsTest, AreAskedForAsHttpSays) {
   EXPECT_THAT(answer(""), testing::StartsWith("HTTP/1.1 405 "));
 }
 
-TEST_F(MetricsTest, WhoSendsAByteNowAndThenIsLeft) {
+TEST_F(MetricsTest, DropSlowHttpClients) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const int fd = ConnectTo(server->metrics_port());
   bool left = false;
@@ -275,7 +275,7 @@ TEST_F(MetricsTest, WhoSendsAByteNowAndThenIsLeft) {
   EXPECT_THAT(Metrics(), HasSubstr("choreo_workers"));
 }
 
-TEST_F(MetricsTest, AnAddressThatIsTakenIsNamed) {
+TEST_F(MetricsTest, NameATakenAddress) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const std::string taken = std::to_string(server->metrics_port());
   try {
@@ -288,7 +288,7 @@ TEST_F(MetricsTest, AnAddressThatIsTakenIsNamed) {
 }
 
 // With LibTorch, which asks more of every thread.
-TEST_F(MetricsTest, ComeFromTheProgramToo) {
+TEST_F(MetricsTest, AreServedByTheProgram) {
   if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const int port = Listener("127.0.0.1:0").port();  // free, most likely still in a moment
   ::setenv("CHOREO_METRICS", std::to_string(port).c_str(), 1);

@@ -11,7 +11,7 @@
 // Which files of a folder of models are served.
 namespace choreo::model_folder_test {
 
-TEST_F(ReloadTest, AFileThatCannotBeUsedLeavesWhatWasServed) {
+TEST_F(ReloadTest, UnusableFileKeepsTheServedModel) {
   Write("a.safetensors", "a 1");
   Write("b.safetensors", "b 1");
   StartFolder();
@@ -47,7 +47,7 @@ TEST_F(ReloadTest, AFileThatCannotBeUsedLeavesWhatWasServed) {
   ExpectAlive(2);
 }
 
-TEST_F(ReloadTest, ModelsComeAndGo) {
+TEST_F(ReloadTest, AddsAndRemovesModels) {
   Write("b.safetensors", "b 1");
   StartFolder();
   Write("a.safetensors", "a 1");
@@ -75,7 +75,7 @@ TEST_F(ReloadTest, ModelsComeAndGo) {
 }
 
 // Whatever their names, and whichever was there first.
-TEST_F(ReloadTest, AGoodFileGoesBeforeABrokenOneOfItsModel) {
+TEST_F(ReloadTest, PrefersAGoodFileToABrokenOneOfTheSameModel) {
   Write("default.safetensors", "a 1");
   Write("b.safetensors", "b 1");
   StartFolder();
@@ -92,7 +92,7 @@ TEST_F(ReloadTest, AGoodFileGoesBeforeABrokenOneOfItsModel) {
   ExpectAlive(2);
 }
 
-TEST_F(ReloadTest, WithoutAModelAllAreServedAsBefore) {
+TEST_F(ReloadTest, KeepsServedModelsIfNoneIsUsable) {
   Write("a.safetensors", "a 1");
   StartFolder();
   std::filesystem::remove(models / "a.safetensors");
@@ -108,7 +108,7 @@ TEST_F(ReloadTest, WithoutAModelAllAreServedAsBefore) {
 }
 
 // A file that was touched, or has another name, is no other model: nobody's dance is.
-TEST_F(ReloadTest, OnlyWhatHasChangedIsLoaded) {
+TEST_F(ReloadTest, LoadsOnlyChangedFiles) {
   Write("a.safetensors", "a 1");
   Write("b.safetensors", "b 1");
   StartFolder();
@@ -127,7 +127,7 @@ TEST_F(ReloadTest, OnlyWhatHasChangedIsLoaded) {
   EXPECT_EQ(Whole("a").Join(), before.Join());
 }
 
-TEST_F(ReloadTest, AFolderThatCannotBeServedIsNoStart) {
+TEST_F(ReloadTest, DoesNotStartFromAnUnusableFolder) {
   ExpectError(ErrorCode::kInvalidArgument, "no .safetensors file", [&] { folder.Load(); });
   Write("a.safetensors", "a 1");
   Write("b.safetensors", "a 2");

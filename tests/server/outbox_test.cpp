@@ -65,7 +65,7 @@ TEST_F(OutboxTest, OneWriteAtATimeThenTheEnd) {
   EXPECT_EQ(wire.written.size(), 2U);
 }
 
-TEST_F(OutboxTest, FramesThatWaitAreJoined) {
+TEST_F(OutboxTest, QueuedFramesAreJoined) {
   outbox.Send(Frames(0, 1));  // on its way
   for (int i = 1; i <= 70; ++i) outbox.Send(Frames(i, 1));
   outbox.Send(Frames(0, 1, 1));  // of another candidate
@@ -94,7 +94,7 @@ TEST_F(OutboxTest, ASlowClientPausesTheDance) {
 }
 
 // A client that asks and asks, each question answered by an event, and takes no answer.
-TEST_F(OutboxTest, WhoTakesNoAnswersIsNotRead) {
+TEST_F(OutboxTest, StopsReadingFromASlowReader) {
   Response refusal;
   refusal.mutable_event()->mutable_keyframe_rejected()->set_reason(std::string(100, 'x'));
   outbox.RequestRead();
@@ -121,7 +121,7 @@ TEST_F(OutboxTest, NothingIsReadAfterTheEnd) {
   EXPECT_EQ(wire.reads, 0);
 }
 
-TEST_F(OutboxTest, AbortDropsWhatWaits) {
+TEST_F(OutboxTest, AbortDropsQueuedMessages) {
   outbox.Send(Frames(0, 1));
   outbox.Send(Frames(1, 1));
   outbox.Abort({grpc::StatusCode::UNAVAILABLE, "draining"});

@@ -89,7 +89,7 @@ TEST_F(OverloadTest, ABurstIsAdmittedAsFarAsTheEngineHolds) {
             << seen.refused << " refused with a time to come back\n";
 }
 
-TEST_F(OverloadTest, WhoIsAdmittedDancesAndTheOthersAreToldWhenToComeBack) {
+TEST_F(OverloadTest, AdmitsSomeAndTellsTheOthersWhenToRetry) {
   StartCostly();
   const int seconds = Setting("CHOREO_FAULT_SECONDS", 8);
   Seen seen;

@@ -9,7 +9,7 @@
 // What dances see of models that come in place of theirs.
 namespace choreo::reload_test {
 
-TEST_F(ReloadTest, ADanceKeepsTheModelThatItBeganWith) {
+TEST_F(ReloadTest, DanceKeepsItsModel) {
   Write("a.safetensors", "a 1");
   StartFolder();
   const Answer first = Whole("a");
@@ -28,7 +28,7 @@ TEST_F(ReloadTest, ADanceKeepsTheModelThatItBeganWith) {
   ExpectAlive(1);  // nobody dances the former one any more
 }
 
-TEST_F(ReloadTest, ATransitionKeepsItsModelToo) {
+TEST_F(ReloadTest, TransitionKeepsItsModel) {
   Write("a.safetensors", "a 1");
   StartFolder();
   v1::GenerateTransitionRequest request;
@@ -47,7 +47,7 @@ TEST_F(ReloadTest, ATransitionKeepsItsModelToo) {
   ExpectAlive(1);
 }
 
-TEST_F(ReloadTest, AContinuationOfTheFormerModelIsThatOfAnotherCheckpoint) {
+TEST_F(ReloadTest, ContinuationAcrossAReloadIsOfAnotherCheckpoint) {
   Write("a.safetensors", "a 1");
   StartFolder();
   const auto during = Begin("a");
@@ -67,7 +67,7 @@ TEST_F(ReloadTest, AContinuationOfTheFormerModelIsThatOfAnotherCheckpoint) {
 
 // Who dances sees nothing of it, whoever begins has one version or another, and what nobody dances
 // is gone.
-TEST_F(ReloadTest, AHundredReloadsBesideDances) {
+TEST_F(ReloadTest, HundredReloadsDuringDances) {
   constexpr int kVersions = 3, kDancers = 4;
   Write("a.safetensors", "a 0");
   StartFolder();
@@ -104,7 +104,7 @@ TEST_F(ReloadTest, AHundredReloadsBesideDances) {
   ExpectAlive(1);
 }
 
-TEST_F(ReloadTest, ADrainIsNotDisturbed) {
+TEST_F(ReloadTest, ReloadDoesNotDisturbADrain) {
   Write("a.safetensors", "a 1");
   StartFolder();
   const Answer wanted = Whole("a");
@@ -118,7 +118,7 @@ TEST_F(ReloadTest, ADrainIsNotDisturbed) {
   drain.join();
 }
 
-TEST_F(ReloadTest, AServerMayGoWhileAFormerModelIsDanced) {
+TEST_F(ReloadTest, ServerMayStopWhileAFormerModelDances) {
   Write("a.safetensors", "a 1");
   StartFolder();
   const auto during = Begin("a");

@@ -86,7 +86,7 @@ class ReloadedChoreodTest : public testing::Test {
   std::optional<cli::LocalServer> server;
 };
 
-TEST_F(ReloadedChoreodTest, ReadsItsFolderAgainWhereItIsHungUp) {
+TEST_F(ReloadedChoreodTest, ReloadsItsFolderOnSighup) {
   const std::vector<Pose> wanted = Dance("default");
   ExpectSame(Dance("default",
                    [&] {
@@ -108,7 +108,7 @@ TEST_F(ReloadedChoreodTest, ReadsItsFolderAgainWhereItIsHungUp) {
 }
 
 // Of a process's threads the kernel may choose any that takes a signal.
-TEST_F(ReloadedChoreodTest, HearsASignalWhicheverThreadItReaches) {
+TEST_F(ReloadedChoreodTest, HandlesASignalOnAnyThread) {
   Put("free");
   const std::string tasks = "/proc/" + std::to_string(server->process()) + "/task";
   for (const auto& task : std::filesystem::directory_iterator(tasks))
@@ -116,7 +116,7 @@ TEST_F(ReloadedChoreodTest, HearsASignalWhicheverThreadItReaches) {
   Await({"default", "free"});
 }
 
-TEST_F(ReloadedChoreodTest, LeavesWithZeroWhileItIsHungUp) {
+TEST_F(ReloadedChoreodTest, ExitsWithZeroDuringSighups) {
   Put("free");
   HangUp(1);
   kill(server->process(), SIGTERM);

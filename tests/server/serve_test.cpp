@@ -93,7 +93,7 @@ class ServeTest : public testing::Test {
   std::future<Outcome> ended_;
 };
 
-TEST_F(ServeTest, LeavesWhileItLoadsItsFirstModel) {
+TEST_F(ServeTest, StopsWhileLoadingItsFirstModel) {
   for (const int signal : {SIGTERM, SIGINT}) {
     SCOPED_TRACE(strsignal(signal));
     std::filesystem::remove(folder_ / "fifo");
@@ -107,7 +107,7 @@ TEST_F(ServeTest, LeavesWhileItLoadsItsFirstModel) {
   }
 }
 
-TEST_F(ServeTest, LeavesWhileItLoadsAnotherModel) {
+TEST_F(ServeTest, StopsWhileLoadingAnotherModel) {
   std::filesystem::create_directory(folder_ / "models");
   std::ofstream(folder_ / "models/a.safetensors").flush();
   Start("--drain-seconds 1 --models '" + (folder_ / "models").string() + "'");
@@ -126,7 +126,7 @@ TEST_F(ServeTest, LeavesWhileItLoadsAnotherModel) {
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
 }
 
-TEST_F(ServeTest, FindsAnAddressTakenBeforeItLoadsItsModels) {
+TEST_F(ServeTest, FindsATakenAddressBeforeLoadingModels) {
   const Listener other("127.0.0.1:0");
   const std::string taken = "127.0.0.1:" + std::to_string(other.port());
   WriteSlow("slow");
@@ -142,7 +142,7 @@ TEST_F(ServeTest, FindsAnAddressTakenBeforeItLoadsItsModels) {
   EXPECT_THAT(outcome.said, HasSubstr("--metrics: "));
 }
 
-TEST_F(ServeTest, CountsWhomItRefusedWhoeverRefusesThem) {
+TEST_F(ServeTest, CountsAllRefusals) {
   Start("--max-waiting 1");
   AwaitListening();
   const client::Client client({.addresses = {address()}, .retry_s = 0});
@@ -154,7 +154,7 @@ TEST_F(ServeTest, CountsWhomItRefusedWhoeverRefusesThem) {
   EXPECT_THAT(End().said, HasSubstr("served 1 calls (1 refused) with 5 frames"));
 }
 
-TEST_F(ServeTest, LeavesAtOnceWhenItIsAskedTwice) {
+TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   Start("--drain-seconds 3600");
   AwaitListening();
   const client::Client client({.addresses = {address()}});
@@ -169,7 +169,7 @@ TEST_F(ServeTest, LeavesAtOnceWhenItIsAskedTwice) {
   EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
 }
 
-TEST_F(ServeTest, GoesOnWhereNobodyReadsItsLogAnyMore) {
+TEST_F(ServeTest, ContinuesWithoutALogReader) {
   Start("", "head -1");
   AwaitListening();
   const client::Client client({.addresses = {address()}});

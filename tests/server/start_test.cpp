@@ -70,12 +70,12 @@ TEST_F(StartTest, ACheckpointWithAChangedWeight) {
   ExpectRefused({"content hash ", "damaged or was edited"});
 }
 
-TEST_F(StartTest, AFileThatIsNone) {
+TEST_F(StartTest, RefusesAFileThatIsNoCheckpoint) {
   std::ofstream(path_) << "just a line of text";
   ExpectRefused({"not a usable safetensors file"});
 }
 
-TEST_F(StartTest, OneThatShipsIsServedAloneByItsName) {
+TEST_F(StartTest, ServesAShippedModelByItsName) {
   const cli::LocalServer server(CHOREOD_PROGRAM, "127.0.0.1:0", "free");
   const auto models = client::Client({.addresses = {server.address()}}).GetServerInfo().models;
   ASSERT_EQ(models.size(), 1U);

@@ -68,7 +68,7 @@ class StarvationTest : public ServerTest {
   static constexpr int64_t kUnreadFrames = 1'000;
 };
 
-TEST_F(StarvationTest, SilentCallsTakeNobodysPlaceAndEnd) {
+TEST_F(StarvationTest, SilentCallsTakeNoPlaceAndEnd) {
   Start(1, [](ServerConfig& config) {
     config.max_streams = 2;
     config.max_streams_of_peer = 20;
@@ -86,7 +86,7 @@ TEST_F(StarvationTest, SilentCallsTakeNobodysPlaceAndEnd) {
   ExpectServes();
 }
 
-TEST_F(StarvationTest, ACallOfWhichNothingComesEnds) {
+TEST_F(StarvationTest, CallThatSendsNothingEnds) {
   Start(1, [](ServerConfig& config) { config.idle_seconds = 0.5; });
   const auto client = OpenEndedDance();
   while (client->ReadOne()) {
@@ -97,7 +97,7 @@ TEST_F(StarvationTest, ACallOfWhichNothingComesEnds) {
   ExpectIdle();
 }
 
-TEST_F(StarvationTest, ACallWhoseAnswersNobodyTakesIsReset) {
+TEST_F(StarvationTest, CallThatReadsNothingIsReset) {
   Start(1, [](ServerConfig& config) {
     config.outbox_kib = 16;
     config.unread_seconds = 0.5;
@@ -108,7 +108,7 @@ TEST_F(StarvationTest, ACallWhoseAnswersNobodyTakesIsReset) {
   EXPECT_EQ(client->Finish().status.error_code(), grpc::StatusCode::CANCELLED);
 }
 
-TEST_F(StarvationTest, WhoDoesNotReadHoldsUpItselfAloneWithOneWorker) {
+TEST_F(StarvationTest, SlowReaderDoesNotBlockTheOnlyWorker) {
   Start(/*workers=*/1, [](ServerConfig& config) { config.outbox_kib = 16; });
   const Answer::Joined alone = UnreadDance()->Finish().Join();
   probe->frames = 0;
@@ -122,7 +122,7 @@ TEST_F(StarvationTest, WhoDoesNotReadHoldsUpItselfAloneWithOneWorker) {
 }
 
 // Two dances whose music comes bit by bit take turns with the only worker.
-TEST_F(StarvationTest, WhoWaitsForMusicHoldsUpNobodyWithOneWorker) {
+TEST_F(StarvationTest, WaitingForMusicDoesNotBlockTheOnlyWorker) {
   StartWith(std::make_unique<FakeSampler>());
   const std::string music = Music(3);
   const auto play = [&](DanceClient& client, size_t from, size_t to) {
@@ -190,7 +190,7 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
   EXPECT_EQ(served, 4);
 }
 
-TEST_F(StarvationTest, WhoCannotBeServedInTimeIsToldAtOnce) {
+TEST_F(StarvationTest, RefusesAtOnceWhatCannotBeServedInTime) {
   /// Takes longer for a frame than the frame lasts.
   class SlowSampler final : public FakeSampler {
    public:
@@ -214,7 +214,7 @@ TEST_F(StarvationTest, WhoCannotBeServedInTimeIsToldAtOnce) {
   first.Cancel();
 }
 
-TEST_F(StarvationTest, OneAddressDoesNotTakeAllCalls) {
+TEST_F(StarvationTest, OneAddressCannotTakeAllCalls) {
   Start(1, [](ServerConfig& config) { config.max_streams = 8; });
   std::vector<std::unique_ptr<DanceClient>> clients;
   for (int i = 0; i < 7; ++i) {

@@ -161,7 +161,7 @@ TEST_F(StreamKeysTest, MaskedKeysLeaveTheRestAlone) {
 }
 
 // Frames leave up to generate_until, and the key after it moves, in whatever order keys came.
-TEST_F(StreamKeysTest, KeysMoveWhileTheWayThereIsDanced) {
+TEST_F(StreamKeysTest, KeysMoveDuringTheirTransition) {
   Start();
   const auto dance = [this](bool move) {
     DanceClient client(stub());

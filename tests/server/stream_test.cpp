@@ -214,7 +214,7 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
 
 // Music that nobody has heard yet is danced to on the beat, and the answer says how beats are
 // known.
-TEST_F(StreamTest, BeatsOfLiveMusicAreHeard) {
+TEST_F(StreamTest, DetectsBeatsOfLiveMusic) {
   Start();
   DanceClient client(stub());
   client.Send(MusicConfig());

@@ -44,7 +44,7 @@ TEST_F(TransitionTest, SeveralCandidatesRanked) {
   ExpectIdle();
 }
 
-TEST_F(TransitionTest, CandidatesAreRankedByLikelihoodWhereThatIsAsked) {
+TEST_F(TransitionTest, RanksCandidatesByLikelihoodOnRequest) {
   Start();
   v1::GenerateTransitionRequest request = Request();
   request.set_candidates(8);
@@ -60,7 +60,7 @@ TEST_F(TransitionTest, CandidatesAreRankedByLikelihoodWhereThatIsAsked) {
 }
 
 // A chain of GenerateTransitions, candidate 0 each, is the StreamDance with the same keys.
-TEST_F(TransitionTest, ChainedTheyAreAStream) {
+TEST_F(TransitionTest, ChainEqualsAStream) {
   Start();
   const std::string music = Music(4);
   DanceClient client(stub());

@@ -10,7 +10,7 @@
 
 namespace choreo::watch_test {
 
-TEST(WatchTest, GoesOnWhereMemoryWasOut) {
+TEST(WatchTest, ContinuesAfterMemoryRanOut) {
   std::atomic<int> looks = 0;
   const Watch watch(std::chrono::milliseconds(1), [&] {
     if (++looks < 3) throw std::bad_alloc();

@@ -78,7 +78,7 @@ TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
 }
 
 // Of a key that no body could dance, once all are there; and of one that an interval leads to.
-TEST_F(StudioTest, TellsOfImpossibleKeys) {
+TEST_F(StudioTest, WarnsOfImpossibleKeys) {
   const Opened studio(server_.address());
   Page page(studio.port());
   LibraryPose sunk = page.welcome().poses(6);
@@ -192,7 +192,7 @@ TEST_F(StudioTest, DancesToMusicAsItSounds) {
   EXPECT_EQ(dance(0), silent);
 }
 
-TEST_F(StudioTest, RefusesMusicThatIsNone) {
+TEST_F(StudioTest, RefusesInvalidMusic) {
   const Opened studio(server_.address());
   Page page(studio.port());
   Request config;

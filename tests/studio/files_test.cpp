@@ -16,7 +16,7 @@ namespace choreo::studio::files_test {
 
 using ::testing::HasSubstr;
 
-TEST_F(StudioTest, HearsASongAndComposesOnItsBeats) {
+TEST_F(StudioTest, AnalysesASongAndComposesOnItsBeats) {
   const Opened studio(server_.address());
   Page page(studio.port());
   const Response heard = page.Ask(SongRequest("clicks.wav", Clicks(12)));
@@ -41,7 +41,7 @@ TEST_F(StudioTest, HearsASongAndComposesOnItsBeats) {
 }
 
 // As `choreo dance --dancers` places them.
-TEST_F(StudioTest, FormsACompany) {
+TEST_F(StudioTest, ArrangesSeveralDancers) {
   const Opened studio(server_.address());
   Page page(studio.port());
   Request request;
@@ -90,7 +90,7 @@ TEST_F(StudioTest, FormsACompany) {
 }
 
 // A song whose first part follows its second.
-TEST_F(StudioTest, HearsWhatComesBack) {
+TEST_F(StudioTest, FindsReturningPassages) {
   std::vector<float> samples;
   for (const uint64_t seed : {11, 12, 11}) {
     const std::vector<float> part =
@@ -138,7 +138,7 @@ TEST_F(StudioTest, WritesAndOpensFiles) {
   }
 }
 
-TEST_F(StudioTest, TellsWhatIsOddInAFile) {
+TEST_F(StudioTest, NotesOdditiesOfAFile) {
   const Opened studio(server_.address());
   Page page(studio.port());
   Request open;
@@ -156,7 +156,7 @@ TEST_F(StudioTest, TellsWhatIsOddInAFile) {
   EXPECT_EQ(page.Ask(SongRequest("clicks.wav", Clicks(5))).song().notes_size(), 0);
 }
 
-TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
+TEST_F(StudioTest, FitsTheBodyToAPhotosLandmarks) {
   const Opened studio(server_.address());
   Page page(studio.port());
   std::string landmarks = "[";
@@ -181,7 +181,7 @@ TEST_F(StudioTest, FitsTheBodyToWhatWasSeenInAPhoto) {
   }
 }
 
-TEST_F(StudioTest, TellsHowJointsTurnAndReadsKeyFiles) {
+TEST_F(StudioTest, DescribesJointAxesAndReadsKeyFiles) {
   const Opened studio(server_.address());
   Page page(studio.port());
   const Skeleton& skeleton = studio.context().model().skeleton;

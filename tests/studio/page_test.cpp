@@ -34,7 +34,7 @@ TEST_F(StudioTest, ServesThePageAndNothingElse) {
   EXPECT_EQ(Get(studio.port(), "/../etc/passwd").result_int(), 404U);
 }
 
-TEST_F(StudioTest, IsForItsOwnPageAlone) {
+TEST_F(StudioTest, RefusesOtherOrigins) {
   const Opened studio(server_.address());
   EXPECT_EQ(Get(studio.port(), "/", "elsewhere.example").result_int(), 403U);
   EXPECT_THROW(Page(studio.port(), "http://elsewhere.example"), boost::system::system_error);
@@ -55,7 +55,7 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
 }
 
 // What it asked for last is still being made, and can't be stopped.
-TEST_F(StudioTest, APageThatIsClosedHoldsUpNoOther) {
+TEST_F(StudioTest, ClosedPageBlocksNoOther) {
   std::atomic<bool> held = true;
   const TestServer slow(std::make_unique<HeldSampler>(held));
   const Opened studio(slow.address());
@@ -71,7 +71,7 @@ TEST_F(StudioTest, APageThatIsClosedHoldsUpNoOther) {
   EXPECT_EQ(other.welcome().model().name(), "fake");
 }
 
-TEST_F(StudioTest, ServesWhatReadsPhotosWhereItIs) {
+TEST_F(StudioTest, ServesThePhotoReaderIfInstalled) {
   const Opened without(server_.address());
   EXPECT_FALSE(Page(without.port()).welcome().reads_photos());
   EXPECT_EQ(Get(without.port(), "/photo/pose.js").result_int(), 404U);
@@ -91,7 +91,7 @@ TEST_F(StudioTest, ServesWhatReadsPhotosWhereItIs) {
   EXPECT_EQ(Get(studio.port(), "/photo/../photo/secret").result_int(), 404U);
 }
 
-TEST_F(StudioTest, SaysInWordsWhatCannotBe) {
+TEST_F(StudioTest, ExplainsErrors) {
   const Opened studio(server_.address());
   Page page(studio.port());
   EXPECT_THAT(page.Ask(SongRequest("hum.wav", "la la la")).failure().message(),
@@ -112,7 +112,7 @@ TEST_F(StudioTest, SaysInWordsWhatCannotBe) {
   EXPECT_EQ(ReadDance(page).count(), 20);
 }
 
-TEST(WebServerTest, NamesAnAddressThatIsNone) {
+TEST(WebServerTest, NamesAnInvalidAddress) {
   const TestServer server;
   const StudioContext context({.addresses = {server.address()}}, "");
   ExpectError(ErrorCode::kInvalidArgument, "--listen", [&] { WebServer("nowhere", context); });

@@ -69,7 +69,7 @@ class AistTest : public Preparation {
   static constexpr double kScaling = 93.5;  // of a body in centimetres
 };
 
-TEST_F(AistTest, ADanceComesThroughWithItsSongOnItsFloor) {
+TEST_F(AistTest, ConvertsADanceWithItsSongAndFloor) {
   WriteMotion(kOne);
   WriteMotion(kTwo, -0.2);
   std::filesystem::create_directories(In() / "music");
@@ -107,7 +107,7 @@ TEST_F(AistTest, ADanceComesThroughWithItsSongOnItsFloor) {
   EXPECT_EQ(report[1].at("warnings")[1], "no music");
 }
 
-TEST_F(AistTest, ListsBecomeSplitsAndTheRestIsSeenByNoRun) {
+TEST_F(AistTest, ListsBecomeSplitsAndTheRestIsUnused) {
   for (const std::string& name : {kOne, kTwo, kThree, kFour, kFailed}) WriteMotion(name);
   ASSERT_EQ(Prepare(options_), 4);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / (kFailed + ".clip")));
@@ -128,7 +128,7 @@ TEST_F(AistTest, ListsBecomeSplitsAndTheRestIsSeenByNoRun) {
   EXPECT_THAT(names("test"), ElementsAre(kThree));
 }
 
-TEST_F(AistTest, WhatIsNoMotionIsNamedAndSkipped) {
+TEST_F(AistTest, NamesAndSkipsInvalidFiles) {
   WriteMotion(kOne, 0, "smpl_scaling");
   std::ofstream(In() / "motions" / (kTwo + ".pkl")) << "\x80\x04"
                                                     << "cos\nsystem\n.";
@@ -143,7 +143,7 @@ TEST_F(AistTest, WhatIsNoMotionIsNamedAndSkipped) {
   EXPECT_EQ(skipped.at(kThree), "");
 }
 
-TEST_F(AistTest, AFolderThatIsIncompleteIsRefusedBeforeTheWork) {
+TEST_F(AistTest, RefusesAnIncompleteFolderAtOnce) {
   ExpectError(ErrorCode::kNotFound, "no motion (*.pkl)", [&] { Prepare(options_); });
   WriteMotion(kOne);
   WriteList("splits/crossmodal_val.txt", kOne);

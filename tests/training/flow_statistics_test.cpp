@@ -12,7 +12,7 @@ namespace choreo::flow_statistics_test {
 using namespace testing_support;
 
 // Measuring dancers who turn according to a prior recovers it.
-TEST(FlowStatistics, TurnsAreMeasuredFromDancersWhoFollowAPrior) {
+TEST(FlowStatistics, RecoversTurnStatisticsOfAPrior) {
   const TurnPrior real = GoesOn();
   Random random(2);
   std::vector<WindowRequest> requests;

@@ -74,7 +74,7 @@ TEST(JoltsTest, ALimbThatStaysWhereItSnappedToIsBridgedToo) {
   EXPECT_LT(TopSpeed(motion), 11);
 }
 
-TEST(JoltsTest, ARealSwingIsNoJolt) {
+TEST(JoltsTest, FastSwingIsNoJolt) {
   Motion motion = Calm();
   for (int f = 0; f < 90; ++f) {  // half a turn in a third of a second, faster and slower smoothly
     const double t = std::clamp((f - 40) / 10.0, 0.0, 1.0);

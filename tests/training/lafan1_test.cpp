@@ -114,7 +114,7 @@ class Lafan1Test : public Preparation {
   }
 };
 
-TEST_F(Lafan1Test, ARecordingComesThroughWithItsThemeAndItsPart) {
+TEST_F(Lafan1Test, ConvertsARecordingWithThemeAndPart) {
   const BvhFile file = Record(Walk());
   for (const char* name : {"walk1_subject1", "run2_subject4", "dance1_subject5"})
     WriteBvh(In() / (std::string(name) + ".bvh"), file);

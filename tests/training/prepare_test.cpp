@@ -23,7 +23,7 @@ class BvhTest : public Preparation {
   BvhTest() : Preparation("bvh") {}
 };
 
-TEST_F(AmassTest, ComesThroughAndABrokenFileIsNamedAndSkipped) {
+TEST_F(AmassTest, ConvertsFilesAndSkipsABrokenOne) {
   options_.terms = "ours";
   const PreparedClip clip = SyntheticClip("walk", 90, 0.2, false);
   NpzArchive npz;

@@ -23,7 +23,7 @@ std::vector<std::string> Names(const std::vector<PreparedClip>& clips) {
   return names;
 }
 
-TEST(PreparedClip, ComesBackAsFloatsOfWhatWasWritten) {
+TEST(PreparedClip, RoundTripsAsFloats) {
   const TemporaryFolder folder;
   PreparedClip clip = SyntheticClip("one", 70, 0.3, true);
   clip.notes["terms"] = "ours";
@@ -44,7 +44,7 @@ TEST(PreparedClip, ComesBackAsFloatsOfWhatWasWritten) {
   EXPECT_EQ(back.audio, clip.audio);
 }
 
-TEST(PreparedClip, ItsSkeletonIsInsideUnlessEveryoneKnowsIt) {
+TEST(PreparedClip, ContainsItsSkeletonUnlessStandard) {
   const TemporaryFolder folder;
   for (const Skeleton* skeleton : {&Skeleton::Smpl24(), &Native().skeleton}) {
     WritePreparedClip(folder.path(), SyntheticClip("one", 5, 0.3, false, *skeleton));
@@ -78,7 +78,7 @@ TEST(PreparedClip, AForeignFileIsNamed) {
   EXPECT_THROW(ListPreparedClips(folder.path() / "nowhere"), Error);
 }
 
-TEST(LoadClips, FollowsTheSplitsAndTrainsOnWhatTheyDoNotName) {
+TEST(LoadClips, FollowsSplitsAndTrainsOnUnnamedClips) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder.path());
   const auto load = [&](const std::string& group) {
@@ -90,7 +90,7 @@ TEST(LoadClips, FollowsTheSplitsAndTrainsOnWhatTheyDoNotName) {
   EXPECT_THAT(load("test"), ElementsAre("last"));
 }
 
-TEST(LoadClips, KnowsAnyGroupOfTheFileAndTrainsOnNone) {
+TEST(LoadClips, LoadsAnyGroupAndTrainsOnNoneOfThem) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder.path());
   const auto splits = folder.path() / "splits.json";
@@ -111,7 +111,7 @@ TEST(LoadClips, KnowsAnyGroupOfTheFileAndTrainsOnNone) {
   }
 }
 
-TEST(LoadClips, RefusesAClipOfTwoGroupsWhichCouldTrainAndTest) {
+TEST(LoadClips, RefusesAClipInTrainAndTest) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder.path());
   const auto splits = folder.path() / "splits.json";
@@ -122,7 +122,7 @@ TEST(LoadClips, RefusesAClipOfTwoGroupsWhichCouldTrainAndTest) {
   }
 }
 
-TEST(LoadClips, AFolderThatIsCalledAsASetHoldsTheClipsOfThatSet) {
+TEST(LoadClips, FolderNamedAsASetIsThatSet) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder / "one");
   const auto splits = folder / "one" / "splits.json";

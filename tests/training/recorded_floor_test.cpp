@@ -54,7 +54,7 @@ TEST(Floor, LevellingIsRigidAndMakesItHorizontal) {
   }
 }
 
-TEST(Floor, ADancerOnTheSpotSaysNothingAboutSlopes) {
+TEST(Floor, DancerOnTheSpotGivesNoSlope) {
   PositionClip clip = Walk(0.3, 0, 0, 0);
   for (Eigen::Matrix3Xd& frame : clip.frames) frame.row(0) *= 0.05;
   const FloorPlane plane = FitFloorPlane(clip, {0, 1});
@@ -63,7 +63,7 @@ TEST(Floor, ADancerOnTheSpotSaysNothingAboutSlopes) {
   EXPECT_NEAR(plane.height, 0.3, 0.01);
 }
 
-TEST(Floor, DriftGoesAndJumpsStay) {
+TEST(Floor, RemovesDriftAndKeepsJumps) {
   PositionClip walk = Walk(0, 0, 0, 0.25);
   for (int frame = 700; frame < 715; ++frame) walk.frames[frame].row(1).array() += 0.3;
   const PositionClip steady = RemoveHeightDrift(walk, {0, 1});

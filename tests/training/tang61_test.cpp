@@ -53,7 +53,7 @@ class Tang61Test : public Preparation {
   }
 };
 
-TEST_F(Tang61Test, ADanceComesThroughWithItsMusicAndUnstretched) {
+TEST_F(Tang61Test, ConvertsADanceWithItsMusicUnstretched) {
   const Motion dance = testing_support::SyntheticClip("dance", 121, 0.3, false).motion;
   Write("DANCE_W_1", Resample(dance, kFps));
   WriteWav(In() / "DANCE_W_1.wav", Music(5));
@@ -76,7 +76,7 @@ TEST_F(Tang61Test, ADanceComesThroughWithItsMusicAndUnstretched) {
   }
 }
 
-TEST_F(Tang61Test, SaysOnWhichBeatsADanceStandsWhereItsSpeedShowsThem) {
+TEST_F(Tang61Test, FindsTheBeatGridFromSpeed) {
   Write("DANCE_C_1", Pulsing(25));
   Write("DANCE_W_1", Pulsing(48.4));
   Write("DANCE_T_1", Pulsing(73.5));

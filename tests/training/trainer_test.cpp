@@ -76,7 +76,7 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   EXPECT_EQ(failure(options), "--keep-statistics");
 }
 
-TEST_F(TrainerTest, ARunIsResumedAsItWasStarted) {
+TEST_F(TrainerTest, ResumesWithTheOriginalOptions) {
   TrainOptions options = Options("run", 2);
   options.stop_after = 1;
   TrainContinuousFlow(options);

@@ -63,7 +63,7 @@ class WindowClipsTest : public testing::Test {
   WindowClips clips_;
 };
 
-TEST_F(WindowClipsTest, ABodyStandsWhereForwardKinematicsHasIt) {
+TEST_F(WindowClipsTest, BodyAgreesWithForwardKinematics) {
   const WindowBatch batch = Draw({});
   const WindowBody body(clips_.skeleton(), torch::kCPU);
   const Tensor places = body.Place(batch, Coordinates(batch));
@@ -80,7 +80,7 @@ TEST_F(WindowClipsTest, ABodyStandsWhereForwardKinematicsHasIt) {
 
 // The mean of a pose and its mirror image is its own mirror image; the position of clips does not
 // matter.
-TEST_F(WindowClipsTest, TheUsualPoseHasNoSides) {
+TEST_F(WindowClipsTest, UsualPoseIsSymmetric) {
   const UsualPose usual = MeasureUsualPose(clips_.skeleton(), clips_.tracks());
   const Pose mirrored = Mirror(clips_.skeleton(), usual.pose);
   EXPECT_LT((mirrored.rotations - usual.pose.rotations).norm(), 1e-9);
@@ -111,13 +111,13 @@ TEST_F(WindowClipsTest, FacingVariesAboutTheAudience) {
 }
 
 // Without a known stage there is no usual place; a batch says which windows have one.
-TEST_F(WindowClipsTest, StagesAreToldAsOftenAsAskedFor) {
+TEST_F(WindowClipsTest, StagesAreGivenAtTheRequestedRate) {
   EXPECT_EQ(Draw({.no_key = 1}).staged.sum().item<double>(), 0);
   EXPECT_EQ(Draw({.no_key = 1, .stage = 1}).staged.sum().item<double>(), 3);
   EXPECT_EQ(Draw({.stage = 1}).staged.sum().item<double>(), 0) << "keys say the place";
 }
 
-TEST_F(WindowClipsTest, ABodyMovesAsItsCoordinatesDo) {
+TEST_F(WindowClipsTest, BodyVelocitiesMatchCoordinates) {
   const WindowBatch batch = Draw({.no_key = 1});  // far from the mean
   const WindowBody body(clips_.skeleton(), torch::kCPU);
   const Tensor x = Coordinates(batch);
@@ -130,7 +130,7 @@ TEST_F(WindowClipsTest, ABodyMovesAsItsCoordinatesDo) {
   EXPECT_LT((moved - seen).abs().max().item<double>(), 2e-5);
 }
 
-TEST_F(WindowClipsTest, WhoIsLedAstrayComesBack) {
+TEST_F(WindowClipsTest, PerturbedHistoryReturnsToTheRecording) {
   const WindowBatch real = Draw({}), astray = Draw({.astray = 1});
   // The first window is the same; she ends in the same place, except for how she first faced.
   const auto apart = [](const Pose& a, const Pose& b) {
@@ -143,7 +143,7 @@ TEST_F(WindowClipsTest, WhoIsLedAstrayComesBack) {
   EXPECT_LT(apart(real.truth[0][12], astray.truth[0][12]), before);
 }
 
-TEST_F(WindowClipsTest, EnergyTellsHowFarDancersStray) {
+TEST_F(WindowClipsTest, EnergyPredictsTheSpread) {
   std::vector<WindowBatch> batches;
   for (uint32_t i = 0; i < 8; ++i) {
     Random random(4, i);
@@ -165,7 +165,7 @@ TEST_F(WindowClipsTest, EnergyTellsHowFarDancersStray) {
   EXPECT_EQ(scales(3, 2), 1);
 }
 
-TEST_F(WindowClipsTest, EnergyGoesUpAndDownAsInTheClips) {
+TEST_F(WindowClipsTest, MeasuresEnergyCurvesOfTheClips) {
   // A dancer whose arms and trunk are alternately lively and calm, a second each.
   ClipTrack track;
   track.energy = Eigen::MatrixXd::Constant(kBodyParts, 600, 0.01);
@@ -199,7 +199,7 @@ class Silent : public FlowNetwork {
   }
 };
 
-TEST_F(WindowClipsTest, WhatIsToldIsMeasuredByWhatIsDanced) {
+TEST_F(WindowClipsTest, RequestedEnergyEqualsRecordedEnergy) {
   const WindowClips clips({SyntheticClip("calm", 400, 0, false), FastClip()});
   FlowModelParts parts = Parts();
   parts.config.median_factors = MedianFactors(clips.tracks());
@@ -223,7 +223,7 @@ TEST_F(WindowClipsTest, WhatIsToldIsMeasuredByWhatIsDanced) {
   EXPECT_FALSE(MeasureResponse(parts, Silent(), {}).known()) << "of nothing";
 }
 
-TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
+TEST_F(WindowClipsTest, EnergyPersists) {
   // One dances twice as fast as the other.
   const WindowClips clips({SyntheticClip("calm", 400, 0, false), FastClip()});
   FlowModelParts parts = Parts();
@@ -245,7 +245,7 @@ TEST_F(WindowClipsTest, DancersGoOnAsLivelyAsTheyWere) {
   EXPECT_EQ(trunk(false, -0.4), trunk(false, 0.4)) << "it would fade or rage";
 }
 
-TEST_F(WindowClipsTest, AStyleOfFewRecordingsIsDrawnAsOften) {
+TEST_F(WindowClipsTest, RareStylesAreDrawnAsOftenOnRequest) {
   const WindowClips clips(
       {SyntheticClip("salsa_1", 900, 0, false), SyntheticClip("indian_1", 100, 1, false)});
   FlowModelParts parts = Parts();

@@ -45,7 +45,7 @@ double ShareMet(const std::vector<double>& told, const std::vector<double>& beat
 }
 
 // Of some songs the half beats are heard at first, so not each of them.
-TEST(BeatEar, TellsBeatsBeforeTheySound) {
+TEST(BeatEar, PredictsBeats) {
   int well = 0, counted = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     const double bpm = 80 + 10 * static_cast<double>(seed);
@@ -61,14 +61,14 @@ TEST(BeatEar, TellsBeatsBeforeTheySound) {
   EXPECT_GE(counted, 3);
 }
 
-TEST(BeatEar, WhatIsTooLateLeavesBothLists) {
+TEST(BeatEar, DropsLateBeats) {
   BeatsAhead ahead{{1, 1.5, 2, 2.5, 3}, {1, 3}};
   ahead.Keep(1.5, 2.5);
   EXPECT_EQ(ahead.beats, (std::vector<double>{1.5, 2, 2.5}));
   EXPECT_TRUE(ahead.downbeats.empty());
 }
 
-TEST(BeatEar, TellsNothingOfSilence) {
+TEST(BeatEar, GivesNothingInSilence) {
   EXPECT_TRUE(Told(std::vector<float>(20 * kModelSampleRate), 0).empty());
 }
 

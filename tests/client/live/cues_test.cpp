@@ -84,7 +84,7 @@ TEST(Keyboard, ArrowsAndFunctionKeysAskForNothing) {
   close(master);
 }
 
-TEST(Keyboard, IsNoneWhereThereIsNoTerminal) {
+TEST(Keyboard, IsAbsentWithoutATerminal) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   EXPECT_FALSE(ReadKeyboard(ends[0], {"kick"}));
@@ -112,7 +112,7 @@ TEST(OscCues, SecondsAreANumberOfAnyType) {
   EXPECT_EQ(came[1].ahead_s, 2.5);
 }
 
-TEST(BeatClock, GoesOnFromTheBeatsThatWereDanced) {
+TEST(BeatClock, ContinuesFromPastBeats) {
   BeatClock clock;
   EXPECT_EQ(clock.AtOrAfter(1.3, 0.3), 1.3);
   for (const double second : {1.0, 1.5, 2.02, 2.5})
@@ -128,7 +128,7 @@ TEST(BeatClock, GoesOnFromTheBeatsThatWereDanced) {
   EXPECT_EQ(clock.AtOrAfter(7, 6), 7);
 }
 
-TEST(BeatClock, WhatWasBeforeAGapSaysNothing) {
+TEST(BeatClock, IgnoresBeatsBeforeAGap) {
   BeatClock clock;
   for (const double second : {1.0, 1.5, 2.0, 5.1, 5.5}) clock.Hear({.time_s = second});
   EXPECT_FALSE(clock.Period(5.6));  // two beats of the new pulse
@@ -137,7 +137,7 @@ TEST(BeatClock, WhatWasBeforeAGapSaysNothing) {
   EXPECT_NEAR(*clock.Period(6), 0.4, 1e-9);
 }
 
-TEST(BeatClock, AGapAtTheBeginIsNoPulse) {
+TEST(BeatClock, InitialGapIsNoPulse) {
   BeatClock clock;
   for (const double second : {1.0, 3.2, 3.7}) clock.Hear({.time_s = second});
   ASSERT_TRUE(clock.Period(3.8));
@@ -145,7 +145,7 @@ TEST(BeatClock, AGapAtTheBeginIsNoPulse) {
 }
 
 // 24 ticks a beat at 125 a minute, read piece by piece.
-TEST(MidiClock, TellsTheBeatsAheadOnceItWasStarted) {
+TEST(MidiClock, PredictsBeatsAfterItsStart) {
   const TemporaryFolder folder;
   const std::string device = folder / "midi";
   ASSERT_EQ(mkfifo(device.c_str(), 0600), 0);
@@ -177,7 +177,7 @@ TEST(MidiClock, TellsTheBeatsAheadOnceItWasStarted) {
   close(out);
 }
 
-TEST(MidiClock, ADeviceThatIsNoneIsNamed) {
+TEST(MidiClock, NamesAMissingDevice) {
   ExpectError(ErrorCode::kNotFound, "--midi-clock: \"/no/midi\"", [] { MidiClock("/no/midi"); });
 }
 
@@ -191,7 +191,7 @@ TEST(MidiClock, FilesAndFoldersAreNoDevices) {
               [&] { MidiClock{own}; });
 }
 
-TEST(MidiClock, ADeviceWithoutEndIsNoMidi) {
+TEST(MidiClock, RefusesAnEndlessDevice) {
   MidiClock clock("/dev/zero");
   ExpectError(ErrorCode::kInvalidArgument, "--midi-clock: \"/dev/zero\" is no MIDI device",
               [&] { clock.Take(1); });
@@ -213,7 +213,7 @@ TEST(MidiClock, RunsFromItsStartOn) {
 }
 
 // ALSA's own device that plays a file into whoever records.
-TEST(LineIn, HearsWhatTheDeviceRecords) {
+TEST(LineIn, ReadsTheDevicesSamples) {
   const TemporaryFolder folder;
   std::vector<float> played(44100);
   for (size_t i = 0; i < played.size(); ++i) played[i] = static_cast<float>(i) / 44100;

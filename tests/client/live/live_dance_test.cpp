@@ -123,7 +123,7 @@ class LiveDanceTest : public CommandTest {
   Motion motion_;
 };
 
-TEST_F(LiveDanceTest, EndsWithItsMusicAndTellsEachSecond) {
+TEST_F(LiveDanceTest, EndsWithItsMusicAndReportsEachSecond) {
   Dance({});
   EXPECT_EQ(motion_.frames.size(), 120U);
   ASSERT_EQ(figures_.size(), 5U);  // the last one is of all
@@ -184,7 +184,7 @@ TEST_F(LiveDanceTest, AMinuteOfPosesWaitsAtMost) {
   EXPECT_THAT(notes_.back(), HasSubstr(" more, not shown"));
 }
 
-TEST_F(LiveDanceTest, NotesDoNothingToTheTerminal) {
+TEST_F(LiveDanceTest, NotesAreEscaped) {
   Dance({{24, {"\x1b[2J\nkick"}}});
   EXPECT_THAT(notes_, testing::ElementsAre("there is no pose \"\\x1b[2J\\x0akick\""));
 }
@@ -250,7 +250,7 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
               testing::ContainsRegex(" [1-9][0-9]* taken, [1-9][0-9]* danced, 0 ref"));
 }
 
-TEST_F(CommandTest, ALiveDanceTellsAtOnceThatItsServerIsLost) {
+TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
   WriteClicks(folder_ / "song.wav", 60);
   auto server = std::make_unique<cli::LocalServer>(FAKE_CHOREOD);
   std::thread killer([&] {
@@ -289,14 +289,14 @@ TEST_F(CommandTest, ALiveDanceEndsInOrderWhenInterrupted) {
   EXPECT_LT(frames, 1800U);
 }
 
-TEST_F(CommandTest, ALiveDanceNamesWhatCannotBe) {
+TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
   const auto live = [&](const std::string& rest) { return Choreo("live " + rest + Server()); };
   WriteClicks(folder_ / "song.wav", 1);
   EXPECT_THAT(live("--input no-such-card").said, HasSubstr("--input: \"no-such-card\""));
-  EXPECT_THAT(live(At("song.wav") + " --song-start 2").said, HasSubstr("--song-start: 2 s is after"));
-  EXPECT_THAT(
-      live(At("song.wav") + " --ahead 0.2").said,
-      HasSubstr("--ahead: 0.2 s is not after what is settled already, --look-ahead 0.3 s"));
+  EXPECT_THAT(live(At("song.wav") + " --song-start 2").said,
+              HasSubstr("--song-start: 2 s is after"));
+  EXPECT_THAT(live(At("song.wav") + " --ahead 0.2").said,
+              HasSubstr("--ahead: 0.2 s is not after what is settled already, --look-ahead 0.3 s"));
   EXPECT_THAT(live(At("song.wav") + " --deadline 5").said, HasSubstr("--deadline: a live dance"));
   EXPECT_THAT(live(At("song.wav") + " -k none -k a.json").said,
               HasSubstr("--keyframes: none stands beside a.json"));

@@ -31,7 +31,7 @@ std::vector<Passage> Hear(const std::vector<float>& song) {
   return told;
 }
 
-TEST(PassageEar, TellsHowMusicGoesOnThatComesBack) {
+TEST(PassageEar, PredictsRepeatedMusic) {
   const std::vector<Passage> told = Hear(SongOf({21, 22, 21}));
   ASSERT_FALSE(told.empty());
   size_t as_before = 0;
@@ -44,7 +44,7 @@ TEST(PassageEar, TellsHowMusicGoesOnThatComesBack) {
   EXPECT_GT(told.back().from, 2.8 * kPart);
 }
 
-TEST(PassageEar, EndsWhatWasToldAheadWhereTheMusicGoesOnOtherwise) {
+TEST(PassageEar, EndsAWrongPrediction) {
   const std::vector<Passage> told = Hear(SongOf({21, 22, 21, 23}));
   double holds_to = 0;  // what was told of the last return
   for (const Passage& passage : told) {
@@ -56,7 +56,7 @@ TEST(PassageEar, EndsWhatWasToldAheadWhereTheMusicGoesOnOtherwise) {
   EXPECT_LT(holds_to, 3.5 * kPart);
 }
 
-TEST(PassageEar, TellsNothingOfSilence) {
+TEST(PassageEar, GivesNothingInSilence) {
   EXPECT_TRUE(Hear(std::vector<float>(40 * kModelSampleRate)).empty());
 }
 

@@ -44,7 +44,7 @@ Eigen::Vector3f Reach(const std::map<std::string, Placed>& bones,
   return at.position;
 }
 
-TEST(VmcTest, AFrameIsABundleThatPutsTheMirroredBodyTogether) {
+TEST(VmcTest, FrameIsABundleOfTheMirroredBody) {
   const Skeleton& body = Skeleton::Smpl24();
   Pose pose = cli::FindLibraryPose("kick").pose;
   pose.root_position += Eigen::Vector3d(0.7, 0.1, -1.3);
@@ -86,7 +86,7 @@ TEST(VmcTest, AFrameIsABundleThatPutsTheMirroredBodyTogether) {
   expect("right_foot", {"RightUpperLeg", "RightLowerLeg", "RightFoot", "RightToes"}, false);
 }
 
-TEST(VmcTest, AnAddressThatIsNoneIsNamed) {
+TEST(VmcTest, NamesAnInvalidAddress) {
   for (const char* address :
        {"nowhere", "127.0.0.1:", ":39539", "127.0.0.1:port", "127.0.0.1:99999", "127.0.0.1:0"}) {
     ExpectError(ErrorCode::kInvalidArgument, "--vmc",

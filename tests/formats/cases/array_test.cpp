@@ -184,7 +184,7 @@ TEST_F(CasesTest, ArraysWhoseAxesOrUnitAreOthers) {
 
 // Rows as networks and data sets of dance write them: what a turn is stated as, how many are there,
 // what stands before the place and after the turns.
-TEST_F(CasesTest, RowsOfTheTrade) {
+TEST_F(CasesTest, ReadsCommonRowLayouts) {
   const SmplArrays smpl;
   struct Row {
     const char* says;
@@ -290,7 +290,7 @@ TEST_F(CasesTest, HumanMl3dsRows) {
 }
 
 // {"pos", "q", "scale"}, and Bailando's places, which are flat.
-TEST_F(CasesTest, NamesOfTheTrade) {
+TEST_F(CasesTest, ReadsCommonArrayNames) {
   const SmplArrays smpl;
   std::vector<double> pos, q, places;
   for (const Pose& pose : smpl.motion.frames) {
@@ -356,7 +356,7 @@ TEST_F(CasesTest, ObjectsAmongArrays) {
 }
 
 // MDM's results: places of joints, people first and frames last.
-TEST_F(CasesTest, PlacesWhoseFramesComeLast) {
+TEST_F(CasesTest, ReadsPositionsWithFramesLast) {
   const SmplArrays smpl;
   std::vector<double> places(static_cast<size_t>(2 * 66 * smpl.frames()));
   for (int64_t frame = 0; frame < smpl.frames(); ++frame) {
@@ -380,7 +380,7 @@ TEST_F(CasesTest, PlacesWhoseFramesComeLast) {
 }
 
 // Y up, and upright: up a staircase, away from where the floor was.
-TEST_F(CasesTest, WhoClimbsDoesNotLie) {
+TEST_F(CasesTest, ClimbingIsNoLying) {
   const SmplArrays smpl(60);
   std::vector<double> poses, trans;
   for (size_t frame = 0; frame < 60; ++frame) {

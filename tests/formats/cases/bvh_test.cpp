@@ -63,7 +63,7 @@ TEST_F(CasesTest, BvhAsOtherToolsWriteIt) {
 }
 
 // Our own files, which are read as they are, are not where somebody says how they lie.
-TEST_F(CasesTest, OurOwnFilesHeedWhatIsSaidOfThem) {
+TEST_F(CasesTest, OwnFilesFollowTheOptions) {
   Motion motion;
   motion.fps = 30;
   for (int frame = 0; frame < 20; ++frame) {

@@ -59,7 +59,7 @@ TEST_F(CasesTest, StretchedBonesAreReadAsTheyAreSeen) {
   }
 }
 
-TEST_F(CasesTest, BonesAreFoundByWhatTheyAre) {
+TEST_F(CasesTest, FindsBonesByTheirStructure) {
   const RigNames names = NamesOf(kHumanIkRig);
   struct Row {
     const char* name;
@@ -200,7 +200,7 @@ TEST_F(CasesTest, SecondsCountFromTheFirstKey) {
   EXPECT_TRUE(read.Says("its first key is at 12 s, which is the motion's beginning")) << Said(read);
 }
 
-TEST_F(CasesTest, TwoBodiesThatMoveAreSaid) {
+TEST_F(CasesTest, NotesTwoMovingBodies) {
   GlbRigs glb;
   const RigNames names = NamesOf(kHumanIkRig);
   const int first = glb.AddBody(names, 2), second = glb.AddBody(names);

@@ -372,7 +372,7 @@ TEST_F(CasesTest, ADictThatNumpySaved) {
               [&] { ReadBytes("a.npy", SerializeNpy(poses)); });
 }
 
-TEST_F(CasesTest, JointsPlacesAlone) {
+TEST_F(CasesTest, ReadsJointPositionsAlone) {
   const Arrays smpl;
   std::vector<double> places;
   for (const Pose& pose : smpl.motion.frames) {
@@ -397,7 +397,7 @@ TEST_F(CasesTest, JointsPlacesAlone) {
   EXPECT_TRUE(ReadBytes("a.npy", SerializeNpy(joints)).Says("states no rate; taken as 30"));
 }
 
-TEST_F(CasesTest, OtherFormatsAreToldTheWay) {
+TEST_F(CasesTest, OtherFormatsGetAdvice) {
   for (const auto& [name, way] :
        {std::pair("a.fbx", "Blender imports it, and exports .glb"),
         std::pair("a.vrm", "its motions are .vrma"), std::pair("a.C3D", "solve them to .bvh")}) {

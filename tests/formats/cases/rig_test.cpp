@@ -87,7 +87,7 @@ double LowestToe(const Pose& pose) {
 }
 
 // For how long she stands there does not matter.
-TEST_F(CasesTest, WhoStepsOntoAStageStaysUpThere) {
+TEST_F(CasesTest, StepsOntoAStageKeepTheirHeight) {
   BvhFile file = MakeBvh({.turn = Expressive, .frames = 600});
   const auto rise = [&](double height, double whole) {
     for (int frame = 0; frame < 600; ++frame)
@@ -114,7 +114,7 @@ TEST_F(CasesTest, WhoStepsOntoAStageStaysUpThere) {
   EXPECT_LT(WorstJoint(read.motion, hangs.motion), 0.01);
 }
 
-TEST_F(CasesTest, PlacesInAnotherUnitThanBonesAreSaid) {
+TEST_F(CasesTest, NotesPositionsInAnotherUnit) {
   BvhFile file = MakeBvh({.turn = Expressive});
   file.values.topRows(3) /= 100;
   const Read read = ReadBytes("a.bvh", BvhText(file));
@@ -155,7 +155,7 @@ TEST_F(CasesTest, ARestPoseThatIsNoBodyIsMadeOutOfTheClip) {
                 Degrees(theirs(0), theirs(frame)), 5);
 }
 
-TEST_F(CasesTest, ZUpStandsAndIsSaid) {
+TEST_F(CasesTest, NotesZUp) {
   WriteBvh(folder_ / "base.bvh", MakeBvh({.turn = Expressive}));
   const Motion base = ReadFile("base.bvh").motion;
   const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
@@ -186,7 +186,7 @@ TEST_F(CasesTest, ZUpStandsAndIsSaid) {
               [&] { ReadFile("z.bvh", {.up = "w"}); });
 }
 
-TEST_F(CasesTest, NamesThatSayNothingHaveAWayOut) {
+TEST_F(CasesTest, MeaninglessNamesGetAdvice) {
   const RigNames nameless = [](const std::string& bone) {
     return "bone" + std::to_string(RigIndex(bone));
   };
@@ -209,7 +209,7 @@ TEST_F(CasesTest, NamesThatSayNothingHaveAWayOut) {
 
 // As a map is made by hand: arms or legs are mended by where they stand, the whole by toes, and
 // without toes by where knees bend.
-TEST_F(CasesTest, SidesAreTakenByWhereTheyStand) {
+TEST_F(CasesTest, SidesFollowFromPositions) {
   const RigNames human = NamesOf(kHumanIkRig);
   const BvhFile file = MakeBvh({.names = human, .turn = Expressive});
   BvhFile toeless = file;
@@ -241,7 +241,7 @@ TEST_F(CasesTest, SidesAreTakenByWhereTheyStand) {
   EXPECT_LT(Compare(whole.motion, Expressive).limbs, 0.1);
 }
 
-TEST_F(CasesTest, WhatDoesNotMoveIsSaid) {
+TEST_F(CasesTest, NotesAMotionlessFile) {
   const auto still = [](const std::string& bone, int) { return Walk(bone, 0); };
   BvhFile file = MakeBvh({.turn = still});
   file.values.topRows(3).colwise() = file.values.topRows(3).col(0).eval();

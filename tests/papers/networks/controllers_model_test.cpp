@@ -76,7 +76,7 @@ TEST_F(ControllersModelTest, HeadingsAddAndVectorsTurnAboutTheVertical) {
   EXPECT_LT(Difference(SubtractHeadings(quarter, quarter), torch::tensor({0.0, 1.0})), 1e-6);
 }
 
-TEST_F(ControllersModelTest, FactorsAreThoseOfTheWholeHouse) {
+TEST_F(ControllersModelTest, FactorsAgreeWithTheLibrarys) {
   const PreparedClip clip = testing_support::SyntheticClip("a", 90, 0.2, false);
   const BodyPartWeights weights = WeighBodyParts(clip.skeleton);
   ControllersModel model(Small(), clip.skeleton);
@@ -87,7 +87,7 @@ TEST_F(ControllersModelTest, FactorsAreThoseOfTheWholeHouse) {
 
 // Windows of 7 frames around each, ahead of the first the history's, after the last the last: what
 // shipped checkpoints were trained on.
-TEST_F(ControllersModelTest, IsToldOfControlsAroundEachFrame) {
+TEST_F(ControllersModelTest, ReceivesControlsAroundEachFrame) {
   const ControlledTransition asked = Draw(20).transition;
   torch::NoGradGuard no_grad;
   ControllersModel model = Random4(Small());
@@ -165,7 +165,7 @@ TEST_F(ControllersModelTest, WalksAllFramesAtOnceAsOneByOne) {
   }
 }
 
-TEST_F(ControllersModelTest, HearsItsControls) {
+TEST_F(ControllersModelTest, DependsOnItsControls) {
   ControllersModel model = Random4(Small());
   ControlBatch batch = Draw(15);
   torch::NoGradGuard no_grad;
@@ -174,7 +174,7 @@ TEST_F(ControllersModelTest, HearsItsControls) {
   EXPECT_GT(Difference(model->RollOut(batch.transition).joints, as_asked.joints), 1e-5);
 }
 
-TEST_F(ControllersModelTest, SeesItsTargetAndHowFarItIs) {
+TEST_F(ControllersModelTest, ReceivesItsTargetAndDistance) {
   ControlBatch batch = Draw(15);
   torch::NoGradGuard no_grad;
   for (const bool absolute : {true, false}) {
@@ -232,7 +232,7 @@ TEST_F(ControllersModelTest, TheKeyframeLossDrawsEachEndToItsOwnPose) {
             KeyframeLoss(straight, first, last).item<double>());
 }
 
-TEST_F(ControllersModelTest, LossesVanishWhereTheMotionIsTheRealOne) {
+TEST_F(ControllersModelTest, LossesVanishForRealMotion) {
   ControllersModel model(Small(), Skeleton::Smpl24());
   const ControlBatch batch = Draw(20);
   const FrameTensors& history = batch.transition.history;

@@ -226,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(Forms, FlowTest,
                          testing::Values(Form::kPaper, Form::kEncoded, Form::kInnovations), NameOf);
 
 // Motion that always goes on as it did is predicted: what the flow draws of it is next to nothing.
-TEST(FlowInnovations, AreWhatAPredictionLeaves) {
+TEST(FlowInnovations, AreThePredictionsResiduals) {
   torch::NoGradGuard no_grad;
   torch::manual_seed(8);
   const FlowConfig config = Small(Form::kInnovations);

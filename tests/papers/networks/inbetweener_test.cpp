@@ -53,7 +53,7 @@ class InbetweenerTest : public testing::Test {
 
 double Apart(const Tensor& a, const Tensor& b) { return (a - b).abs().max().item<double>(); }
 
-TEST_F(InbetweenerTest, GoesFrameByFrameOnWhatItMade) {
+TEST_F(InbetweenerTest, FeedsBackItsOwnFrames) {
   torch::NoGradGuard no_grad;
   const Tensor conditions = KeyConditionTensors(model_->config(), model_->skeleton(), Transition());
   const Tensor made = model_->Rollout(history_, conditions);
@@ -70,7 +70,7 @@ TEST_F(InbetweenerTest, GoesFrameByFrameOnWhatItMade) {
 }
 
 // Training's fused layer and LibTorch's own.
-TEST_F(InbetweenerTest, TrainsWhatItDances) {
+TEST_F(InbetweenerTest, TrainingEqualsInference) {
   Tensor danced;
   {
     torch::NoGradGuard no_grad;
@@ -79,7 +79,7 @@ TEST_F(InbetweenerTest, TrainsWhatItDances) {
   EXPECT_LT(Apart(Rollout(Transition()).detach(), danced), 1e-5);
 }
 
-TEST_F(InbetweenerTest, SeesOfTheKeyWhatIsAskedAndHowFarItIs) {
+TEST_F(InbetweenerTest, ReceivesTheMaskedKeyAndItsDistance) {
   torch::NoGradGuard no_grad;
   const TransitionTensors whole = Transition();
   TransitionTensors other = whole;

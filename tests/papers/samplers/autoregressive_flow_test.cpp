@@ -55,7 +55,7 @@ TEST(AutoregressiveFlowTest, GivesTheNetworkTheMusicOfHistoryAndFrame) {
                                               ElementsAre(4, 4, 4, 4, 7, 7, 8, 8)));
 }
 
-TEST(AutoregressiveFlowTest, KeepsMusicFromANetworkThatLearntWithout) {
+TEST(AutoregressiveFlowTest, WithholdsMusicFromANetworkTrainedWithout) {
   EXPECT_THAT(Heard(Model(false)), ElementsAre(Each(0), Each(0)));
 }
 

@@ -48,7 +48,7 @@ class ControllersSamplerTest : public testing::Test {
   std::unique_ptr<Sampler> sampler_;
 };
 
-TEST_F(ControllersSamplerTest, TellsWhatItTakes) {
+TEST_F(ControllersSamplerTest, ListsItsControls) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.name, "controllers-paper");
   EXPECT_EQ(model.controls, ControlNames());

@@ -52,7 +52,7 @@ TEST_F(DenseControlsTest, WithoutAKeyTheRootComesToAStop) {
   EXPECT_NEAR(dense[kRootPath].values(1, 59), Start().y(), 1e-6);
 }
 
-TEST_F(DenseControlsTest, AKeyThatLeavesItsPlaceOpenIsMetAtItsHeight) {
+TEST_F(DenseControlsTest, UnplacedKeyIsMetAtItsHeight) {
   spec_.target->mask.root_position = false;
   const Controls open = DenseControls(spec_, model_);
   EXPECT_NEAR(open[kRootPath].values(1, 59), Start().y(), 1e-6);
@@ -64,7 +64,7 @@ TEST_F(DenseControlsTest, AKeyThatLeavesItsPlaceOpenIsMetAtItsHeight) {
 }
 
 // Bent to history and key it comes from dance/path_lead.h.
-TEST_F(DenseControlsTest, WhatIsGivenStaysAsItIs) {
+TEST_F(DenseControlsTest, GivenControlsStay) {
   spec_.controls[kRootPath].values.setRandom(3, 60);
   spec_.controls[kVelocityFactors].values.setConstant(kBodyParts, 60, 0.07F);
   const Controls dense = DenseControls(spec_, model_);
@@ -72,7 +72,7 @@ TEST_F(DenseControlsTest, WhatIsGivenStaysAsItIs) {
   EXPECT_EQ(dense[kVelocityFactors].values, spec_.controls[kVelocityFactors].values);
 }
 
-TEST_F(DenseControlsTest, OneFrameIsTheKeys) {
+TEST_F(DenseControlsTest, SingleFrameEqualsTheKey) {
   spec_.frames = 1;
   EXPECT_LT((DenseControls(spec_, model_)[kRootPath].values.col(0).cast<double>() -
              spec_.target->pose.root_position)

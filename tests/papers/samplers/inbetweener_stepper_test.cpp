@@ -34,7 +34,7 @@ class InbetweenerStepperTest : public testing::Test {
   std::unique_ptr<Sampler> sampler_;
 };
 
-TEST_F(InbetweenerStepperTest, TellsThatItIsDeterministicAndHearsNothing) {
+TEST_F(InbetweenerStepperTest, IsDeterministicWithoutMusicInput) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.name, "harvey");
   EXPECT_TRUE(model.deterministic);

@@ -52,7 +52,7 @@ class Study : public testing::Test {
   std::vector<StudyMethod> methods_ = {{"ours", folder_ / "ours"}, {"theirs", folder_ / "theirs"}};
 };
 
-TEST_F(Study, WhatPeopleGetDoesNotSayWhoseTheFilmsAre) {
+TEST_F(Study, ParticipantsSeeNoMethodNames) {
   Make();
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "study"))
@@ -84,7 +84,7 @@ TEST_F(Study, TheSeedDrawsTheOrder) {
 }
 
 // Of one seed, which nobody has to change, there are many studies.
-TEST_F(Study, AnswersToOtherFilmsAreToldApart) {
+TEST_F(Study, SeparatesAnswersToOtherFilms) {
   Make();
   const std::filesystem::path answer = Answer("a", "ours");
   std::filesystem::remove_all(folder_ / "study");

@@ -59,7 +59,7 @@ TEST_F(PaperTrainerTest, TheSameRunMakesTheSameCheckpointAndLeavesItsCurves) {
   }
 }
 
-TEST_F(PaperTrainerTest, ACheckpointHasItsNameAndKnowsWhetherItHeardMusic) {
+TEST_F(PaperTrainerTest, CheckpointHasItsNameAndMusicFlag) {
   PaperOptions options = Options("mine", 2);
   options.name = "mine";
   TrainFlow(options);
@@ -115,7 +115,7 @@ TEST_F(PaperTrainerTest, SizesAreOptionsAndWeightsTakeHalfTheBytes) {
   EXPECT_LT(std::filesystem::file_size(path), 3 * numbers);
 }
 
-TEST_F(PaperTrainerTest, RolloutsBeginWhenTheyAreAsked) {
+TEST_F(PaperTrainerTest, RolloutsBeginAtTheRequestedStep) {
   PaperOptions options = Options("late", 3);
   options.report_every = 1;
   options.flow.rollout_from = 2;
@@ -192,7 +192,7 @@ TEST_F(PaperTrainerTest, AFlowGoesOnFromAnother) {
 }
 
 // Whatever it is called: each run's checkpoint has the same name.
-TEST_F(PaperTrainerTest, ARunIsResumedWithTheCheckpointThatItBeganWith) {
+TEST_F(PaperTrainerTest, ResumesWithTheSamePretrainedCheckpoint) {
   const PaperOptions base = Options("base", 1);
   TrainFlow(base);
   PaperOptions other = Options("other", 1);
@@ -317,20 +317,7 @@ TEST_F(PaperTrainerTest, UnusableOptionsAreNamed) {
   EXPECT_EQ(failure(options), "--longest");
 }
 
-// Paper C, Section 4: the longest grows by one frame an epoch, the shortest by four every five.
-TEST(Curriculum, TransitionsGrowLonger) {
-  constexpr int64_t kSteps = 660, kEpoch = 10;  // 66 epochs: 5 to 70 frames
-  const auto at = [&](int64_t epoch) { return CurriculumAt(epoch * kEpoch, kSteps, 5, 70); };
-  EXPECT_EQ(at(0), (LengthRange{5, 5}));
-  EXPECT_EQ(CurriculumAt(kEpoch - 1, kSteps, 5, 70), at(0));
-  EXPECT_EQ(at(1), (LengthRange{5, 6}));
-  EXPECT_EQ(at(4), (LengthRange{5, 9}));
-  EXPECT_EQ(at(5), (LengthRange{9, 10}));
-  EXPECT_EQ(at(65), (LengthRange{57, 70}));
-  EXPECT_EQ(CurriculumAt(kSteps - 1, kSteps, 5, 70), at(65));
-}
-
-TEST_F(PaperTrainerTest, BatchesOfOtherTempiKeepTheirWay) {
+TEST_F(PaperTrainerTest, BatchesOfOtherTempiKeepTheirPath) {
   const auto clips = LoadClips({folder_.path()}, folder_.path() / "splits.json", kTrainGroup);
   Random random(5);
   const MotionBatch batch = DrawMotion(clips, 40, 10, 20, {.tempo = 1}, torch::kCPU, &random);
