@@ -87,8 +87,8 @@ class Load {
     }
   }
 
-  /// Concurrent real-time streams, music in chunks of 100 ms: admitted ones dance, others are told
-  /// to come back later.
+  /// Concurrent real-time streams, with music in chunks of 100 ms. Admitted ones dance; the others
+  /// are asked to retry later.
   void Streams() {
     std::printf(
         "\n| streams | from addresses | admitted | refused, with a time to come back | told after "

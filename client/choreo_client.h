@@ -173,7 +173,7 @@ class Client {
   /// `observer`, if any, with each message.
   DanceResult Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
                     const std::function<void(const Message&)>& observer = {}) const;
-  /// The same into `result`, which keeps what came if the dance fails.
+  /// The same into `result`, which keeps the received frames if the dance fails.
   void Dance(DanceConfig config, const std::vector<KeyPose>& keys, const Audio& audio,
              const std::function<void(const Message&)>& observer, DanceResult* result) const;
 

@@ -10,8 +10,8 @@
 #include "model/motion/control_request.h"
 #include "model/motion/motion.h"
 
-/// What a client asks for: music, key poses, controls, and what a dance is made with. Frames are
-/// counted at the model's rate; other conventions are choreo_client.h's.
+/// A client's request: music, key poses, controls, and the settings of the dance. Frames are
+/// counted at the model's rate; for other conventions see choreo_client.h.
 namespace choreo::client {
 
 /// The encoding of the music's bytes.

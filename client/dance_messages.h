@@ -12,7 +12,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// What a server answers while it dances. Conventions are choreo_client.h's.
+/// The server's answers during a dance. For conventions see choreo_client.h.
 namespace choreo::client {
 
 /// The first answer: how to interpret the frames.

@@ -13,7 +13,7 @@
 /// sampled at the model's, and the new frames are interpolated at its own.
 namespace choreo::client {
 
-/// Seconds of music that the last frame hears beyond itself, rounded up.
+/// Seconds of music after a frame that its features need, rounded up.
 inline constexpr double kMusicBeyond_s = 0.5;
 /// Seconds of music before the first frame that determine its energy, as far as they fit into the
 /// byte limit.
@@ -43,7 +43,7 @@ struct EditOptions {
 
 /// A key pose to set into a dance: changes the frames between `from` and `to`, both exclusive.
 struct KeyEdit {
-  KeyPose key = {};                ///< its frame is in the dance; it replaces what is there
+  KeyPose key = {};                ///< its frame is in the dance; it replaces a key there
   std::vector<KeyPose> held = {};  ///< keys after it that hold its pose, in order
   /// The last unchanged frame before the key, at least 2 before it; -1 for a key at frame 0.
   int64_t from = 0;

@@ -20,8 +20,9 @@ class Seen {
 
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }
-  /// Another server resumes at `frame` (model rate) and receives all messages again. It will reject
-  /// or confirm each key before `frame` again: `late` lists these, once per message.
+  /// Another server continues from `frame` (at the model's rate) and receives all messages again.
+  /// It will answer keys before that frame as rejected or as reached: these are `late`, each listed
+  /// as often as it was sent.
   void Restart(int64_t frame, std::vector<KeyPlace> late);
   /// Cuts away the frames that were delivered already; false if none is left. Throws
   /// Error(kInternal) where frames are missing.

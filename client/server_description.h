@@ -6,7 +6,7 @@
 
 #include "model/messages/model_description.h"
 
-/// What a choreod says of itself and of its models.
+/// A choreod's description of itself and its models.
 namespace choreo::client {
 
 using choreo::ModelDescription;

@@ -10,7 +10,7 @@ namespace choreo {
 
 /// Shares of the engines' time that may be promised.
 struct FrameShares {
-  double of_all = 0.9;   ///< to all calls together; the rest is for what is not measured
+  double of_all = 0.9;   ///< for all calls together; the rest is for unmeasured work
   double of_peer = 0.9;  ///< to the calls of one caller
 };
 

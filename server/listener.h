@@ -27,7 +27,7 @@ class Listener {
 
   int port() const { return port_; }
   void Start(Accept accept);
-  /// Accepts nobody any more, and closes waiting connections. Idempotent.
+  /// Accepts no more connections, and closes waiting ones. Idempotent.
   void Stop();
 
  private:

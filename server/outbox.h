@@ -42,10 +42,10 @@ class Outbox {
   enum class State {
     kOpen,      ///< takes answers
     kClosing,   ///< takes none; queued ones still go out
-    kFinished,  ///< the wire has been told to finish and may be gone
+    kFinished,  ///< the wire was asked to finish and may be gone
   };
 
-  /// While it exists, the wire is not told to finish: needed to use the reactor without the lock.
+  /// While it exists, the wire is not asked to finish: needed to use the reactor without the lock.
   class Hold {
    public:
     explicit Hold(Outbox& outbox) : outbox_(outbox) {

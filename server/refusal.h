@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// Why a valid call is refused: what was lacking.
+/// Why a valid call is refused: the missing resource.
 enum class Refusal {
   kStreams,        ///< --max-streams
   kStreamsOfPeer,  ///< --max-streams-of-peer

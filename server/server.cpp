@@ -53,7 +53,7 @@ constexpr int kBroken = 3;
 constexpr int kWaitingCalls = 2;
 /// How long a drained server still refuses new calls with a status. A client may hold an idle
 /// connection; once gRPC shuts down, its next call would end as CANCELLED, which does not tell it
-/// to use another server. The shutdown itself is short, therefore.
+/// to use another server. So the shutdown itself is short.
 constexpr milliseconds kNotice{1'000};
 constexpr milliseconds kShutdownTimeAfterNotice{50};
 

@@ -43,8 +43,8 @@ class Server {
 
   /// Health is NOT_SERVING and new calls are UNAVAILABLE at once; calls in progress may continue
   /// for `seconds`, then end as UNAVAILABLE; streams end at a transition, if one comes in the last
-  /// quarter. Callers up to a second after the last call are still told so (0 seconds: nobody is).
-  /// The server is shut down on return. Idempotent.
+  /// quarter. Callers up to a second after the last call still get this status (0 seconds: none
+  /// do). The server is shut down on return. Idempotent.
   void Drain(double seconds);
 
  private:

@@ -42,7 +42,7 @@ struct Serving {
   MusicBudget file_music;
   // Last: their threads use all of the above.
   Models models;
-  TaskPool decoding;  ///< music files, which take long; nobody else waits for them
+  TaskPool decoding;  ///< decodes music files, which is slow, so that no other call waits for them
   TaskPool tasks;     ///< tasks too long for gRPC's threads, but of seconds at most
 };
 

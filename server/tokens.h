@@ -33,8 +33,8 @@ class Tokens {
   /// what to send.
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
-  /// Rereads the file; call regularly. Of a file with bad lines the good ones count; while it is
-  /// unreadable nobody is admitted. Logs both once.
+  /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
+  /// is admitted. Logs both once.
   void Refresh();
 
  private:

@@ -43,7 +43,7 @@ class BeatEar {
   std::vector<float> mono_;    // from the next onset's window on
   std::vector<Onset> onsets_;  // of the last minutes
   int64_t first_ = 0;          // index of the first of onsets_ in the music
-  int64_t asked_ = 0;          // onsets heard at the last search
+  int64_t asked_ = 0;          // onsets received at the last search
   std::future<BeatTrack> found_;
 };
 

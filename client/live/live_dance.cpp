@@ -88,7 +88,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     resampler.Push(piece);
     resampler.Pull(mono);
     if (midi) SendBeats({.beats = midi->Take(now), .downbeats = {}}, now);
-    // It hears everything, so that it knows the beats when the clock stops.
+    // It receives all music, so that it knows the beats when the clock stops.
     BeatsAhead heard = beats.Hear(mono);
     if (!midi || !midi->runs()) SendBeats(std::move(heard), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {

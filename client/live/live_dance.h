@@ -30,7 +30,7 @@ struct LiveOptions {
   client::DanceConfig config = {};         ///< Run sets `audio` and `generate_until`
   std::vector<client::KeyPose> keys = {};  ///< known from the beginning
   std::map<std::string, Pose> poses = {};  ///< for cues, by name
-  double ahead_s = 1;                      ///< delay of a cue's pose, which goes on a beat
+  double ahead_s = 1;                      ///< least delay from a cue to its pose, on a beat
   double look_ahead_s = 0.3;               ///< nearer frames are already danced
   double seconds = std::numeric_limits<double>::infinity();  ///< limit of the music
   int most_keys = kMaxKeys;  ///< limit of the server for one dance, including keys taken back

@@ -82,7 +82,7 @@ void MidiClock::Tick(double now, std::vector<double>* beats) {
 }
 
 std::vector<double> MidiClock::Ahead() const {
-  // Fits a line through the ticks, each of which is late by up to a piece of sound.
+  // Fits a line through the ticks, each up to one piece of sound late.
   const auto count = static_cast<double>(times_.size());
   double mean = 0, slope = 0, squares = 0;
   for (const double time : times_) mean += time / count;

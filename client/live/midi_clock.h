@@ -20,9 +20,10 @@ class MidiClock {
   MidiClock(const MidiClock&) = delete;
   MidiClock& operator=(const MidiClock&) = delete;
 
-  /// Reads without blocking what came until `now`, seconds of the music. From the fifth beat on,
-  /// returns the next eight beats at every second one; otherwise none. Throws Error(kUnavailable)
-  /// if the device is lost, Error(kInvalidArgument) if it sends more than MIDI can.
+  /// Reads, without blocking, the bytes that arrived until `now`, in seconds of the music. From the
+  /// fifth beat on, returns the next eight beats at every second one; otherwise none. Throws
+  /// Error(kUnavailable) if the device is lost, Error(kInvalidArgument) if it sends more than MIDI
+  /// can.
   std::vector<double> Take(double now);
   /// Whether the clock was started and has not been stopped.
   bool runs() const { return tick_.has_value(); }

@@ -8,7 +8,7 @@
 
 namespace choreo::live {
 
-/// Hears whether live music repeats, and how it then continues.
+/// Detects whether live music repeats, and how it then continues.
 class PassageEar {
  public:
   /// How far ahead of the music it predicts, seconds: as far as transitions reach.

@@ -58,7 +58,7 @@ BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limit
         states += static_cast<size_t>(period);
         std::vector<bool> taken(static_cast<size_t>(period));
         for (size_t place = 0; place < pattern.places; ++place) {
-          // Where places are too close to tell apart at this tempo, the first one counts.
+          // Of positions too close to distinguish at this tempo, the first one counts.
           const bool is_near = std::any_of(
               pattern.place.begin(), pattern.place.begin() + static_cast<std::ptrdiff_t>(place),
               [&](double other) {

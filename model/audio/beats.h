@@ -34,8 +34,8 @@ struct TempoLimits {
 /// Finds a song's beats with the bar pointer model (BarPointer): the tempo, beats and bars that
 /// best explain all onsets. Tempo may drift or jump. Silence has no beats, except one a period
 /// after the last sound; after two seconds of silence tracking starts afresh. Beats and half beats
-/// that stand out no more than those found in noise are none. Needs the whole song. Without onsets:
-/// no beats, tempo 0.
+/// no more distinct than those found in noise are dropped. Needs the whole song. Without onsets: no
+/// beats, tempo 0.
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {});
 
 /// The beats of mono samples at 22 050 Hz. Errors as FindOnsets.

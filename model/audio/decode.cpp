@@ -49,7 +49,7 @@ bool IsText(const ByteSource& source) {
 
 std::unique_ptr<SoundReader> Open(const ByteSource& source, const std::string& name) {
   if (source.size == 0) throw InvalidArgument(name, "0 bytes of audio");
-  // Taggers put ID3 before what is no MP3, too.
+  // Some taggers put ID3 before other formats than MP3, too.
   if (const int64_t sound = TagEnd(source, 0);
       sound > 0 && (source.Has(sound, "fLaC") || source.Has(sound, "OggS")))
     return Open(PartOf(source, sound, source.size), name);

@@ -14,7 +14,7 @@
 
 namespace choreo {
 
-/// Turns arriving music into what models hear: push samples of any format, read MFCC rows at 30 a
+/// Turns arriving music into the models' input: push samples of any format, read MFCC rows at 30 a
 /// second. Row r is centred at second r / 30 of the absolute audio clock and equals that of Mfcc().
 /// Audio before 0 and after the end is silence. A row's bits depend only on the samples near it,
 /// not on chunk sizes or where the stream starts. Not thread-safe.

@@ -17,7 +17,7 @@ constexpr double kAlike = 0.9;  // ratio of the weaker half's mean to the strong
 
 HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<std::array<float, Onset::kBands>> even;
-  // Uncapped: under a cap all drums look alike, and only they tell one beat of a bar from another.
+  // Uncapped: a cap would make all drums alike, and only drums distinguish the beats of a bar.
   EvenOnsets evened(std::numeric_limits<float>::infinity());
   // Starts as if the music had played before; else its beginning would count for much more.
   for (int round = 0; round < kRounds; ++round) {

@@ -8,8 +8,8 @@
 #include "model/audio/meter.h"
 #include "model/audio/onset.h"
 
-/// Decides by repetition what bar patterns cannot: whether tracked beats are half beats, and the
-/// metre.
+/// Decides whether beats are half beats, and the metre. Patterns show these badly, because any part
+/// of a beat may be struck in any pattern; so the music's repetition decides.
 namespace choreo {
 
 /// The onsets at each half of each beat of a path: EvenOnsets' bands, the strongest nearby.

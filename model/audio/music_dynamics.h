@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// How the music's energy moves a dance. Energies are added to the EnergyLevel of body parts that
-/// no control asks for: logarithms of speeds, as far as the model answers them.
+/// How the music's energy moves a dance. Energies (logarithms of speeds, as far as the model
+/// follows them) are added to the EnergyLevel of body parts without a control.
 struct MusicDynamicsOptions {
   /// Weights of loudness, onset density and bass.
   double loud = 0.4, busy = 0.4, deep = 0.2;
@@ -17,7 +17,7 @@ struct MusicDynamicsOptions {
   /// in music that hardly changes, at the least_ ones: in dB, dB of onsets per row, dB.
   double range = 0.75;
   double least_loud = 2, least_busy = 0.35, least_deep = 3;
-  /// Onsets of ordinary music, counted as if they had been heard for so many seconds before.
+  /// A prior: onsets of ordinary music, as if so many seconds of it had preceded the song.
   double usual_onsets = 1.7, usual_seconds = 20;
 
   /// Music below `silence` LUFS, or `far_below` LU below the loudest second of the last 30, counts

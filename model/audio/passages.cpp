@@ -114,8 +114,7 @@ std::optional<int64_t> PassageListener::Lag() const {
   return best_.back();
 }
 
-// Whatever comes more than kLater afterwards moves nothing, so a song's beginning has passages,
-// too.
+// Music more than kLater afterwards changes nothing, so the beginning of a song has passages, too.
 int64_t PassageListener::LagAt(int64_t moment) const {
   constexpr int64_t kLater = kTempoWindowSeconds * kModelSampleRate / kHop;
   int64_t at = std::min(moment + kLater, moments_ - 1);

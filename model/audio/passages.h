@@ -15,7 +15,7 @@ namespace choreo {
 /// When music counts as repeating.
 struct PassageOptions {
   /// The least similarity of two moments: the cosine of their harmony and timbre, relative to all
-  /// that was heard.
+  /// music so far.
   double alike = 0.5;
   /// The least similarity of a passage: the sum over its seconds of the similarity above `alike`.
   double least = 1.0;
@@ -23,10 +23,11 @@ struct PassageOptions {
   double soonest = 12;
 };
 
-/// Hears, as music sounds, whether it repeats. Compares harmony (chroma) and timbre (loudness by
-/// band) of each moment with all before it and follows the likeliest path through the lags between
-/// them (Viterbi's algorithm over the lags of a self-similarity matrix; Müller, "Fundamentals of
-/// Music Processing", chapter 4). A moment depends only on samples before its end. Not thread-safe.
+/// Detects, while music arrives, whether it repeats. Compares harmony (chroma) and timbre (loudness
+/// by band) of each moment with all before it and follows the likeliest path through the lags
+/// between them (Viterbi's algorithm over the lags of a self-similarity matrix; Müller,
+/// "Fundamentals of Music Processing", chapter 4). A moment depends only on samples before its end.
+/// Not thread-safe.
 class PassageListener {
  public:
   /// Samples at 22 050 Hz between moments, 0.2 s.

@@ -6,9 +6,9 @@
 /// FeatureStream, 30 a second.
 namespace choreo {
 
-/// The pulse that a listener would tap at the end of what was heard.
+/// The pulse that a listener would tap at the end of the music so far.
 struct Pulse {
-  double next = 0;        ///< rows from the last one heard to the next beat, in (0, period]
+  double next = 0;        ///< rows from the last one received to the next beat, in (0, period]
   double period = 0;      ///< rows between beats; 0: no pulse was found
   double confidence = 0;  ///< 0 to 1: how well beats predicted a second ahead met onsets
 

@@ -8,8 +8,8 @@ namespace choreo {
 inline constexpr int kFailed = 1;
 inline constexpr int kMisused = 2;
 
-/// The models that ship, the default first. choreod serves them unless told otherwise. The papers'
-/// own networks follow.
+/// The models that ship, the default first. choreod serves them unless configured otherwise. The
+/// papers' own networks follow.
 inline constexpr std::string_view kEverydayModels[] = {"default", "free"};
 inline constexpr std::string_view kShippedModels[] = {"default", "free", "paper-f", "paper-c"};
 

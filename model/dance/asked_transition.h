@@ -13,8 +13,7 @@
 
 namespace choreo {
 
-/// The clock of SampleJob::Deadline, in seconds. It decides which job runs first, never what is
-/// danced.
+/// The clock of SampleJob::Deadline, in seconds. It orders jobs and never changes a dance.
 inline double PlaybackClock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -31,7 +30,7 @@ struct AskedTransition {
 /// Builds the request for one transition of a dance, without its stage and beats. `recurrence` is
 /// that of the dance's music. `before` holds the poses danced or given before the transition; if
 /// empty, it starts from ControlTrack::Stance. `audio` is null without music; rows before
-/// `rows_end` must be ready, and the model hears no music in later rows.
+/// `rows_end` must be ready, and the model gets no music from later rows.
 AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
                               const ControlTrack& controls, const Recurrence& recurrence,
                               const AudioFeed* audio, const Segment& segment, int64_t rows_end,

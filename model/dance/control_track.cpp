@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kKeyTolerance = 0.05;    // metres that a key may be off the path without a warning
 constexpr double kDancerTolerance = 0.5;  // the same for the dancer where a path begins
-// How far a speed may miss the one asked for without a warning: a share, and metres a frame.
+// How far a speed may miss the requested one without a warning: a share, and metres a frame.
 constexpr double kSpeedTolerance = 0.15, kLeastMiss = 0.001;
 
 bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_heights(); }
@@ -63,7 +63,7 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
   Pose stance = RestPose(model_->skeleton);
   const PathCurve* curve = CurveAt(first_frame, first_frame);
-  // She stands still before a key on the first frame: gliding feet would never be planted.
+  // The dancer stands still before a key on the first frame: gliding feet would never be planted.
   const int64_t there = key_on_it ? first_frame : first_frame - 1;
   if (curve != nullptr) {
     const double height = stance.root_position.y();

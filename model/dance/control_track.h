@@ -54,8 +54,8 @@ class ControlTrack {
 
   /// A warning if the last path set begins at `end` or later.
   std::optional<Warning> BehindEnd(int64_t end) const;
-  /// A warning that names the parts whose speed, over the dance of this report, missed the one
-  /// asked for by more than 15 % and 1 mm a frame.
+  /// A warning that names the parts whose speed, over the dance of this report, missed the
+  /// requested one by more than 15 % and 1 mm a frame.
   std::optional<Warning> SpeedsMissed(const QualityReport& report) const;
 
  private:

@@ -35,7 +35,7 @@ struct DanceStart {
   /// Resume from a continuation of another fingerprint with a warning instead of
   /// Error(kFailedPrecondition).
   bool allow_inexact_resume = false;
-  /// Seconds, ascending: the dance is timed to them. Empty: to the beats that it hears in the
+  /// Seconds, ascending: the dance is timed to them. Empty: to the beats that it detects in the
   /// music.
   std::vector<double> music_beats;
   std::vector<double> music_downbeats;  ///< those that begin a bar; reported, not danced
@@ -48,7 +48,7 @@ struct DanceStart {
     double sample_rate = 0;  ///< 8000..192000
     int channels = 0;        ///< 1..8, interleaved
     /// The first sample frame to be sent, absolute: at most LatestFirstSample, and 0 for a new
-    /// dance. Nothing before it is heard.
+    /// dance. Earlier music is ignored.
     int64_t first_sample = 0;
   };
   std::optional<Audio> audio;  ///< none: the model dances without music
@@ -67,7 +67,7 @@ struct DanceStart {
   void ValidateStart(const ModelInfo& model) const;
 };
 
-/// What a stream starts from. Everything else arrives as messages.
+/// The start of a stream. Everything else arrives as messages.
 struct DanceConfig : DanceStart {
   /// The dance is frames [first, end_frame), model rate, absolute. Without it a dance with music
   /// ends with the music or the last key, whichever is later, one without music at the last key.
@@ -127,9 +127,9 @@ using ValidTransition = Valid<GroupRequest>;
 /// begin without changing a bit.
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
 
-/// The first sample that a dance needs to resume at `first_frame` bit for bit: LatestFirstSample, or
-/// earlier if energy or predicted `beats` depend on earlier sound, but never before the dance's own
-/// first sample.
+/// Where the audio of a dance that continues from `first_frame` must begin, so that the dance
+/// equals an uninterrupted one: at LatestFirstSample, or earlier if the music's energy, or the
+/// detection of `beats`, looks further back; but never before the dance's own first sample.
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats);
 

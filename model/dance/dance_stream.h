@@ -44,8 +44,9 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// Sets what was found in the whole music: beats (if empty, the dance does not listen for beats),
-  /// passages, and the music's id. Call before the first sample. DanceConfig has precedence.
+  /// Sets the results of analysing the whole music: beats (if empty, the dance does not detect
+  /// beats), passages, and the music's id. Call before the first sample. DanceConfig has
+  /// precedence.
   void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
                 const std::vector<Passage>& passages, uint64_t music_id);
 
@@ -86,7 +87,7 @@ class DanceStream {
   void Cancel() noexcept;
 
   /// The lag behind the music, in output frames: the audio window, the resampling and, for a model
-  /// that hears music, one transition of the usual length, because the model hears all of a
+  /// with music input, one transition of the usual length, because the model needs all of a
   /// transition's music first (a transition to a key may be longer).
   static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
 

@@ -133,8 +133,8 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) con
   if (!pulse.Certain()) return;
   const auto frames = static_cast<double>(to - from);
   const double slack = 0.5 * pulse.period / fps_;
-  // From one frame before the history's last to one after the transition's last. The last row heard
-  // is the one before `from`.
+  // From one frame before the history's last to one after the transition's last. The last row of
+  // music used is the one before `from`.
   double at = pulse.next - 1;
   while (at > -1) at -= pulse.period;
   for (bool is_behind = false; !is_behind; at += pulse.period) {

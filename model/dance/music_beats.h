@@ -21,8 +21,8 @@ namespace choreo {
 /// thread-safe.
 class MusicBeats {
  public:
-  /// `audio`: the dance's, or null if there is nothing to hear. `last`: for a resumed dance, last()
-  /// at its first frame.
+  /// `audio`: the dance's, or null to detect no beats. `last`: for a resumed dance, last() at its
+  /// first frame.
   MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
              const AudioFeed* audio, std::span<const double> downbeats = {});
 

@@ -17,7 +17,7 @@ inline constexpr double kLeastReturn_s = 2;
 /// repeats one that begins at least kLeastReturn_s earlier, and all lie within the longest music.
 void CheckPassages(std::span<const Passage> passages, const std::string& field);
 
-/// Tells which frames of a dance repeat earlier ones, as the music does. They share the earlier
+/// Finds which frames of a dance repeat earlier ones, as the music does. They share the earlier
 /// frames' noise. Frames are the model's, absolute. Not thread-safe.
 class Recurrence {
  public:

@@ -78,7 +78,7 @@ class Timeline {
   explicit Timeline(Options options);
 
   /// Adds a key, or moves (replaces) the one with this id. `field` is the sender's path for errors,
-  /// as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, stands in frozen
+  /// as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, is in frozen
   /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame that
   /// another id has, one closer than kMinKeyDistance to another key, for more than kMaxKeys, and
   /// after Complete. The pose must be valid (validation.h).

@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// How lively parts of the body should be, as the client sends it.
+/// The requested speeds of body parts, as the client sends them.
 using VelocityRequest = ControlRequest::VelocityFactors;
 
 /// Throws Error(kInvalidArgument) below `field` for bad numbers of rows and columns, for factors
@@ -20,7 +20,7 @@ void ValidateVelocities(const VelocityRequest& request, const ModelInfo& model,
 
 bool Names(const VelocityRequest& request, BodyPart part);
 
-/// The speed that a valid request asks for in a part that it names, metres a frame.
+/// The speed that a valid request sets for a part that it names, metres a frame.
 float SpeedAt(const VelocityRequest& request, int64_t frame, BodyPart part, const ModelInfo& model);
 
 }  // namespace choreo

@@ -10,7 +10,8 @@ namespace choreo {
 
 /// Samples the continuous flow. A slice is one evaluation of its network, in rounds if energy is
 /// requested; the last slice runs the plan's stages. Windows are sampled one after another, so a
-/// transition's bits depend on nothing else. It hears beats, not sounds. Made by samplers.h.
+/// transition's bits depend on nothing else. Its music input is beats, not sound. Made by
+/// samplers.h.
 class ContinuousFlowSampler : public Sampler {
  public:
   ContinuousFlowSampler(ModelInfo info, std::string device,

@@ -155,7 +155,7 @@ SampleQueue::Impl::Entries SampleQueue::Impl::TakeCancelled(Worker* worker) {
 // The job that is due first, of those the worker has begun and those waiting, which it then begins.
 // Null: none.
 SampleQueue::Impl::Entry* SampleQueue::Impl::Next(Worker* worker) {
-  // Nobody waits in real time for bulk: it is due when real time ends.
+  // Nobody waits for bulk in real time, so it is due when the real-time window ends.
   const double real_time_end = Seconds(Clock::now()) + Seconds(options.bulk_yields);
   const auto due = [=](const std::unique_ptr<Entry>& entry) {
     const double at = entry->is_bulk ? std::max(entry->deadline, real_time_end) : entry->deadline;

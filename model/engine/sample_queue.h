@@ -47,9 +47,9 @@ class SampleQueue {
  public:
   struct Options {
     int max_bulk = 128;  ///< bulk transitions that may be reserved at once, >= 0
-    /// A dance's work precedes bulk from this long before it is due, >= 0: as much as a listener
-    /// has buffered, so that other calls are never heard; far more than a slice, or preparing a
-    /// dance's music, takes.
+    /// A dance's work precedes bulk from this long before it is due, >= 0: as much as a player has
+    /// buffered, so that other calls never interrupt playback; far longer than a slice, or the
+    /// preparation of a dance's music, takes.
     std::chrono::milliseconds bulk_yields{1000};
   };
   struct Stats {

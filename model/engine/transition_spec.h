@@ -74,7 +74,7 @@ struct TransitionSpec {
   /// (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
   Controls controls;        ///< beside the key (paper C, Section 3.3)
-  EnergyShift energy = {};  ///< of models that say themselves how lively they are
+  EnergyShift energy = {};  ///< for models that sample their own energy
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of frame 0: noise is keyed by (seed, candidate,

@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// Who is compared with whom, as requested.
+/// Which methods are compared, as requested.
 struct ContestOptions {
   std::filesystem::path model;  ///< checkpoint
   std::vector<std::string> baselines = {"real", "interpolation", "music_only"};

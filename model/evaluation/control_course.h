@@ -37,8 +37,8 @@ class ControlCourse {
  public:
   ControlCourse(const Evaluation& evaluation, int frames);
 
-  /// Requests a path that nobody danced, as the service follows it, and no factors. `draw` may move
-  /// the key, and returns points with frames counted from the transition's first.
+  /// Requests a path that no dancer recorded, as the service follows it, and no factors. `draw` may
+  /// move the key, and returns points with frames counted from the transition's first.
   using Draw = std::function<RootPath(ControlledWindow*)>;
   void Redraw(const Draw& draw);
 

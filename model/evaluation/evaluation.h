@@ -38,7 +38,7 @@ struct Method {
   bool TakesVelocityFactors() const {
     return kind == Kind::kModel && sampler->model().Takes(kVelocityFactors);
   }
-  /// Removes from a request what this method is not told.
+  /// Removes from a request the inputs that this method does not take.
   void Restrict(TransitionRequest* request) const {
     if (!keys) request->target.reset();
     if (finished) return;
@@ -162,10 +162,10 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation);
 /// ending holds still.
 std::vector<Table> EvaluateRepetition(const Evaluation& evaluation);
 
-/// drawn_SET: root paths that nobody danced, between real poses: straight at constant speed, on the
-/// spot (the key is moved there), and a bow; compared with the real ones. Requests no velocity
-/// factors. For methods with keys that take a path: how much feet skate, how well key and path are
-/// met.
+/// drawn_SET: root paths that no dancer recorded, between real poses: straight at constant speed,
+/// on the spot (the key is moved there), and a bow; compared with the real ones. Requests no
+/// velocity factors. For methods with keys that take a path: how much feet skate, how well key and
+/// path are met.
 std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation);
 
 }  // namespace choreo

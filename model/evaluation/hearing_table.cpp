@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kHeardSeconds = 4;
 constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
-// Frames of a part that don't count: the music is heard up to a transition's beginning.
+// Frames at the start of a part that don't count: a transition uses the music before its start.
 constexpr size_t kSettles = 2 * kUsualFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 

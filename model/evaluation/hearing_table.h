@@ -20,8 +20,8 @@ struct HearingOptions {
   int part_seconds = 20;            ///< of assembled songs, above 4
 };
 
-/// hearing: how far a dance shows that it hears its music, at usual settings and at others. Dances
-/// are streamed as served, to made songs (audio/made_song.h) and to `songs`.
+/// hearing: how much a dance responds to its music, at usual settings and at others. Dances are
+/// streamed as served, to synthetic songs (audio/made_song.h) and to `songs`.
 ///
 ///   drums ÷ pad, silence ÷ drums  mean joint speeds in parts of one song, from its fifth second on
 ///   loudness and speed            their correlation over windows of 4 s, mean over seeds

@@ -30,7 +30,7 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
 
 using LivelyDances = std::vector<LivelyFigures>;
 
-/// Hit rate (ScoreBeats) minus what the same dance hits by chance: the mean over these beats moved
+/// Hit rate (ScoreBeats) minus the same dance's hit rate by chance: the mean over these beats moved
 /// by each fraction of their distance, a frame apart. Percentage points.
 Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps);
 

@@ -50,7 +50,7 @@ struct RealRange {
   double away_m_per_min = 3, rise_m = 0.15, pace_change = 2;
 
   /// Whether a dance whose last fifth has this speed has frozen: it is slower than a quarter of
-  /// real motion. A dance that stands in its middle but moves at its end has not; only
+  /// real motion. A dance that is still in its middle but moves at its end has not; only
   /// LongFigures::stillest shows that.
   bool Frozen(double speed) const { return speed < 0.25 * median_speed; }
   bool Frozen(const LongFigures& dance) const { return Frozen(dance.late_speed); }

@@ -7,7 +7,7 @@ class App;
 namespace choreo {
 
 /// `choreo-lab weigh DATA...`: prints how prepared clips stand on their floor, clip by clip and
-/// averaged over each set: clips that hover teach hovering.
+/// averaged over each set, because a model learns to hover from clips that hover.
 void AddWeighCommand(CLI::App& app);
 
 }  // namespace choreo

@@ -29,13 +29,13 @@ struct KeyReached {
 struct KeyRejected {
   enum class Code {
     kUnknown,         ///< an old server does not say
-    kTooLate,         ///< the frame asked for is frozen
-    kFrozen,          ///< the key of this id stands in frozen frames
+    kTooLate,         ///< the requested frame is frozen
+    kFrozen,          ///< the key of this id is in frozen frames
     kRejectedBefore,  ///< a removal of a key that had been rejected
     kAlreadyDanced,   ///< the dance resumes from a continuation after the frame
   };
   std::string id = {};
-  int64_t frame = 0;           ///< the frame asked for; for a removal, the key's
+  int64_t frame = 0;           ///< the requested frame; for a removal, the key's
   int64_t earliest_frame = 0;  ///< the first that a new key may have now
   std::string reason = {};
   Code code = Code::kUnknown;
@@ -70,7 +70,7 @@ struct Warning {
     kPathBehindEnd,       ///< the dance ends before the root path's first frame, `frame`
     kKeyOffHeight,        ///< the key at `frame` stands at another height than the path
     kPathAway,            ///< a root path begins at `frame`, away from the dancer
-    kVelocityNotMet,      ///< at the end, `frame`: some parts were not as fast as asked
+    kVelocityNotMet,      ///< at the end, `frame`: some parts missed their requested speed
     kBeatsTooLate,        ///< beats came after their frames were frozen; `frame` is the first's
     kTemperatureTooHigh,  ///< higher than the model was trained for; `frame` is the first
   };

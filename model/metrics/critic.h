@@ -5,9 +5,9 @@
 
 #include "model/metrics/joint_track.h"
 
-/// A small fixed classifier that tries to tell danced from real motion by how joints move within a
-/// second. The harder that is, the livelier the dance. Only for measuring: nothing may be trained
-/// or selected by it.
+/// A small fixed classifier that tries to distinguish generated from real motion by how joints move
+/// within a second. The harder that is, the more lifelike the dance. Only for measuring: nothing
+/// may be trained or selected by it.
 namespace choreo {
 
 /// Windows of one kind of motion, as the critic sees them.

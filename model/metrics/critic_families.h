@@ -6,8 +6,8 @@
 #include "model/metrics/critic.h"
 #include "model/motion/skeleton.h"
 
-/// Critics that each see one aspect of a dance: the ones that tell it from real motion show what is
-/// wrong. Only for measuring, like the critic.
+/// Critics that each see one aspect of a dance. Those that distinguish it from real motion show
+/// which aspects are wrong. Only for measuring, like the critic.
 namespace choreo {
 
 /// What each sees, in windows of 2 s:

@@ -5,8 +5,8 @@
 #include "model/metrics/joint_track.h"
 #include "model/motion/skeleton.h"
 
-/// Tells a lively dance from poses that blend into each other. Pure functions of joint positions,
-/// so real motion is measured in the same way. Thread-safe.
+/// Distinguishes a lively dance from poses that blend into each other. Pure functions of joint
+/// positions, so real motion is measured in the same way. Thread-safe.
 namespace choreo {
 
 /// How far wrists and ankles travel, and how far they had to: sums over the four of them and the
@@ -21,7 +21,7 @@ struct LimbTravel {
 LimbTravel MeasureLimbTravel(const Skeleton& skeleton, const JointTrack& track,
                              const std::vector<int>& keys);
 
-/// Pelvis bounce, metres: the root mean square of joint 0's height, without what is slower than
+/// Pelvis bounce, metres: the root mean square of joint 0's height, without frequencies below
 /// kBounceHz (band_filter.h).
 inline constexpr double kBounceHz = 1;
 double PelvisBounce(const JointTrack& track, double fps);

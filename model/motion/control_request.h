@@ -19,8 +19,8 @@ struct ControlRequest {
     std::vector<Eigen::Vector2d> points = {};  ///< (x, z) at each
     std::vector<double> heights = {};          ///< of the root at each; empty: the model chooses
   };
-  /// How lively parts of the body are, as factors or as speeds. Interpolated between rows; outside,
-  /// the nearest row holds.
+  /// The speeds of body parts, as factors or directly. Interpolated between rows; outside, the
+  /// nearest row holds.
   struct VelocityFactors {
     std::vector<int64_t> frames = {};  ///< of each row, ascending; empty: one row for all frames
     /// The part of each column, one of kBodyPartNames, without repetition; empty: one column for

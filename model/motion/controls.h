@@ -11,8 +11,8 @@
 #include "model/motion/canonical.h"
 #include "model/motion/velocity_factors.h"
 
-/// The table of controls: what a request may ask of each frame beside its key, one row per control.
-/// Server, engines, networks, training, client and studio iterate over these rows;
+/// The table of controls: what a request may set for each frame beside its key, one row per
+/// control. Server, engines, networks, training, client and studio iterate over these rows;
 /// docs/extending.md says what else a new control needs.
 namespace choreo {
 
@@ -25,10 +25,10 @@ enum class ControlSpace {
 
 /// The network's inputs for a control in each frame (flow/window_features.h).
 enum class ControlFeatures {
-  kOffMean,  ///< for positions: whether asked for, whether with a height, and the offset from the
+  kOffMean,  ///< for positions: whether requested, whether with a height, and the offset from the
              ///< mean way
-  kLevel,    ///< EnergyLevel over the training clips' medians, and whether each is asked for
-  kPlain,    ///< the numbers, of order one, and whether each is asked for
+  kLevel,    ///< EnergyLevel over the training clips' medians, and whether each is requested
+  kPlain,    ///< the numbers, of order one, and whether each is requested
 };
 
 struct ControlRow {
@@ -60,8 +60,8 @@ std::vector<std::string> ControlNames();
 
 /// One control over frames.
 struct ControlCurve {
-  Eigen::MatrixXd values = {};   ///< [channels, frames], or empty: nothing is asked for
-  std::vector<bool> asked = {};  ///< by channel: whether asked for; otherwise a guess
+  Eigen::MatrixXd values = {};   ///< [channels, frames], or empty: nothing is requested
+  std::vector<bool> asked = {};  ///< by channel: whether requested; otherwise a guess
 
   bool IsGiven() const { return values.cols() > 0; }
   bool Asks(int channel) const { return IsGiven() && asked[static_cast<size_t>(channel)]; }
@@ -69,8 +69,8 @@ struct ControlCurve {
 
 /// One curve per row of a table. The root path: where the root should be in each frame, from the
 /// history's last root to the target's (dance/path_lead.h bends it there); its heights may be a
-/// guess. Velocity factors: how lively each part should be (motion/velocity_factors.h); parts not
-/// asked for have the model's reference or are unknown. The model chooses what is left empty.
+/// guess. Velocity factors: the speed of each part (motion/velocity_factors.h); parts not requested
+/// have the model's reference or are unknown. The model chooses what is left empty.
 class Controls {
  public:
   Controls() : Controls(kControls) {}

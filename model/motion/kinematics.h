@@ -39,7 +39,7 @@ struct PoseError {
 PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
                        const PoseMask& mask = {});
 
-/// [joints] Whether `mask` determines where a joint is relative to the root: it asks for the
+/// [joints] Whether `mask` determines where a joint is relative to the root: it includes the
 /// rotations of all joints above.
 std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask);
 

@@ -40,12 +40,12 @@ void MakeContinuous(Motion& motion);
 /// whole turns about a tilting axis, where no choice is continuous in time. Pure, thread-safe.
 Pose KeepSigns(Pose pose, const Pose& previous);
 
-/// The degrees of freedom of a pose that a key asks for. An empty joint mask means all joints.
+/// The degrees of freedom of a pose that a key sets. An empty joint mask means all joints.
 struct PoseMask {
   bool root_position = true;
   std::vector<bool> joints;  ///< [joints] or empty
 
-  /// Whether it asks for this joint's rotation.
+  /// Whether it includes this joint's rotation.
   bool Asks(Eigen::Index joint) const {
     return joints.empty() || joints[static_cast<size_t>(joint)];
   }
@@ -60,7 +60,7 @@ struct Target {
   std::optional<double> height = {};
 };
 
-/// `key` where `mask` asks for it, `open` elsewhere. Both have the same joint count.
+/// `key` where `mask` includes it, `open` elsewhere. Both have the same joint count.
 Pose Masked(const Pose& key, const PoseMask& mask, Pose open);
 
 }  // namespace choreo

@@ -21,7 +21,7 @@ std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// A pose that a key asks for at a time.
+/// A key's pose and its time.
 struct TimedPose {
   std::string name;
   double seconds = 0;

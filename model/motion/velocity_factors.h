@@ -26,7 +26,7 @@ std::string BodyPartNames();
 /// The part with that name, or none.
 std::optional<BodyPart> FindBodyPart(std::string_view name);
 
-/// Limits of velocity factors that a client may ask for.
+/// Limits of the velocity factors in a request.
 inline constexpr float kMaxVelocityFactor = 10;  ///< as a multiple of a reference
 inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame
 

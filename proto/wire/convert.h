@@ -19,7 +19,7 @@ namespace choreo::wire {
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
 v1::Pose ToProto(const Pose& pose);
-/// Without a root position where the mask does not ask for one.
+/// Without a root position if the mask does not include one.
 v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
 v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);

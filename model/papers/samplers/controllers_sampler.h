@@ -6,7 +6,7 @@
 namespace choreo {
 
 /// The controllers network (model/papers/networks): a slice is a frame. Deterministic: seed,
-/// candidate and temperature change nothing. Hears no music. Made by paper_samplers.h.
+/// candidate and temperature change nothing. It has no music input. Made by paper_samplers.h.
 class ControllersSampler : public Sampler {
  public:
   ControllersSampler(ModelInfo info, ControllersModel network);

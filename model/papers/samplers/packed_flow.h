@@ -74,9 +74,9 @@ struct PackedFlow {
 
 /// Steps the flow on the calling CPU thread. A step allocates nothing.
 ///
-/// What does not depend on the frames made is computed ahead, in one product over kAhead frames:
-/// when a transition starts, and again whenever these frames have been made. So long transitions
-/// start fast and take little memory.
+/// Terms that do not depend on earlier frames are computed ahead, in one product over kAhead
+/// frames: when a transition starts, and again whenever these frames have been made. So long
+/// transitions start fast and take little memory.
 class PackedStepper : public FlowStepper {
  public:
   explicit PackedStepper(std::shared_ptr<const PackedFlow> flow);

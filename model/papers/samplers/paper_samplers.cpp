@@ -19,7 +19,7 @@ namespace {
 SamplerFactory LoadControllers(const Safetensors& content, const std::string& name) {
   const ControllersCheckpoint checkpoint = ParseControllers(content, name);
   ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
-  info.audio_features = 0;  // it hears no music
+  info.audio_features = 0;  // no music input
   info.hears_music = false;
   info.default_temperature = 0;
   info.deterministic = true;

@@ -28,8 +28,8 @@ class TorchStepper : public FlowStepper {
   void Step(FlowFrame* frame) override;
 
  private:
-  /// Two rows, of which the second one is padding, all zeros: LibTorch computes the last elements
-  /// of a tensor one by one and the others as vectors, which may round otherwise.
+  /// Two rows, the second of them padding (zeros): LibTorch computes the last elements of a tensor
+  /// one by one and the others as vectors, which may round otherwise.
   static constexpr int64_t kRows = 2;
 
   /// Columns of the input.

@@ -16,7 +16,7 @@ struct StudyMethod {
   std::filesystem::path folder;
 };
 
-/// FOLDER + `end`, what stands beside a study's folder.
+/// FOLDER + `end`: a file beside a study's folder.
 std::filesystem::path BesideStudy(std::filesystem::path folder, const char* end);
 /// Throws Error(kFailedPrecondition) if a study's folder exists already.
 void CheckStudyFolder(const std::filesystem::path& folder);
