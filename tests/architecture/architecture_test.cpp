@@ -87,7 +87,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
   return modules;
 }
 
-TEST(Architecture, EveryModuleIsAboveWhatItIncludes) {
+TEST(Architecture, EveryModuleIncludesLowerOnesAlone) {
   std::set<std::string> below;
   std::vector<std::string> wrong;
   for (const auto& [module, allowed] : Modules()) {

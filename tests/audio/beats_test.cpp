@@ -38,7 +38,7 @@ TEST(BeatsTest, ClicksAreFoundAtTheirTimes) {
 }
 
 // Seeds that nothing was developed with.
-TEST(BeatsTest, BackbeatsAreCountedAtTheirOwnTempoAlsoWhereItIsFast) {
+TEST(BeatsTest, BackbeatsAreCountedAtTheirTempoEvenIfFast) {
   for (const double bpm : {80.0, 140.0, 170.0, 190.0}) {
     SongPlan plan{
         .seed = 9'000'000 + static_cast<uint64_t>(bpm), .seconds = 20, .tempo = {{0, bpm}}};
@@ -140,7 +140,7 @@ TEST(BeatsTest, SilenceHasNeitherTempoNorBeats) {
   EXPECT_THROW(FindBeats({}), Error);
 }
 
-TEST(BeatsTest, TheTempoIsThatOfMostBeats) {
+TEST(BeatsTest, TempoIsThatOfMostBeats) {
   EXPECT_EQ(TempoOf({}), 0);
   EXPECT_NEAR(TempoOf(std::vector<double>{0, 0.5, 1, 1.5, 3, 3.5}), 120, 1e-9);
 }

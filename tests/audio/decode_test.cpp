@@ -143,7 +143,7 @@ TEST_P(DecodeFormatTest, RoundTrips) {
 }
 
 // Headers that state ten minutes of 8 channels at 192 kHz, or half of the real length.
-TEST_F(DecodeTest, FlacIsReadWhateverItsHeaderSays) {
+TEST_F(DecodeTest, FlacIsReadDespiteAWrongHeader) {
   const std::vector<float> wave(8 * 5000);
   const std::string bytes = Bytes(Write(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 192'000, 8, wave));
   for (const uint64_t samples : {uint64_t{600} * 192'000, uint64_t{2500}, uint64_t{0}}) {
@@ -200,7 +200,7 @@ TEST_P(DecodeFormatTest, JoinedFilesAreReadToTheEnd) {
   EXPECT_NEAR(static_cast<double>(mono(bytes + bytes).size()), 4 * kModelSampleRate, 2500);
 }
 
-TEST_P(DecodeFormatTest, APartFromTheMiddleIsThatPart) {
+TEST_P(DecodeFormatTest, ReadsAPartFromTheMiddle) {
   const auto path = WriteWave();
   const DecodedAudio whole = DecodeAudioFile(path);
   const DecodedAudio part = DecodeAudioFile(path, 1000, 0.5);
@@ -314,7 +314,7 @@ TEST_F(DecodeTest, Mp3OfVaryingBitRateIsReadToItsEndWithoutAnIndex) {
 }
 
 // Headers by programs that do not know the length, and other common errors.
-TEST_F(DecodeTest, WavIsReadWhateverItsHeaderSays) {
+TEST_F(DecodeTest, WavIsReadDespiteAWrongHeader) {
   const std::string bytes =
       Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 44100, 1, Noise(5000, 1)));
   const size_t data = bytes.find("data");
@@ -332,7 +332,7 @@ TEST_F(DecodeTest, WavIsReadWhateverItsHeaderSays) {
 }
 
 // RF64 and BW64, as recorders write them: lengths in a chunk of their own, others of odd length.
-TEST_F(DecodeTest, LongWavIsReadWhateverItsHeaderSays) {
+TEST_F(DecodeTest, LongWavIsReadDespiteAWrongHeader) {
   const std::string wav =
       Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_PCM_16, 22050, 1, Sine(440, 22050, 22050)));
   const size_t data = wav.find("data");

@@ -156,7 +156,7 @@ TEST(FeatureStreamTest, NoRateHasMoreThanTheLargestLatency) {
   EXPECT_EQ(largest, kFftSize / 2 + 188);
 }
 
-TEST(FeatureStreamTest, RowsBeyondTheEndAreThoseOfSilence) {
+TEST(FeatureStreamTest, RowsAfterTheEndAreSilent) {
   FeatureStream silence(22050, 1);
   silence.Finish();
   silence.Finish();

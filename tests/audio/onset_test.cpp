@@ -58,7 +58,7 @@ TEST(OnsetTest, ADcOffsetChangesNothing) {
   for (size_t i = 0; i < plain.size(); ++i) EXPECT_NEAR(offset[i], plain[i], 0.05) << i;
 }
 
-TEST(OnsetTest, LoudnessIsThatOfTheLoudestBand) {
+TEST(OnsetTest, LoudnessIsTheLoudestBands) {
   const std::vector<Onset> onsets = FindOnsets(Sine(1000, 22050, 22050, 1.0));
   EXPECT_NEAR(onsets[45].loud_db, 0, 2);
   EXPECT_EQ(FindOnsets(std::vector<float>(5000, 0.0F))[5].loud_db, -100);

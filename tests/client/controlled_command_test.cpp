@@ -78,7 +78,7 @@ TEST_F(ControlledCommandTest, SendsVelocitiesOfEachPart) {
   EXPECT_NEAR(left_hand("--velocity arms=2 --velocity-reference calm"), 0.004, 1e-5);
 }
 
-TEST_F(ControlledCommandTest, AsksForSpeedsAndForWhatChanges) {
+TEST_F(ControlledCommandTest, SendsSpeedsAndChangingFactors) {
   const auto hands = [&](const std::string& options, size_t frame) {
     const Outcome outcome =
         Choreo("dance" + Walker() + "--seconds 4 " + options + " -o " + At("d.npz"));

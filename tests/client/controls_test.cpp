@@ -72,7 +72,7 @@ TEST(ControlsTest, BothCallsTakeAStyle) {
   ExpectError(ErrorCode::kInvalidArgument, "config.style", [&] { danced("foxtrot"); });
 }
 
-TEST(ControlsTest, ChangeWhileTheDanceGoesOn) {
+TEST(ControlsTest, ChangeDuringTheDance) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   const auto dance = client.StartDance({.frames = 120, .controls = Way()});

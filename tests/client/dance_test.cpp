@@ -341,7 +341,7 @@ TEST(TransitionTest, MakesCandidatesThatAllArrive) {
   }
 }
 
-TEST(TransitionTest, GoesOnIntoADance) {
+TEST(TransitionTest, ContinuesIntoADance) {
   TestServer server;
   const Client client({.addresses = {server.address()}});
   TransitionRequest request;

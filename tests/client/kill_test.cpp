@@ -215,7 +215,7 @@ TEST(KillTest, EditsWithShortLookAheadSurvive) {
 }
 
 // There is one address, and what is started there anew knows nothing of the dance.
-TEST(KillTest, AServerThatComesBackGoesOn) {
+TEST(KillTest, RestartedServerResumes) {
   const std::filesystem::path program = FAKE_CHOREOD;
   auto server = std::make_unique<LocalServer>(program);
   const std::string address = server->address();
@@ -233,7 +233,7 @@ TEST(KillTest, AServerThatComesBackGoesOn) {
 }
 
 // The server that people run, with the model that ships.
-TEST(KillTest, TheShippedModelGoesOnBitForBit) {
+TEST(KillTest, ShippedModelResumesBitForBit) {
   if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const std::filesystem::path program = CHOREOD_PROGRAM;
   const LocalServer a(program);
@@ -250,7 +250,7 @@ TEST(KillTest, TheShippedModelGoesOnBitForBit) {
 }
 
 // The other way round: a client's process is killed while it is served.
-TEST(KillTest, AKilledClientGivesItsPlacesBack) {
+TEST(KillTest, KilledClientFreesItsPlaces) {
   TestServer server;
   std::vector<std::string> arguments = {
       CHOREO_PROGRAM, "transition",    "--from",       "groove",

@@ -154,7 +154,7 @@ TEST_F(NativeSkeletonTest, FromRecordingsToADanceOn23Joints) {
   ExpectDancesToGoThroughFiles();
 }
 
-TEST(PoseLibrary, AsksForKeyframesWhereItCannotBeRetargeted) {
+TEST(PoseLibrary, RequestsKeyframesIfItCannotBeRetargeted) {
   Skeleton stick = Native().skeleton;
   stick.right_elbow = -1;
   ExpectError(ErrorCode::kInvalidArgument, "--keyframes: key poses are needed",

@@ -88,7 +88,7 @@ TEST_F(PlotCommandTest, DrawsBeatsOfTheBodyAndOfTheSong) {
   EXPECT_NEAR(Drawn(kFirstLine), line, 10);
 }
 
-TEST_F(PlotCommandTest, SaysWhatDoesNotFit) {
+TEST_F(PlotCommandTest, NamesMotionsThatDoNotFit) {
   const std::string both = At("slow.npz") + " " + At("fast.npz");
   const auto refused = [&](const std::string& arguments, const std::string& message) {
     const Outcome outcome = Plot(arguments);

@@ -90,7 +90,7 @@ Danced Read(RemoteDance& dance) {
   return danced;
 }
 
-TEST(ReplicaFaultTest, EveryDanceIsTheSameWhateverReplicasAreLost) {
+TEST(ReplicaFaultTest, EveryDanceSurvivesTheLossOfReplicas) {
   const int streams = Setting("CHOREO_FAULT_STREAMS", 12);
   const int seconds = Setting("CHOREO_FAULT_SECONDS", 7);
   const auto frames = static_cast<int64_t>(seconds * kFps);

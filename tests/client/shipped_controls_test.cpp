@@ -92,7 +92,7 @@ TEST_F(ShippedControlsTest, ListsItsControls) {
 }
 
 // Paths and factors had a model of their own once, which clients may still name.
-TEST_F(ShippedControlsTest, TheFormerModelsNameIsThatOfTheDefault) {
+TEST_F(ShippedControlsTest, FormerModelNameMeansTheDefault) {
   DanceConfig named{.model = "controllers", .seed = 3, .frames = 30}, plain = named;
   plain.model = "";
   const auto danced = [](const DanceConfig& request) {

@@ -49,7 +49,7 @@ TEST_F(AtomicFileTest, IsDiscardedUnlessCommitted) {
   EXPECT_EQ(Files(), 0U);
 }
 
-TEST_F(AtomicFileTest, AWriteThatFailsLeavesWhatWasThere) {
+TEST_F(AtomicFileTest, FailedWriteKeepsTheOldFile) {
   const std::string long_text(100'000, 'x');
   const std::vector<float> values(10'000, 1);
   WriteFile(path_, "good");

@@ -42,7 +42,7 @@ std::string Refusal(const std::string& bytes) {
 }
 
 // The output of numpy.save for numpy.arange(3, dtype='<f4'), byte for byte.
-TEST(NpyTest, WritesWhatNumpyWrites) {
+TEST(NpyTest, WritesTheSameBytesAsNumpy) {
   const std::string header =
       "{'descr': '<f4', 'fortran_order': False, 'shape': (3,), }" + std::string(60, ' ') + "\n";
   ASSERT_EQ(header.size(), 118u);
@@ -50,7 +50,7 @@ TEST(NpyTest, WritesWhatNumpyWrites) {
             Bytes(1, header, Raw<float>({0, 1, 2})));
 }
 
-TEST(NpyTest, EveryTypeAndShapeComesBackAsItWas) {
+TEST(NpyTest, EveryTypeAndShapeRoundTrips) {
   const NpyArray arrays[] = {
       {{}, std::vector<double>{29.97}},
       {{2, 3}, std::vector<float>{1, 2, 3, 4, 5, -6.5f}},
@@ -68,7 +68,7 @@ TEST(NpyTest, EveryTypeAndShapeComesBackAsItWas) {
   }
 }
 
-TEST(NpyTest, FilesHoldWhatWasWritten) {
+TEST(NpyTest, FilesRoundTrip) {
   const auto path = std::filesystem::temp_directory_path() / "choreo_npy_test.npy";
   WriteNpy(path, {{2, 2}, std::vector<float>{1, 2, 3, 4}});
   EXPECT_THAT(ReadNpy(path).As<double>(), ElementsAre(1, 2, 3, 4));

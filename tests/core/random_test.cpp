@@ -85,7 +85,7 @@ TEST(FillNormalTest, NeighboursInEveryCoordinateAreUncorrelated) {
   }
 }
 
-TEST(FillNormalTest, DependsOnItsCoordinatesAloneWhateverTheOrderAndWidth) {
+TEST(FillNormalTest, DependsOnItsCoordinatesAlone) {
   std::map<int64_t, std::vector<float>> forward;
   for (int64_t frame = 0; frame < 50; ++frame) forward[frame] = Noise(1, 2, frame, 82);
   for (int64_t frame = 49; frame >= 0; --frame) {

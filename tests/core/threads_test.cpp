@@ -10,7 +10,7 @@
 
 namespace choreo::threads_test {
 
-TEST(ThreadsTest, RefusesTheReferenceBlasAndTellsWhatToInstall) {
+TEST(ThreadsTest, RefusesTheReferenceBlasAndSuggestsAnother) {
   const BlasInfo reference{BlasInfo::Kind::kReference, "Netlib reference BLAS",
                            "/lib/libblas.so.3"};
   try {

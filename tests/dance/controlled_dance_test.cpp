@@ -62,7 +62,7 @@ TEST_F(ControlledDanceTest, FollowsAPathOverManyTransitions) {
   EXPECT_TRUE(dance.warnings.empty());
 }
 
-TEST_F(ControlledDanceTest, BeginsWhereThePathBegins) {
+TEST_F(ControlledDanceTest, StartsAtTheStartOfThePath) {
   for (const bool key : {false, true}) {
     const Recording dance = Perform([key](DanceStream& s) {
       s.SetControls(Way(0, 299, -5, -4));

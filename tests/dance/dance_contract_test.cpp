@@ -124,7 +124,7 @@ TEST_F(DanceContract, ADanceNeedsAnEnd) {
   }
 }
 
-TEST_F(DanceContract, LateKeysAreAnsweredAndTheDanceGoesOn) {
+TEST_F(DanceContract, LateKeysAreRejectedAndTheDanceContinues) {
   auto sink = std::make_shared<Recorder>();
   DanceStream stream(*queue_, {}, sink);
   stream.GenerateUntil(0);
@@ -155,7 +155,7 @@ TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
   EXPECT_EQ(sink->Snapshot().calls_after_end, 0);
 }
 
-TEST_F(DanceContract, StoppingTheQueueEndsDancesAfterWhatIsSampled) {
+TEST_F(DanceContract, StoppingTheQueueEndsDancesAfterTheRunningTransition) {
   const Dance dance = RandomDance(31);
   const auto queue = FakeQueue();
   auto sink = std::make_shared<Recorder>();

@@ -10,7 +10,7 @@
 
 namespace choreo::dance_determinism_test {
 
-TEST(DanceStream, SameSeedSameBitsWhateverElseRuns) {
+TEST(DanceStream, SameSeedGivesSameBitsBesideOtherDances) {
   const auto alone = FakeQueue();
   Dance dance = RandomDance(13, /*music_seconds=*/4);
   const Recording expected = Perform(*alone, dance);

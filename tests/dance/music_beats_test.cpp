@@ -116,7 +116,7 @@ TEST(MusicBeats, ArePureInTheSamples) {
 }
 
 // A DJ's program knows better.
-TEST(MusicBeats, AreGivenWhileTheDanceGoesOn) {
+TEST(MusicBeats, MayBeGivenDuringTheDance) {
   const auto queue = QueueOf<FakeSampler>();
   Dance dance = LiveDance(45, 16);
   dance.config.generate_until = 0;

@@ -87,7 +87,7 @@ TEST_F(PartialGrantTest, KeysFreezeNothing) {
 
 // Two dances of which the second moves a key, takes one away and adds another while the way there
 // is half danced.
-TEST_F(PartialGrantTest, AnEditAfterTheFrontierChangesWhatFollowsAlone) {
+TEST_F(PartialGrantTest, EditAfterTheFrontierChangesOnlyLaterFrames) {
   Dance dance = Editable(53);
   std::mt19937 random(53);
   dance.keys = {{"a", 60, RandomPose(random), {}}, {"b", 150, RandomPose(random), {}}};

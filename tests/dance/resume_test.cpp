@@ -152,7 +152,7 @@ TEST(Resume, GoesOnBitForBitAfterEdits) {
 }
 
 // A server that is lost after the last frame of all hands on a dance that only wants its summary.
-TEST(Resume, GoesOnAfterAKeyInTheLastFrameOfAll) {
+TEST(Resume, ContinuesAfterAKeyInTheVeryLastFrame) {
   const auto queue = FakeQueue();
   Dance dance = RandomDance(10);
   dance.config.continuation = Continuation{.frame = kMaxDanceFrames - 20,

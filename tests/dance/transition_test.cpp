@@ -32,7 +32,7 @@ TEST(Transition, FewerHistoryPosesHoldTheEarliest) {
   for (size_t i = 0; i < 10; ++i) EXPECT_TRUE(SameBits(last[i], RoundToFloat(poses[i + 2])));
 }
 
-TEST(Transition, TheSpecStandsInTheCanonicalFrame) {
+TEST(Transition, SpecIsInTheCanonicalFrame) {
   const FakeSampler sampler;
   TransitionRequest request = RandomRequest(2);
   // Some joints wound up by whole turns, as after many pirouettes.
@@ -144,7 +144,7 @@ TEST(Transition, RefusesRequestsOfTheWrongShape) {
             "after");
 }
 
-TEST(BeatsAround, AreThoseOfTheTransitionAndOneOnEitherSide) {
+TEST(BeatsAround, IncludeOneOnEitherSideOfTheTransition) {
   const std::vector<double> seconds = {1, 2, 3, 4, 5};
   EXPECT_EQ(BeatsAround(seconds, 30, 75, 30), (std::vector<double>{-15, 15, 45}));
   EXPECT_EQ(BeatsAround(seconds, 30, 60, 1), (std::vector<double>{-30, 0, 30}));

@@ -42,7 +42,7 @@ TEST_P(TurningTest, QuaternionsKeepTheirSigns) {
 }
 
 // Of all vectors with that quaternion: two turns more or less.
-TEST_P(TurningTest, VectorsAreThoseNearTheFrameBefore) {
+TEST_P(TurningTest, VectorsStayNearThePreviousFrame) {
   const Recording recording = Turn(GetParam(), 30);
   for (size_t i = 1; i < recording.poses.size(); ++i) {
     for (const int joint : {0, Skeleton::Smpl24().left_elbow}) {

@@ -131,7 +131,7 @@ TEST(ContactSheet, PutsALongTitleOnItsOwnLineAndSpacesRows) {
   EXPECT_NE(apart.pixels, brief.pixels);
 }
 
-TEST(ContactSheet, AWriteThatFailsLeavesWhatWasThere) {
+TEST(ContactSheet, FailedWriteKeepsTheOldFile) {
   const TemporaryFolder folder;
   WriteFile(folder / "a.png", "good");
   {

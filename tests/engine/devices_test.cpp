@@ -40,7 +40,7 @@ TEST(DevicesTest, NamesAreTakenInTheirOrder) {
   EXPECT_THAT(Names("cuda:1,0", kTwoGpus), testing::ElementsAre("cuda:1", "cuda:0"));
 }
 
-TEST(DevicesTest, ACpuBuildAskedForCudaSaysWhatItHas) {
+TEST(DevicesTest, CpuBuildListsItsDevicesWhenCudaIsRequested) {
   const Error error = Failure("cuda:0", kCpuBuild);
   EXPECT_EQ(error.code(), ErrorCode::kNotFound);
   EXPECT_EQ(error.field(), "--device");

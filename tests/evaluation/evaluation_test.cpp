@@ -156,7 +156,7 @@ TEST(Table, ReadsAsMarkdownAndAsJson) {
   EXPECT_TRUE(json["rows"][0]["s"].is_null());
 }
 
-TEST(CheckReportPath, MakesFoldersAndNamesWhatCannotBeWrittenFirst) {
+TEST(CheckReportPath, MakesFoldersAndNamesUnwritablePathsAtOnce) {
   const TemporaryFolder folder;
   const auto there = folder.path() / "not" / "yet" / "figures.json";
   CheckReportPath(there);

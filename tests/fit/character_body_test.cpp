@@ -19,7 +19,7 @@ using testing_support::LongLegs;
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
-TEST(CharacterBody, StandsAsSmplDoesWhateverItsRestPose) {
+TEST(CharacterBody, StandsLikeSmplFromAnyRestPose) {
   for (const Skeleton& body : {Smpl(), ChildBody(), LongLegs()}) {
     Pose rest = RestPose(body);
     rest.rotations.col(0) << 0, 2.0, 0;

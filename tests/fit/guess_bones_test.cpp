@@ -16,7 +16,7 @@ using testing_support::LongLegs;
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
-TEST(GuessBones, FindsABodyByWhereItStands) {
+TEST(GuessBones, FindsABodyByItsPosition) {
   for (const Skeleton& body : {Smpl(), ChildBody(), LongLegs()}) {
     for (const double facing : {0.0, std::numbers::pi}) {
       for (const double down : {0.0, 0.8}) {

@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-TEST(HumanBones, SaysWhatARigCallsABone) {
+TEST(HumanBones, NamesABoneAsTheRigDoes) {
   EXPECT_EQ(NameInRig(kHumanIkRig, "left_foot"), "LeftToeBase");
   EXPECT_EQ(NameInRig(kHumanIkRig, "spine2"), "Spine1");
   EXPECT_EQ(NameInRig(kUnrealRig, "right_hand"), "middle_01_r");

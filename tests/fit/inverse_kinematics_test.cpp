@@ -34,7 +34,7 @@ void ExpectSoundLimbs(const Pose& pose) {
   }
 }
 
-TEST(DrawJoints, MeetsWhatIsWithinReachAndFeetStand) {
+TEST(DrawJoints, MeetsReachableTargetsWithPlantedFeet) {
   const Pose standing = Standing();
   for (const auto& [joint, place] : std::vector<std::pair<std::string, Eigen::Vector3d>>{
            {"right_hand", {-0.3, 1.6, 0.2}},

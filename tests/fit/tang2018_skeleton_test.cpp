@@ -50,7 +50,7 @@ TEST(Tang2018Skeleton, HasTheBonesOfTheRecordingsStandingUpright) {
   }
 }
 
-TEST(Tang2018Skeleton, ADanceOnItIsFoundAgainFromWhatIsRecorded) {
+TEST(Tang2018Skeleton, RecoversADanceFromRecordedPositions) {
   const auto& [skeleton, mapping] = Native();
   const Motion motion = fixtures::SmoothMotion(skeleton, 31, 60);
   const FitResult fit = FitClip(RecordNative(motion), mapping, skeleton, {.ground = false});
@@ -85,7 +85,7 @@ TEST(Tang2018Skeleton, HipsTurnAgainstTheChest) {
   }
 }
 
-TEST(Tang2018Skeleton, RefusesWhatIsNoRecordingOfIt) {
+TEST(Tang2018Skeleton, RefusesOtherRecordings) {
   ExpectError(ErrorCode::kInvalidArgument, "0 recordings", [] { MeasureTang2018({}); });
   PositionClip clip = RecordNative({.fps = 25, .frames = {RestPose(Native().skeleton)}});
   for (Eigen::Matrix3Xd& frame : clip.frames) frame *= 100;  // centimetres

@@ -26,7 +26,7 @@ Eigen::MatrixXd Normal(uint32_t seed) {
   return normal;
 }
 
-TEST(EnergyCurve, ComesBackFromItsNumbers) {
+TEST(EnergyCurve, RoundTripsThroughItsNumbers) {
   const EnergyCurve curve = Curve(), back = EnergyCurve::FromNumbers(curve.ToNumbers());
   EXPECT_EQ(curve.ToNumbers().size(), size_t{EnergyCurve::kNumbers});
   EXPECT_EQ(back.correlation, curve.correlation);

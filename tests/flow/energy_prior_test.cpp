@@ -8,7 +8,7 @@ namespace choreo::energy_prior_test {
 
 using Levels = EnergyPrior::Levels;
 
-TEST(EnergyPrior, ComesBackFromItsNumbers) {
+TEST(EnergyPrior, RoundTripsThroughItsNumbers) {
   EnergyPrior prior(3);
   prior.most.setRandom();
   prior.usual_way.setRandom();

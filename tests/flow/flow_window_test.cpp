@@ -7,7 +7,7 @@
 
 namespace choreo::flow_window_test {
 
-TEST(FlowWindow, DecodesWhatItEncodes) {
+TEST(FlowWindow, DecodingInvertsEncoding) {
   const Scene scene = MakeScene(40);
   const FlowModelParts parts = Parts();
   for (const bool keyed : {true, false}) {

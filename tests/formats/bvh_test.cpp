@@ -92,7 +92,7 @@ TEST(Bvh, RoundTripsOnForwardKinematics) {
   }
 }
 
-TEST(Bvh, ComesBackFromEveryLayout) {
+TEST(Bvh, RoundTripsInEveryLayout) {
   const Motion motion = fixtures::SmoothMotion(kSmpl, 12, 20, 30);
   for (const auto& [names, foot] :
        {std::pair(JointNames::kSmpl, "left_ankle"),

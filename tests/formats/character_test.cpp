@@ -225,7 +225,7 @@ TEST_F(CharacterTest, KhronosAndThreeJsAgreeWithUs) {
   EXPECT_EQ(outcome.code, 0) << outcome.said;
 }
 
-TEST_F(CharacterTest, RefusesWhatCannotDance) {
+TEST_F(CharacterTest, RefusesUnusableCharacters) {
   const auto refuse = [&](const std::string& message, const std::function<void(Glb&)>& change) {
     SCOPED_TRACE(message);
     ExpectError(ErrorCode::kInvalidArgument, message, [&] { DanceChanged(change); });

@@ -37,7 +37,7 @@ TEST(MotionFile, EveryFormatGivesTheMotionBack) {
   }
 }
 
-TEST(MotionFile, AWriteThatFailsLeavesWhatWasThere) {
+TEST(MotionFile, FailedWriteKeepsTheOldFile) {
   const TemporaryFolder folder;
   const Motion motion = fixtures::SmoothMotion(kSmpl, 21, 30, 30);
   for (const char* name : {"a.npz", "a.bvh", "a.glb"}) {

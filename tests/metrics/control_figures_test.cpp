@@ -86,7 +86,7 @@ TEST(ControlFigures, RootDeviationIsTheMeanDistance) {
   EXPECT_NEAR(RootDeviation(danced, asked), 0.05, 1e-12);
 }
 
-TEST(ControlFigures, RefuseWhatCannotBeCompared) {
+TEST(ControlFigures, RefuseIncomparableInput) {
   const JointTrack three = Standing(3), four = Standing(4);
   const auto refused = [](const std::string& message, const std::function<void()>& call) {
     ExpectError(ErrorCode::kInvalidArgument, message, call);
@@ -147,7 +147,7 @@ TEST(RepetitionTest, AnEndingThatFreezesIsFrozenNotRepeated) {
   EXPECT_LT(whole.frozen, 0.4);
 }
 
-TEST(RepetitionTest, RefusesWhatIsTooShort) {
+TEST(RepetitionTest, RefusesShortMotions) {
   ExpectError(ErrorCode::kInvalidArgument, "no window of 15 frames begins at frame 0 of 14",
               [] { MeasureRepetition(Body(), Swinging(14, 1, 0), 30); });
 }

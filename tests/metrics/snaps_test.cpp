@@ -52,7 +52,7 @@ TEST(Snaps, AreFastStepsFromOrToAStraightLimb) {
   EXPECT_EQ(SnapsOf(3, {4.2, 12.5}).knees, 0);
 }
 
-TEST(Snaps, AreNotWhatIsSlowerOrBent) {
+TEST(Snaps, ExcludeSlowStepsAndBentLimbs) {
   EXPECT_EQ(SnapsOf(0, {4.2, 11.8, 19, 11.8, 4.2}).knees, 0);  // 7.6 degrees a frame
   EXPECT_EQ(SnapsOf(0, {5.5, 40, 5.5}).knees, 0);
   EXPECT_EQ(SnapsOf(0, {4.5}).knees, 0);

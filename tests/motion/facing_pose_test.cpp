@@ -12,7 +12,7 @@ namespace choreo::facing_pose_test {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(FacingPose, DoesNotChangeWhereTheBodyStandsAndLooks) {
+TEST(FacingPose, DoesNotDependOnPlaceOrHeading) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   const Pose pose = testing_support::SyntheticClip("a", 20, 0.3, false).motion.frames.back();
   const GroundFrame elsewhere{.origin = {1, 0, -2}, .heading = 2.1};

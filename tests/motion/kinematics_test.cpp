@@ -126,7 +126,7 @@ TEST(Kinematics, RefusesAPoseOfAnotherSkeleton) {
   EXPECT_THROW(JointPositions(Chain(), fixtures::RandomPose(Skeleton::Smpl24(), generator)), Error);
 }
 
-TEST(Kinematics, ComparePosesMeasuresWhatTheMaskAsksFor) {
+TEST(Kinematics, ComparePosesMeasuresMaskedJointsAlone) {
   const Skeleton chain = Chain();
   Pose a;
   a.rotations.setZero(3, 3);

@@ -178,7 +178,7 @@ TEST(StandOnFeet, TurningTheSceneTurnsTheDance) {
     EXPECT_LT(ComparePoses(Body(), here[i], there[i]).position_m, 1e-6) << i;
 }
 
-TEST(StandOnFeet, LongPlansGoOnWhereTheirPiecesMeet) {
+TEST(StandOnFeet, LongPlansAreContinuousAcrossPieces) {
   std::vector<Pose> plan = Glide(0.012, 0.08);
   std::vector<Pose> first(plan.begin(), plan.begin() + 30), rest(plan.begin() + 30, plan.end());
   FootworkContext context = Context();

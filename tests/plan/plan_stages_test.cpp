@@ -17,7 +17,7 @@ double Bent(const Hinge& hinge, double bend) {
   return hinge.axis.dot(plan[0].rotations.col(hinge.joint));
 }
 
-TEST(LimitHinges, HingesStopSoftlyWhereTheyAreStraight) {
+TEST(LimitHinges, HingesStopSoftlyWhenStraight) {
   const std::vector<Hinge> hinges = Hinges(Body());
   ASSERT_EQ(hinges.size(), 4U);
   for (const Hinge& hinge : hinges) {

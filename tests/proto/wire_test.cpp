@@ -39,7 +39,7 @@ void ExpectBackAgain(const Proto& message) {
 
 KeyReached SomeKey() { return {"a", 30, 0.25, 0.5, 0.75, 1, 1.25}; }
 
-TEST(Wire, ReportsComeBackWhole) {
+TEST(Wire, ReportsRoundTrip) {
   QualityReport report{.frames = 90,
                        .keys = {SomeKey()},
                        .measured_from = 30,
@@ -54,7 +54,7 @@ TEST(Wire, ReportsComeBackWhole) {
   ExpectBackAgain(wire::ToProto(report));
 }
 
-TEST(Wire, ModelsComeBackWhole) {
+TEST(Wire, ModelsRoundTrip) {
   const ModelDescription model{.name = "default",
                                .fingerprint = "f",
                                .licence = "l",
@@ -75,7 +75,7 @@ TEST(Wire, ModelsComeBackWhole) {
   ExpectBackAgain(wire::ToProto(model));
 }
 
-TEST(Wire, EventsComeBackWhole) {
+TEST(Wire, EventsRoundTrip) {
   for (const DanceEvent& event : std::vector<DanceEvent>{
            SomeKey(), KeyRejected{"a", 30, 33, "late", KeyRejected::Code::kTooLate},
            Beat{30, 1.25, Beat::Source::kHeard, 0.5, true},

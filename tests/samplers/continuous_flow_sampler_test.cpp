@@ -135,7 +135,7 @@ TEST_F(ContinuousFlowSamplerTest, CudaDancesAsTheCpuDoes) {
 // Windows are of 16 frames, each of four evaluations with beats and four without (at this
 // temperature the mean way, too); three rounds where energy is asked for; the plan's stages are the
 // last slice.
-TEST_F(ContinuousFlowSamplerTest, SlicesGiveTheSameBitsWhateverComesBetween) {
+TEST_F(ContinuousFlowSamplerTest, InterleavedSlicesGiveTheSameBits) {
   TransitionSpec lively = Spec(2, 40);
   lively.controls[kVelocityFactors].values.setConstant(kBodyParts, lively.frames, 0.05F);
   const std::vector<std::pair<TransitionSpec, int>> wanted = {

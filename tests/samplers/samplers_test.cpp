@@ -96,7 +96,7 @@ TEST_P(SamplersTest, EveryInputMatters) {
   EXPECT_FALSE(differs([](TransitionSpec&) {}));
 }
 
-TEST_P(SamplersTest, RefusesWhatDoesNotFitAndStaysUsable) {
+TEST_P(SamplersTest, RefusesUnfitSpecsAndStaysUsable) {
   const auto sampler = Make();
   const auto refused = [&](auto change) -> std::string {
     TransitionSpec spec = RandomSpec(sampler->model(), 7);
@@ -159,7 +159,7 @@ TEST(SamplerSetUpTest, TheBuildIsNamed) {
   EXPECT_THAT(BuildIdentity(), ContainsRegex("^[A-Za-z]+ [0-9.]+ [A-Za-z]* [0-9a-f]{16}$"));
 }
 
-TEST(SamplerSetUpTest, AFastBlasStandsBehindTorch) {
+TEST(SamplerSetUpTest, TorchUsesAFastBlas) {
   if (TorchDevices().cuda_build) GTEST_SKIP() << "LibTorch with CUDA has its BLAS linked in";
   const BlasInfo blas = DetectBlas();
   EXPECT_EQ(blas.kind, BlasInfo::Kind::kFast) << blas.name << " at " << blas.path;

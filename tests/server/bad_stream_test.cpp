@@ -46,7 +46,7 @@ TEST(FieldPathTest, NamesTheFieldOfTheSentMessage) {
   for (const auto& [named, path] : paths) EXPECT_EQ(PathInMessage(named), path);
 }
 
-TEST_P(BadStreamTest, IsNamedAndTheServerGoesOn) {
+TEST_P(BadStreamTest, IsNamedAndTheServerContinues) {
   Start();
   v1::StreamDanceRequest key;
   *key.mutable_keyframe() = Key("k", 40);

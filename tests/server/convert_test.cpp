@@ -25,7 +25,7 @@ Pose SomePose() {
 
 class EncodingTest : public testing::TestWithParam<v1::RotationEncoding> {};
 
-TEST_P(EncodingTest, OutAndInAgain) {
+TEST_P(EncodingTest, RoundTrips) {
   const Pose pose = SomePose();
   const Contacts contacts = {0.25F, 0.5F, 0.75F, 1.0F};
   const v1::Frames frames = wire::ToProto(17, {&pose, 1}, {&contacts, 1}, GetParam());

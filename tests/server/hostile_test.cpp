@@ -123,7 +123,7 @@ TEST_F(HostileTest, AnswersThatNobodyReadsAreBounded) {
 }
 
 // Calls that are reset as soon as they are begun, as fast as they can be sent.
-TEST_F(HostileTest, OthersAreServedBesideRapidResets) {
+TEST_F(HostileTest, OthersAreServedDuringRapidResets) {
   // They come from the address of the others here, who would share its places.
   Start(1, [](ServerConfig& config) { config.max_streams_of_peer = 65'536; });
   constexpr int kCalls = 20'000;

@@ -83,7 +83,7 @@ TEST_F(LifecycleTest, CancelledTransitionsFreeTheirRoom) {
   ExpectServes();
 }
 
-TEST_F(LifecycleTest, StreamsBeyondTheLimitAreToldWhenToTryAgain) {
+TEST_F(LifecycleTest, StreamsBeyondTheLimitGetARetryTime) {
   Start(1, [](ServerConfig& config) {
     config.max_streams = 2;
     config.max_streams_of_peer = 10;

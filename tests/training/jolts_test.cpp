@@ -66,7 +66,7 @@ TEST(JoltsTest, ASnappingLimbIsBridgedAndNothingElseChanges) {
   }
 }
 
-TEST(JoltsTest, ALimbThatStaysWhereItSnappedToIsBridgedToo) {
+TEST(JoltsTest, SnapToANewPlaceIsBridgedToo) {
   Motion motion = Calm();
   for (int f = 50; f < 90; ++f) Raise(motion.frames[f], "right_hip", 0.9);
   ASSERT_GT(TopSpeed(motion), 12);
@@ -85,7 +85,7 @@ TEST(JoltsTest, FastSwingIsNoJolt) {
   EXPECT_EQ(RepairLimbs(Smpl(), motion).frames, 0);
 }
 
-TEST(JoltsTest, WhereTheBodySnapsAMotionBreaks) {
+TEST(JoltsTest, SnapOfTheWholeBodySplitsTheMotion) {
   Motion motion = Calm();
   for (int f = 60; f < 90; ++f) {
     Raise(motion.frames[f], "spine1", 1.5);

@@ -66,7 +66,7 @@ BvhFile Renamed(BvhFile file) {
   return file;
 }
 
-TEST_F(BvhTest, AForeignBvhIsFittedWhateverItsUnitAndStatedRate) {
+TEST_F(BvhTest, FitsAForeignBvhOfAnyUnitAndStatedRate) {
   options_.frame_rates = {{"inches", 30.0}};
   BvhFile file =
       Renamed(MotionToBvh(Skeleton::Smpl24(), SyntheticClip("walk", 90, 0.2, false).motion));

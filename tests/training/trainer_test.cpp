@@ -33,7 +33,7 @@ class TrainerTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(TrainerTest, TheContinuousFlowResumesAsIfUndisturbedAndGoesOnFromAnother) {
+TEST_F(TrainerTest, ContinuousFlowResumesExactlyAndContinuesFromAnother) {
   TrainOptions options = Options("whole", 2);
   TrainContinuousFlow(options);
   const auto weights = [](const TrainOptions& run) {

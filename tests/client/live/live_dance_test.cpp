@@ -147,7 +147,7 @@ TEST_F(LiveDanceTest, PosesComeASecondAfterTheirCuesAndApart) {
   EXPECT_THAT(notes_, testing::ElementsAre("there is no pose \"nobody\""));
 }
 
-TEST_F(LiveDanceTest, APoseIsTakenBackUntilItIsDanced) {
+TEST_F(LiveDanceTest, PoseCanBeRemovedUntilItIsDanced) {
   Dance({{24, {"kick"}}, {40, {}}, {99, {"groove", 1.5}}, {150, {}}, {170, {}}});
   EXPECT_GT(Off(45, "kick"), 5);
   EXPECT_EQ(figures_.back().keys_danced, 0);
@@ -155,14 +155,14 @@ TEST_F(LiveDanceTest, APoseIsTakenBackUntilItIsDanced) {
 }
 
 // The groove stands later, the kick was asked for last.
-TEST_F(LiveDanceTest, TheLastPoseAskedForIsTakenBackFirst) {
+TEST_F(LiveDanceTest, UndoRemovesTheLastRequestedPose) {
   Dance({{24, {"groove", 2.5}}, {25, {"kick"}}, {30, {}}});
   EXPECT_GT(Off(45, "kick"), 5);
   EXPECT_LT(Off(90, "groove"), 0.1);
   EXPECT_EQ(figures_.back().keys_danced, 1);
 }
 
-TEST_F(LiveDanceTest, MorePosesThanTheServerTakesAreRefusedAndTheDanceGoesOn) {
+TEST_F(LiveDanceTest, ExcessPosesAreRefusedAndTheDanceContinues) {
   most_keys_ = 2;
   Dance({{24, {"kick"}}, {49, {"groove"}}, {74, {"kick"}}});
   EXPECT_EQ(motion_.frames.size(), 120U);
@@ -190,7 +190,7 @@ TEST_F(LiveDanceTest, NotesAreEscaped) {
 }
 
 // The music has 120 beats a minute, the clock 125.
-TEST_F(LiveDanceTest, AMidiClockSaysWhereTheBeatsAre) {
+TEST_F(LiveDanceTest, FollowsTheBeatsOfAMidiClock) {
   const std::string device = folder_ / "midi";
   ASSERT_EQ(mkfifo(device.c_str(), 0600), 0);
   WriteClicks(folder_ / "song.wav", 6);

@@ -155,7 +155,7 @@ TEST_F(CasesTest, ArraysOfEveryKind) {
               [&] { ReadNpz(npz); });
 }
 
-TEST_F(CasesTest, ArraysWhoseAxesOrUnitAreOthers) {
+TEST_F(CasesTest, ArraysOfOtherAxesOrUnits) {
   const SmplArrays smpl;
   const auto file = [&](bool y_up, double unit) {
     std::vector<double> poses, trans;

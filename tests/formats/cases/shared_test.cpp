@@ -55,7 +55,7 @@ TEST_F(SharedCases, RigsMoveAsTheFirstDoes) {
               [&] { Read("meshopt_fallback.glb"); });
 }
 
-TEST_F(SharedCases, PelvesAreWhereTheArraysSay) {
+TEST_F(SharedCases, PelvesAgreeWithTheArrays) {
   struct Row {
     const char* file;
     Eigen::Vector3d pelvis;  ///< of frame 10

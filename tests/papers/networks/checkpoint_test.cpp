@@ -46,7 +46,7 @@ class CheckpointTest : public testing::Test {
   std::string hash_;
 };
 
-TEST_F(CheckpointTest, ComesBackToTheBit) {
+TEST_F(CheckpointTest, RoundTripsExactly) {
   const Checkpoint loaded = LoadCheckpoint(path_);
   EXPECT_EQ(loaded.hash, hash_);
   EXPECT_THAT(loaded.card, HasSubstr("random weights"));

@@ -132,7 +132,7 @@ TEST_F(ControllersModelTest, AResidualNetworkStartsAsInterpolationOnThePath) {
             1e-5);
 }
 
-TEST_F(ControllersModelTest, OnlyAResidualNetworkReachesTheTargetWhateverItsWeights) {
+TEST_F(ControllersModelTest, OnlyAResidualNetworkReachesTheTargetWithAnyWeights) {
   const ControlBatch batch = Draw(12);
   torch::NoGradGuard no_grad;
   const FrameTensors free = Random4(Small())->RollOut(batch.transition);
@@ -283,7 +283,7 @@ TEST_F(ControllersModelTest, ContactsThatGlideAndLimbsThatStretchCost) {
   EXPECT_NEAR(consistency(longer, Steps(Join(last, longer))), 100 * squares, 2 * squares);
 }
 
-TEST_F(ControllersModelTest, ACheckpointComesBackWhole) {
+TEST_F(ControllersModelTest, CheckpointRoundTrips) {
   const TemporaryFolder folder;
   ControllersModel model = Random4(Small());
   const auto path = folder.path() / "c.safetensors";

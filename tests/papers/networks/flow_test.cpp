@@ -69,7 +69,7 @@ class FlowTest : public testing::TestWithParam<Form> {
   FlowModel model_{nullptr};
 };
 
-TEST_P(FlowTest, InverseOfForwardIsTheIdentity) {
+TEST_P(FlowTest, InverseUndoesForward) {
   torch::NoGradGuard no_grad;
   const int64_t width = model_->feature_width(), frames = 6;
   const Tensor x = torch::randn({4, frames, width});
@@ -113,7 +113,7 @@ TEST_P(FlowTest, LogDeterminantIsAutogradsOwn) {
   EXPECT_NEAR(log_det.item<double>(), expected, 1e-6 * std::abs(expected) + 1e-6);
 }
 
-TEST_P(FlowTest, ARolloutsOwnLikelihoodIsThatOfItsNoise) {
+TEST_P(FlowTest, RolloutLikelihoodEqualsThatOfItsNoise) {
   torch::NoGradGuard no_grad;
   const int64_t frames = 5, width = model_->feature_width();
   const TransitionTensors transition = RandomTransition(3, frames);

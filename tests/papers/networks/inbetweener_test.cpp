@@ -108,7 +108,7 @@ TEST_F(InbetweenerTest, TheVeilHidesFarKeysInTrainingAlone) {
   EXPECT_EQ(Apart(Rollout(near), Rollout(near)), 0);
 }
 
-TEST_F(InbetweenerTest, ComesBackFromItsCheckpointToTheBit) {
+TEST_F(InbetweenerTest, RoundTripsThroughItsCheckpoint) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.safetensors";
   const std::string hash = SaveInbetweener(path, model_, {{"data", "none"}});

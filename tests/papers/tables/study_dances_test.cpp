@@ -49,7 +49,7 @@ TEST_F(StudyDances, EachMethodHasAFilmOfEachClip) {
   EXPECT_NE(ReadFile(films[0].folder / "one.mp4"), ReadFile(films[1].folder / "one.mp4"));
 }
 
-TEST_F(StudyDances, TheSongIsHeardFromWhereTheDanceBegins) {
+TEST_F(StudyDances, SongStartsWithTheDance) {
   set_.clips.front().notes["preparation"] = R"({"music_start_s": 2})";
   WriteWav(folder_ / "one.wav", Music(12));
   const auto film = Film(folder_.path()).front().folder / "one.mp4";

@@ -172,7 +172,7 @@ TEST_F(PaperTrainerTest, AResumedRunIsTheUndisturbedOne) {
   }
 }
 
-TEST_F(PaperTrainerTest, AFlowGoesOnFromAnother) {
+TEST_F(PaperTrainerTest, FlowContinuesFromAnother) {
   const PaperOptions first = Options("first", 2);
   TrainFlow(first);
   PaperOptions further = Options("further", 1);
@@ -272,7 +272,7 @@ TEST_F(PaperTrainerTest, ControllersResumeAsIfUndisturbed) {
               testing::ThrowsMessage<Error>(testing::HasSubstr("--one-lstm")));
 }
 
-TEST_F(PaperTrainerTest, ControllersGoOnFromAnotherNetwork) {
+TEST_F(PaperTrainerTest, ControllersContinueFromAnotherNetwork) {
   PaperOptions first = Options("first", 1);
   first.preset = "controllers-paper";
   first.batch = 4;
