@@ -169,7 +169,7 @@ TEST(FeatureStreamTest, RowsAfterTheEndAreSilent) {
   const FeatureStream stream = Whole(wave, 22050, 1);
   EXPECT_EQ(stream.final_rows(), std::numeric_limits<int64_t>::max());
   EXPECT_EQ(stream.audio_rows(), 31);
-  // Row 31 still hears the end: its window begins at sample 21 761. Row 32's begins at 22 496.
+  // Row 31 still includes the end: its window begins at sample 21 761. Row 32's begins at 22 496.
   EXPECT_NE(RowsOf(stream, 31, 32), silent);
   for (const int64_t row : {32, 33, 34, 50, 1 << 30}) {
     EXPECT_EQ(RowsOf(stream, row, row + 1), silent) << row;

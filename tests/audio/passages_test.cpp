@@ -85,7 +85,7 @@ TEST(Passages, AreFoundAtTheStartOfASong) {
   EXPECT_EQ(part.front().like, whole.front().like);
 }
 
-// What is reported of a moment depends only on the music before it.
+// A moment's result depends only on the music before it.
 TEST(Passages, AreDetectedLive) {
   const std::vector<float> song = SongOf({11, 12, 11});
   PassageListener listener;

@@ -113,7 +113,7 @@ TEST_F(ArrangeTest, DancesTheTransitionToAnotherDance) {
   const Motion first = Read("dance.npz"), second = Read("other.npz"), both = Read("both.npz");
   ASSERT_EQ(both.frames.size(), 300U + 23 + 120);
   for (size_t i = 0; i < 300; ++i) ExpectSame(both.frames[i], first.frames[i]);
-  // The second begins where the first ends, and goes on as it did.
+  // The second begins where the first ends, and continues it.
   const GroundFrame end = GroundFrame::Of(first.frames.back());
   const GroundFrame begin = GroundFrame::Of(second.frames.front());
   for (const size_t i : {0, 60, 119}) {
@@ -155,7 +155,7 @@ TEST_F(ArrangeTest, RepeatsAPhraseOnItsCounts) {
     EXPECT_LE(ComparePoses(Body(), danced, expected).position_m, 0.001);
     EXPECT_LE(ComparePoses(Body(), danced, expected).angle_deg, 0.1);
   }
-  // What was there made way, so that there are no more keys than before and after the phrase.
+  // Keys in the phrase's place are removed, so only those before and after it stay.
   for (const auto& key : reported) {
     const int64_t frame = key["frame"];
     if (frame < keys[1] + 110 || frame > keys[2] + 110) continue;

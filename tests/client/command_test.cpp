@@ -63,7 +63,7 @@ TEST_F(CommandTest, RanksAlternativesByLikelihoodOnRequest) {
   EXPECT_EQ(move("luck", 0).code, 2);
 }
 
-// Only what the frames hear is sent: a song may be longer than a message.
+// Only the music of the frames is sent: a song may be longer than a message.
 TEST_F(CommandTest, TransitionReceivesItsPartOfALongSong) {
   WriteClicks(folder_ / "song.wav", 200);  // 16.8 MiB of samples
   const auto move = [&](const std::string& name, const std::string& more) {
@@ -123,7 +123,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
                 keys[2]["beat"].get<size_t>());
   EXPECT_THAT(text.said, HasSubstr(line));
 
-  // What is printed is a key file, of poses of the library.
+  // The output is a key file with poses of the library.
   WriteFile(folder_ / "keys.json", outcome.said);
   const auto proposed = cli::ReadKeys(folder_ / "keys.json", Body());
   ASSERT_EQ(proposed.size(), 4U);

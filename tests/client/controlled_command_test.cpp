@@ -280,13 +280,13 @@ TEST_F(ControlledCommandTest, BadPathsAreRefused) {
           "points[1].y: must be in all points or in none");
   refused(R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 1, "z": 0, "speed": 1}])",
           "points[1].speed: is not known; a point has time or frame, x, z and perhaps y");
-  // What only the server knows to be wrong is told in terms of the file, too.
+  // Errors that only the server finds name the file's fields, too.
   refused(
       R"([{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 0, "z": 0}, {"time": 2, "x": 0, "z": 20000}])",
       "points[2].z: 20000 m is not within 10000 m of 0");
   refused(R"([{"time": 0, "x": 0, "z": 0, "y": 1}, {"time": 3, "x": 0, "z": 0, "y": 3}])",
           "points[1].y: 3 m above the floor is not in [0, 2]");
-  // As is what is no JSON, and how far it could be read.
+  // So do invalid JSON, and the place of its error.
   refused("[{\"time\": 0, \"x\": 0,\n \"z\": 0}, {\"time\": 1, \"x\": NaN}]",
           "points[1].x: is not JSON: it breaks off at line 2, column 28, \"NaN\"");
   refused(R"([{"time": 0, "x": 1e999, "z": 0}])",

@@ -47,7 +47,7 @@ TEST(ControlsTest, OfTheConfigApplyFromTheFirstFrame) {
   EXPECT_NEAR(Asked(pose, BodyPart::kLeftArm), 0.04, 1e-6);
   EXPECT_NEAR(Asked(pose, BodyPart::kTrunk), 0.005, 1e-6);
   EXPECT_NEAR(Asked(pose, BodyPart::kRightLeg), 0.05, 1e-6);
-  // This engine's dancers only say what they are asked.
+  // This engine's dancers only record the requested factors.
   ASSERT_EQ(dance.warnings.size(), 1U);
   EXPECT_THAT(dance.warnings[0].message, testing::ContainsRegex("left_arm 0[.0-9]* instead of 4"));
   ASSERT_EQ(dance.report.part_speeds.size(), static_cast<size_t>(kBodyParts));

@@ -37,7 +37,7 @@ TEST_F(ConvertCommandTest, NotesAWrongFileInOneLine) {
   EXPECT_THAT(Convert("z.bvh", "--body B").said, HasSubstr("--body: \"B\" is none of its bodies"));
 }
 
-// Notes name options; what has others is told whose they are.
+// Notes name options; other commands' notes say whose they are.
 TEST_F(ConvertCommandTest, NotesNameTheCommandThatHasTheOption) {
   const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   WriteBvh(folder_ / "z.bvh", MakeBvh({.world = z_up}));

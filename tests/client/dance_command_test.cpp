@@ -56,7 +56,7 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
     EXPECT_TRUE(key["on_output_frame"].get<bool>());
     EXPECT_LE(key["output_error_m"].get<double>(), 0.001);
     EXPECT_LE(key["output_error_deg"].get<double>(), 0.1);
-    // What the report says is in the file.
+    // The report agrees with the file.
     const std::string id = key["id"];
     const Pose& pose = cli::FindLibraryPose(id.substr(id.find('-') + 1)).pose;
     const Pose& danced = motion.frames[key["frame"].get<size_t>()];

@@ -166,7 +166,7 @@ TEST(DanceTest, CanBeCancelledWhileItWaits) {
   canceller.join();
 }
 
-// To somebody who is there and says nothing.
+// To a server that accepts and never answers.
 TEST(DanceTest, CanBeSteeredAndCancelledWhileItConnects) {
   const int mute = socket(AF_INET, SOCK_STREAM, 0);
   ASSERT_EQ(listen(mute, 1), 0);  // at a free port

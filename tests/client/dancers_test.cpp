@@ -80,7 +80,7 @@ TEST_F(DancersTest, MirroredInCanonAndApart) {
   EXPECT_THAT(text,
               HasSubstr(" times as far from their middle as said, so that bodies stay 0.2 m"));
 
-  // Left is right, about the place where she stands.
+  // Mirrored about the place where she stands.
   const auto own = [](const Motion& motion, size_t frame) {
     Pose pose = motion.frames[frame];
     pose.root_position -= motion.frames[0].root_position;
@@ -135,7 +135,7 @@ TEST_F(DancersTest, AreInOneFileAndOnOnePicture) {
   EXPECT_NE(outcome.code, 0);
 }
 
-// One format: what a project says is what --dancers says.
+// A project and --dancers have one format.
 TEST_F(DancersTest, ReadAProject) {
   const std::string all = R"("apart": 0.3, "dancers": [{"id": "ada", "place": [-1, 0]},
       {"id": "ben", "place": [1, 0], "mirrored": true, "after": "2 counts"}])";

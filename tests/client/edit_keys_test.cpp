@@ -32,7 +32,7 @@ TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   EXPECT_EQ(keys[2]["id"], id);
   EXPECT_EQ(keys[2]["frame"], near);
 
-  // Beyond its neighbour, what it leaves is danced anew, too.
+  // If it moves past its neighbour, the frames that it leaves are danced again, too.
   outcome = Edit(with_reports + "' " + Seconds(keys_[3] + 9));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_LE(off(keys_[3] + 9), 0.001);

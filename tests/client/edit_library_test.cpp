@@ -20,7 +20,7 @@ client::FinishedDance Standing(size_t frames) {
   return dance;
 }
 
-// Only what the new frames hear is sent: a song may be longer than a message.
+// Only the music of the new frames is sent: a song may be longer than a message.
 TEST(EditLibraryTest, SendsOnlyMusicAroundTheKey) {
   TestServer server(std::make_unique<HearingSampler>());
   const client::Client client({.addresses = {server.address()}});
@@ -39,7 +39,7 @@ TEST(EditLibraryTest, SendsOnlyMusicAroundTheKey) {
   EXPECT_NE(heard.motion.frames[5980].rotations, silent.motion.frames[5980].rotations);
   EXPECT_EQ(heard.motion.frames[6050].rotations, silent.motion.frames[6050].rotations);
 
-  // After the song's end the dancer hears silence.
+  // After the song's end there is silence.
   edit.key.frame = 6900;
   edit.from = 6850;
   edit.to = 6950;

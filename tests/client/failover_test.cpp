@@ -8,7 +8,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/tcp_proxy.h"
 
-/// Replicas that are there and would not, or not soon, do what is asked.
+/// Replicas that answer, but refuse calls or delay them.
 namespace choreo::client::failover_test {
 
 Options Replicas(std::vector<std::string> addresses) {
@@ -170,7 +170,7 @@ TEST(FailoverTest, SkipsADrainingAddress) {
   std::cout << "20 dances passed it\n";
 }
 
-// Its packets are lost, and nobody says so: it is left for the next one within seconds.
+// Its packets are lost without an error: the client goes to the next replica within seconds.
 TEST(FailoverTest, LeavesASilentNetwork) {
   TestServer cut;
   TestServer heir;

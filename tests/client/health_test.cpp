@@ -23,7 +23,7 @@ TEST_F(HealthTest, ServesUntilItDrains) {
   const Outcome draining = Choreo("health" + Server());
   EXPECT_EQ(draining.code, 1);
   EXPECT_THAT(draining.said, testing::HasSubstr(server_.address() + ": does not serve"));
-  // What it has can still be seen.
+  // Its description is still available.
   const Outcome seen = Choreo("info" + Server());
   EXPECT_EQ(seen.code, 0) << seen.said;
   EXPECT_THAT(seen.said, testing::HasSubstr("1 calls in progress"));

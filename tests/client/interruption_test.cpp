@@ -12,7 +12,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 
-/// Programs that are told to stop.
+/// Programs that get a signal to stop.
 namespace choreo::interruption_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }

@@ -107,7 +107,7 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
           "keyframes[0].rotations[23][1]: 1e999 is beyond 1.8e308, the largest number");
 }
 
-// What is read, copied or printed level by level would run out of stack.
+// Reading, copying or printing level by level would run out of stack.
 TEST(KeyFileTest, RefusesWhatIsNestedTooDeeply) {
   const auto nested = [](size_t levels, const std::string& inner) {
     return std::string(levels, '[') + inner + std::string(levels, ']');

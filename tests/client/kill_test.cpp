@@ -41,8 +41,8 @@ struct Danced {
 };
 
 /// Eight seconds to music that comes half a second at a time, each when all frames of the one
-/// before have come: the server never has what it would need to be further ahead. `before_frame` is
-/// told the number of frames so far.
+/// before have come: the server never has enough music to be further ahead. `before_frame` gets the
+/// number of frames so far.
 Danced DanceLive(const Client& client, bool with_keys,
                  const std::function<void(int64_t)>& before_frame) {
   constexpr int64_t kPiece = 22050 / 2;
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(AtRandom, KillTest,
 
 /// Eight seconds of music, granted a third of a second ahead of what plays. Each pose comes three
 /// seconds before its time, and is another one a second before: then most of the way to it is still
-/// to be danced. `before_piece` is told of each tenth of a second.
+/// to be danced. `before_piece` is called each tenth of a second.
 Danced DanceEdited(const Client& client, const std::function<void(int)>& before_piece) {
   const Audio audio = ClicksAudio(8);
   const auto dance =
@@ -214,7 +214,7 @@ TEST(KillTest, EditsWithShortLookAheadSurvive) {
   EXPECT_EQ(danced.resumes, 2);
 }
 
-// There is one address, and what is started there anew knows nothing of the dance.
+// There is one address, and a server restarted there knows nothing of the dance.
 TEST(KillTest, RestartedServerResumes) {
   const std::filesystem::path program = FAKE_CHOREOD;
   auto server = std::make_unique<LocalServer>(program);

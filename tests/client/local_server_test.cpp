@@ -22,7 +22,7 @@ TEST(LocalServerTest, ServesAsLongAsItLives) {
   ExpectError(ErrorCode::kUnavailable, address, [&] { client.GetServerInfo(); });
 }
 
-// Whoever waits for what is gone waits in vain.
+// Waiting for a lost server is useless.
 TEST(LocalServerTest, NoticesThatItIsGone) {
   LocalServer server{std::filesystem::path(FAKE_CHOREOD)};
   const client::Client client({.addresses = {server.address()},

@@ -10,7 +10,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-// Beats that a choreographer gives, and what she says of those that are found.
+// Beats that a choreographer gives, and her corrections of those that are found.
 namespace choreo::cli::music_beats_test {
 
 using testing::DoubleNear;
@@ -18,7 +18,7 @@ using testing::ElementsAre;
 
 class MusicBeats : public testing::Test {
  protected:
-  /// The beats of a song of ten seconds, of which nothing was heard.
+  /// The beats of a song of ten seconds without detected beats.
   BeatTrack Read(const std::string& lines, BeatOptions options = {}, double start = 0) {
     const std::filesystem::path file = folder_ / "beats.txt";
     std::ofstream(file) << lines;

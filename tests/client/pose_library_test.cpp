@@ -81,7 +81,7 @@ Eigen::Vector3d CentreOfMass(const Eigen::Matrix3Xd& joints) {
 }
 
 TEST_P(PoseLibraryTest, KeepsItsBalance) {
-  // In a step and in the air nobody has to.
+  // A step or a jump need not.
   if (Has(GetParam(), "travelling") || Has(GetParam(), "jump")) return;
   const Eigen::Matrix3Xd joints = JointPositions(Body(), GetParam().pose);
   const Eigen::RowVectorXd clearance = FloorClearance(Body());
@@ -140,7 +140,7 @@ TEST_P(PoseLibraryTest, TurnsHipsNoFurtherThanADancerCan) {
 TEST_P(PoseLibraryTest, FacesTheAudienceAtTheOrigin) {
   const Pose& pose = GetParam().pose;
   EXPECT_LT(std::hypot(pose.root_position.x(), pose.root_position.z()), 0.3);
-  // Her left is ours to the right, however she bends.
+  // Her left is on our right, in every pose.
   EXPECT_GT(ForwardKinematics(Body(), pose).rotations[0](0, 0), 0.7);
 }
 
@@ -172,7 +172,7 @@ TEST(PoseLibrary, HasEnoughForADanceAndFindsThemByName) {
               [] { FindLibraryPose("waltz"); });
 }
 
-// Whoever changes a recipe makes the poses anew.
+// After a change of a recipe, the poses must be made again.
 TEST(PoseLibrary, AgreesWithItsRecipes) {
   const TemporaryFolder folder;
   const Outcome outcome =

@@ -50,7 +50,7 @@ class Fleet {
     ::setenv("CHOREO_MAX_STREAMS", "1000", 1);
     replica = std::make_unique<LocalServer>(FAKE_CHOREOD, addresses_[static_cast<size_t>(which)]);
   }
-  /// There, and says nothing for a while.
+  /// Alive, but silent for a while.
   void Silence(int which) {
     const pid_t process = replicas_[static_cast<size_t>(which)]->process();
     ASSERT_EQ(::kill(process, SIGSTOP), 0);

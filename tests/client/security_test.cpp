@@ -15,7 +15,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-/// Who is let in, and who can read what is said.
+/// Which clients are admitted, and who can read the traffic.
 namespace choreo::client::security_test {
 
 using testing::HasSubstr;
@@ -107,7 +107,7 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
   std::filesystem::copy(renewed.certificate, own.certificate,
                         std::filesystem::copy_options::overwrite_existing);
   Eventually([&] { return Serves(Trusting(*server, stranger_)); }, "the new one is shown");
-  // The dance goes on over the connection that it has.
+  // The dance continues over its connection.
   dance->CompleteKeys();
   while (dance->Next()) {
   }
@@ -239,7 +239,7 @@ TEST_F(TokensTest, HoldersAreServedUntilRemoval) {
   EXPECT_TRUE(Serves(With(*server, "b")));
 }
 
-// Whatever becomes of the file, who was struck out stays out.
+// Whatever happens to the file, removed holders stay refused.
 TEST_F(TokensTest, BrokenFileAdmitsNobody) {
   const std::filesystem::path file = folder_ / "tokens";
   const std::string alice = LineOf("a", "alice"), bob = LineOf("b", "bob");

@@ -56,7 +56,7 @@ constexpr double kSeconds = 2;
 // What an encoder may add at both ends, or keep.
 constexpr double kPadding = 0.1;
 
-/// What becomes of two seconds of a tone, as the table says it.
+/// The outcome for two seconds of a tone, in the table's words.
 std::string OutcomeOf(const std::filesystem::path& file) {
   const auto lasts = [](const DecodedAudio& audio) {
     EXPECT_NEAR(audio.seconds(), kSeconds, kPadding);
@@ -109,7 +109,7 @@ TEST(SoundTable, MatchesWhatTheClientReads) {
   }
 }
 
-// Why it can't read what it can't.
+// The reason why a file can't be read.
 TEST(SoundTable, ReportsFfmpegsErrors) {
   if (Shell("ffmpeg -version").code != 0)
     GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
@@ -145,7 +145,7 @@ TEST(SoundTable, AFilmsSoundCountsFromItsBeginning) {
   EXPECT_NEAR(
       static_cast<double>(loud - late.interleaved.begin()) / late.channels / late.sample_rate, 1.5,
       0.05);
-  // Which of two tracks is heard is said.
+  // A note says which of two tracks is used.
   Make("-f lavfi -i sine=330:duration=1 -f lavfi -i sine=440:duration=1 -map 0 -map 1 -c:a flac",
        folder / "two.mka");
   const std::vector<std::string> notes = DecodeSong(folder / "two.mka", INFINITY, 0).notes;

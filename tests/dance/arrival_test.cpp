@@ -13,8 +13,8 @@ namespace choreo::arrival_test {
 constexpr double kFps = 30;
 constexpr int kWindow = 12;
 
-/// A stand-in for a model: goes on from the last pose with a damped, shaken velocity towards a goal
-/// that misses the key.
+/// A stand-in for a model: continues from the last pose with a damped, shaken velocity towards a
+/// goal that misses the key.
 class Wanderer {
  public:
   Wanderer(const Pose& goal, double noise, uint32_t seed)
@@ -192,7 +192,7 @@ TEST(Arrival, HasNoAccelerationSpike) {
     std::vector<Pose> poses = Walk(before, target, frames, model);
     Wanderer free(goal, 0, random());
     const std::vector<Pose> raw = Walk(before, target, frames, free, /*window=*/0);
-    // After the key the motion goes on: two frames at the velocity of the arrival.
+    // After the key the motion continues: two frames at the velocity of the arrival.
     const Pose& last = poses.back();
     const Pose& earlier = poses[poses.size() - 2];
     Pose next = last;

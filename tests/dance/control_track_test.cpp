@@ -244,7 +244,7 @@ TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
     for (int frame = 1; frame < frames; ++frame)
       EXPECT_LT(30 * (path.col(frame) - path.col(frame - 1)).norm(), 2) << frame;
   }
-  // Where there is no key, and no time to stand up, nobody jumps up.
+  // Without a key, and without time to stand up, the height does not jump.
   track_.Set(Way({0, 88}, {0, 2}, {0.5, 0.5}), 0, "controls");
   target_->mask.root_position = false;
   ASSERT_EQ(For(0, 90).warnings.size(), 1u);

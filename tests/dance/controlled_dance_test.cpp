@@ -24,7 +24,7 @@ ControlRequest Factor(BodyPart part, float factor) {
   return request;
 }
 
-/// What the fake model says that it was asked of the left arm.
+/// The fake model's record of the factor requested for the left arm.
 double LeftArm(const Pose& pose) {
   return pose.rotations(0, Skeleton::Smpl24().Find(kTellingJoints[1]));
 }
@@ -158,7 +158,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
       }
     }
   }
-  // A path that says how high the root is wins.
+  // A path with heights wins.
   ControlRequest jump = Way(0, 299, 0, 2);
   jump.root_path->heights = {1.2, 1.2};
   const Recording high = Perform([&](DanceStream& s) {
@@ -169,8 +169,8 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
   EXPECT_NEAR(high.poses[100].root_position.y(), 1.2, 1e-5);
 }
 
-// Footwork plans a transition's last steps to where the key has its feet. A key that says
-// nothing of where it is stands where the path leads.
+// Footwork plans a transition's last steps to the key's feet. A key without a place stands on the
+// path.
 TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   Pose soft = RestPose(skeleton);
@@ -238,7 +238,7 @@ TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
     ASSERT_TRUE(rest.summary) << rest.error->what();
     if (continuation.frame == 300) continue;
     EXPECT_TRUE(SameDance(whole, rest)) << "from frame " << continuation.frame;
-    // What was said of frames that are danced is not said again.
+    // Warnings about danced frames are not repeated.
     EXPECT_EQ(told(rest), continuation.frame <= 60 ? 2u : continuation.frame <= 130 ? 1u : 0u);
   }
 }
@@ -292,7 +292,7 @@ TEST_F(ControlledDanceTest, MovingTheSceneMovesTheDance) {
   }
 }
 
-/// Keeps what a group says.
+/// Records a group's answers.
 class GroupRecorder : public GroupSink {
  public:
   void OnFrames(int, int64_t, std::span<const Pose> poses, std::span<const Contacts>) override {

@@ -122,8 +122,8 @@ TEST(DanceStream, OrderOfMusicEndAndKeysEndDoesNotMatter) {
     auto sink = std::make_shared<Recorder>();
     DanceStream stream(*queue, dance.config, sink);
     if (order == 0) {
-      // Far more is granted than there is music; whether the dance goes on past it is open until
-      // the keys are complete.
+      // Far more is granted than there is music; whether the dance continues after it is unknown
+      // until the keys are complete.
       SendKey(stream, dance.keys[0]);
       stream.GenerateUntil(1000);
       stream.PushAudio(dance.samples, 0);

@@ -194,8 +194,7 @@ TEST(DanceStream, WaitingForMusicBlocksNobody) {
   EXPECT_TRUE(SameDance(sink->WaitForEnd(), interrupted));
 }
 
-// One transition ahead, so that it is there when it is due; not more, which could be asked for and
-// never danced.
+// One transition ahead, so that it is ready when due; not more, which might never be danced.
 TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
   const auto queue = FakeQueue();
   const Dance dance = RandomDance(24);
@@ -216,7 +215,7 @@ TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
   EXPECT_EQ(queue->stats().transitions, dance.keys.size());
 }
 
-// Whatever becomes of it, its listener is let go.
+// However the dance ends, it releases its listener.
 TEST(DanceStream, FreesAllOfADance) {
   const auto queue = FakeQueue();
   for (const bool whole : {true, false}) {
@@ -235,7 +234,7 @@ TEST(DanceStream, FreesAllOfADance) {
   }
 }
 
-/// Has no memory when it is told where it could go on.
+/// Runs out of memory when it gets a continuation.
 class ForgetfulRecorder final : public Recorder {
  public:
   void OnContinuation(const Continuation&) override { throw std::bad_alloc(); }

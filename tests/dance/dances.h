@@ -35,7 +35,7 @@ struct Dance {
   int64_t chunk = 4000;        // sample frames a message
 };
 
-/// Some keys, two of them partial, and music if asked for.
+/// Some keys, two of them partial, and music on request.
 inline Dance RandomDance(uint32_t seed, double music_seconds = 0) {
   std::mt19937 random(seed);
   Dance dance;
@@ -60,7 +60,7 @@ inline Dance RandomDance(uint32_t seed, double music_seconds = 0) {
   return dance;
 }
 
-/// One whose beats nobody knows beforehand, to a beat every half second.
+/// One without given beats, to music with a beat every half second.
 inline Dance LiveDance(uint32_t seed, double music_seconds) {
   Dance dance = RandomDance(seed, music_seconds);
   dance.config.music_beats.clear();

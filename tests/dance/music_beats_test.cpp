@@ -63,7 +63,7 @@ TEST(MusicBeats, LiveDanceDetectsThem) {
   }
 }
 
-// What is told is what is danced to.
+// Reported beats are those of the dance.
 TEST(MusicBeats, TheDanceIsTimedToThem) {
   const auto queue = FakeQueue();
   Dance dance = LiveDance(42, 12);
@@ -86,7 +86,7 @@ TEST(MusicBeats, NoiseAndSilenceHaveNone) {
   }
 }
 
-// Neither how the music is cut nor when it comes changes what is heard.
+// Neither the chunks of the music nor their time of arrival change the beats.
 TEST(MusicBeats, ArePureInTheSamples) {
   const auto queue = QueueOf<FakeSampler>();
   Dance dance = LiveDance(44, 16);
@@ -128,7 +128,7 @@ TEST(MusicBeats, MayBeGivenDuringTheDance) {
       stream.GenerateUntil(frame);
       const int64_t due = frame - config.FirstFrame();
       if (patient && due > 0) sink->WaitForFrames(static_cast<size_t>(due));
-      // Beats a third of a second behind the music's, of which the first two come too late.
+      // Beats a third of a second behind the music's; the first two come too late.
       if (frame == 240)
         stream.GiveBeats({7.3, 7.8, 8.3, 8.8, 9.3, 9.8, 10.3, 10.8, 11.3}, {7.3, 9.3, 11.3});
     }
@@ -173,8 +173,7 @@ TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
   ExpectError(ErrorCode::kInvalidArgument, "music_beats[1].times", [&] { stream.GiveBeats({1}); });
 }
 
-// Whatever the tempo, and wherever the dance is cut into transitions, also into those of which only
-// a part is danced: on a boundary, too.
+// At any tempo, and for any division into transitions, also partly danced ones, and on boundaries.
 TEST(MusicBeats, AreReportedOnce) {
   for (int bpm = 60; bpm <= 145; bpm += 5) {
     const double period = 60.0 / bpm;
@@ -201,9 +200,9 @@ TEST(MusicBeats, AreReportedOnce) {
   }
 }
 
-// Until the first one given and after the last: what was said ahead silences nothing before it.
-// A program that says its grid again and again, each time a few milliseconds elsewhere, as a MIDI
-// clock is heard, tells of the same beats.
+// Before the first given beat and after the last: beats given ahead suppress none before them. A
+// program that repeats its grid, each time a few milliseconds off, as a MIDI clock arrives, means
+// the same beats.
 TEST(MusicBeats, RepeatedGridIsReportedOnce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
@@ -260,7 +259,7 @@ TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   EXPECT_GT(beats.back().time_s, 16.5);
 }
 
-// Only what lies before a transition says where it beats.
+// Only the music before a transition decides its beats.
 TEST(MusicBeats, LaterMusicChangesNothing) {
   std::vector<float> song = Song(22050, 20);
   const auto around = [&song] {

@@ -5,7 +5,7 @@
 
 #include "tests/dance/dances.h"
 
-/// Frames leave as far as they are granted, and what lies ahead may still change.
+/// Frames are sent as far as they are granted, and later ones may still change.
 namespace choreo::partial_grant_test {
 
 using Step = std::function<void(DanceStream&)>;
@@ -85,8 +85,7 @@ TEST_F(PartialGrantTest, KeysFreezeNothing) {
   EXPECT_EQ(recording.reached[0].frame, dance.keys[0].frame + 1);
 }
 
-// Two dances of which the second moves a key, takes one away and adds another while the way there
-// is half danced.
+// Two dances; the second moves a key, removes one and adds another in the middle of the transition.
 TEST_F(PartialGrantTest, EditAfterTheFrontierChangesOnlyLaterFrames) {
   Dance dance = Editable(53);
   std::mt19937 random(53);
@@ -108,7 +107,7 @@ TEST_F(PartialGrantTest, EditAfterTheFrontierChangesOnlyLaterFrames) {
   EXPECT_LT(changed.reached[1].final_error_m, 1e-3);
   EXPECT_EQ(changed.continuations[1].frame, 90) << "there it was cut";
   EXPECT_TRUE(SameDance(changed, Play(dance, edited, false))) << "whatever has been danced by then";
-  // What was moved and moved back is not changed.
+  // A key moved and moved back changes nothing.
   edited = begin;
   edited.push_back(SendKeyStep(moved));
   edited.push_back(SendKeyStep(dance.keys[1]));

@@ -36,7 +36,7 @@ TEST(QualityReport, SupportIsTheShareOfSupportedOrBallisticFrames) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0, 31)).support, 1);
   EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0.1, 31)).support, 0);  // she hovers
-  // Half of the time each; where it changes, what is jerked upwards is not thrown.
+  // Half of the time each; the upward jerk in between does not count as a throw.
   Motion motion = Sliding(0, 0, 50);
   const Motion hovers = Sliding(0, 0.1, 50);
   motion.frames.insert(motion.frames.end(), hovers.frames.begin(), hovers.frames.end());

@@ -141,8 +141,8 @@ TEST(RandomResume, ContinuesBitForBitAfterRandomMessages) {
   EXPECT_GT(counts.given, 300U);
 }
 
-// A minute that swells and falls silent: what is heard of its energy and its beats goes back half
-// of that, and no farther.
+// A minute that swells and falls silent: the windows of energy and beats reach back half of that,
+// and no farther.
 TEST(RandomResume, ReceivesTheSameFeaturesOfLongMusic) {
   const auto queue = QueueOf<ControlledSampler>();
   Counts counts;

@@ -15,7 +15,7 @@
 
 namespace choreo {
 
-/// Everything that a stream told its listener.
+/// Records everything that a stream sends its listener.
 struct Recording {
   int64_t first_frame = -1;
   std::vector<Pose> poses;

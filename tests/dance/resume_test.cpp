@@ -29,7 +29,7 @@ Recording Resume(SampleQueue& queue, const Dance& dance, const Continuation& con
   return sink->WaitForEnd();
 }
 
-// The last ones of the whole dance, but for the first `told`.
+// The last ones of the whole dance, without the first `told`.
 void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told) {
   ASSERT_EQ(rest.beats.size(), whole.beats.size() - told);
   for (size_t i = 0; i < rest.beats.size(); ++i) {
@@ -64,7 +64,7 @@ void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
     const Continuation& continuation = whole.continuations[place];
     const Recording rest = Resume(queue, dance, continuation, messages);
     ASSERT_TRUE(rest.summary) << rest.error->what();
-    // Whatever was reached before is told again, and counted.
+    // Keys reached before are reported again, and counted.
     EXPECT_EQ(Figures(rest.reached), Figures(whole.reached)) << "from frame " << continuation.frame;
     EXPECT_EQ(Figures(rest.summary->keys), Figures(whole.summary->keys));
     if (&continuation == &whole.continuations.back()) {
@@ -106,7 +106,7 @@ TEST(Resume, GoesOnBitForBitWithMusicAlone) {
   ExpectResumesEverywhere(*queue, dance, [](DanceStream&) {});
 }
 
-// Of the music only what beats are heard in is sent again.
+// Only the music needed for beats is sent again.
 TEST(Resume, GoesOnBitForBitListeningForBeats) {
   const auto queue = FakeQueue();
   for (const bool keyed : {false, true}) {
@@ -197,7 +197,7 @@ TEST(Resume, RefusesAnotherFingerprintUnlessAllowed) {
   EXPECT_EQ(Figures(rest.reached), Figures(whole.reached));
 }
 
-// A program that resumes with other keys is told of those alone that the dance did reach.
+// A program that resumes with other keys gets reports only of keys that the dance reached.
 TEST(Resume, RejectsKeysThatWereNotReachedBefore) {
   const auto queue = FakeQueue();
   const Dance dance = RandomDance(8);

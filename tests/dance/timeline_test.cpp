@@ -28,7 +28,7 @@ std::ostream& operator<<(std::ostream& out, const Span& span) {
   return out << "[" << span.from << ", " << span.to << ") " << span.key;
 }
 
-// What is danced by now: transitions of which all is granted.
+// The dance so far: transitions that are completely granted.
 std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000) {
   std::vector<Span> spans;
   while (spans.size() < limit) {
@@ -93,7 +93,7 @@ TEST(Timeline, EachKeyGrantsUpToItself) {
   EXPECT_EQ(timeline.End(), 91);
 }
 
-// A client that paces itself may go on after its last key; nobody knows yet where the music ends.
+// A client that grants frames may continue after its last key; the music's end is unknown yet.
 TEST(Timeline, GrantsAfterTheLastKeyChangeNothing) {
   Timeline timeline({.has_music = true});
   timeline.Complete();
@@ -114,7 +114,7 @@ TEST(Timeline, TimesRoundToTheGrid) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 31, "a"}, {31, 62, "b"}, {62, 77, "c"}}));
 }
 
-// A key further ahead than a transition reaches is one however its moment is told.
+// A key further ahead than a transition reaches is one, by frame, time or interval.
 TEST(Timeline, AnIntervalMayBeLongerThanATransition) {
   Timeline timeline({});
   timeline.GenerateUntil(0);
@@ -233,7 +233,7 @@ TEST(Timeline, WithoutKeysTransitionsHaveAFixedLength) {
 TEST(Timeline, GapsBeyondTheLongestTransitionAreCut) {
   Timeline timeline({.max_transition_frames = 100});
   Set(timeline, "a", AtFrame{249});
-  // Free transitions are half the longest at most: what is left for the key is then never tiny.
+  // Free transitions are at most half the longest, so that the rest before the key is never tiny.
   EXPECT_EQ(Drain(timeline),
             (std::vector<Span>{{0, 50, ""}, {50, 100, ""}, {100, 150, ""}, {150, 250, "a"}}));
 }
@@ -241,7 +241,7 @@ TEST(Timeline, GapsBeyondTheLongestTransitionAreCut) {
 TEST(Timeline, EndsWhereTheConfigSays) {
   Timeline timeline({.end_frame = 100});
   timeline.GenerateUntil(100);
-  // The last transition is planned at its full length and cut short by whoever dances it.
+  // The last transition is planned at its full length; its dance cuts it short.
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 120, ""}}));
   EXPECT_TRUE(timeline.Certain(99));
   EXPECT_FALSE(timeline.Certain(100));
@@ -271,7 +271,7 @@ TEST(Timeline, RejectedIdsCanBeReused) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 91, "a"}}));
 }
 
-// A dance that goes on is told all again, of keys that moved across its first frame, too.
+// A resumed dance gets all messages again, also of keys that moved across its first frame.
 TEST(Timeline, KeysBeforeTheFirstFrameKeepTheirFrames) {
   Timeline timeline({.first_frame = 60, .granted = 0});
   ASSERT_EQ(Set(timeline, "a", AtFrame{100}), std::nullopt);
@@ -363,7 +363,7 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
     const std::vector<Span> rest = Drain(eager);
     asked_often.insert(asked_often.end(), rest.begin(), rest.end());
     EXPECT_EQ(Drain(lazy), asked_often) << "round " << round;
-    // Whatever happened, the plan is seamless.
+    // The plan is always seamless.
     int64_t at = 0;
     for (const Span& span : asked_often) {
       EXPECT_EQ(span.from, at);
@@ -371,7 +371,7 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
       EXPECT_LE(span.to - span.from, 150);
       at = span.to;
     }
-    // Who goes on from the end of any transition plans the rest of them.
+    // A resume from the end of any transition plans the same later ones.
     for (size_t i = 1; i < asked_often.size(); ++i) {
       Timeline::Options later = options;
       later.first_frame = asked_often[i].from;

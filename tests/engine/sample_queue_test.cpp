@@ -88,7 +88,7 @@ TEST_F(SampleQueueTest, DueDancesGoBeforeBulkAndBulkBeforeOthers) {
   EXPECT_THAT(log.all(), ElementsAre("gate", "soon", "bulk", "bulk", "ahead"));
 }
 
-// A clock that nobody can read is no right to go first.
+// An invalid deadline gives no priority.
 TEST_F(SampleQueueTest, NanDeadlineIsNever) {
   SampleQueue queue(FakeSamplers(), {});
   const auto held = Gate();

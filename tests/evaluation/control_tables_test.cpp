@@ -144,7 +144,7 @@ TEST_F(ControlTablesTest, ARootWithinSevenCentimetresCounts) {
   EXPECT_EQ(Figure("art", {"near, network alone"}, "100"), 1);
   EXPECT_EQ(Figure("art", {"beside, network alone"}, "100"), 0);
   EXPECT_EQ(Figure("art", {"near, network alone"}, "mean"), 1);
-  // A method without paths is not told the path.
+  // A method without paths does not get the path.
   EXPECT_LT(Figure("art", {"plain, network alone"}, "150"), 1);
 }
 
@@ -165,7 +165,7 @@ TEST_F(ControlTablesTest, ConstantFactorsAreComparedWithTheReference) {
     EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "left_arm"), scale, 0.01);
     EXPECT_NEAR(Figure("constant", {"swinging, network alone", times}, "right_arm"), 0, 1e-4);
   }
-  // Real dancers were asked for nothing: their speeds are their own.
+  // Real dancers had no requests: their speeds are their own.
   const double own = Figure("constant", {"real", "1.0"}, "left_arm");
   EXPECT_GT(std::abs(own - 1), 0.01);
   EXPECT_TRUE(std::isnan(Figure("constant", {"plain", "0.5"}, "left_arm")));
@@ -183,7 +183,7 @@ TEST_F(ControlTablesTest, DrawnPathsAreFollowedAndEndAtTheKey) {
     EXPECT_NEAR(Figure("drawn", {path, "near, network alone"}, "root off path mean cm"), 5, 1e-3);
     // The fake model itself misses keys slightly.
     EXPECT_NEAR(Figure("drawn", {path, "near, network alone"}, "key missed cm"), 5, 0.5) << path;
-    // A method without paths can't be asked for one.
+    // A method without paths can't take one.
     EXPECT_TRUE(std::isnan(Figure("drawn", {path, "plain"}, "skating"))) << path;
   }
   EXPECT_GT(Figure("drawn", {"as danced", "real"}, "root asked m/s"), 0);

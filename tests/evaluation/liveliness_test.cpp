@@ -90,7 +90,7 @@ TEST(KeyedDances, FootworkKeepsKeysOfRealMotionAndReducesSkating) {
             0.5 * MeasureLiveliness(model, plan, RealMotionBeside(plan, set)).skate_ratio);
 }
 
-// A dance of which the mean joint speed peaks each `period` frames from `first` on.
+// A dance whose mean joint speed peaks every `period` frames from `first` on.
 LivelyFigures Nodding(double period, double first) {
   LivelyFigures figures;
   for (int step = 0; step < 600; ++step) {
@@ -101,7 +101,7 @@ LivelyFigures Nodding(double period, double first) {
 }
 
 TEST(HitsOverChance, AreHighOnTheBeatAndLowBesideIt) {
-  // 90 a minute: each 20 frames, of which five count.
+  // 90 a minute: one every 20 frames; five frames count.
   EXPECT_NEAR(HitsOverChance({Nodding(20, 0)}, 90, 0, 30).value, 75, 3);
   EXPECT_NEAR(HitsOverChance({Nodding(20, 10)}, 90, 0, 30).value, -25, 3);
   EXPECT_NEAR(HitsOverChance({Nodding(20, 10)}, 90, 0.5, 30).value, 75, 3);

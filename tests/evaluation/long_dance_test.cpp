@@ -233,7 +233,7 @@ TEST(LongFigures, DriftIsTravelSinkingOrAPaceChange) {
   EXPECT_NEAR(measure(sinks, steady).rise_m, -0.2, 1e-6);
   EXPECT_TRUE(calm.Drifted(measure(sinks, steady)));
 
-  // A wave of which each is a little slower than the one before, down to a third.
+  // A wave whose periods slow down little by little, to a third.
   const auto slows = [](double s) { return std::sin(6 * (s - s * s / 180)); };
   const LongFigures slower = measure(nowhere, slows);
   EXPECT_NEAR(slower.pace_change, (1.0 - 2 * 55.0 / 180) / (1.0 - 2 * 5.0 / 180), 0.03);

@@ -117,7 +117,7 @@ TEST(BvhSource, FollowsASkeletonOfAnotherBuild) {
   EXPECT_LT(BoneError(fit, source, "right_knee", "right_ankle", "RightLeg", "RightFoot"), 4);
   EXPECT_LT(BoneError(fit, source, "left_shoulder", "left_elbow", "LeftArm", "LeftForeArm"), 4);
   EXPECT_LT(BoneError(fit, source, "right_elbow", "right_wrist", "RightForeArm", "RightHand"), 4);
-  // What positions tell only in combination: where pelvis, chest and feet face.
+  // Positions determine only in combination where pelvis, chest and feet face.
   double pelvis = 0, chest = 0, foot = 0;
   for (size_t frame = 0; frame < dance.frames.size(); ++frame) {
     const JointPlacement ours = ForwardKinematics(Smpl(), fit.motion.frames[frame]);
@@ -184,7 +184,7 @@ TEST(BvhSource, KnowsPrefixesAndOtherNames) {
     const PositionClip renamed = Renamed(source, names);
     const FitResult fit = FitClip(renamed, BvhSource(renamed), Smpl());
     EXPECT_LT(fit.mean_error_m, 0.02);
-    // Collarbones and shoulders are told apart.
+    // Collarbones and shoulders are distinguished.
     const auto from = names.at("LeftArm"), to = names.at("LeftForeArm");
     EXPECT_LT(BoneError(fit, renamed, "left_shoulder", "left_elbow", from.c_str(), to.c_str()), 6);
   }

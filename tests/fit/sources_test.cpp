@@ -52,7 +52,7 @@ TEST_P(TangSources, FollowTheirMarkers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, TangSources,
-                         // One temple does not tell how the head is turned about it.
+                         // One temple does not determine the head's turn about it.
                          testing::Values(TangCase{"tang2018", Tang2018Markers, Tang2018Source, 15},
                                          TangCase{"tang61", Tang61Markers, Tang61Source, 30}),
                          [](const auto& layout) { return std::string(layout.param.name); });

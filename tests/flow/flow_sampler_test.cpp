@@ -196,7 +196,7 @@ TEST(FlowSampler, MusicShiftsOnlySampledEnergyAndOnce) {
   const Eigen::VectorXf shifted = told(arm) - calm;
   EXPECT_EQ((shifted.array() != 0).count(), kBodyParts - 1);
   EXPECT_NEAR(shifted.maxCoeff(), 0.5, 1e-5);
-  // A history made lively by the music is continued as if the music had not changed it.
+  // A history with energy from the music is continued as if the music had not changed it.
   for (int part = 0; part < kBodyParts; ++part)
     parts.energy.keyed(part, EnergyPrior::kHistoryInput + part) = 0.5;
   const Eigen::VectorXf follows = told(arm);
@@ -314,7 +314,7 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
     EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);
 }
 
-// A long way needs energy; a key tells it as far as it is known.
+// A long distance needs energy; the key gives the distance as far as it is known.
 TEST(KnownOfEnergy, ContainsTheDistanceToTheKey) {
   const FlowModelParts parts = Parts();
   const Skeleton& skeleton = parts.skeleton;

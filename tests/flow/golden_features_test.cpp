@@ -5,8 +5,8 @@
 #include "model/flow/window_features.h"
 #include "tests/flow/flow_scene.h"
 
-// Where each number lies that a network is told of a window, and which it is: what shipped
-// checkpoints were trained on. They dance what they danced as long as these stay.
+// The order and the values of a window's input features, as the shipped checkpoints were trained on
+// them. As long as they stay, the checkpoints' dances stay the same.
 namespace choreo::golden_features_test {
 
 WindowRequest Asked() {

@@ -33,7 +33,7 @@ double WorstJoint(const Motion& a, const Motion& b) {
 
 class GltfTest : public testing::Test {
  protected:
-  // What the file says after `change`, read back.
+  // The file after `change`, read back.
   Motion ReadChanged(const std::function<void(Glb&)>& change) {
     WriteGlb(folder_ / "a.glb", kSmpl, motion_);
     Glb glb(folder_ / "a.glb");

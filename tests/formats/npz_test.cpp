@@ -77,7 +77,7 @@ TEST(Npz, ReadsWhatNumpyCompressed) {
   EXPECT_DOUBLE_EQ(trans[4], -0.2);
   EXPECT_EQ(npz.Text("gender"), "female");
   EXPECT_EQ(npz.Text("subject"), "Zoe");
-  // A pickled array does no harm until it is asked for.
+  // A pickled array does no harm until it is read.
   EXPECT_TRUE(npz.Has("markers"));
   ExpectError(ErrorCode::kInvalidArgument, "markers", [&] { npz.Array("markers"); });
 }

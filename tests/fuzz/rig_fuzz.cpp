@@ -3,7 +3,7 @@
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 
-// A foreign rig's whole way: bones by their names, turns, what is plausible.
+// All steps for a foreign rig: bones by their names, turns, plausibility.
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace choreo;
   static const fuzz::InputFile input(".bvh");

@@ -38,8 +38,8 @@ class RawStream {
   bool Send(const std::string& bytes);
   /// Reads one answer, parsed as this message; false at the end.
   bool Read(google::protobuf::Message* answer);
-  /// Half-closes, reads what is left, cancels a dance that is too long to wait for, and ends the
-  /// program where the call ends as no input may make it end, or does not end at all.
+  /// Half-closes, reads the rest, and cancels a dance that takes too long. Aborts the program if
+  /// the call ends with a status that no input may cause, or does not end at all.
   template <typename Response>
   void Finish() {
     HalfClose();

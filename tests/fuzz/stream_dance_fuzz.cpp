@@ -1,6 +1,6 @@
-// A client of StreamDance that says what it should in any order, and anything besides: a record of
-// the input is a message, [kind, number, extra, bytes]: a good message of that kind, with `extra`
-// bytes of the wire appended to it, which change its fields or make it none.
+// A client of StreamDance that sends valid messages in any order, and others. A record of the input
+// is a message, [kind, number, extra, bytes]: a valid message of that kind with `extra` bytes
+// appended on the wire, which change its fields or make it invalid.
 #include "tests/fuzz/rpc.h"
 
 namespace choreo {

@@ -23,7 +23,7 @@ Outcome Lab(const std::string& arguments, const std::filesystem::path& folder = 
   return Shell("cd '" + folder.string() + "' && '" CHOREO_LAB "' " + arguments);
 }
 
-/// What a page of docs/ tells people to type: its lines that begin with choreo-lab, without that.
+/// The commands of a page of docs/: its lines that begin with choreo-lab, without that word.
 std::vector<std::string> CommandsOf(const std::string& page) {
   std::ifstream file(SOURCE_FOLDER "/docs/" + page);
   std::vector<std::string> commands;
@@ -193,8 +193,8 @@ TEST_F(LabEval, ThePapersTablesHaveEachNetworkRawAndAsServed) {
   }
   EXPECT_THAT(names,
               testing::ElementsAre("paper_l2p_clips", "paper_dances_clips", "paper_beats_clips"));
-  // What the network draws misses the key, what is served does not; who learnt without keys is told
-  // of none.
+  // The raw network misses the key, the served dance does not; a network trained without keys gets
+  // none.
   EXPECT_GT(rows.at("paper_dances_clips/mine, raw")["KPD cm²"], 1);
   EXPECT_LT(rows.at("paper_dances_clips/mine")["KPD cm²"], 1e-4);
   EXPECT_TRUE(rows.at("paper_dances_clips/keyless")["KPD cm²"].is_null());

@@ -21,7 +21,7 @@ TEST(SpeedSpectrum, PutsAWaveIntoItsBandWithItsPower) {
     EXPECT_NEAR(power(band, 1), speed * speed / 2, 0.02 * speed * speed) << hz;
     EXPECT_NEAR(power.col(1).sum(), power(band, 1), 0.02 * power(band, 1)) << hz;
     EXPECT_NEAR(power.col(0).sum(), 0, 1e-12);
-    // Seen from the pelvis nobody moves.
+    // Relative to the pelvis nothing moves.
     EXPECT_NEAR(power.rightCols(power.cols() - 2).sum(), 0, 1e-12);
   }
 }

@@ -54,7 +54,7 @@ TEST(PoseFaults, MaskedJointsHaveNoFaults) {
   head.joints.assign(24, false);
   head.joints[15] = true;
   EXPECT_THAT(PoseFaults(Body(), pose, head), IsEmpty());
-  // If only the place is asked for, the pelvis is known to be above the floor, but not the feet.
+  // If a key sets only the place, the pelvis is known to be above the floor, but not the feet.
   PoseMask place = head;
   place.root_position = true;
   EXPECT_THAT(PoseFaults(Body(), pose, place), IsEmpty());

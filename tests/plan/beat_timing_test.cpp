@@ -9,7 +9,7 @@
 
 namespace choreo::beat_timing_test {
 
-// A dancer who turns and walks on evenly: without timing she has no beats of her own.
+// A dancer who turns and walks evenly: without timing she has no beats of her own.
 std::vector<Pose> EvenWalk(int frames) {
   std::vector<Pose> plan(static_cast<size_t>(frames), RestPose(Skeleton::Smpl24()));
   for (int t = 0; t < frames; ++t) {

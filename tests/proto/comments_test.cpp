@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// The .proto files are the API's manual: everything in them says what it is.
+/// The .proto files are the API's manual: everything in them has a comment.
 namespace choreo::comments_test {
 
 namespace pb = google::protobuf;

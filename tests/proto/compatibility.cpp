@@ -19,7 +19,7 @@ std::string TypeName(const FieldDescriptor& field) {
   return field.type_name();
 }
 
-/// How often a field may stand there, and whether its absence can be told.
+/// How often a field may occur, and whether its absence is visible.
 std::string Label(const FieldDescriptor& field) {
   if (field.is_repeated()) return "repeated";
   return field.has_presence() ? "optional" : "plain";

@@ -48,8 +48,8 @@ class ContinuousFlowSamplerTest : public testing::Test {
   std::unique_ptr<Sampler> sampler_;
 };
 
-// Logs and metrics repeat the name; whoever may put a file in a folder must not fill them, nor the
-// memory. Every error says which file it is about.
+// Logs and metrics repeat the name, so a file in a folder must not fill them, nor the memory. Every
+// error names its file.
 TEST_F(ContinuousFlowSamplerTest, RefusesUnprintableNamesAndFilesOverAGigabyte) {
   const auto refused = [&](const std::string& why) {
     try {
@@ -176,7 +176,7 @@ TEST_F(ContinuousFlowSamplerTest, RequestedBeatsAndLimbSpeedsChangeIt) {
   other.controls[kVelocityFactors].values.setConstant(kBodyParts, spec.frames, 0.05F);
   const auto lively = Dance(other);
   EXPECT_GT(LargestDifference(plain, lively), 1e-4);
-  // What nobody asks for is unknown, whatever value stands there.
+  // Parts without a request are unknown, whatever their value.
   other.controls[kVelocityFactors].asked.assign(kBodyParts, false);
   ExpectSameBits(plain, Dance(other));
 }

@@ -6,7 +6,7 @@
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
 
-/// Which instructions the packed engine is told to use.
+/// The choice of the packed engine's instructions.
 namespace choreo::kernels_test {
 
 using testing::HasSubstr;

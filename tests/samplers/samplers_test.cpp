@@ -14,7 +14,7 @@
 #include "model/engine/loading.h"
 #include "tests/samplers/sampled.h"
 
-// What every sampler of the flow model promises, whatever computes it.
+// The promises of every sampler of the flow model, on any engine.
 namespace choreo::samplers_test {
 
 using testing::ContainsRegex;

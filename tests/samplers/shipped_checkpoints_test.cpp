@@ -11,7 +11,7 @@
 #include "tests/samplers/sampled.h"
 #include "tests/support/load_checkpoint.h"
 
-// What every checkpoint in model/checkpoints is, whatever network is in it.
+// The properties of every checkpoint in model/checkpoints, with any network.
 namespace choreo::shipped_checkpoints_test {
 
 constexpr std::uintmax_t kLargest = 16'000'000;  // bytes

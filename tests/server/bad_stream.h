@@ -7,8 +7,8 @@
 
 #include "tests/server/fixture.h"
 
-/// Streams that are refused: what is sent, and what the answer must name. The test itself stands in
-/// bad_stream_test.cpp; its cases, by theme, in the files around it.
+/// Streams that are refused: their messages, and what the answer must name. The test itself is in
+/// bad_stream_test.cpp; its cases are in the files beside it, by theme.
 namespace choreo {
 
 using Requests = std::vector<v1::StreamDanceRequest>;

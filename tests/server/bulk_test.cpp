@@ -15,7 +15,7 @@ constexpr int kBulkFrames = 1'800;
 constexpr int kCandidates = 32;
 constexpr int kDanceFrames = 24;  // two transitions, within SampleQueue::Options::bulk_yields
 
-/// In which order a sampler is asked for what.
+/// The order of a sampler's jobs.
 struct Log {
   enum class Did { kBulkSlice, kDanceSlice, kDanceEnds };
 
@@ -117,8 +117,8 @@ class BulkTest : public ServerTest {
     request.set_candidates(kCandidates);
     return request;
   }
-  // All that it says is there before its frames are granted in one message: from its first slice on
-  // it waits for nobody but the worker.
+  // All its messages are there before one message grants its frames: from its first slice on it
+  // waits only for the worker.
   Answer Dance() {
     DanceClient client(stub());
     client.Send(Config());
@@ -155,7 +155,7 @@ TEST_F(BulkTest, DancesPreemptLongTransitionCalls) {
   ASSERT_LT(first, last);
   EXPECT_EQ(std::count(first, last, Log::Did::kDanceEnds), 2);
   EXPECT_EQ(std::count(first, last, Log::Did::kBulkSlice), 0);
-  // Then it goes on.
+  // Then it continues.
   const int64_t then = log->Count(Log::Did::kBulkSlice);
   ExpectEventually([&] { return log->Count(Log::Did::kBulkSlice) > then; }, "it goes on");
 }

@@ -13,7 +13,7 @@ namespace choreo::call_session_test {
 
 using Response = v1::StreamDanceResponse;
 
-/// Takes what the test says is taken.
+/// Accepts what the test wants it to.
 struct SlowWire : Outbox<Response>::Wire {
   void Write(const Response* /*message*/) override {}
   void Finish(const grpc::Status& /*status*/) override {}

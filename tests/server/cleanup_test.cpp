@@ -76,7 +76,7 @@ class CleanupTest : public ServerTest, public testing::WithParamInterface<std::t
       v1::GenerateTransitionRequest request;
       *request.mutable_config() = Config();
       request.mutable_config()->set_encoding(v1::ROTATION_ENCODING_MATRIX);
-      // What nobody reads does not end: the outbox fills.
+      // An unread dance does not end: the outbox fills.
       request.set_frames(end == End::kError ? 0 : 1800);
       request.set_candidates(end == End::kSuccess ? 1 : 32);
       grpc::ClientContext context;

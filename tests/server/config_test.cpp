@@ -183,7 +183,7 @@ TEST(ServerConfigTest, EverySettingHasAVariable) {
   EXPECT_EQ(flag.config->io_threads, 5);
 }
 
-// Beyond this machine: only with TLS, or when told so.
+// Beyond this machine: only with TLS, or with --insecure.
 TEST(ServerConfigTest, PlaintextBeyondLocalhostNeedsAFlag) {
   for (const char* everywhere : {"0.0.0.0:0", "[::]:0", "203.0.113.1:1"}) {
     testing::internal::CaptureStderr();

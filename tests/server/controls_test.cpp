@@ -67,7 +67,7 @@ v1::Controls Factors(const std::vector<float>& factors, const std::vector<v1::Bo
   return controls;
 }
 
-/// What the fake model says that it was asked of a part, in a frame.
+/// The fake model's record of the factor requested for a part, in a frame.
 float Asked(const Answer::Joined& dance, BodyPart part, int frame) {
   const Skeleton& body = Skeleton::Smpl24();
   const int joint = body.Find(kTellingJoints[static_cast<size_t>(part)]);

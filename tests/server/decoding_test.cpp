@@ -17,9 +17,9 @@ class DecodingTest : public ServerTest {
  protected:
   static constexpr int kRate = 191'999, kChannels = 8;
 
-  // A FLAC file of nothing, which says that it has so many seconds; 0: that nobody knows. Ten
-  // minutes are 3.6 MB and take most of a minute: so many samples, and filters of a ratio of rates
-  // that are too many to be kept.
+  // A silent FLAC file whose header states `told_seconds`; 0: unknown. Ten minutes are 3.6 MB and
+  // take most of a minute to decode: it has very many samples, and a ratio of rates with too many
+  // filters to cache.
   static std::string Silence(int seconds, int told_seconds) {
     constexpr int kWritten = 191'990;  // FLAC's writers want whole tens
     const TemporaryFolder folder;
@@ -98,7 +98,7 @@ TEST_F(DecodingTest, DoesNotBlockOthersAndEndsWithItsCall) {
   ExpectIdle();
 }
 
-// A header is no reason for a refusal, and what it says is never allocated.
+// A header alone causes no refusal, and the size that it states is never allocated.
 TEST_F(DecodingTest, FileWithAnExcessiveHeaderIsReadToItsEnd) {
   Start();
   v1::GenerateTransitionRequest heavy = Transition();

@@ -159,7 +159,7 @@ class DisorderTest : public ServerTest {
   const std::string music_ = Music(4);
 };
 
-// Nothing of the music has come, so nobody knows where the dance ends.
+// No music has come, so the end of the dance is unknown.
 TEST_F(DisorderTest, PacingAfterTheLastKeyIsHarmless) {
   const Watchdog watchdog(seconds(60));
   Start(/*workers=*/2);

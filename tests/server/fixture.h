@@ -25,7 +25,7 @@ struct EngineProbe {
   std::atomic<bool> closed = false;  ///< while true, no frame is made
 };
 
-/// A FakeSampler that tells, and can be held up.
+/// A FakeSampler that records its calls, and can be held.
 class ProbedSampler final : public FakeSampler {
  public:
   ProbedSampler(std::string name, std::shared_ptr<EngineProbe> probe);

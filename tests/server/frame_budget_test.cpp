@@ -8,7 +8,7 @@
 
 namespace choreo::frame_budget_test {
 
-/// Two models with one worker each, of which each has time for 20 dances: 10 of both.
+/// Two models with one worker each, which has time for 20 dances: 10 of both.
 class FrameBudgetTest : public ::testing::Test {
  protected:
   FrameBudgetTest() {

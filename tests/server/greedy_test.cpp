@@ -84,7 +84,7 @@ void TakeSlots(const Victim& victim) {
   }
 }
 
-// As many frames as there can be, of which none is read.
+// As many frames as possible, none of which is read.
 void TakeFrames(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> dances;
   for (int i = 0; i < 32; ++i) {

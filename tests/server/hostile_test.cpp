@@ -28,7 +28,7 @@ int64_t ResidentBytes(const std::string& process) {
 
 class HostileTest : public ServerTest {
  protected:
-  // Dances one after another while `harm` goes on; the longest took so many seconds.
+  // Dances one after another during `harm`; returns the seconds of the longest.
   double SlowestDanceDuring(const std::function<void()>& harm) {
     std::atomic<bool> over = false;
     std::jthread harming([&] {
@@ -67,8 +67,8 @@ TEST_F(HostileTest, AMessageOf4GiBTakesNoMemory) {
   std::cout << "memory grew by " << (grown >> 10) << " KiB\n";
 }
 
-// Of calls of gRPC's own services nobody is told whose they are: they end no connection, and the
-// server goes on listening.
+// The callers of gRPC's own services are unknown: such calls end no connection, and the server
+// keeps listening.
 TEST_F(HostileTest, IdleReflectionClosesNoConnection) {
   Start(1);
   constexpr int kConnections = 8, kCalls = 100;
@@ -89,7 +89,7 @@ TEST_F(HostileTest, IdleReflectionClosesNoConnection) {
   SlowestDanceDuring([] {});
 }
 
-// Answers that nobody reads are so many for each address, and the next is told so.
+// Unread answers are limited for each address; the next call is refused.
 TEST_F(HostileTest, AnswersThatNobodyReadsAreBounded) {
   Start(1);
   constexpr int kConnections = 4, kCalls = 90, kSome = 64;
@@ -138,12 +138,12 @@ TEST_F(HostileTest, OthersAreServedDuringRapidResets) {
             << " s, memory grew by " << (grown >> 20) << " MiB\n";
 }
 
-// The same where the server has a tenth of a core, so that calls wait to be ended; beside a dance
-// in real time that behaves. Who is sent away comes back. CHOREO_FAULT_CALLS makes it longer
+// The same where the server has a tenth of a core, so that calls wait to be ended; beside a
+// well-behaved dance in real time. Refused clients retry. CHOREO_FAULT_CALLS makes it longer
 // (scripts/faults.sh).
 TEST_F(HostileTest, RapidResetsWithoutCpu) {
   const int calls = Setting("CHOREO_FAULT_CALLS", 20'000);
-  // The dance that behaves waits, too, and shall not be taken for one that says nothing.
+  // The well-behaved dance waits, too, and must not count as silent.
   ::setenv("CHOREO_FIRST_MESSAGE_SECONDS", "600", 1);
   const cli::LocalServer starved(FAKE_CHOREOD);
   ::unsetenv("CHOREO_FIRST_MESSAGE_SECONDS");

@@ -12,7 +12,7 @@
 
 namespace choreo {
 
-/// A connection that says whatever it wants.
+/// A connection that sends arbitrary bytes.
 class Http2 {
  public:
   explicit Http2(int port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -77,7 +77,7 @@ class Http2 {
     }
     return begun;
   }
-  /// Reads what has come, and drops it.
+  /// Reads the received bytes and drops them.
   void Drain() {
     char bytes[65536];
     while (recv(fd_, bytes, sizeof bytes, MSG_DONTWAIT) > 0) {

@@ -147,7 +147,7 @@ TEST_F(InfoTest, HealthServes) {
   EXPECT_EQ(CallRaw(channel, "/grpc.health.v1.Health/Check", request, false), serving);
 }
 
-/// Fails while it is told to, as a device that is gone.
+/// Fails on request, like a lost device.
 class FailingSampler final : public FakeSampler {
  public:
   explicit FailingSampler(const std::atomic<bool>* fails) : fails_(fails) {}

@@ -146,8 +146,8 @@ TEST_F(LifecycleTest, SlowReaderPausesOnlyItsOwnDance) {
   EXPECT_EQ(answer.Join().count, 20'000);
 }
 
-// What is sent is refused, message by message, and no refusal is read: soon no more is taken. Then
-// every message has its answer.
+// Each message is refused, and the client reads no refusal: soon the server reads no more. Then
+// every message gets its answer.
 TEST_F(LifecycleTest, ServerDoesNotReadFromASlowReader) {
   Start(1, [](ServerConfig& config) { config.outbox_kib = 1; });
   grpc::ChannelArguments small_windows;
@@ -240,7 +240,7 @@ TEST_F(LifecycleTest, DrainedStreamEndsAfterATransition) {
   EXPECT_EQ(answer.continuations.back().frame(), answer.Join().count);
 }
 
-// The connection was there before, and nobody looked at it when the server went.
+// The connection existed before, and was idle when the server stopped.
 TEST_F(LifecycleTest, LateCallsAreNotCancelled) {
   for (int round = 0; round < 3; ++round) {
     Start();
@@ -287,7 +287,7 @@ TEST_F(LifecycleTest, FreesMemoryOfLostClients) {
   constexpr int kRounds = 40;
   constexpr int64_t kSent = kRounds * 2 * kPiece;
   leave_early(kRounds);
-  // The allocator keeps some of what is given back.
+  // The allocator keeps some of the freed memory.
   EXPECT_LT(ResidentBytes() - before, kSent / 3) << "of " << kSent << " sent";
 }
 

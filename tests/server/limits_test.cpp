@@ -6,7 +6,7 @@
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
 
-/// What is refused as it stands on the wire.
+/// Refusals of messages on the wire, before they are parsed.
 namespace choreo::limits_test {
 
 using testing::HasSubstr;
@@ -131,7 +131,7 @@ TEST_F(LimitsTest, CompressedRequestsAreRefused) {
   ExpectIdle();
 }
 
-// It is told to go (GOAWAY) and goes once its dance is over; the next call has another connection.
+// The server sends GOAWAY; the connection ends after its dance, and the next call has another one.
 TEST_F(LimitsTest, AnOldConnectionTakesNoNewCalls) {
   Start(1, [](ServerConfig& config) { config.max_connection_seconds = 0.2; });
   DanceClient dance(stub());

@@ -92,8 +92,8 @@ TEST_F(LogTest, JsonReplacesInvalidUtf8) {
   EXPECT_EQ(object.at("message"), "models/\uFFFD\uFFFD(\"\n.safetensors");
 }
 
-// Whoever can connect can make gRPC write: it writes ten lines in ten seconds, and how many more
-// there were.
+// Anybody who can connect can make gRPC log: it writes ten lines in ten seconds, and counts the
+// rest.
 TEST_F(LogTest, GrpcsLinesAreBounded) {
   const auto before = spdlog::default_logger();
   testing::internal::CaptureStderr();

@@ -38,7 +38,7 @@ class MetricsTest : public ServerTest {
     EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     return fd;
   }
-  // All that http://127.0.0.1:PORT/metrics says.
+  // The text of http://127.0.0.1:PORT/metrics.
   static std::string MetricsAt(int port) { return AnswerTo(port, "GET /metrics"); }
   static std::string AnswerTo(int port, const std::string& line) {
     const int fd = ConnectTo(port);
@@ -111,7 +111,7 @@ TEST_F(MetricsTest, ShowWorkInProgress) {
   client.Cancel();
 }
 
-// A counter that fell would be a jump for whoever asks its rate.
+// Prometheus would read a falling counter as a jump of its rate.
 TEST_F(MetricsTest, ContinueAcrossAModelReload) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
   const auto dance = [&] {
@@ -133,7 +133,7 @@ TEST_F(MetricsTest, ContinueAcrossAModelReload) {
   EXPECT_EQ(Figure("choreo_load" + of_fake), 0);
 }
 
-// Who looks at them is not told for ever of what was served once, nor does the list grow.
+// Figures of a former model do not stay for ever, and the list does not grow.
 TEST_F(MetricsTest, OfARemovedModelEndWithItsLastDance) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; }, {"fake", "other"});
   DanceClient client(stub());

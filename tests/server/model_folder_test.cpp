@@ -74,7 +74,7 @@ TEST_F(ReloadTest, AddsAndRemovesModels) {
   ExpectAlive(1);
 }
 
-// Whatever their names, and whichever was there first.
+// Whatever their names and order.
 TEST_F(ReloadTest, PrefersAGoodFileToABrokenOneOfTheSameModel) {
   Write("default.safetensors", "a 1");
   Write("b.safetensors", "b 1");
@@ -107,7 +107,7 @@ TEST_F(ReloadTest, KeepsServedModelsIfNoneIsUsable) {
   EXPECT_TRUE(Whole("a").status.ok());
 }
 
-// A file that was touched, or has another name, is no other model: nobody's dance is.
+// A touched or renamed file is the same model, so no dance changes.
 TEST_F(ReloadTest, LoadsOnlyChangedFiles) {
   Write("a.safetensors", "a 1");
   Write("b.safetensors", "b 1");

@@ -17,7 +17,7 @@ constexpr milliseconds kFrameTime{2};  // of the engine, for each frame
 constexpr int kHolds = 16;             // real-time dances that it has time for: 16 x 30 x 2 ms
 constexpr int kGrantsOfDance = 40;
 
-/// Takes so long for each frame, whatever the machine is.
+/// Takes this long for each frame, on any machine.
 class CostlySampler final : public FakeSampler {
  public:
   void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) override {

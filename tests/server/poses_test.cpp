@@ -8,7 +8,7 @@
 /// Poses as they stand on the wire.
 namespace choreo::poses_test {
 
-/// From its 80th frame on farther away than a float can tell.
+/// From its 80th frame on farther away than a float can represent.
 class LostSampler final : public FakeSampler {
  public:
   void OnFrame(const TransitionSpec& /*spec*/, Plan* plan) override {

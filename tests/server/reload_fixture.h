@@ -39,7 +39,7 @@ class ReloadTest : public ServerTest {
   // The server goes before `alive` does.
   ~ReloadTest() override { server.reset(); }
 
-  // As whoever trains models should: whole, or not at all.
+  // Atomically, as trainers should.
   void Write(const std::string& file, const std::string& content) {
     std::ofstream(models / "written") << content;
     std::filesystem::rename(models / "written", models / file);

@@ -65,8 +65,8 @@ TEST_F(ReloadTest, ContinuationAcrossAReloadIsOfAnotherCheckpoint) {
   EXPECT_TRUE(during->Finish().status.ok());
 }
 
-// Who dances sees nothing of it, whoever begins has one version or another, and what nobody dances
-// is gone.
+// Running dances are unaffected, new ones get one version or the other, and unused models are
+// freed.
 TEST_F(ReloadTest, HundredReloadsDuringDances) {
   constexpr int kVersions = 3, kDancers = 4;
   Write("a.safetensors", "a 0");

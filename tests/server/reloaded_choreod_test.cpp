@@ -22,7 +22,7 @@ class ReloadedChoreodTest : public testing::Test {
     if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
     Put("default");
     ::setenv("CHOREO_MODELS", models.path().c_str(), 1);
-    // As where nobody says so: OpenBLAS has begun threads before choreod's main.
+    // As by default: OpenBLAS starts threads before choreod's main.
     ::setenv("OPENBLAS_NUM_THREADS", "2", 1);
     server.emplace(CHOREOD_PROGRAM);
     ::unsetenv("OPENBLAS_NUM_THREADS");

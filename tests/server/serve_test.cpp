@@ -18,7 +18,7 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-/// How a choreod leaves that is asked to, whatever it does at that moment.
+/// How a choreod stops on request, in any state.
 namespace choreo::serve_test {
 
 using testing::HasSubstr;

@@ -13,8 +13,8 @@
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
-/// choreod as people start it, with checkpoints that it can't serve: it leaves at once, with one
-/// line that names the file, what is wrong in it and why.
+/// choreod as people start it, with checkpoints that it can't serve: it exits at once, with one
+/// line that names the file, the fault in it and the reason.
 namespace choreo::start_test {
 
 Outcome StartWith(const std::filesystem::path& checkpoint) {
@@ -101,7 +101,7 @@ TEST_F(StartTest, WarnsOfSettingsThatTheModelIgnores) {
   EXPECT_THAT(outcome.said, testing::HasSubstr("dances at once take"));
 }
 
-// What was loaded is all that it needs: neither who dances nor who comes later notices.
+// The server needs only what it loaded: running and later dances are unaffected.
 TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
   ::setenv("CHOREO_CHECKPOINT", path_.c_str(), 1);
   cli::LocalServer server(CHOREOD_PROGRAM);

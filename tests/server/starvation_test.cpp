@@ -33,7 +33,7 @@ class StarvationTest : public ServerTest {
     return client;
   }
 
-  // A dance of which nothing is read: HTTP/2, whose windows are small, fills, the outbox fills, it
+  // A dance whose client reads nothing: HTTP/2's small windows fill, then the outbox, and the dance
   // pauses.
   std::unique_ptr<DanceClient> UnreadDance() {
     grpc::ChannelArguments small_windows;

@@ -160,7 +160,7 @@ TEST_F(StreamKeysTest, MaskedKeysLeaveTheRestAlone) {
   EXPECT_TRUE(joined == dance(1.2F).Join());
 }
 
-// Frames leave up to generate_until, and the key after it moves, in whatever order keys came.
+// Frames are sent up to generate_until, and the key after it moves, in any order of keys.
 TEST_F(StreamKeysTest, KeysMoveDuringTheirTransition) {
   Start();
   const auto dance = [this](bool move) {

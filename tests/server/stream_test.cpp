@@ -212,8 +212,7 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
       << "other music is danced otherwise";
 }
 
-// Music that nobody has heard yet is danced to on the beat, and the answer says how beats are
-// known.
+// Dances to new music are on the beat, and the answer gives the source of each beat.
 TEST_F(StreamTest, DetectsBeatsOfLiveMusic) {
   Start();
   DanceClient client(stub());

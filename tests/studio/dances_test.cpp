@@ -14,8 +14,7 @@ namespace choreo::studio::dances_test {
 
 using ::testing::HasSubstr;
 
-// The same frames as the client library gets: the studio adds the song and what is heard in it, no
-// more.
+// The same frames as the client library gets: the studio only adds the song and its analysis.
 TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   const Opened studio(server_.address());
   Page page(studio.port());
@@ -47,7 +46,7 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   }
 }
 
-// Beats that the page says are danced, in place of those that were heard.
+// The page's beats replace the detected ones.
 TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
   const Opened studio(server_.address());
   Page page(studio.port());
@@ -149,7 +148,7 @@ TEST_F(StudioTest, DancesAnIntervalAnew) {
   EXPECT_EQ(end.transition().summary().candidates(0).continuation().frame(), 50);
 }
 
-// What the microphone of a page hears: frames come while it sounds, and the song has no part in it.
+// Music from the page's microphone: frames come while it plays, independent of the song.
 TEST_F(StudioTest, DancesToMusicAsItSounds) {
   const Opened studio(server_.address());
   Page page(studio.port());
@@ -227,7 +226,7 @@ TEST_F(StudioTest, RefusesInvalidMusic) {
   EXPECT_THAT(end.failure().message(), HasSubstr("samples"));
 }
 
-// A choreod of our own that is killed in the middle of a dance comes back, and the dance goes on.
+// A choreod of our own that is killed in the middle of a dance restarts, and the dance continues.
 TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
   const ServerSupervisor supervisor{std::filesystem::path(FAKE_CHOREOD)};
   const Opened studio(supervisor.address());

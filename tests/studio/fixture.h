@@ -36,7 +36,7 @@ class Opened {
   std::thread thread_;
 };
 
-/// A studio of which a test is the page, and the server that it asks.
+/// A studio with its server; the test is the page.
 class StudioTest : public testing::Test {
  protected:
   std::string Clicks(double seconds) {

@@ -54,7 +54,7 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
   EXPECT_FALSE(page.welcome().has_styles_shown());  // nobody measured the fake model's
 }
 
-// What it asked for last is still being made, and can't be stopped.
+// Its last request is still running, and can't be stopped.
 TEST_F(StudioTest, ClosedPageBlocksNoOther) {
   std::atomic<bool> held = true;
   const TestServer slow(std::make_unique<HeldSampler>(held));

@@ -21,8 +21,8 @@ inline const std::array<std::string, kBodyParts> kTellingJoints = {
 
 /// A model without a network, for testing what surrounds models. Each degree of freedom walks,
 /// damped, towards the target (or its last history value if it is open), is shaken by the counter
-/// noise, nods on beats, and turns its last joint by the music's energy; in models that hear music,
-/// rows shake it, too. A dancer with an open position goes to the middle of the stage.
+/// noise, nods on beats, and turns its last joint by the music's energy; in models with music
+/// input, rows shake it, too. A dancer with an open position goes to the middle of the stage.
 /// Deterministic. It misses its target slightly, like a real model. It follows controls exactly:
 /// the root is on the path, and the first number of a telling joint's rotation is the velocity
 /// factor of its part.
@@ -141,7 +141,7 @@ inline std::unique_ptr<Sampling> FakeSampler::BeginValid(const TransitionSpec& s
   return std::make_unique<FakeSampling>(*this, spec);
 }
 
-/// A model that hears more than beats, so it waits for a whole transition's music.
+/// A model with more music input than beats, so it waits for a whole transition's music.
 class HearingSampler : public FakeSampler {
  public:
   HearingSampler() { model_.hears_music = true; }

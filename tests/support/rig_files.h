@@ -13,7 +13,7 @@
 #include "model/motion/rotation.h"
 
 /// Rigs for tests, as other programs export them: a body in centimetres that stands with arms held
-/// out, faces +Z, and moves as told.
+/// out, faces +Z, and moves as requested.
 namespace choreo::testing_support {
 
 struct RigJoint {

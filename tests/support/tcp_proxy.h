@@ -14,8 +14,8 @@
 
 namespace choreo {
 
-/// Forwards bytes of one connection between a client and a server on this machine until told to
-/// fall silent: then each side hears nothing more, and no end either.
+/// Forwards bytes of one connection between a client and a server on this machine until it is
+/// silenced: then each side receives nothing more, not even the end.
 class TcpProxy {
  public:
   /// `upward`: after this many bytes falls silent towards the server only.

@@ -58,7 +58,7 @@ void WritePublicLayout(const std::filesystem::path& folder, const PositionClip& 
 class Tang2018Test : public Preparation {
  protected:
   Tang2018Test() : Preparation("tang2018") { options_.jobs = 2; }
-  // Whether frame f of the clip hears row f + first of the music.
+  // Whether frame f of the clip has row f + first of the music.
   static void ExpectMusicFrom(int64_t first, const PreparedClip& clip,
                               const std::vector<float>& samples) {
     FeatureStream stream(kMusicRate, 1);

@@ -132,7 +132,7 @@ TEST_F(WindowClipsTest, BodyVelocitiesMatchCoordinates) {
 
 TEST_F(WindowClipsTest, PerturbedHistoryReturnsToTheRecording) {
   const WindowBatch real = Draw({}), astray = Draw({.astray = 1});
-  // The first window is the same; she ends in the same place, except for how she first faced.
+  // The first window is the same; the dancer ends in the same pose, except for the initial heading.
   const auto apart = [](const Pose& a, const Pose& b) {
     return (a.rotations - b.rotations).rightCols(a.rotations.cols() - 1).norm();
   };
@@ -166,7 +166,7 @@ TEST_F(WindowClipsTest, EnergyPredictsTheSpread) {
 }
 
 TEST_F(WindowClipsTest, MeasuresEnergyCurvesOfTheClips) {
-  // A dancer whose arms and trunk are alternately lively and calm, a second each.
+  // A dancer whose arms and trunk are alternately fast and slow, a second each.
   ClipTrack track;
   track.energy = Eigen::MatrixXd::Constant(kBodyParts, 600, 0.01);
   for (Eigen::Index i = 0; i < track.energy.cols(); ++i)
@@ -215,7 +215,7 @@ TEST_F(WindowClipsTest, RequestedEnergyEqualsRecordedEnergy) {
     request.controls[kVelocityFactors].asked.assign(kBodyParts, true);
   const EnergyResponse honest = MeasureResponse(parts, Silent(), requests);
   ASSERT_TRUE(honest.known());
-  // Who is told twice as much dances no more: as much less comes of it.
+  // Twice the requested energy does not change the dance: the response is lower by as much.
   for (WindowRequest& request : requests) request.controls[kVelocityFactors].values *= 2;
   const EnergyResponse doubled = MeasureResponse(parts, Silent(), requests);
   EXPECT_NEAR(doubled.slope[0], honest.slope[0], 0.05);

@@ -10,8 +10,8 @@
 /// Music that sounds now: its beats are known before they sound.
 namespace choreo::live::beat_ear_test {
 
-/// What is told from `from` s on, each beat before it sounds; what is told later counts, but for
-/// downbeats, of which each is kept.
+/// The beats predicted from `from` s on, each before it sounds. Later predictions replace earlier
+/// ones, but all downbeats are kept.
 std::vector<double> Told(const std::vector<float>& song, double from,
                          std::vector<double>* downbeats = nullptr) {
   BeatEar ear;
@@ -44,7 +44,7 @@ double ShareMet(const std::vector<double>& told, const std::vector<double>& beat
   return static_cast<double>(met) / static_cast<double>(told.size());
 }
 
-// Of some songs the half beats are heard at first, so not each of them.
+// In some songs the half beats are found at first, so not every beat counts.
 TEST(BeatEar, PredictsBeats) {
   int well = 0, counted = 0;
   for (uint64_t seed = 1; seed <= 6; ++seed) {

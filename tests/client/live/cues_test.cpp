@@ -212,7 +212,7 @@ TEST(MidiClock, RunsFromItsStartOn) {
   close(out);
 }
 
-// ALSA's own device that plays a file into whoever records.
+// ALSA's own device that plays a file to a recorder.
 TEST(LineIn, ReadsTheDevicesSamples) {
   const TemporaryFolder folder;
   std::vector<float> played(44100);

@@ -27,7 +27,7 @@ namespace choreo::live_dance_test {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Clicks that wait for nobody.
+/// Clicks in real time, without waiting.
 class HastySound final : public live::Sound {
  public:
   explicit HastySound(double seconds) : samples_(Clicks(seconds)) {}
@@ -67,7 +67,7 @@ class DrumMachine final : public live::Cues {
   int ticks_ = 0;
 };
 
-/// Says what it is to say before the given piece of music.
+/// Sends its cues before the given piece of music.
 class Script final : public live::Cues {
  public:
   explicit Script(std::multimap<int, live::Cue> said) : said_(std::move(said)) {}
@@ -154,7 +154,7 @@ TEST_F(LiveDanceTest, PoseCanBeRemovedUntilItIsDanced) {
   EXPECT_THAT(notes_, testing::ElementsAre("no pose can be taken back"));
 }
 
-// The groove stands later, the kick was asked for last.
+// The groove is later, but the kick was requested last.
 TEST_F(LiveDanceTest, UndoRemovesTheLastRequestedPose) {
   Dance({{24, {"groove", 2.5}}, {25, {"kick"}}, {30, {}}});
   EXPECT_GT(Off(45, "kick"), 5);

@@ -6,7 +6,7 @@
 
 #include "model/audio/made_song.h"
 
-/// Music that sounds now, of which a part comes back.
+/// Live music, a part of which returns.
 namespace choreo::live::passage_ear_test {
 
 constexpr double kPart = 20;  // seconds

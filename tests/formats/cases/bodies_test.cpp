@@ -1,5 +1,5 @@
-// Files that hold more than one body, or one in parts, and rigs whose file says less or otherwise
-// than it seems: a row each, as in log_test.cpp.
+// Files with several bodies, or with one in parts, and rigs whose files are incomplete or
+// misleading: a row each, as in log_test.cpp.
 #include <functional>
 #include <string>
 #include <vector>

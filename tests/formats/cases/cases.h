@@ -15,7 +15,8 @@
 #include "tests/support/rig_files.h"
 #include "tests/support/temporary_folder.h"
 
-/// What people bring: a row each, a file made here, how it is read, what is right.
+/// Files as people bring them. Each row has a file made here, the options to read it, and the right
+/// result.
 namespace choreo::cases_test {
 
 using namespace testing_support;
@@ -117,7 +118,7 @@ inline Wrong Compare(const Motion& motion, const RigTurn& turn, int step = 1) {
 inline constexpr double kOpen = 5;
 
 // A head that looks aside, a hand that is rolled, a forearm that is twisted, a chest that leans, a
-// foot that is turned: all that positions do not tell.
+// foot that is turned: rotations that positions do not determine.
 inline Eigen::Matrix3d Expressive(const std::string& bone, int frame) {
   if (bone == "head") return About(0, 1, 0, 60);
   if (bone == "left_wrist") return About(1, 0, 0, 90);

@@ -1,5 +1,5 @@
-// The log of files that were read wrong, or refused without need: of each how it is made, the
-// options of `choreo convert` that it takes, what is right and what is said.
+// The log of files that were once read wrong, or refused without need. Each row has a way to make
+// the file, the options of `choreo convert`, the right result, and the notes.
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -23,7 +23,7 @@ std::string OtherSide(const std::string& bone) {
   return bone.starts_with("right_") ? "left_" + bone.substr(6) : bone;
 }
 
-// What a body does whose image in a mirror does as `Expressive` says.
+// The motion of a body whose mirror image moves as `Expressive` describes.
 Eigen::Matrix3d Mirrored(const std::string& bone, int frame) {
   return kMirror * Expressive(OtherSide(bone), frame) * kMirror;
 }

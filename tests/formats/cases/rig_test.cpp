@@ -86,7 +86,7 @@ double LowestToe(const Pose& pose) {
   return std::min(at(1, kSmpl.feet[1]), at(1, kSmpl.feet[3]));
 }
 
-// For how long she stands there does not matter.
+// The length of her stay does not matter.
 TEST_F(CasesTest, StepsOntoAStageKeepTheirHeight) {
   BvhFile file = MakeBvh({.turn = Expressive, .frames = 600});
   const auto rise = [&](double height, double whole) {
@@ -135,7 +135,7 @@ TEST_F(CasesTest, ARestPoseThatIsNoBodyIsMadeOutOfTheClip) {
   const Read read = ReadFile("a.bvh");
   EXPECT_TRUE(read.Says("no standing body")) << Said(read);
   EXPECT_LT(Compare(read.motion, Walk).limbs, 0.1);
-  // How the head is turned at rest nobody says; how it turns from there is kept.
+  // The head's turn at rest is unknown; its turns from there are kept.
   const auto looks = [](const std::string& bone, int frame) -> Eigen::Matrix3d {
     if (bone == "head") return About(0, 1, 0, 60 * std::sin(frame * 0.2));
     return Walk(bone, frame);

@@ -225,7 +225,7 @@ std::string NameOf(const testing::TestParamInfo<Form>& form) {
 INSTANTIATE_TEST_SUITE_P(Forms, FlowTest,
                          testing::Values(Form::kPaper, Form::kEncoded, Form::kInnovations), NameOf);
 
-// Motion that always goes on as it did is predicted: what the flow draws of it is next to nothing.
+// Steady motion is predicted: the flow draws almost nothing.
 TEST(FlowInnovations, AreThePredictionsResiduals) {
   torch::NoGradGuard no_grad;
   torch::manual_seed(8);

@@ -83,7 +83,7 @@ TEST_F(Study, TheSeedDrawsTheOrder) {
   EXPECT_GE(orders.size(), 4U);  // of eight
 }
 
-// Of one seed, which nobody has to change, there are many studies.
+// One seed, which need not be changed, gives many studies.
 TEST_F(Study, SeparatesAnswersToOtherFilms) {
   Make();
   const std::filesystem::path answer = Answer("a", "ours");

@@ -191,7 +191,7 @@ TEST_F(PaperTrainerTest, FlowContinuesFromAnother) {
   EXPECT_THAT(ours.card, testing::HasSubstr("[3 clips] for study alone"));
 }
 
-// Whatever it is called: each run's checkpoint has the same name.
+// Whatever the name: each run's checkpoint has the same one.
 TEST_F(PaperTrainerTest, ResumesWithTheSamePretrainedCheckpoint) {
   const PaperOptions base = Options("base", 1);
   TrainFlow(base);
@@ -322,7 +322,7 @@ TEST_F(PaperTrainerTest, BatchesOfOtherTempiKeepTheirPath) {
   Random random(5);
   const MotionBatch batch = DrawMotion(clips, 40, 10, 20, {.tempo = 1}, torch::kCPU, &random);
   const TorchKinematics kinematics(clips.front().skeleton);
-  // What is danced faster goes further; all of it stays whole motion.
+  // Faster motion goes further, and stays consistent.
   const torch::Tensor steps = batch.truth.position.diff(1, 1).norm(2, -1).mean(1);
   EXPECT_GT((steps.max() / steps.min()).item<double>(), 1.2);
   EXPECT_TRUE(batch.features.isfinite().all().item<bool>());
@@ -343,7 +343,7 @@ TEST_F(PaperTrainerTest, BatchesHoldCanonicalWindowsAndTheirKeys) {
   EXPECT_LT(last.select(1, 0).abs().max().item<double>(), 1e-6);
   EXPECT_LT(last.select(1, 2).abs().max().item<double>(), 1e-6);
   EXPECT_TRUE(torch::equal(batch.transition.target_position, batch.truth.position.select(1, 19)));
-  // Two of five clips have music; who has none hears zeros.
+  // Two of five clips have music; the others get zeros.
   const MotionBatch many = DrawMotion(clips, 60, 10, 20, {}, torch::kCPU, &random);
   const auto heard = static_cast<int>(many.has_audio.sum().item<double>());
   EXPECT_GT(heard, 0);
