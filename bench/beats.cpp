@@ -60,7 +60,7 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   return music.told();
 }
 
-/// What `choreo live` sends to its server, as soon as it is found.
+/// The beats that `choreo live` sends to its server, as soon as they are found.
 std::vector<double> HearByClient(const std::vector<float>& mono) {
   const double settled_s = live::LiveOptions().look_ahead_s;
   live::BeatEar ear;

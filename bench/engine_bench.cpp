@@ -91,7 +91,7 @@ void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<do
   state.SetItemsProcessed(state.iterations());
 }
 
-/// What serving adds to a transition that the sampler drew: its footwork.
+/// The work that serving adds to a sampled transition: footwork.
 void Feet(benchmark::State& state, Sampler& sampler) {
   const TransitionSpec spec = Spec(sampler.model(), 1);
   const std::vector<Pose> drawn = sampler.Sample(spec).poses;

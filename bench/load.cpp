@@ -251,7 +251,7 @@ class Load {
              client.GenerateTransition(Transition(frames, candidates)).candidates)
           made += static_cast<int64_t>(candidate.motion.frames.size());
       } catch (const Error& error) {
-        // Its deadline passed, or the full server asks it to come back.
+        // Its deadline passed, or the full server asks it to retry.
         if (error.code() != ErrorCode::kDeadlineExceeded &&
             error.code() != ErrorCode::kResourceExhausted)
           throw;
@@ -284,7 +284,7 @@ class Load {
     for (int i = 0; i < addresses; ++i) {
       if (i > 0) relays.push_back(std::make_unique<Relay>(server_->address(), 1 + i));
       client::Options options{.addresses = {i > 0 ? relays.back()->address() : server_->address()}};
-      // Without a time to come back a refused client does not retry, and fails.
+      // Without a retry time a refused client does not retry, and fails.
       options.before_retry = [] {
         throw Error(ErrorCode::kResourceExhausted, "", "is to come back later");
       };

@@ -174,7 +174,7 @@ class Soak {
           dances.back()->CompleteKeys();
         }
         client.GenerateTransition({.frames = 150, .candidates = 8});
-      } catch (const Error&) {  // the server tells it to come back
+      } catch (const Error&) {  // the server asks it to retry
         ++refused_;
       }
       greedy_ += static_cast<int>(dances.size()) + 1;

@@ -61,8 +61,8 @@ struct DanceConfig {
   double fps = 0;          ///< of the frames received, 1 to 120; 0: the model's
   std::optional<uint64_t> seed = {};
   std::optional<double> temperature = {};  ///< 0 to 2
-  std::string style = {};                  ///< one of the model's; empty: as it comes
-  /// 0 to 1: how much the music's energy is that of the dance; default: kUsualDynamics
+  std::string style = {};                  ///< one of the model's; empty: any
+  /// 0 to 1: how closely the dance's energy follows the music's; default: kUsualDynamics
   std::optional<double> music_dynamics = {};
   /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
   /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
@@ -81,10 +81,10 @@ struct DanceConfig {
   /// Identifies the music, as a part of the seed. 0: computed by the server for a kFile, none for
   /// kPcmFloat.
   uint64_t music_id = 0;
-  /// Where the music comes back, and so does the dance; as the API has them. Empty: the server
-  /// finds them in a kFile.
+  /// Where the music repeats, and the dance with it; as in the API. Empty: the server finds them in
+  /// a kFile.
   std::vector<Passage> music_passages = {};
-  /// 0 to 1: how much a dance that comes back differs; default: kUsualVariation
+  /// 0 to 1: how much a repeated dance differs; default: kUsualVariation
   std::optional<double> variation = {};
   /// For editing keys: as RemoteDance::GenerateUntil before all else; keys then grant no frames.
   std::optional<int64_t> generate_until = {};

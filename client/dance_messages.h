@@ -48,7 +48,7 @@ struct Resumed {
   std::string address = {};
   int64_t frame = 0;        ///< at Header::fps
   bool exact = true;        ///< false: of another fingerprint
-  std::string reason = {};  ///< what had happened
+  std::string reason = {};  ///< the cause
 };
 
 /// The end of a dance, with its quality. `frames` and `keys` cover the whole dance; the rest covers

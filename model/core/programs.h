@@ -13,8 +13,8 @@ inline constexpr int kMisused = 2;
 inline constexpr std::string_view kEverydayModels[] = {"default", "free"};
 inline constexpr std::string_view kShippedModels[] = {"default", "free", "paper-f", "paper-c"};
 
-/// What "default" was called before 0.2.0 when controls were used. Server and client still accept
-/// it, with a warning.
+/// The name of "default" with controls before 0.2.0. Server and client still accept it, with a
+/// warning.
 inline constexpr std::string_view kFormerControls = "controllers";
 
 }  // namespace choreo

@@ -21,7 +21,7 @@ namespace choreo {
 /// numbers. The message gives positions counted from `first_sample`.
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
 
-/// How many past rows keep their sound: as many as a dance listens to.
+/// How many past rows keep their sound: as many as a dance needs.
 inline constexpr int kSoundMemory = kDynamicsMemory + kUsualFrames;
 static_assert(kSoundMemory >= kPulseMemory);
 

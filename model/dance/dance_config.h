@@ -79,7 +79,7 @@ struct DanceConfig : DanceStart {
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
 
   /// Throws as ValidateStart; Error(kOutOfRange) for audio that begins too late;
-  /// Error(kUnimplemented) for music that the model can't hear.
+  /// Error(kUnimplemented) for music that the model can't take.
   void Validate(const ModelInfo& model) const;
 };
 
@@ -90,7 +90,7 @@ struct GroupRequest : DanceStart {
   int frames = 0;           ///< 1..min(kMaxTransitionFrames, the model's longest)
   int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
   std::optional<Target> target;
-  std::string target_id = "target";  ///< how warnings and the report call it
+  std::string target_id = "target";  ///< its name in warnings and the report
   std::optional<Pose> after;
   ControlRequest controls;
 

@@ -15,8 +15,8 @@
 namespace choreo {
 
 /// The beats of a dance's music. They are given by the client or found in the whole music. A dance
-/// that starts without any listens: when a transition begins, the pulse (HearPulse) of the 12 s
-/// before its first frame predicts its beats. So beats are a function of the ordered messages and
+/// that starts without any detects them: when a transition begins, the pulse (HearPulse) of the 12
+/// s before its first frame predicts its beats. So beats are a function of the ordered messages and
 /// the samples before the transition; only last() carries over from earlier transitions. Not
 /// thread-safe.
 class MusicBeats {
@@ -26,15 +26,15 @@ class MusicBeats {
   MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
              const AudioFeed* audio, std::span<const double> downbeats = {});
 
-  /// Replaces all beats by those found in the whole music, and stops listening. Downbeats are
+  /// Replaces all beats by those found in the whole music, and stops detection. Downbeats are
   /// always a subset of the beats.
   void Find(const std::vector<double>& seconds, std::span<const double> downbeats = {});
 
   /// Gives beats, ascending, for transitions that begin at `from` or later. From the first to the
-  /// last they replace beats given or heard. Beats given earlier are dropped if they are after the
-  /// last, or less than half a beat before the first. Beats before `from` are late and are dropped;
-  /// returns how many. `from` never decreases between calls. Throws Error(kInvalidArgument) beyond
-  /// kMostBeats.
+  /// last they replace beats given or detected. Beats given earlier are dropped if they are after
+  /// the last, or less than half a beat before the first. Beats before `from` are late and are
+  /// dropped; returns how many. `from` never decreases between calls. Throws
+  /// Error(kInvalidArgument) beyond kMostBeats.
   int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field,
                std::span<const double> downbeats = {});
 

@@ -47,7 +47,7 @@ class QualityMeter {
   std::vector<float> speed_;         // mean joint speed of step i (frame i -> i + 1), m/s
   std::vector<float> acceleration_;  // largest joint acceleration at frame i + 1, m/s^2
   int64_t frames_ = 0;
-  std::optional<BodyPartWeights> weights_;  // once a frame asks for speeds
+  std::optional<BodyPartWeights> weights_;  // once a frame has requested speeds
   std::array<PartSpeed, kBodyParts> speed_sums_ = {};
   int64_t speed_frames_ = 0;
 };

@@ -11,8 +11,8 @@
 
 namespace choreo {
 
-/// Who answers requests with controls: real motion, interpolation along the path, and each engine
-/// of `methods`: the network alone, if any, and as served; without keys, as served.
+/// The rows that answer requests with controls: real motion, interpolation along the path, and each
+/// engine of `methods`: the network alone, if any, and as served; without keys, as served.
 std::vector<Method> WaysOf(const std::vector<Method>& methods);
 
 /// Velocity factors of each of `danced`, which follows `before`.

@@ -14,7 +14,7 @@ namespace choreo {
 
 class MotionEncoder;
 
-/// A row of a table: who dances.
+/// A method: one row of a table.
 struct Method {
   enum class Kind {
     kReal,           ///< the real dance
@@ -60,7 +60,7 @@ struct EvalOptions {
   int free_dances = 20;  ///< without keys, in the liveliness table; 0: none
 };
 
-/// One data set, and who dances on it. Owns nothing.
+/// One data set, and the methods that dance on it. Owns nothing.
 struct Evaluation {
   const ClipSet& set;
   const std::vector<Method>& methods;  ///< the judged model is last
@@ -137,7 +137,7 @@ std::vector<Table> EvaluateEncoded(const Evaluation& evaluation);
 
 /// stress_SET: paper F, Section 5.2, where its model failed: to a lying pose in 30 frames and
 /// fewer, and to a key that almost equals the present pose. Whether the stream would warn
-/// (RequiredSpeed::TooFast), whether the dancer freezes, how hard the way is.
+/// (RequiredSpeed::TooFast), whether the dancer freezes, how demanding the transition is.
 std::vector<Table> EvaluateStress(const Evaluation& evaluation);
 
 /// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4),

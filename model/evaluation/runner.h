@@ -39,7 +39,7 @@ struct LongDance {
 
 using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]
 
-/// Dances what tables request, like the server. Not thread-safe.
+/// Makes the dances that tables request, like the server. Not thread-safe.
 class Runner {
  public:
   /// `danced` is called with each transition's number of frames.
