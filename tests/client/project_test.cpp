@@ -47,7 +47,7 @@ class ProjectTest : public testing::Test {
   json project_;
 };
 
-TEST_F(ProjectTest, IsDancedAsItSays) {
+TEST_F(ProjectTest, IsDancedWithItsSettings) {
   const Outcome outcome = Dance("--project " + At("p.json"), "a.bvh");
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const Outcome spelt = Dance(At("song.wav") + " -k " + At("p.json") +
@@ -74,7 +74,7 @@ TEST_F(ProjectTest, TheCommandLineWins) {
   EXPECT_THAT(Bytes("short.bvh"), HasSubstr("Frames: 90\n"));
 }
 
-TEST_F(ProjectTest, IsDancedToItsMusicAsItSays) {
+TEST_F(ProjectTest, IsDancedToItsMusic) {
   std::vector<float> swelling = Clicks(5);
   for (size_t i = 0; i < swelling.size() / 4; ++i) swelling[i] *= 0.05F;
   WriteWav(folder_ / "song.wav", swelling);

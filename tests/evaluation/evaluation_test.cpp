@@ -59,7 +59,7 @@ TEST(InterpolationSampler, WalksTheLineOntoTheKey) {
   EXPECT_LT(run.arrival()->raw_error_m, 1e-5);
 }
 
-TEST(ChooseWindows, StandInTheMiddlesOfEqualPartsAndLeaveRoomForTheHistory) {
+TEST(ChooseWindows, AreCentredInEqualPartsWithRoomForTheHistory) {
   const ClipSet set = TwoClips();
   const auto windows = ChooseWindows(set, 10, 30, 3);
   ASSERT_EQ(windows.size(), 6U);

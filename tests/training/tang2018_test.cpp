@@ -128,7 +128,7 @@ TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
   }
 }
 
-TEST_F(Tang2018Test, ANativeSkeletonOf23JointsIsMeasuredOnAllRecordingsAndKeptInsideEachClip) {
+TEST_F(Tang2018Test, NativeSkeletonIsMeasuredOnAllRecordingsAndKeptInEachClip) {
   WriteTang2018Npy(In() / "DANCE_C_1.npy", Record(0));
   PositionClip taller = Record(0);
   for (Eigen::Matrix3Xd& frame : taller.frames) frame *= 1.1;

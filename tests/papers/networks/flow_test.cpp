@@ -252,8 +252,8 @@ TEST(InterpolationTest, EndsOnTheKey) {
   EXPECT_TRUE(torch::allclose(line.rotation.select(1, 19), transition.target_rotation, 1e-4, 1e-4));
 }
 
-// Engines write down what is known of a frame without LibTorch.
-TEST(KeyConditionTest, IsWhatTheModuleBeginsWith) {
+// Engines compute a frame's key condition without LibTorch.
+TEST(KeyConditionTest, EqualsTheModulesInput) {
   torch::NoGradGuard no_grad;
   torch::manual_seed(6);
   const Skeleton& skeleton = Skeleton::Smpl24();
