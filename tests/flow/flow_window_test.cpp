@@ -100,6 +100,53 @@ TEST(FlowWindow, ReturnsToTheStage) {
   EXPECT_EQ(led(open, {1, 0, 0}).norm(), 0) << "the path does";
 }
 
+// By the end of a window, as far as facing varies, and by the turn nearest to the one that she
+// makes of herself; unless a key says how she is turned.
+TEST(FlowWindow, TurnsBackToTheAudience) {
+  const Scene scene = MakeScene(30);
+  UsualPose usual{RestPose(Skeleton::Smpl24()), Eigen::VectorXd::Constant(75, 1)};
+  const MotionPrior anywhere(Parts().prior.covariance(), {}, usual);
+  usual.facing = 1e-6;
+  const MotionPrior strict(Parts().prior.covariance(), {}, usual);
+  usual.facing = 1.5;
+  const MotionPrior loose(Parts().prior.covariance(), {}, usual);
+  const auto turn = [&](const MotionPrior& prior, WindowRequest request, double front,
+                        std::optional<double> own = {}) {
+    request.stage = GroundFrame{Eigen::Vector3d::Zero(), front};
+    request.turn = own;
+    return FlowWindow(prior, request).mean()(MotionPrior::kTurn, 29);
+  };
+  WindowRequest open = scene.request;
+  open.key.reset();
+  for (Pose& pose : open.history) pose = open.history.back();  // stands still
+  EXPECT_NEAR(turn(strict, open, 1), 1, 1e-3);
+  EXPECT_NEAR(turn(strict, open, -3), -3, 1e-3);
+  EXPECT_NEAR(turn(strict, open, 1, 5), 1 + 2 * M_PI, 1e-3);
+  EXPECT_NEAR(turn(strict, open, 1, -4), 1 - 2 * M_PI, 1e-3);
+  EXPECT_GT(turn(loose, open, 1), 0);
+  EXPECT_LT(turn(loose, open, 1), 0.9);
+  EXPECT_EQ(turn(anywhere, open, 1), 0);
+  EXPECT_EQ(turn(strict, scene.request, 1), turn(strict, scene.request, 2)) << "the key says it";
+  WindowRequest arms = open;
+  arms.key = scene.request.key;
+  arms.mask.joints.assign(24, false);
+  arms.mask.joints[16] = true;
+  EXPECT_NEAR(turn(strict, arms, 1), 1, 1e-3);
+  open.controls[kRootPath].values = scene.request.key->root_position.replicate(1, 30);
+  EXPECT_NEAR(turn(strict, open, 1), 1, 1e-3) << "a path does not";
+}
+
+TEST(FlowWindow, FreeTurnIsThePriorsPrediction) {
+  WindowRequest request = MakeScene(30).request;
+  request.key.reset();
+  const MotionPrior& prior = Parts().prior;
+  const double none = FreeTurn(prior, request, 0);
+  const FlowWindow window(prior, request);
+  EXPECT_NEAR(none, window.mean()(MotionPrior::kTurn, 29), 1e-12);
+  const double spread = (*prior.Bridges(30, 0))[MotionPrior::kTurn].spread.row(29).norm();
+  EXPECT_NEAR(FreeTurn(prior, request, 2) - none, 2 * spread, 1e-9);
+}
+
 TEST(FlowWindow, RootTurnsInTheExpectedDirection) {
   const Eigen::Vector3d half(0, 3.0, 0);
   EXPECT_LT((NearerWayRound(half, {0, 1, 0}) - half).norm(), 1e-12);

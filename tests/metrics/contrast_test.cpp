@@ -35,6 +35,29 @@ TEST(WindowTurns, CountWholeTurnsAndWhichWayTheyGo) {
   EXPECT_TRUE(WindowTurns({}, 30).empty());
 }
 
+TEST(FacesAway, CountsPosesBeyondARightAngle) {
+  const std::vector<Pose> once = Spinning(60, 6);  // a whole turn
+  EXPECT_NEAR(FacesAway(once, 0), 0.5, 0.02);
+  EXPECT_NEAR(FacesAway(once, 2), 0.5, 0.02);
+  const std::vector<Pose> still = Spinning(0, 1);
+  EXPECT_EQ(FacesAway(still, 1.5), 0);
+  EXPECT_EQ(FacesAway(still, 1.6), 1);
+  EXPECT_EQ(FacesAway(still, 2 * std::numbers::pi), 0);
+  EXPECT_EQ(FacesAway({}, 0), 0);
+}
+
+TEST(MeanFacing, IsADirection) {
+  const std::vector<Pose> quarter = Spinning(30, 3);
+  EXPECT_NEAR(MeanFacing(quarter) * kDegrees, 45, 1e-6);
+  std::vector<Pose> behind;
+  for (const double heading : {3.0, -3.0}) {
+    Pose pose = quarter.front();
+    pose.rotations.col(0) = Eigen::Vector3d(0, heading, 0);
+    behind.push_back(pose);
+  }
+  EXPECT_NEAR(std::abs(MeanFacing(behind)), std::numbers::pi, 1e-9);
+}
+
 TEST(HandsAtRest, AreSlowHands) {
   const auto share = [](double speed) {
     JointTrack track = Carried(61, [](double s) { return Eigen::Vector3d(s, 0, 0); });

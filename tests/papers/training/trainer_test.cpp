@@ -317,6 +317,19 @@ TEST_F(PaperTrainerTest, UnusableOptionsAreNamed) {
   EXPECT_EQ(failure(options), "--longest");
 }
 
+// Paper C, Section 4: the longest grows by one frame an epoch, the shortest by four every five.
+TEST(Curriculum, TransitionsGrowLonger) {
+  constexpr int64_t kSteps = 660, kEpoch = 10;  // 66 epochs: 5 to 70 frames
+  const auto at = [&](int64_t epoch) { return CurriculumAt(epoch * kEpoch, kSteps, 5, 70); };
+  EXPECT_EQ(at(0), (LengthRange{5, 5}));
+  EXPECT_EQ(CurriculumAt(kEpoch - 1, kSteps, 5, 70), at(0));
+  EXPECT_EQ(at(1), (LengthRange{5, 6}));
+  EXPECT_EQ(at(4), (LengthRange{5, 9}));
+  EXPECT_EQ(at(5), (LengthRange{9, 10}));
+  EXPECT_EQ(at(65), (LengthRange{57, 70}));
+  EXPECT_EQ(CurriculumAt(kSteps - 1, kSteps, 5, 70), at(65));
+}
+
 TEST_F(PaperTrainerTest, BatchesOfOtherTempiKeepTheirPath) {
   const auto clips = LoadClips({folder_.path()}, folder_.path() / "splits.json", kTrainGroup);
   Random random(5);
