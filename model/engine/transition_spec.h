@@ -11,13 +11,13 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/plan/footwork_options.h"
 #include "model/motion/canonical.h"
 #include "model/motion/controls.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
 #include "model/plan/arrival.h"
+#include "model/plan/footwork_options.h"
 
 /// Describes models and requests for transitions.
 namespace choreo {
