@@ -34,8 +34,8 @@ struct WindowRequest {
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   EnergyShift energy_shift = {};   ///< of the body parts whose velocity factors nobody asks for
   int style = -1;                  ///< index of a style, or -1
-  /// The middle of the floor that the dancer keeps to, and where her audience is: she returns to
-  /// both where neither a key nor a path says where the root goes, or no key how it is turned.
+  /// The middle of the floor that the dancer keeps to, and where her audience is. Off a path she
+  /// returns to both, unless a key says where the root goes or how it is turned.
   std::optional<GroundFrame> stage = {};
 
   /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame
@@ -50,7 +50,9 @@ struct WindowRequest {
   bool StageCounts() const {
     return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
   }
-  bool FrontCounts() const { return stage && !(key && mask.Asks(0)); }
+  bool FrontCounts() const {
+    return stage && !controls[kRootPath].IsGiven() && !(key && mask.Asks(0));
+  }
 };
 
 /// The mirrored request, in the mirrored canonical frame.
