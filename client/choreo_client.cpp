@@ -42,6 +42,7 @@ v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
       *out.mutable_target_mask() = ToProto(request.target_mask);
     }
   }
+  if (request.target_hit) out.set_target_hit(*request.target_hit);
   out.set_target_id(request.target_id);
   switch (request.audio.format.kind) {
     case AudioKind::kNone:

@@ -130,7 +130,8 @@ struct TransitionRequest {
   int frames = 0;           ///< at the model's rate, 1 to ModelDescription::max_transition_frames
   std::optional<Pose> target = {};  ///< at the last frame
   PoseMask target_mask = {};
-  std::string target_id = {};  ///< its name in warnings and the report; empty: "target"
+  std::optional<double> target_hit = {};  ///< KeyPose::hit; with `after` only on the way there
+  std::string target_id = {};             ///< its name in warnings and the report; empty: "target"
   Audio audio = {};
   int64_t audio_first_sample =
       0;  ///< number of its first sample, counted from the start of the music

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/hit.h"
 #include "model/core/passage.h"
 #include "model/motion/control_request.h"
 #include "model/motion/motion.h"
@@ -41,6 +42,9 @@ struct KeyPose {
   double time_s = 0;                  ///< rounded to the nearest frame
   Pose pose = {};
   PoseMask mask = {};
+  /// How hard it is hit, 0 (gently) to kMostHit (late and fast), to rest in it. None: it is danced
+  /// through.
+  std::optional<double> hit = {};
 };
 
 /// A point where any server of the same fingerprint can resume a dance. Opaque except for the

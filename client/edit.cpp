@@ -199,6 +199,7 @@ struct Stop {
   std::optional<Pose> pose = {};
   PoseMask mask = {};
   std::string id = {};
+  std::optional<double> hit = {};
 };
 
 /// Dances from frame `from` through the stops and on to `to`, which stays unchanged if it is a
@@ -217,6 +218,7 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
         i == 0 ? work.After(from, stop.frame - from) : work.After(danced, stop.frame - begin);
     request.target = stop.pose;
     request.target_mask = stop.mask;
+    request.target_hit = stop.hit;
     request.target_id = stop.id;
     // Omits a path that covers none of this transition, which would warn that the path has no
     // effect.
@@ -283,7 +285,7 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
   const auto frame_of = [&](const KeyPose& key) {
     return key.frame.value_or(std::llround(key.time_s * work.fps()));
   };
-  stops.push_back({frame_of(edit.key), edit.key.pose, edit.key.mask, edit.key.id});
+  stops.push_back({frame_of(edit.key), edit.key.pose, edit.key.mask, edit.key.id, edit.key.hit});
   for (const KeyPose& key : edit.held) {
     stops.push_back({frame_of(key), key.pose, key.mask, key.id});
     if (stops.back().frame - std::prev(stops.end(), 2)->frame < kMinKeyDistance) {

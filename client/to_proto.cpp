@@ -17,6 +17,7 @@ v1::Keyframe ToProto(const KeyPose& key) {
   }
   *out.mutable_pose() = ToProto(key.pose, key.mask);
   if (!key.mask.joints.empty()) *out.mutable_mask() = ToProto(key.mask);
+  if (key.hit) out.set_hit(*key.hit);
   return out;
 }
 

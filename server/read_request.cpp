@@ -227,6 +227,10 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
     if (!message.has_target()) throw InvalidArgument("target_id", "there is no target");
     request.target_id = message.target_id();
   }
+  if (message.has_target_hit()) {
+    if (!message.has_target()) throw InvalidArgument("target_hit", "there is no target");
+    request.hit = message.target_hit();
+  }
   if (message.after_size() > 0 && !message.has_target()) {
     throw InvalidArgument("after", "there is no target");
   }

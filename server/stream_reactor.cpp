@@ -195,7 +195,9 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const Target target =
         ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr, model.skeleton,
                  field, field + ".mask");
-    stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask);
+    std::optional<double> hit;
+    if (keyframe.has_hit()) hit = keyframe.hit();
+    stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit);
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {

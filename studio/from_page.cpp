@@ -68,6 +68,7 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
   out.pose = ToPose(key.pose(), skeleton, "keyframe.pose", kMaxRotation);
   out.mask = ToMask(key.has_mask() ? &key.mask() : nullptr, key.pose().has_root_position(),
                     skeleton, "keyframe.mask.joints");
+  if (key.has_hit()) out.hit = key.hit();
   return out;
 }
 
@@ -138,6 +139,7 @@ client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request
     out.target_mask = ToMask(request.has_target_mask() ? &request.target_mask() : nullptr,
                              request.target().has_root_position(), skeleton, "target_mask.joints");
   }
+  if (request.has_target_hit()) out.target_hit = request.target_hit();
   out.target_id = request.target_id();
   for (int i = 0; i < request.after_size(); ++i) {
     out.after.push_back(

@@ -146,6 +146,7 @@ void AddEditCommand(CLI::App& program) {
                    "Seconds for which the poses of --key are kept. Default: as a key file says, or "
                    "they are passed.")
       ->check(AboveZero());
+  AddHit(*command, options->hit, "the poses of --key and --move are");
   command
       ->add_option("--repeat", options->repeats,
                    "FROM UNTIL LATER: the keys of --report from second FROM on and before UNTIL "

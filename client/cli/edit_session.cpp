@@ -66,6 +66,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
   edit.held = named.held;
   if (options_.hold_s) edit.held = Holding(edit.key, *options_.hold_s, "--hold");
+  if (options_.hit) edit.key.hit = options_.hit;
   for (client::KeyPose& held : edit.held) {
     held.frame = Frame(at_s + held.time_s - edit.key.time_s);
     held.pose = pose;
@@ -101,6 +102,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
     if (options_.in_place)
       key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
   }
+  edit.key.hit = options_.hit;
   for (const int64_t frame : frames) keys_.erase(frame);
   CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
   // The frames danced anew around the new place may not include the old one.

@@ -49,9 +49,9 @@ KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& 
 KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
                  size_t number) {
   CheckMembers(value, field,
-               {"id", "time", "frame", "hold", "pose", "place", "facing", "joints", "root_position",
-                "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
-               "a key has id, time or frame, hold, joints, and pose, place, facing; or "
+               {"id", "time", "frame", "hold", "hit", "pose", "place", "facing", "joints",
+                "root_position", "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
+               "a key has id, time or frame, hold, hit, joints, and pose, place, facing; or "
                "root_position, rotations; or smpl_poses, smpl_trans; or poses, trans");
   for (const char* member : {"place", "facing"}) {
     if (value.contains(member) && !value.contains("pose"))
@@ -65,6 +65,14 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
       throw InvalidArgument(field + ".id", Shown(value["id"]) + " is not a name");
     }
     key.id = value["id"].get<std::string>();
+  }
+  if (value.contains("hit")) {
+    key.hit = JsonNumber(value["hit"], field + ".hit");
+    if (!(*key.hit >= 0 && *key.hit <= kMostHit)) {
+      throw InvalidArgument(field + ".hit", Shown(value["hit"]) +
+                                                " is not a number from 0 (gently) to " +
+                                                InFull(kMostHit) + " (late and fast)");
+    }
   }
   const Moment moment = ParseMoment(value, field);
   key.time_s = moment.time_s;
@@ -142,6 +150,7 @@ std::vector<KeyPose> Holding(const KeyPose& key, double seconds, const std::stri
   }
   const int steps = std::max(1, static_cast<int>(std::floor(seconds / kHoldStep + 1e-9)));
   std::vector<KeyPose> holding(static_cast<size_t>(steps), key);
+  for (KeyPose& held : holding) held.hit.reset();
   for (int step = 1; step <= steps; ++step) {
     KeyPose& held = holding[static_cast<size_t>(step) - 1];
     held.time_s += seconds * step / steps;

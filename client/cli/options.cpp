@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "client/cli/json_fields.h"
+#include "model/core/hit.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/motion/pose_faults.h"
@@ -98,6 +99,15 @@ void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
   command.add_option(
       "--temperature", temperature,
       "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
+}
+
+void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose) {
+  command
+      .add_option("--hit", hit,
+                  "How hard " + whose + " hit, 0 (gently) to " + Rounded(kMostHit) +
+                      " (late and fast), to rest there. Default: danced through, or as a key file "
+                      "says.")
+      ->check(NumberFrom(0, kMostHit));
 }
 
 void AddModel(CLI::App& command, std::string& model) {

@@ -31,6 +31,9 @@ void CheckSongStart(const CLI::App& command, const std::string& song);
 /// `--allow-bends`.
 void AddAllowBends(CLI::App& command, bool& allowed);
 
+/// `--hit`, of "the poses of --key are", "the end is".
+void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose);
+
 /// `--vmc`, HOST:PORT.
 void AddVmc(CLI::App& command, std::string& address);
 

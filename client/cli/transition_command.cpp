@@ -32,6 +32,7 @@ struct TransitionOptions {
   double at_s = 0;
   int candidates = 1;
   std::string rank_by = "quality";
+  std::optional<double> hit;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
@@ -105,6 +106,7 @@ void Run(const TransitionOptions& options) {
   if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
   request.target = target.pose;
   request.target_mask = target.mask;
+  request.target_hit = options.hit ? options.hit : target.hit;
   if (!options.song.empty()) {
     const double end_s = options.at_s + options.frames / model.fps;
     const Music music = ReadMusic(options.song, end_s);
@@ -165,6 +167,7 @@ void AddTransitionCommand(CLI::App& program) {
           "`choreo info`): which alternative is the best.")
       ->check(CLI::IsMember({"quality", "likelihood"}))
       ->capture_default_str();
+  AddHit(*command, options->hit, "the end is");
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);

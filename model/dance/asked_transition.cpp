@@ -22,6 +22,7 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
   request.first_frame = segment.from;
   if (segment.key) {
     request.target = Target{segment.key->pose, segment.key->mask};
+    request.hit = segment.key->hit;
     asked.key_id = segment.key->id;
   }
   Pose stance;

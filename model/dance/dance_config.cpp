@@ -96,6 +96,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     ValidateMask(model.skeleton, target->mask, "target.mask");
   }
   ValidateKeyId(target_id, "target_id");
+  ValidateHit(hit, "target_hit");
   if (after) {
     if (!target) throw InvalidArgument("after", "needs a target");
     ValidatePose(model.skeleton, *after, "after");

@@ -59,13 +59,15 @@ std::string DanceStream::NextMusicBeats() const { return At("music_beats", beats
 std::string DanceStream::NextMusicPassages() const { return At("music_passages", passages_); }
 
 void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
-                         const PoseMask& mask) {
+                         const PoseMask& mask, std::optional<double> hit) {
   std::lock_guard lock(messages_);
   const std::string field = NextKeyframe();
   ValidatePose(model_.skeleton, pose, field);
   ValidateMask(model_.skeleton, mask, field + ".mask");
+  ValidateHit(hit, field + ".hit");
   chain_->Change([&](Timeline& timeline) {
-    if (auto rejection = timeline.Set(id, when, pose, mask, field)) chain_->PostLate(*rejection);
+    if (auto rejection = timeline.Set(id, when, pose, mask, field, hit))
+      chain_->PostLate(*rejection);
   });
   ++keyframes_;
 }

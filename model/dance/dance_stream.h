@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,7 +61,7 @@ class DanceStream {
   /// See Timeline. A key that comes too late causes a KeyRejected event. Errors name
   /// NextKeyframe().
   void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
-              const PoseMask& mask = {});
+              const PoseMask& mask = {}, std::optional<double> hit = {});
   void RemoveKey(const std::string& id);
   /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
   /// none may come after KeysComplete, which freezes all.

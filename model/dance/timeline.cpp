@@ -35,7 +35,7 @@ int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest
 bool Key::operator==(const Key& other) const {
   return id == other.id && frame == other.frame && pose.root_position == other.pose.root_position &&
          pose.rotations == other.pose.rotations && mask.root_position == other.mask.root_position &&
-         mask.joints == other.mask.joints;
+         mask.joints == other.mask.joints && hit == other.hit;
 }
 
 Timeline::Timeline(Options options) : options_(options), planned_to_(options.first_frame) {
@@ -102,7 +102,7 @@ std::optional<KeyRejected> Timeline::BeforeTheDance(const std::string& id, int64
 
 std::optional<KeyRejected> Timeline::Set(const std::string& id, const KeyMoment& when,
                                          const Pose& pose, const PoseMask& mask,
-                                         const std::string& field) {
+                                         const std::string& field, std::optional<double> hit) {
   CheckOpen(field);
   ValidateKeyId(id, field + ".id");
   const int64_t frame = Resolve(when, field);
@@ -140,7 +140,7 @@ std::optional<KeyRejected> Timeline::Set(const std::string& id, const KeyMoment&
         field, "is one more than the limit of " + std::to_string(kMaxKeys) + " keyframes");
   }
   if (known != frame_of_.end()) keys_.erase(known->second);
-  keys_[frame] = Key{id, frame, pose, mask};
+  keys_[frame] = Key{id, frame, pose, mask, hit};
   frame_of_[id] = frame;
   rejected_.erase(id);
   previous_frame_ = frame;

@@ -38,6 +38,7 @@ struct Key {
   int64_t frame = 0;
   Pose pose;
   PoseMask mask;
+  std::optional<double> hit = {};  ///< TransitionRequest::hit
   bool operator==(const Key& other) const;
 };
 
@@ -81,9 +82,10 @@ class Timeline {
   /// as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, is in frozen
   /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame that
   /// another id has, one closer than kMinKeyDistance to another key, for more than kMaxKeys, and
-  /// after Complete. The pose must be valid (validation.h).
+  /// after Complete. The pose and `hit` must be valid (validation.h).
   std::optional<KeyRejected> Set(const std::string& id, const KeyMoment& when, const Pose& pose,
-                                 const PoseMask& mask, const std::string& field);
+                                 const PoseMask& mask, const std::string& field,
+                                 std::optional<double> hit = {});
 
   /// Throws Error(kNotFound) for an id that is not on the timeline, Error(kInvalidArgument) after
   /// Complete.

@@ -8,6 +8,7 @@
 #include "model/dance/validation.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
@@ -108,7 +109,11 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   footwork_ = request.footwork;
   if (!request.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
-  if (request.after) after = ground_.ToLocal(*request.after);
+  if (request.after)
+    after = ground_.ToLocal(*request.after);
+  else if (request.hit)
+    after = spec_.target->pose;  // at rest
+  hit_ = request.hit;
   spec_.arrival.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history,
                         after);
   arrival_window_ = spec_.arrival->window();
@@ -131,6 +136,15 @@ bool TransitionRun::Continue(Sampler& sampler) {
 
 void TransitionRun::Steer() {
   drawn_ = sampling_->TakePlan();
+  const ControlCurve& path = spec_.controls[kRootPath];
+  if (hit_) {
+    HitKey({.skeleton = model_->skeleton,
+            .history = spec_.history,
+            .has_path = path.IsGiven(),
+            .has_heights = path.asked[kPathHeight],
+            .fps = model_->fps},
+           *hit_, &drawn_.poses);
+  }
   plan_.reserve(drawn_.poses.size());
   frames_.reserve(drawn_.poses.size());
   std::optional<Arrival> arrival = spec_.arrival;

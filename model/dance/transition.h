@@ -24,6 +24,9 @@ namespace choreo {
 struct TransitionRequest : TransitionSpec {
   /// The pose one frame after the key, if the motion that follows exists already.
   std::optional<Pose> after;
+  /// How hard the target is hit, 0 to kMostHit (plan/plan_stages.h), and then rested in unless
+  /// `after` follows. None: it is passed at the dance's own speed.
+  std::optional<double> hit = {};
   // For measuring the model alone, set these to 0 and false.
   int arrival_frames = 12;  ///< Arrival's window
   bool footwork = true;
@@ -101,6 +104,7 @@ class TransitionRun {
   std::optional<Target> world_target_;
   GroundFrame ground_;
   int arrival_window_ = 0;  // 0: no steering
+  std::optional<double> hit_;
   bool footwork_;
   GroundFrame stage_;  // of the request, world
   Pose world_;         // the newest frame, whose signs are kept

@@ -194,7 +194,7 @@ void TransitionGroup::Impl::Begin() {
   const int64_t end = first_frame_ + request_.frames;
   Segment segment{first_frame_, end, std::nullopt};
   if (const auto& target = request_.target)
-    segment.key = Key{request_.target_id, end - 1, target->pose, target->mask};
+    segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
   AskedTransition asked =
       AskTransition(request_, model_, controls_, Recurrence(model_.fps, request_.music_passages),
                     audio_.get(), segment, end, request_.Before());

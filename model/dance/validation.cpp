@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/core/error.h"
+#include "model/core/hit.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -79,6 +80,11 @@ void ValidateTemperature(float temperature, const std::string& field) {
 
 void ValidateShare(double share, const std::string& field) {
   if (!(share >= 0 && share <= 1)) throw InvalidArgument(field, Show(share) + " is not in [0, 1]");
+}
+
+void ValidateHit(std::optional<double> hit, const std::string& field) {
+  if (hit && !(*hit >= 0 && *hit <= kMostHit))
+    throw InvalidArgument(field, Show(*hit) + " is not in [0, " + Show(kMostHit) + "]");
 }
 
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -43,6 +44,8 @@ void ValidateTemperature(float temperature, const std::string& field);
 /// Empty, or one of the model's styles.
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field);
 void ValidateShare(double share, const std::string& field);
+/// None, or 0 to kMostHit.
+void ValidateHit(std::optional<double> hit, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws
 /// Error(kFailedPrecondition) unless `allow_inexact`; malformed ones throw as above.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "model/motion/rotation.h"
@@ -97,10 +98,14 @@ double BeatTime(const PlanContext& context, int frames, double t) {
   return t + std::min(1.0, frames / (options.whole_accent * context.fps)) * shift;
 }
 
-// A cubic between poses (Catmull-Rom, rotations in the tangent space of the pose before) keeps
-// smooth motion smooth.
-void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
-  if (context.beats.empty()) return;
+double HitTime(double u, double hit) { return u + (hit - 1) * u * u * (u - 1); }
+
+namespace {
+
+// Gives frames from `first` on the poses of other times. A cubic between poses (Catmull-Rom,
+// rotations in the tangent space of the pose before) keeps smooth motion smooth.
+void Retime(const PlanContext& context, int first, const std::function<double(int)>& time_of,
+            std::vector<Pose>* plan) {
   const auto& history = context.history;
   // Two poses in front, and an extrapolated one at the end.
   Curve curve;
@@ -109,16 +114,16 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
   for (const Pose& pose : *plan) curve.Append(pose);
   curve.GoOn();
   const auto frames = static_cast<int>(plan->size());
-  const Pose* last = &history.back();
-  for (int frame = 0; frame < frames; ++frame) {
-    const double time = std::clamp(BeatTime(context, frames, frame), -1.0, frames - 1.0);
+  const Pose* last = first > 0 ? &(*plan)[static_cast<size_t>(first) - 1] : &history.back();
+  for (int frame = first; frame < frames; ++frame) {
+    const double time = std::clamp(time_of(frame), -1.0, frames - 1.0);
     const int from = std::min(static_cast<int>(std::floor(time)), frames - 2);
     const std::array<double, 4> weights = CubicWeights(time - from);
     const auto at = static_cast<size_t>(from + 2);
     Pose& pose = (*plan)[static_cast<size_t>(frame)];
     pose.root_position.setZero();
     for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
-    // A path fixes where to be when; beats must not bend its time.
+    // A path fixes where to be when; nothing must bend its time.
     const Eigen::Vector3d& planned = curve.positions[static_cast<size_t>(frame) + 2];
     if (context.has_path) {
       pose.root_position.x() = planned.x();
@@ -136,6 +141,26 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
     MakeContinuous(pose, *last);
     last = &pose;
   }
+}
+
+}  // namespace
+
+void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
+  if (context.beats.empty()) return;
+  const auto frames = static_cast<int>(plan->size());
+  Retime(
+      context, 0, [&](int frame) { return BeatTime(context, frames, frame); }, plan);
+}
+
+void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan) {
+  if (hit == 1) return;
+  const auto frames = static_cast<int>(plan->size());
+  const int window = std::min(frames, static_cast<int>(std::lround(kHitSeconds * context.fps)));
+  const int first = frames - window;
+  const auto time = [&](int frame) {
+    return first - 1 + window * HitTime(double{1} * (frame - first + 1) / window, hit);
+  };
+  Retime(context, first, time, plan);
 }
 
 }  // namespace choreo

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "model/core/hit.h"
 #include "model/plan/plan_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
@@ -45,6 +46,19 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 /// larger beside a key on a beat, as dancers are slow at key poses. The ends stay in place; time is
 /// even before the first beat, after the last, and where the music pauses.
 double BeatTime(const PlanContext& context, int frames, double t);
+
+/// How long before a key its hit shows, seconds: 0.5 s hardly does, as Arrival smooths the last
+/// 0.4.
+inline constexpr double kHitSeconds = 0.8;
+
+/// Times the frames before a plan's key, the last one, by how hard it is hit, 0 to kMostHit: the
+/// last kHitSeconds, or all if it is shorter, run at their usual speed first and at `hit` times
+/// that at the key (HitTime). 1 changes nothing. A root path keeps its positions and heights.
+void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan);
+
+/// The share of that stretch whose pose comes at its share u, 0 to 1: the cubic from 0 to 1 with
+/// slopes 1 and `hit`.
+double HitTime(double u, double hit);
 
 /// Runs all stages, in the order of plan_stages.cpp.
 void FinishPlan(const PlanContext& context, std::vector<Pose>* plan);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "client/cli/key_faults.h"
+#include "client/convert.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/npz.h"
 #include "model/motion/kinematics.h"
@@ -327,6 +328,22 @@ TEST(KeyFileTest, TakesOneKeyOfAFile) {
   EXPECT_EQ(places.front(), path + ":keyframes[1]");
   ExpectError(ErrorCode::kInvalidArgument, "has no key \"a held 1\"; it has \"a\", \"walk@1.2\"",
               [&] { ReadKeys(path + "@a held 1", Body()); });
+}
+
+TEST(KeyFileTest, SaysHowHardAKeyIsHit) {
+  const auto read = [](const std::string& more) {
+    return ParseKeyFile(R"({"keyframes": [{"time": 1, "pose": "stand")" + more + "}]}", "k.json",
+                        Body());
+  };
+  EXPECT_FALSE(read("").front().hit);
+  const auto held = read(R"(, "hit": 2.5, "hold": 0.4)");
+  ASSERT_EQ(held.size(), 3U);
+  EXPECT_EQ(held[0].hit, 2.5);
+  EXPECT_FALSE(held[1].hit);
+  EXPECT_EQ(client::ToProto(held[0]).hit(), 2.5);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "k.json:keyframes[0].hit: 4 is not a number from 0 (gently) to 3 (late and fast)",
+              [&] { read(R"(, "hit": 4)"); });
 }
 
 TEST_F(MotionKeysTest, ReadsAKeyFileByItsPath) {

@@ -68,7 +68,7 @@ inline Dance LiveDance(uint32_t seed, double music_seconds) {
 }
 
 inline void SendKey(DanceStream& stream, const Key& key) {
-  stream.SetKey(key.id, AtFrame{key.frame}, key.pose, key.mask);
+  stream.SetKey(key.id, AtFrame{key.frame}, key.pose, key.mask, key.hit);
 }
 
 /// Sends the song from its sample `from` on.

@@ -32,7 +32,8 @@ Message RandomMessage(int64_t granted, int64_t frames, std::mt19937& random) {
   switch (random() % 9) {
     case 0:
     case 1: {
-      const Key key{id, std::min(ahead(-10, 120), frames - 1), RandomPose(random), {}};
+      Key key{id, std::min(ahead(-10, 120), frames - 1), RandomPose(random), {}};
+      if (random() % 2 == 0) key.hit = 0.5 * static_cast<double>(random() % 7);
       return [key](DanceStream& stream) { SendKey(stream, key); };
     }
     case 2:

@@ -77,6 +77,30 @@ TEST(Transition, FramesAreFloatsAndHitTheKey) {
   EXPECT_GT(arrival->raw_error_m, arrival->final_error_m);
 }
 
+TEST(Transition, AHitComesToRestInTheKeyLateOrGently) {
+  FakeSampler sampler;
+  const Skeleton& skeleton = Skeleton::Smpl24();
+  const auto dance = [&](std::optional<double> hit) {
+    TransitionRequest request = RandomRequest(3);
+    request.hit = hit;
+    return DanceTransition(sampler, request);
+  };
+  // The way from a frame before the key to it.
+  const auto left = [&](const TransitionRun& run, size_t before) {
+    const auto& frames = run.frames();
+    return ComparePoses(skeleton, frames[frames.size() - 1 - before].pose, frames.back().pose)
+        .position_m;
+  };
+  const TransitionRun through = dance({});
+  for (const double hit : {0.0, 1.0, 3.0}) {
+    const TransitionRun run = dance(hit);
+    EXPECT_LT(run.arrival()->final_error_m, 1e-5) << hit;
+    EXPECT_LT(left(run, 1), 0.8 * left(through, 1)) << hit;
+  }
+  EXPECT_LT(left(dance(0), 8), left(dance(1), 8));
+  EXPECT_LT(left(dance(1), 8), left(dance(3), 8));
+}
+
 TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   FakeSampler sampler;
   TransitionRequest request = RandomRequest(4);

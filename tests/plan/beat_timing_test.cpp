@@ -49,6 +49,43 @@ TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
   }
 }
 
+TEST(KeyHit, RunsFromTheUsualSpeedToItsOwn) {
+  for (const double hit : {0.0, 0.5, 1.0, 3.0}) {
+    EXPECT_EQ(HitTime(0, hit), 0);
+    EXPECT_EQ(HitTime(1, hit), 1);
+    EXPECT_NEAR(HitTime(1e-6, hit) / 1e-6, 1, 1e-4);
+    EXPECT_NEAR((1 - HitTime(1 - 1e-6, hit)) / 1e-6, hit, 1e-4);
+    for (double u = 0; u < 0.995; u += 0.01) EXPECT_LT(HitTime(u, hit), HitTime(u + 0.01, hit));
+  }
+}
+
+TEST(KeyHit, TimesTheFramesBeforeTheKeyAlone) {
+  const std::vector<Pose> history = {RestPose(Skeleton::Smpl24())};
+  const PlanContext context{.skeleton = Skeleton::Smpl24(), .history = history, .fps = 30};
+  for (const int frames : {60, 10}) {
+    const std::vector<Pose> even = EvenWalk(frames);
+    const auto x = [](const Pose& pose) { return pose.root_position.x(); };
+    const int first = std::max(0, frames - 24);
+    for (const double hit : {0.0, 1.0, 3.0}) {
+      std::vector<Pose> plan = even;
+      HitKey(context, hit, &plan);
+      for (int t = 0; t < first; ++t) EXPECT_EQ(x(plan[t]), x(even[t])) << t;
+      EXPECT_NEAR(x(plan.back()), x(even.back()), 1e-9);
+      const double step = x(plan.back()) - x(plan[frames - 2]);
+      const int middle = (first + frames) / 2;
+      if (hit == 0) {
+        EXPECT_LT(step, 0.005);
+        EXPECT_GT(x(plan[middle]), x(even[middle]) + 0.01);
+      } else if (hit == 1) {
+        EXPECT_EQ(x(plan[middle]), x(even[middle]));
+      } else {
+        EXPECT_GT(step, 0.04);
+        EXPECT_LT(x(plan[middle]), x(even[middle]) - 0.01);
+      }
+    }
+  }
+}
+
 TEST(BeatTiming, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
   for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(Time({}, 31, true, t), t);
   const std::vector<double> pause = {-100, 200};

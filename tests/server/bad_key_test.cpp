@@ -40,6 +40,11 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "keyframes[0].rotations",
                       {"25 joints", "24"}},
+        BadStreamCase{"HitNaN",
+                      WithKey([](auto& k) { k.set_hit(std::nan("")); }),
+                      kInvalid,
+                      "keyframes[0].hit",
+                      {"nan", "[0, 3]"}},
         BadStreamCase{"NaN",
                       WithKey([](auto& k) {
                         k.mutable_pose()->set_rotations(50,

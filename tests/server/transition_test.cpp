@@ -225,6 +225,14 @@ INSTANTIATE_TEST_SUITE_P(
                          r.set_target_id("landing");
                        },
                        kInvalid, "target_id", "no target"},
+        BadRequestCase{"HitTooHard", [](R& r) { r.set_target_hit(3.5); }, kInvalid, "target_hit",
+                       "3.5 is not in [0, 3]"},
+        BadRequestCase{"AHitOfNoTarget",
+                       [](R& r) {
+                         r.clear_target();
+                         r.set_target_hit(1);
+                       },
+                       kInvalid, "target_hit", "no target"},
         BadRequestCase{"NotAFile",
                        [](R& r) {
                          r.mutable_config()->mutable_audio_format()->set_encoding(
