@@ -62,6 +62,17 @@ client::TransitionResult Generate(const client::Client& client,
   }
 }
 
+// Without them it would not show.
+void CheckAt(const CLI::App& command, const TransitionOptions& options) {
+  const auto is_absent = [](const NamedFile& file) { return file.path.empty(); };
+  if (command.count("--at") > 0 && options.song.empty() &&
+      std::ranges::all_of(options.controls.Files(), is_absent)) {
+    throw InvalidArgument("--at",
+                          "there is nothing whose second it could be: it goes with --song, --path "
+                          "or a file for --velocity");
+  }
+}
+
 void Run(const TransitionOptions& options) {
   RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> outputs = {{"--report", options.report}};
@@ -179,7 +190,10 @@ void AddTransitionCommand(CLI::App& program) {
       ->required();
   command->add_option("--report", options->report, "JSON file to write the best one's report to.");
   options->server.AddTo(*command);
-  command->callback([options] { Run(*options); });
+  command->callback([options, command] {
+    CheckAt(*command, *options);
+    Run(*options);
+  });
 }
 
 }  // namespace choreo::cli
