@@ -6,6 +6,7 @@
 #include "client/cli/json_fields.h"
 #include "client/cli/music_beats.h"
 #include "model/core/error.h"
+#include "model/core/rounded.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo::cli {
@@ -73,6 +74,26 @@ std::vector<std::string> Velocities(const json& lively, const std::string& field
   return as_usual ? std::vector<std::string>{} : out;
 }
 
+/// Markers are for people.
+void CheckMarkers(const json& list, const std::string& field) {
+  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
+  double before = -1;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const std::string at = field + "[" + std::to_string(i) + "]";
+    CheckMembers(list[i], at, {"time", "name"}, "a marker has time and name");
+    for (const char* member : {"time", "name"})
+      if (!list[i].contains(member)) throw InvalidArgument(at + "." + member, "is missing");
+    if (Text(list[i], at, "name").empty()) throw InvalidArgument(at + ".name", "is empty");
+    const double time = JsonNumber(list[i]["time"], at + ".time");
+    if (!(time > before && time <= kLongestDance)) {
+      throw InvalidArgument(at + ".time", Shown(list[i]["time"]) +
+                                              " is not above the one before it and up to " +
+                                              InFull(kLongestDance));
+    }
+    before = time;
+  }
+}
+
 }  // namespace
 
 Project ParseProject(const json& file, const std::string& name) {
@@ -87,9 +108,9 @@ Project ParseProject(const json& file, const std::string& name) {
   CheckFileMembers(
       file, name,
       {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics", "variation",
-       "beats", "bar", "lively", "path", "dancers", "apart", "keyframes", "about"},
+       "beats", "bar", "lively", "path", "markers", "dancers", "apart", "keyframes", "about"},
       "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
-      "beats, bar, lively, path, dancers, apart, keyframes and perhaps about");
+      "beats, bar, lively, path, markers, dancers, apart, keyframes and perhaps about");
   Project project;
   project.song = Text(file, name, "song");
   project.style = Text(file, name, "style");
@@ -121,6 +142,7 @@ Project ParseProject(const json& file, const std::string& name) {
     project.controls.path_text = file["path"].dump();
     project.controls.path_text_name = name + ":path";
   }
+  if (file.contains("markers")) CheckMarkers(file["markers"], name + ":markers");
   project.has_dancers = file.contains("dancers");
   return project;
 }

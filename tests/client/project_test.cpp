@@ -58,6 +58,24 @@ TEST_F(ProjectTest, IsDancedWithItsSettings) {
   EXPECT_EQ(Bytes("a.bvh"), Bytes("b.bvh"));
 }
 
+TEST_F(ProjectTest, MarkersChangeNoFrameAndAreChecked) {
+  ASSERT_EQ(Dance("--project " + At("p.json"), "a.bvh").code, 0);
+  project_["markers"] = {{{"time", 0}, {"name", "intro"}}, {{"time", 2.5}, {"name", "drop"}}};
+  ASSERT_EQ(Dance("--project " + At("p.json"), "b.bvh").code, 0);
+  EXPECT_EQ(Bytes("a.bvh"), Bytes("b.bvh"));
+  project_["markers"][1]["time"] = 0;
+  ExpectRefused("p.json:markers[1].time: 0 is not above the one before it and up to 3600");
+  project_["markers"] = {{{"time", 1}}};
+  ExpectRefused("p.json:markers[0].name: is missing");
+}
+
+TEST_F(ProjectTest, AHitChangesTheWayToItsKey) {
+  ASSERT_EQ(Dance("--project " + At("p.json"), "a.bvh").code, 0);
+  project_["keyframes"][0]["hit"] = 3;
+  ASSERT_EQ(Dance("--project " + At("p.json"), "b.bvh").code, 0);
+  EXPECT_NE(Bytes("a.bvh"), Bytes("b.bvh"));
+}
+
 TEST_F(ProjectTest, ItsFactorsKeepAllTheirDigits) {
   project_["lively"] = {{"left arm", 1.23456789}};
   EXPECT_EQ(cli::ParseProject(json::parse(project_.dump()), "p.json").controls.velocities,

@@ -143,8 +143,8 @@ function Bar() {
   );
 }
 
-/// Whether Space plays while this element has the focus. On other buttons Space is a press; keys and intervals react to Enter.
-const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval');
+/// Whether Space plays while this element has the focus. On other buttons Space is a press; keys, intervals and markers react to Enter.
+const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval, .marker');
 
 function useKeyboard() {
   useEffect(() => {
@@ -155,6 +155,7 @@ function useKeyboard() {
       const key = event.key.toLowerCase();
       if (event.key === ' ' && playsOn(at)) studio.togglePlay();
       else if (key === 't' && !withControl && studio.shownSong.value && studio.project.value) studio.tap();
+      else if (key === 'm' && !withControl) studio.addMarker();
       else if (withControl && key === 'z') event.shiftKey ? studio.redo() : studio.undo();
       else if (withControl && key === 'd' && studio.selectedKey.value) studio.duplicateKey();
       else if (withControl && key === 'v') studio.pasteKeys();

@@ -20,7 +20,7 @@ type Other = { project: Project; song: Song | null; motion: Motion };
 let others: Other[] = [];
 let forming: AbortController | null = null;
 
-const madeOf = ({ dancers: _, apart: __, ...rest }: Project) => rest;
+const madeOf = ({ dancers: _, apart: __, markers: ___, ...rest }: Project) => rest;
 const isSame = (a: Project, b: Project) => Object.entries(madeOf(a)).every(([name, value]) => value === b[name as keyof Project]);
 const ownProject = (all: Project, { seed, style }: Partner): Project => ({ ...all, seed: seed ?? all.seed, style: style || all.style });
 

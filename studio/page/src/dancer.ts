@@ -36,10 +36,11 @@ export const keyMessage = (key: Key): Init<typeof KeyframeSchema> => ({
   when: { case: 'frame', value: BigInt(key.frame) },
   pose: poseMessage(key.pose, key.hasPlace),
   mask: key.asks ? { joints: key.asks } : undefined,
+  hit: key.hit ?? undefined,
 });
 
 /// The other way round. `height`: of the hips where the key does not say where they are.
-export function readKey({ id, when, pose, mask }: Keyframe, fps: number, height: number): Key {
+export function readKey({ id, when, pose, mask, hit }: Keyframe, fps: number, height: number): Key {
   const root = pose!.rootPosition;
   return {
     id,
@@ -48,6 +49,7 @@ export function readKey({ id, when, pose, mask }: Keyframe, fps: number, height:
     hasPlace: !!root,
     asks: mask ? mask.joints : null,
     hold: 0,
+    hit: hit ?? null,
   };
 }
 
@@ -136,9 +138,12 @@ export class Dancer {
         request.target = poseMessage(stop.pose, stop.hasPlace);
         if (stop.asks) request.targetMask = { joints: stop.asks };
         request.targetId = stop.id;
+        request.targetHit = stop.hit ?? undefined;
       } else if (leadsOn) {
+        const there = project.keys.find(({ frame }) => frame === to);
         request.target = poseMessage(motion.pose(to));
-        request.targetId = project.keys.find(({ frame }) => frame === to)?.id ?? '';
+        request.targetId = there?.id ?? '';
+        request.targetHit = there?.hit ?? undefined;
         request.after = motion.poses(to + 1, to + 1 + leadIn).map((pose) => poseMessage(pose));
       }
       const made = await this.transition(request, watch);

@@ -32,8 +32,9 @@ export async function compose() {
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
   const before = project.value ?? asked;
+  const markers = moment.value?.song === song.value ? before.markers : [];
   const wished = wishes(before);
-  danceFrom({ ...asked, ...wished, dancers: before.dancers, apart: before.apart, beats, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
+  danceFrom({ ...asked, ...wished, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.
@@ -71,7 +72,7 @@ export function addKey(pose: LibraryPose, at?: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0 });
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0, hit: old?.hit ?? null });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
   if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
@@ -96,6 +97,12 @@ export function holdKey(id: string, frames: number) {
   const { fps } = dancer;
   const held = { ...key, hold: holdOf(Math.min(frames + (holdStep * fps) / 2, longestHold * fps), fps) };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? held : other)) }, [key.frame]);
+}
+
+/// How hard it is hit; null: it is danced through.
+export function hitKey(id: string, hit: number | null) {
+  const key = keyOf(id);
+  if (key && key.hit !== hit) edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? { ...key, hit } : other)) }, [key.frame]);
 }
 
 export function removeKey(id: string) {

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { tempo } from './counts';
 import { DancersPanel } from './dancers_panel';
 import { KeepTake } from './keep_take';
+import { MarkersPanel } from './markers_panel';
 import { PathPoints } from './path_points';
 import { PhrasePanel } from './phrase_panel';
 import { PoseTools } from './pose_tools';
@@ -205,6 +206,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />
       <PhrasePanel />
+      <MarkersPanel />
       <TakesPanel />
       <DancersPanel />
       <PathPanel />

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { Vector3 } from 'three';
 import { turned } from './body';
 import type { Pose } from './body';
+import { HitTool } from './hit_tool';
 import { degreesOf, withDegrees } from './joint_angles';
 import { NumberField } from './number_field';
 import { parts, spoken } from './project';
@@ -117,6 +118,7 @@ function Handles({ stage }: { stage: Stage | null }) {
 export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) {
   const change = (made: (pose: Pose) => Pose) => () => studio.bend(made(studio.bent()!));
   const key = studio.sketch.value ? null : studio.selectedKey.value;
+  const item = studio.keyOf(key);
   // With fixed hips the whole body can neither turn nor sink.
   const areHipsFixed = !!studio.movable.value && !studio.movable.value.includes(0);
   return (
@@ -131,6 +133,7 @@ export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) 
         {key && <button title="Set it again at the playhead, or on the next beat (Ctrl+D)" onClick={studio.duplicateKey}>Duplicate</button>}
         {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}
       </div>
+      {item && <HitTool item={item} />}
       <Parts />
       <TakeFrom />
       <Joints pose={pose} />

@@ -8,8 +8,14 @@ export type Spot = { x: number; z: number };
 export type Step = Spot & { frame: number };
 
 /// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
-/// all of them. `hold`: frames for which its pose is kept.
-export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number };
+/// all of them. `hold`: frames for which its pose is kept. `hit`: how hard it is hit, 0 to `hardest`; null: it is danced through.
+export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number; hit: number | null };
+
+/// The program's kMostHit.
+export const hardest = 3;
+
+/// A named moment.
+export type Marker = { frame: number; name: string };
 
 /// The least distance between keys, frames (the program's kMinKeyDistance).
 export const closest = 2;
@@ -55,6 +61,8 @@ export type Project = {
   path: Step[];
   /// In order of frames.
   keys: Key[];
+  /// In order of frames, at most one at each; no frame depends on them.
+  markers: Marker[];
   /// Two or more dancers; empty: a single one.
   dancers: Partner[];
   /// The least distance between two of them, metres.
@@ -75,6 +83,7 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   lively: parts.map(() => 1),
   path: [],
   keys: [],
+  markers: [],
   dancers: [],
   apart: usuallyApart,
 });
@@ -98,7 +107,7 @@ export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
     return [{ ...key, hold: 0 }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
   });
 }
-const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0 });
+const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0, hit: null });
 
 /// The other way round.
 export function withHolds(keys: Key[]): Key[] {
@@ -114,10 +123,19 @@ export function withHolds(keys: Key[]): Key[] {
 /// An id or a joint's name, for people.
 export const spoken = (name: string) => name.replaceAll('_', ' ');
 
-/// An id that no key has: "kick", "kick-2", ...
-export const freeId = (keys: Key[], name: string) => {
+/// A name that is none of these: "kick", "kick-2", ...
+export const freeName = (names: string[], name: string) => {
   const base = name.replace(/-\d+$/, '');
-  let id = base;
-  for (let i = 2; keys.some((key) => key.id === id); ++i) id = `${base}-${i}`;
-  return id;
+  let free = base;
+  for (let i = 2; names.includes(free); ++i) free = `${base}-${i}`;
+  return free;
 };
+export const freeId = (keys: Key[], name: string) => freeName(keys.map(({ id }) => id), name);
+
+/// The markers with `next` in place of `old`; null where another one stands at its frame.
+export function withMarker(markers: Marker[], old: Marker | null, next: Marker | null): Marker[] | null {
+  const others = markers.filter((marker) => marker !== old);
+  if (!next) return others;
+  if (others.some(({ frame }) => frame === next.frame)) return null;
+  return [...others, next].sort((a, b) => a.frame - b.frame);
+}

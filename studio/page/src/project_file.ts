@@ -1,7 +1,7 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
 import type { Beats } from './counts';
 import { closest, emptyProject, parts, sorted, trimmed, withHolds } from './project';
-import type { Key, Project, Step } from './project';
+import type { Key, Marker, Project, Step } from './project';
 
 const format = 1; // version of the file format
 // The program's limits: kLongestDance, kMaxAudioSeconds, kMostInBar, kMaxVelocityFactor, kMaxPosition.
@@ -32,10 +32,11 @@ export const dancersJson = ({ dancers, apart }: Project) => ({
 });
 
 export function toJson(project: Project, fps: number, names: string[]): string {
-  const keyframes = trimmed(project.keys, Math.round(project.seconds * fps), fps).map(({ id, frame, pose, hasPlace, asks, hold }) => ({
+  const keyframes = trimmed(project.keys, Math.round(project.seconds * fps), fps).map(({ id, frame, pose, hasPlace, asks, hold, hit }) => ({
     id,
     time: round(frame / fps),
     ...(hold ? { hold: round(hold / fps) } : {}),
+    ...(hit === null ? {} : { hit }),
     ...(asks ? { joints: asks.map((joint) => names[joint]) } : {}),
     ...(hasPlace ? { root_position: pose.root.map(round) } : {}),
     rotations: Array.from({ length: pose.rotations.length / 3 }, (_, joint) =>
@@ -45,13 +46,15 @@ export function toJson(project: Project, fps: number, names: string[]): string {
   const { song, seconds, seed, style, dynamics, variation, beats } = project;
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
+  const markers = project.markers.map(({ frame, name }) => ({ time: round(frame / fps), name }));
   const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation,
     ...(beats ? { bar: beats.bar, beats: beats.list.map(({ time, count }) => [time, count]) } : {}), lively, ...(path.points.length ? { path } : {}),
-    ...(project.dancers.length ? dancersJson(project) : {}), keyframes }, null, 1);
+    ...(markers.length ? { markers } : {}), ...(project.dancers.length ? dancersJson(project) : {}), keyframes }, null, 1);
   // Puts each vector, beat, place and list of joints on one line.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
     .replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2]')
     .replace(/"joints": \[\s+([^\]]*?)\s+\]/g, (_, joints: string) => `"joints": [${joints.replace(/\s*\n\s*/g, ' ')}]`)
+    .replace(/\{\s+"time": ([\d.e-]+),\s+("name": ".*")\s+\}/g, '{"time": $1, $2}')
     .replace(/\{\s+"frame": (\d+),\s+"x": (-?[\d.e-]+),\s+"z": (-?[\d.e-]+)\s+\}/g, '{"frame": $1, "x": $2, "z": $3}') + '\n';
 }
 
@@ -108,6 +111,19 @@ function readBeats({ beats, bar = 4 }: Json, name: string): Beats {
   return { bar: count(bar, `${name}: bar`), list };
 }
 
+function readMarkers(list: unknown, name: string, fps: number): Marker[] {
+  if (!Array.isArray(list)) throw new Error(`${name}: markers: ${shown(list)} is no list.`);
+  const markers = list.map((marker: Json | null, i): Marker => {
+    const at = `${name}: markers[${i}]`;
+    if (typeof marker !== 'object' || marker === null) throw new Error(`${at}: ${shown(marker)} is no marker: its time and its name.`);
+    if (typeof marker.name !== 'string' || marker.name === '') throw new Error(`${at}.name: ${shown(marker.name)} is no name.`);
+    return { frame: Math.round(number(marker.time, `${at}.time`, 0, mostSeconds) * fps), name: marker.name };
+  });
+  const back = markers.findIndex(({ frame }, i) => i > 0 && frame <= markers[i - 1].frame);
+  if (back > 0) throw new Error(`${name}: markers[${back}] does not come after the marker before it.`);
+  return markers;
+}
+
 /// The keys of a file as read by the program, in order. Throws for keys that do not fit a dance here.
 export function inOrder(keys: Key[], name: string, fps: number): Key[] {
   for (const { id, frame, pose } of keys) {
@@ -142,6 +158,7 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
   if (json.beats !== undefined) project.beats = readBeats(json, name);
   const lively = (json.lively ?? {}) as Json;
   project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
+  if (json.markers !== undefined) project.markers = readMarkers(json.markers, name, known.fps);
   if (json.path !== undefined) project.path = readPath(json.path as Json, name, known);
   return project;
 }

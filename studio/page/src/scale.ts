@@ -1,5 +1,6 @@
 // Converts between seconds and positions on the timeline.
 import { signal } from '@preact/signals';
+import type { Marker } from './project';
 import * as studio from './studio';
 
 export const zoom = signal(48); // pixels a second
@@ -14,12 +15,13 @@ export const seconds = () => studio.project.value?.seconds ?? 0;
 
 export const beatTimes = () => (studio.live.value ? studio.liveBeats.value : studio.beats.value.list.map(({ time }) => time));
 
-/// The nearest beat's frame, if one is near on the screen.
-export function snapped(time: number): number {
+/// The frame of the nearest beat or marker, if one is near on the screen; not of the marker that is `moved`.
+export function snapped(time: number, moved?: Marker): number {
   const at = Math.min(Math.max(time, 0), seconds());
   let best = at;
   let away = snap / zoom.value;
-  for (const beat of [...studio.suggested.value, ...beatTimes()]) {
+  const marks = studio.project.value?.markers.filter((marker) => marker !== moved) ?? [];
+  for (const beat of [...marks.map(({ frame }) => frame / studio.dancer.fps), ...studio.suggested.value, ...beatTimes()]) {
     if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
   }
   return Math.round(best * studio.dancer.fps);

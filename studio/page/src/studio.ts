@@ -14,6 +14,7 @@ export * from './files';
 export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_path';
 export { change, motionAt, redo, total, undo } from './history';
 export * from './keys';
+export { addMarker, moveMarker, removeMarker, renameMarker } from './markers';
 export { addCorner, areCornersShown, askedCorners, corners, heldCorner, setCorners } from './path_corners';
 export { addPose, forgetPose, ownPoses } from './own_poses';
 export { dropSketch } from './photos';

@@ -8,6 +8,7 @@ import { colour } from './palette';
 import { spoken } from './project';
 import type { Key } from './project';
 import { HoldGrip } from './hold_grip';
+import { MarkerFlags } from './marker_flags';
 import { PhraseBand } from './phrase_band';
 import { clock, content, edge, seconds, snapped, stepped, timeUnder, x, zoom, zoomTo } from './scale';
 import * as studio from './studio';
@@ -286,6 +287,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
             <HoldGrip />
             {dropPose.value !== null && shown && <i class="drop" style={{ left: `${x(dropPose.value / studio.dancer.fps)}px` }} />}
           </div>
+          {shown && !studio.live.value && <MarkerFlags />}
           {shown && !studio.live.value && <PhraseBand />}
           <i class="playhead" ref={line} />
         </div>

@@ -17,7 +17,7 @@ async function load(name) {
 }
 
 const { roughly, timeLeft } = await load('time_left');
-const { closest, emptyProject, freeId, sorted, spoken, trimmed, withHeld, withHolds } = await load('project');
+const { closest, emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withHolds, withMarker } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
 const { counted, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
@@ -59,10 +59,12 @@ test('ids are free, and spoken without underscores', () => {
 });
 
 test('a held pose is a key and those that hold it, as far as the next key', () => {
-  const keys = [{ id: 'bow', frame: 30, hold: 15 }, { id: 'kick', frame: 40, hold: 6 }, { id: 'dab', frame: 58, hold: 9 }];
+  const keys = [{ id: 'bow', frame: 30, hold: 15, hit: 3 }, { id: 'kick', frame: 40, hold: 6, hit: null }, { id: 'dab', frame: 58, hold: 9, hit: 0 }];
   const all = withHeld(keys, 60, 30);
   assert.deepEqual(all.map(({ frame }) => frame), [30, 36, 40, 46, 58]);
   assert.equal(all[1].id, 'bow held 1');
+  // What holds it is not hit.
+  assert.deepEqual(all.map(({ hit }) => hit), [3, null, null, null, 0]);
   assert.deepEqual(withHolds(all).map(({ id, hold }) => [id, hold]), [['bow', 6], ['kick', 6], ['dab', 0]]);
   assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
 });
@@ -95,8 +97,9 @@ test('of a pose some joints are taken', () => {
 });
 
 test('a project is read as it was written', () => {
-  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null, hold: 6 };
-  const project = { ...emptyProject('song.mp3', 4), seed: 7, dynamics: 0.9, variation: 0, path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key] };
+  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null, hold: 6, hit: 2.5 };
+  const markers = [{ frame: 6, name: 'the "drop", 1' }, { frame: 90, name: 'break' }];
+  const project = { ...emptyProject('song.mp3', 4), markers, seed: 7, dynamics: 0.9, variation: 0, path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key] };
   const text = toJson(project, 30, ['pelvis', 'left_hip']);
   const said = [];
   const read = fromJson(text, 'p.json', { fps: 30, styles: [] }, (words) => said.push(words));
@@ -104,6 +107,23 @@ test('a project is read as it was written', () => {
   assert.deepEqual(said, []);
   assert.equal(JSON.parse(text).keyframes[0].time, 0.5);
   assert.equal(JSON.parse(text).keyframes[0].hold, 0.2);
+  assert.equal(JSON.parse(text).keyframes[0].hit, 2.5);
+  assert.match(text, /"markers": \[\n {2}\{"time": 0.2, "name": "the \\"drop\\", 1"\},\n {2}\{"time": 3, "name": "break"\}\n/);
+});
+
+test('markers stand one at a moment, in order, each with a name of its own', () => {
+  const [a, b] = [{ frame: 10, name: 'a' }, { frame: 20, name: 'b' }];
+  assert.deepEqual(withMarker([a, b], a, { ...a, frame: 30 }), [b, { frame: 30, name: 'a' }]);
+  assert.equal(withMarker([a, b], a, { ...a, frame: 20 }), null);
+  assert.deepEqual(withMarker([a, b], b, { frame: 20, name: 'c' }), [a, { frame: 20, name: 'c' }]);
+  assert.deepEqual(withMarker([a, b], a, null), [b]);
+  assert.equal(freeName(['mark', 'mark-2'], 'mark'), 'mark-3');
+  const read = (markers) => fromJson(JSON.stringify({ keyframes: [], markers }), 'p.json', { fps: 30, styles: [] }, () => {});
+  assert.deepEqual(read([{ time: 1, name: 'a' }]).markers, [{ frame: 30, name: 'a' }]);
+  assert.throws(() => read({}), /markers: {} is no list/);
+  assert.throws(() => read([{ time: 1 }]), /markers\[0\].name: nothing is no name/);
+  assert.throws(() => read([{ time: -1, name: 'a' }]), /markers\[0\].time: -1 is not a number from 0 to 3600/);
+  assert.throws(() => read([{ time: 1, name: 'a' }, { time: 1, name: 'b' }]), /markers\[1\] does not come after/);
 });
 
 test('dancers are saved as a file of dancers has them, a line for each place', () => {

@@ -135,6 +135,73 @@ await inStudio(async ({ page, until, settle, message, scale, frames, give }) => 
     assert.deepEqual(await held(), before.map(() => 0));
   });
 
+  await check('a key is hit gently or hard: the ways to it and from it are danced anew, and undo takes it back', async () => {
+    const danced = await frames();
+    const [before, { id, frame }, next] = await keys();
+    const hits = () => page.evaluate(() => window.choreo.project.value.keys.map(({ hit }) => hit));
+    await page.locator('.key').nth(1).click();
+    await page.getByLabel('Come to rest in it').check();
+    await settle();
+    assert.equal((await hits())[1], 1);
+    await page.getByRole('slider', { name: 'How hard it is hit' }).fill('3');
+    await settle();
+    assert.deepEqual((await hits()).slice(0, 3), [null, 3, null]);
+    const now = await frames();
+    const step = (all, at) => Math.max(...JSON.parse(all[at]).rotations.map((value, i) => Math.abs(value - JSON.parse(all[at - 1]).rotations[i])));
+    assert.ok(step(now, frame) < 0.5 * Math.max(...[4, 5, 6, 7, 8].map((back) => step(now, frame - back))), 'she does not come to rest');
+    assert.deepEqual([...now.slice(0, before.frame), ...now.slice(next.frame)], [...danced.slice(0, before.frame), ...danced.slice(next.frame)]);
+    await page.screenshot({ path: inFolder('hit.png') });
+    for (let i = 0; i < 2; ++i) await page.keyboard.press('Control+z');
+    await settle();
+    assert.deepEqual(await hits(), (await keys()).map(() => null));
+    assert.deepEqual(await frames(), danced, `${id} is danced otherwise`);
+  });
+
+  await check('markers are set, named, moved and removed; keys snap to them, and no frame changes', async () => {
+    const danced = await frames();
+    const markers = () => page.evaluate(() => window.choreo.project.value.markers);
+    await page.evaluate(() => (window.choreo.audio.currentTime = 49 / 30));
+    await page.locator('.stage canvas').focus();
+    await page.keyboard.press('m');
+    await settle();
+    assert.deepEqual(await markers(), [{ frame: 49, name: 'mark' }]);
+    await page.getByLabel('Name of the marker at 1.6 s').fill('drop');
+    await page.keyboard.press('Enter');
+    await settle();
+    assert.deepEqual(await markers(), [{ frame: 49, name: 'drop' }]);
+    const flag = page.getByRole('button', { name: 'Marker drop at 1.6 s' });
+    const { x, y } = await flag.boundingBox();
+    await page.mouse.move(x + 1, y + 8);
+    await page.mouse.down();
+    await page.keyboard.down('Alt');
+    await page.mouse.move(x + 1 + (8 / 30) * (await scale()), y + 8, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up('Alt');
+    await settle();
+    const [{ frame }] = await markers();
+    assert.ok(Math.abs(frame - 57) <= 1, `${frame}`);
+    await page.keyboard.press('Control+z');
+    await settle();
+    assert.equal((await markers())[0].frame, 49);
+    // Nearer to the marker than to a beat.
+    const before = await keys();
+    const chip = await page.locator('.key').nth(1).boundingBox();
+    const pixels = await scale();
+    await page.mouse.move(chip.x + chip.width / 2, chip.y + 20);
+    await page.mouse.down();
+    await page.mouse.move(chip.x + chip.width / 2 + pixels * ((50 - before[1].frame) / 30), chip.y + 20, { steps: 4 });
+    await page.mouse.up();
+    await settle();
+    assert.equal((await keys())[1].frame, 49);
+    await page.screenshot({ path: inFolder('marker.png') });
+    await page.keyboard.press('Control+z');
+    await settle();
+    await page.getByRole('button', { name: 'Remove marker drop' }).click();
+    await settle();
+    assert.deepEqual(await markers(), []);
+    assert.deepEqual(await frames(), danced);
+  });
+
   await check('the keys of an interval are copied to the playhead, and stand to each other as before', async () => {
     const before = await keys();
     await page.keyboard.press('Escape');
