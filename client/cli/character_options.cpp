@@ -1,9 +1,11 @@
 #include "client/cli/character_options.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "client/cli/bone_map.h"
 #include "model/core/error.h"
+#include "model/fit/finger_bones.h"
 #include "model/fit/retarget.h"
 #include "model/fit/transfer.h"
 #include "model/formats/character_file.h"
@@ -20,10 +22,17 @@ void CharacterOptions::AddTo(CLI::App& command) {
           "--map", map,
           "FILE.json that says which of its nodes are which bones, where their names do not.")
       ->check(CLI::ExistingFile);
+  command
+      .add_option("--hands", hands,
+                  "What the fingers of --character do: relaxed (default), open, fist, point, or "
+                  "rest, which leaves them as its file has them.")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(kHandPoseNames.begin(), kHandPoseNames.end())));
 }
 
 void CharacterOptions::Check(const std::filesystem::path& out, bool of_motion) const {
   if (!given()) {
+    if (!hands.empty()) throw InvalidArgument("--hands", "goes with --character");
     if (!map.empty() && !of_motion) throw InvalidArgument("--map", "goes with --character");
     return;
   }
@@ -50,7 +59,10 @@ void CharacterOptions::Write(const std::filesystem::path& out, const Skeleton& s
     throw Error(error.code(), map.empty() ? character : map, error.what());
   }
   const Motion smpl = Retarget(skeleton, motion, Skeleton::Smpl24());
-  file.WriteDance(out, body, TransferToCharacter(smpl, body.skeleton));
+  const auto pose = std::ranges::find(kHandPoseNames, hands.empty() ? "relaxed" : hands);
+  file.WriteDance(
+      out, body, TransferToCharacter(smpl, body.skeleton),
+      CurlFingers(file.rig(), bones, static_cast<HandPose>(pose - kHandPoseNames.begin())));
 }
 
 }  // namespace choreo::cli

@@ -9,16 +9,17 @@
 
 namespace choreo::cli {
 
-/// `--character` and `--map`: a dance on a user's character.
+/// `--character`, `--map` and `--hands`: a dance on a user's character.
 struct CharacterOptions {
-  std::string character;  ///< .glb or .vrm; empty: none
-  std::string map;        ///< bone_map.h; empty: by names
+  std::string character;   ///< .glb or .vrm; empty: none
+  std::string map;         ///< bone_map.h; empty: by names
+  std::string hands = "";  ///< one of kHandPoseNames; empty: relaxed
 
   void AddTo(CLI::App& command);
   bool given() const { return !character.empty(); }
-  /// Throws Error(kInvalidArgument) whose field is the option: `--map` alone, a character other
-  /// than .glb or .vrm, an `out` other than .glb. `of_motion`: without a character the map is for
-  /// the motion's own bones.
+  /// Throws Error(kInvalidArgument) whose field is the option: `--map` or `--hands` alone, a
+  /// character other than .glb or .vrm, an `out` other than .glb. `of_motion`: without a character
+  /// the map is for the motion's own bones.
   void Check(const std::filesystem::path& out, bool of_motion = false) const;
 
   /// Writes the character with the dance (formats/character_file.h). If names tell too little,

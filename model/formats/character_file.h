@@ -6,6 +6,7 @@
 
 #include "model/fit/character_body.h"
 #include "model/fit/find_bones.h"
+#include "model/fit/finger_bones.h"
 #include "model/formats/gltf_nodes.h"
 #include "model/motion/motion.h"
 
@@ -34,9 +35,9 @@ class CharacterFile {
   /// Everything else stays, byte for byte. The dance keeps our axes in the file's world: Y up, +Z
   /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which is of
   /// this file. Throws Error(kInvalidArgument) for a motion without frames, zero scales, or more
-  /// than 4 GiB; Error(kInternal) if the file cannot be written.
-  void WriteDance(const std::filesystem::path& out, const CharacterBody& body,
-                  const Motion& motion) const;
+  /// than 4 GiB; Error(kInternal) if the file cannot be written. `fingers` keep their turns.
+  void WriteDance(const std::filesystem::path& out, const CharacterBody& body, const Motion& motion,
+                  const std::vector<CurledBone>& fingers = {}) const;
 
  private:
   std::filesystem::path path_;

@@ -97,6 +97,18 @@ class DrivenNodes {
   JointPlacement placement_;
 };
 
+// The rotation of a finger's node in its parent, which carries it along.
+Eigen::Quaterniond Curled(const CurledBone& finger, const GltfNodes& nodes,
+                          const std::vector<Eigen::Affine3d>& rest) {
+  const int parent = nodes.parents[finger.node];
+  Eigen::Matrix3d above = Eigen::Matrix3d::Identity();
+  if (parent >= 0) above = rest[parent].linear();
+  const double sense = above.determinant() < 0 ? -1 : 1;  // of a mirrored rig
+  const Eigen::Vector3d axis = above.inverse() * finger.axis;
+  return Eigen::AngleAxisd(sense * finger.angle, axis.normalized()) *
+         nodes.rest[finger.node].rotation;
+}
+
 // Animated nodes must not have a matrix.
 void StateParts(ordered_json& node, const GltfPlacement& rest) {
   if (!node.is_object() || node.erase("matrix") == 0) return;
@@ -111,7 +123,7 @@ void StateParts(ordered_json& node, const GltfPlacement& rest) {
 }  // namespace
 
 void CharacterFile::WriteDance(const std::filesystem::path& out, const CharacterBody& body,
-                               const Motion& motion) const {
+                               const Motion& motion, const std::vector<CurledBone>& fingers) const {
   RequireWritable(body.skeleton, motion);
   std::string bytes;
   try {
@@ -132,10 +144,16 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
         if (driven.moves(joint)) tracks[joint].AddPlace(driven.local(joint).translation);
       }
     }
+    const std::vector<Eigen::Affine3d> rest = nodes_.PlaceAtRest();
+    for (const CurledBone& finger : fingers) {
+      GltfTrack& track = tracks.emplace_back();
+      track.node = finger.node;
+      track.AddTurn(Curled(finger, nodes_, rest));
+    }
     const GlbChunks chunks = SplitGlb(bytes_);
     GltfBuilder added(ordered_json::parse(chunks.json), chunks.binary);
-    for (const int node : body.nodes) {
-      if (node >= 0) StateParts(added.List("nodes")[node], nodes_.rest[node]);
+    for (const GltfTrack& track : tracks) {
+      if (track.node >= 0) StateParts(added.List("nodes")[track.node], nodes_.rest[track.node]);
     }
     added.AddDance(motion.fps, motion.frames.size(), tracks);
     bytes = added.Join(chunks.others);

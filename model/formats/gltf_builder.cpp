@@ -1,5 +1,6 @@
 #include "model/formats/gltf_builder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "model/core/error.h"
@@ -65,20 +66,27 @@ void GltfBuilder::AddDance(double fps, size_t frames, const std::vector<GltfTrac
   for (size_t frame = 0; frame < frames; ++frame)
     times.push_back(static_cast<float>(static_cast<double>(frame) / fps));
   const size_t input = Add<float>(times, "SCALAR", true);
+  // For what keeps one pose.
+  const bool any_still = std::ranges::any_of(tracks, [&](const GltfTrack& track) {
+    return track.node >= 0 && track.turns.size() == 4 && frames > 1;
+  });
+  const size_t start = any_still ? Add<float>(std::span(times).first(1), "SCALAR", true) : input;
   Json animation = {{"name", "dance"},
                     {"channels", Json::array()},
                     {"samplers", Json::array()},
                     {"extras", {{"fps", fps}}}};
-  const auto channel = [&](int node, const char* path, size_t output) {
+  const auto channel = [&](int node, const char* path, size_t output, size_t when) {
     animation["samplers"].push_back(
-        {{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+        {{"input", when}, {"interpolation", "LINEAR"}, {"output", output}});
     animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},
                                      {"target", {{"node", node}, {"path", path}}}});
   };
   for (const GltfTrack& track : tracks) {
     if (track.node < 0) continue;
-    channel(track.node, "rotation", Add<float>(track.turns, "VEC4"));
-    if (!track.places.empty()) channel(track.node, "translation", Add<float>(track.places, "VEC3"));
+    channel(track.node, "rotation", Add<float>(track.turns, "VEC4"),
+            track.turns.size() == 4 ? start : input);
+    if (!track.places.empty())
+      channel(track.node, "translation", Add<float>(track.places, "VEC3"), input);
   }
   Json& animations = List("animations");
   animations.insert(animations.begin(), std::move(animation));

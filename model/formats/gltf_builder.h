@@ -13,7 +13,7 @@ namespace choreo {
 /// A node's track through a dance, in glTF's numbers.
 struct GltfTrack {
   int node = -1;
-  std::vector<float> turns;   ///< x y z w, frame after frame
+  std::vector<float> turns;   ///< x y z w, frame after frame; or one, for all
   std::vector<float> places;  ///< x y z; empty if it stays in place
 
   /// Chooses the sign nearer to the frame before, as readers interpolate the shorter way between
