@@ -23,6 +23,7 @@ using Eigen::Vector3f;
 
 constexpr float kLampSpread = 0.10f;  // radians
 constexpr int kMostSamples = 8;       // per side of a pixel
+constexpr int kAlike = 6;  // of 255: pixels of one part between two so alike are their mean
 
 std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
   std::vector<BoundedCone> parts;
@@ -72,28 +73,56 @@ class Renderer {
   void Render() {
     picture_.rgb.resize(size_t{3} * picture_.width * picture_.height);
     for (int y = 0; y < picture_.height; ++y) floor_.DrawRow(y, PixelAt(0, y));
-    const int columns = box_.sizes().x();
-    SeenRow before(1 + columns / kLanes), row = before;
-    const auto part_at = [](const SeenRow& seen, int column) {
-      return column < 0 ? Seen::kNothing : seen[column / kLanes].part[column % kLanes];
-    };
-    for (int y = box_.min().y(); y < box_.max().y(); ++y, row.swap(before)) {
-      Cast(y, &row);
-      for (int column = 0; column < columns; ++column) {
-        // A pixel's samples lie between its last one and those of its neighbours before it.
-        const float part = part_at(row, column);
-        const bool is_one = part == part_at(row, column - 1) && part == part_at(before, column) &&
-                            part == part_at(before, column - 1);
-        if (is_one && part == Seen::kNothing) continue;
-        const int x = box_.min().x() + column;
-        const Vector3f colour =
-            is_one ? Body(row[column / kLanes], column % kLanes, Last(x, y)) : Mixed(x, y);
-        tone_.Put(colour, PixelAt(x, y));
-      }
+    const Eigen::Vector2i from = box_.min(), to = box_.max();
+    for (int y = from.y(); y < to.y(); ++y) Cast(y, &rows_.emplace_back());
+    // Every second pixel of every second row first; light changes slowly between most of them.
+    for (int y = from.y(); y < to.y(); y += 2) {
+      for (int x = from.x(); x < to.x(); x += 2) Draw(x, y);
+      for (int x = from.x() + 1; x < to.x(); x += 2) DrawBetween(x, y, Eigen::Vector2i::UnitX());
     }
+    for (int y = from.y() + 1; y < to.y(); y += 2)
+      for (int x = from.x(); x < to.x(); ++x) DrawBetween(x, y, Eigen::Vector2i::UnitY());
   }
 
  private:
+  // The part that the last sample of a pixel shows.
+  float PartAt(int x, int y) const {
+    const int column = x - box_.min().x(), row = y - box_.min().y();
+    if (column < 0 || row < 0) return Seen::kNothing;
+    return rows_[row][column / kLanes].part[column % kLanes];
+  }
+
+  // A pixel's samples lie between its last one and those of its neighbours before it.
+  bool ShowsOnePart(int x, int y) const {
+    const float part = PartAt(x, y);
+    return part == PartAt(x - 1, y) && part == PartAt(x, y - 1) && part == PartAt(x - 1, y - 1);
+  }
+
+  void Draw(int x, int y) {
+    const bool is_one = ShowsOnePart(x, y);
+    if (is_one && PartAt(x, y) == Seen::kNothing) return;
+    const int column = x - box_.min().x();
+    const Seen& seen = rows_[y - box_.min().y()][column / kLanes];
+    tone_.Put(is_one ? Body(seen, column % kLanes, Last(x, y)) : Mixed(x, y), PixelAt(x, y));
+  }
+
+  // Between two drawn pixels, one on either side.
+  void DrawBetween(int x, int y, const Eigen::Vector2i& step) {
+    const Eigen::Vector2i pixel(x, y), a = pixel - step, b = pixel + step;
+    const float part = PartAt(x, y);
+    const bool is_inside = (b.array() < box_.max().array()).all();
+    if (!is_inside || part == Seen::kNothing || PartAt(a.x(), a.y()) != part ||
+        PartAt(b.x(), b.y()) != part || !ShowsOnePart(x, y) || !ShowsOnePart(a.x(), a.y()) ||
+        !ShowsOnePart(b.x(), b.y())) {
+      return Draw(x, y);
+    }
+    const uint8_t *before = PixelAt(a.x(), a.y()), *after = PixelAt(b.x(), b.y());
+    uint8_t* between = PixelAt(x, y);
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(before[i] - after[i]) > kAlike) return Draw(x, y);
+    for (int i = 0; i < 3; ++i) between[i] = static_cast<uint8_t>((before[i] + after[i] + 1) / 2);
+  }
+
   uint8_t* PixelAt(int x, int y) const {
     return &picture_.rgb[3 * (static_cast<size_t>(y) * picture_.width + x)];
   }
@@ -126,22 +155,20 @@ class Renderer {
 
   // Casts the last sample of each pixel of a row, from the box's left on.
   void Cast(int y, SeenRow* row) {
-    row->assign(row->size(), {});
-    row_parts_.clear();
+    row->assign(1 + box_.sizes().x() / kLanes, {});
     const int left = box_.min().x();
     const Lane columns = MakeLane([&](int lane) { return Last(left + lane, y).x(); });
     const Lane middle = AllLanes(Last(left, y).y());
     for (size_t part = 0; part < parts_.size(); ++part) {
       const Eigen::Vector2i &from = boxes_[part].min(), &to = boxes_[part].max();
       if (y < from.y() || y >= to.y()) continue;
-      row_parts_.push_back(part);
       for (int i = (from.x() - left) / kLanes; i * kLanes < std::min(to.x(), box_.max().x()) - left;
            ++i)
         Meet(part, Rays(columns + static_cast<float>(i * kLanes), middle), &(*row)[i]);
     }
   }
 
-  // A pixel of the last cast row that may show several parts. Floor and parts are smooth, so a
+  // A pixel that may show several parts. Floor and parts are smooth, so a
   // pixel of a single part needs only one sample.
   Vector3f Mixed(int x, int y) const {
     const int count = samples_ * samples_;
@@ -149,9 +176,11 @@ class Renderer {
     for (int i = 0; i < count; i += kLanes) {
       const Lanes rays = Rays(MakeLane([&](int lane) { return SampleAt(x, y, i + lane).x(); }),
                               MakeLane([&](int lane) { return SampleAt(x, y, i + lane).y(); }));
-      for (const size_t part : row_parts_)
-        if (x >= boxes_[part].min().x() && x < boxes_[part].max().x())
+      for (size_t part = 0; part < parts_.size(); ++part) {
+        const Eigen::Vector2i &from = boxes_[part].min(), &to = boxes_[part].max();
+        if (x >= from.x() && x < to.x() && y >= from.y() && y < to.y())
           Meet(part, rays, &seen[i / kLanes]);
+      }
     }
     const auto part = [&](int i) -> float { return seen[i / kLanes].part[i % kLanes]; };
     bool is_one = true;
@@ -185,7 +214,7 @@ class Renderer {
   Tone tone_;
   std::vector<Eigen::AlignedBox2i> boxes_;  // per part, pixels
   Eigen::AlignedBox2i box_;                 // of all of them
-  std::vector<size_t> row_parts_;           // in the last cast row
+  std::vector<SeenRow> rows_;               // of the box: the last sample of each pixel
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
     add({"-ss", std::to_string(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0",
          "-map", "1:a:0", "-c:a", "aac", "-b:a", "192k"});
   }
-  add({"-c:v", "libx264", "-preset", "veryfast", "-crf", "18",
+  add({"-c:v", "libx264", "-preset", "veryfast", "-x264-params", "subme=1", "-crf", "18",
        // Players assume BT.709 for unmarked files, which would shift our colours.
        "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
        "-color_primaries", "bt709", "-color_trc", "bt709", "-t",

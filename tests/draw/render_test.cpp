@@ -87,6 +87,30 @@ TEST(Render, TheSameInputGivesTheSameBytes) {
   EXPECT_EQ(Draw(pose, FollowView(pose, 0.6)).rgb, Draw(pose, FollowView(pose, 0.6)).rgb);
 }
 
+// Most pixels of a body are the mean of their neighbours: a picture twice as large shows the same.
+TEST(Render, PixelsBetweenOthersAreAsIfDrawn) {
+  const Pose pose = RestPose(kSmpl);
+  const auto draw = [&](int scale) {
+    Picture picture{.width = 200 * scale, .height = 250 * scale, .rgb = {}};
+    DrawFrame(kSmpl, pose, FollowView(pose, 0.6), {}, picture);
+    return picture;
+  };
+  const Picture one = draw(1), two = draw(2);
+  double squares = 0;
+  for (int y = 0; y < one.height; ++y) {
+    for (int x = 0; x < 3 * one.width; ++x) {
+      const int column = 6 * (x / 3) + x % 3;
+      const auto at = [&](int i, int j) {
+        return int{two.rgb[static_cast<size_t>((2 * y + j) * 3 * two.width + column + 3 * i)]};
+      };
+      const double mean = (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4.0;
+      const double off = one.rgb[static_cast<size_t>(y * 3 * one.width + x)] - mean;
+      squares += off * off;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(one.rgb.size())), 2);  // of 255
+}
+
 TEST(Render, OtherSkeletonsAreSticks) {
   Skeleton chain;
   chain.name = "chain";
