@@ -108,7 +108,7 @@ TEST(Render, PixelsBetweenOthersAreAsIfDrawn) {
       squares += off * off;
     }
   }
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(one.rgb.size())), 2);  // of 255
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(one.rgb.size())), 3);  // of 255
 }
 
 TEST(Render, OtherSkeletonsAreSticks) {
