@@ -150,8 +150,10 @@ function useKeyboard() {
   useEffect(() => {
     const press = (event: KeyboardEvent) => {
       const at = event.target as HTMLElement;
-      if (event.defaultPrevented || at.matches('input, select')) return;
       const withControl = event.ctrlKey || event.metaKey;
+      // Sliders and boxes have no undo of their own.
+      const types = at.matches('input, select') && !(withControl && at.matches('[type=range], [type=checkbox]'));
+      if (event.defaultPrevented || types) return;
       const key = event.key.toLowerCase();
       if (event.key === ' ' && playsOn(at)) studio.togglePlay();
       else if (key === 't' && !withControl && studio.shownSong.value && studio.project.value) studio.tap();
