@@ -7,8 +7,8 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/plan/plan_options.h"
 #include "model/motion/velocity_factors.h"
+#include "model/plan/plan_options.h"
 
 namespace choreo {
 

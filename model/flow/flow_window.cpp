@@ -43,11 +43,6 @@ Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& 
   return velocity;
 }
 
-// The vertical in the root's frame.
-Eigen::Vector3d UpOf(const Pose& pose) {
-  return ExpMap(pose.rotations.col(0)).transpose() * Eigen::Vector3d::UnitY();
-}
-
 }  // namespace
 
 WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> poses,

@@ -37,16 +37,16 @@ struct WindowRequest {
   /// The middle of the floor that the dancer keeps to, and where her audience is. Off a path she
   /// returns to both, unless a key says where the root goes or how it is turned.
   std::optional<GroundFrame> stage = {};
-
-  /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame
-  /// that `ground` is in the request's.
-  WindowRequest Part(int from, int count, std::span<const Pose> poses,
-                     const GroundFrame& ground) const;
   /// Without a key that says how the root is turned: about how far it turns about the vertical by
   /// the window's end, radians. The facing of the audience nearest to it counts. None: as far as
   /// the history suggests.
   std::optional<double> turn = {};
 
+  /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame
+  /// that `ground` is in the request's.
+  WindowRequest Part(int from, int count, std::span<const Pose> poses,
+                     const GroundFrame& ground) const;
+  /// Whether the stage's middle, and its front, count.
   bool StageCounts() const {
     return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
   }

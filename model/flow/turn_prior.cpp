@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/core/grid.h"
+#include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
@@ -57,7 +58,7 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
   if (shorter == other) return std::nullopt;  // almost no turn
   const std::vector<Pose>& history = request.history;
   const Pose &last = history.back(), &key = *request.key;
-  const Eigen::Vector3d up = ExpMap(last.rotations.col(0)).transpose() * Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d up = UpOf(last);
   // About other axes the longer way would be a somersault.
   if (std::abs(shorter.dot(up)) < kUpright * shorter.norm()) return std::nullopt;
   const double longer = std::log2(request.to_key / double{kUsualFrames});

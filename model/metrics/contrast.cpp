@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include "model/core/error.h"
 #include "model/motion/canonical.h"
@@ -23,13 +22,8 @@ std::ptrdiff_t WindowFrames(double fps) { return std::lround(kContrastSeconds * 
 std::vector<double> WindowTurns(std::span<const Pose> poses, double fps) {
   std::vector<double> turns;
   const auto length = static_cast<size_t>(WindowFrames(fps));
-  double before = 0, turned = 0;
-  for (size_t t = 0; t < poses.size(); ++t) {
-    const double heading = Heading(ExpMap(poses[t].rotations.col(0)));
-    if (t > 0) turned += WrapAngle(heading - before);
-    before = heading;
-    if (t > 0 && t % length == 0) turns.push_back(std::exchange(turned, 0));
-  }
+  for (size_t end = length; end < poses.size(); end += length)
+    turns.push_back(TurnOver(poses[end - length], poses.subspan(end - length + 1, length)));
   return turns;
 }
 

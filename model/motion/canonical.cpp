@@ -1,6 +1,7 @@
 #include "model/motion/canonical.h"
 
 #include <cmath>
+#include <utility>
 
 #include "model/motion/rotation.h"
 
@@ -37,10 +38,23 @@ Pose GroundFrame::ToWorld(const Pose& local) const {
   return world;
 }
 
+Eigen::Vector3d UpOf(const Pose& pose) {
+  return ExpMap(pose.rotations.col(0)).transpose() * Eigen::Vector3d::UnitY();
+}
+
+double TurnOver(const Pose& from, std::span<const Pose> poses) {
+  double heading = GroundFrame::Of(from).heading, turn = 0;
+  for (const Pose& pose : poses) {
+    const double now = GroundFrame::Of(pose).heading;
+    turn += WrapAngle(now - std::exchange(heading, now));
+  }
+  return turn;
+}
+
 double MeanFacing(std::span<const Pose> poses) {
   double sideways = 0, ahead = 0;
   for (const Pose& pose : poses) {
-    const double heading = Heading(ExpMap(pose.rotations.col(0)));
+    const double heading = GroundFrame::Of(pose).heading;
     sideways += std::sin(heading);
     ahead += std::cos(heading);
   }

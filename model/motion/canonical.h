@@ -23,6 +23,11 @@ struct GroundFrame {
   Pose ToWorld(const Pose& local) const;
 };
 
+/// The vertical in the root's own frame, unit.
+Eigen::Vector3d UpOf(const Pose& pose);
+/// How far the root's heading turns from a pose over those after it, radians about +Y. Whole turns
+/// count.
+double TurnOver(const Pose& from, std::span<const Pose> poses);
 /// The mean direction of the roots' headings, radians about +Y; 0 for no poses.
 double MeanFacing(std::span<const Pose> poses);
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "model/plan/footwork_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "model/plan/footwork_options.h"
 
 namespace choreo {
 

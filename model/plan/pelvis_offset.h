@@ -36,8 +36,8 @@ struct PelvisRules {
 /// Minimises the squared acceleration and length of the pelvis's offset from the plan, [3, frames],
 /// metres, so that legs reach their feet, the centre of mass and the zero moment point stay over
 /// them, and leaps (from floor to floor within the plan) fall at 9.81 m/s². `centre_before`: the
-/// plan's centre of mass in the frame before the first. Hulls and legs are not linear, so a few rounds
-/// start from their nearest points again; the remaining error never grows. Pure.
+/// plan's centre of mass in the frame before the first. Hulls and legs are not linear, so a few
+/// rounds start from their nearest points again; the remaining error never grows. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
                               const Eigen::Vector3d& centre_before, const PelvisRules& rules);
 

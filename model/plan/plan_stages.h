@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/core/hit.h"
-#include "model/plan/plan_options.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "model/plan/plan_options.h"
 
 /// Stages of a plan between model and arrival: what no network can know, or a rule does better.
 /// Pure functions, thread-safe. plan_stages.cpp lists them.

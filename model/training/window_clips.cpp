@@ -58,16 +58,6 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
   }
 }
 
-// How far the root turns about the vertical from a pose over those after it; whole turns count.
-double TurnOver(const Pose& from, std::span<const Pose> poses) {
-  double heading = GroundFrame::Of(from).heading, turn = 0;
-  for (const Pose& pose : poses) {
-    const double now = GroundFrame::Of(pose).heading;
-    turn += WrapAngle(now - std::exchange(heading, now));
-  }
-  return turn;
-}
-
 // The request for a window of `frames` frames, the track's from `first` on. `history`, `way`, which
 // ends in the key, and `stage` are in the canonical frame.
 WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,

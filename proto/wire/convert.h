@@ -13,8 +13,8 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Our own types <-> messages of the API, for server, client and studio. What comes in is a server's: one that breaks the protocol raises
-/// Error(kInternal). Pure functions, thread-safe.
+/// Our own types <-> messages of the API, for server, client and studio. What comes in is a
+/// server's: one that breaks the protocol raises Error(kInternal). Pure functions, thread-safe.
 namespace choreo::wire {
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
