@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kMemorySeconds = 120;  // an intro's half beats sound like beats within one window
 constexpr double kFirstSeconds = 4, kEverySeconds = 1.5;
-constexpr size_t kSureBeats = 8;       // that determine the tempo ahead
-constexpr double kStoppedSeconds = 3;  // without a beat, after which the music pauses
 
 int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 
@@ -18,11 +16,6 @@ int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 
 // Silence precedes the music.
 BeatEar::BeatEar() : mono_(kOnsetWindow / 2) {}
-
-void BeatsAhead::Keep(double from, double to) {
-  for (std::vector<double>* some : {&beats, &downbeats})
-    std::erase_if(*some, [=](double beat) { return beat < from || beat > to; });
-}
 
 BeatsAhead BeatEar::Hear(std::span<const float> mono) {
   mono_.insert(mono_.end(), mono.begin(), mono.end());
@@ -35,7 +28,7 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
 
   if (found_.valid()) {
     if (found_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
-    return GoOn(found_.get(), now);
+    return PredictBeats(found_.get(), now, now + kAheadSeconds);
   }
   if (heard - asked_ < Onsets(asked_ == 0 ? kFirstSeconds : kEverySeconds)) return {};
   asked_ = heard;
@@ -50,21 +43,6 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
     return track;
   });
   return {};
-}
-
-BeatsAhead BeatEar::GoOn(const BeatTrack& track, double now) const {
-  const std::vector<double> beats = track.Seconds();
-  if (beats.size() <= kSureBeats || now - beats.back() > kStoppedSeconds) return {};
-  const double period = 60 / TempoOf(std::span(beats).last(kSureBeats + 1));
-  BeatsAhead ahead;
-  int in_bar = track.in_bar.back();
-  for (double beat = beats.back() + period; beat < now + kAheadSeconds; beat += period) {
-    ++in_bar;
-    if (beat <= now) continue;
-    ahead.beats.push_back(beat);
-    if (track.beats_in_bar > 0 && in_bar % track.beats_in_bar == 0) ahead.downbeats.push_back(beat);
-  }
-  return ahead;
 }
 
 }  // namespace choreo::live

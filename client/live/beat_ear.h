@@ -5,18 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "model/audio/beats.h"
+#include "model/audio/beats_ahead.h"
 #include "model/audio/onset.h"
 
 namespace choreo::live {
-
-/// Beats ahead, seconds, ascending, and those of them that begin a bar.
-struct BeatsAhead {
-  std::vector<double> beats, downbeats;
-
-  /// Keeps only those in [from, to].
-  void Keep(double from, double to);
-};
 
 /// Predicts the beats of live music: finds those of its last minutes as in a whole song
 /// (TrackBeats) and extrapolates them. Works on its own thread, so the listener never waits.
@@ -37,8 +29,6 @@ class BeatEar {
   }
 
  private:
-  BeatsAhead GoOn(const BeatTrack& track, double now) const;
-
   OnsetMeter meter_;
   std::vector<float> mono_;    // from the next onset's window on
   std::vector<Onset> onsets_;  // of the last minutes

@@ -39,63 +39,18 @@ std::array<float, Onset::kBands> EvenOnsets::Even(const Onset& onset) {
 
 BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limits)
     : patterns_(patterns.begin(), patterns.end()) {
-  size_t states = 0;
+  for (size_t pattern = 0; pattern < patterns_.size(); ++pattern) AddPart(pattern, limits);
+  size_t scores = 0;
   int longest = 0;
-  for (size_t p = 0; p < patterns_.size(); ++p) {
-    const BarPattern& pattern = patterns_[p];
-    const int shortest_period = PeriodOf(std::min(pattern.fastest_bpm, limits.fastest_bpm));
-    const int longest_period = PeriodOf(std::max(pattern.slowest_bpm, limits.slowest_bpm));
-    if (shortest_period > longest_period) continue;
-    longest = std::max(longest, longest_period);
-    const size_t first_group = groups_.size();
-    const auto count = static_cast<size_t>(longest_period - shortest_period + 1);
-    for (int beat = 0; beat < pattern.beats; ++beat) {
-      groups_.push_back(
-          {p, rings_.size(), count,
-           first_group + static_cast<size_t>((beat + pattern.beats - 1) % pattern.beats)});
-      for (int period = shortest_period; period <= longest_period; ++period) {
-        Ring ring{p, states, beat, period, 0, {}};
-        states += static_cast<size_t>(period);
-        std::vector<bool> taken(static_cast<size_t>(period));
-        for (size_t place = 0; place < pattern.places; ++place) {
-          // Of positions too close to distinguish at this tempo, the first one counts.
-          const bool is_near = std::any_of(
-              pattern.place.begin(), pattern.place.begin() + static_cast<std::ptrdiff_t>(place),
-              [&](double other) {
-                const double apart = std::abs(other - pattern.place[place]);
-                return period * std::min(apart, 1 - apart) < kFrames + 1;
-              });
-          if (is_near) continue;
-          const auto centre = static_cast<int>(std::lround(period * pattern.place[place]));
-          for (int i = 0; i < kFrames; ++i) {
-            const int frame = centre + kFirstFrame + i;
-            const int at = (frame + period) % period;
-            if (taken[static_cast<size_t>(at)]) continue;
-            taken[static_cast<size_t>(at)] = true;
-            const int of = frame < 0 ? (beat + 1) % pattern.beats : beat;
-            ring.hits.push_back({at, static_cast<size_t>(of) * BarPattern::kPlaces + place});
-          }
-        }
-        rings_.push_back(std::move(ring));
-      }
-    }
+  for (Ring& ring : rings_) {
+    ring.first_score = static_cast<uint32_t>(scores);
+    scores += static_cast<size_t>(ring.period);
+    scores_.resize(scores, static_cast<float>(-std::log(ring.period)));
+    longest = std::max(longest, ring.period);
   }
-  states_.resize(states);
-  for (const Ring& ring : rings_) {
-    std::fill_n(states_.begin() + static_cast<std::ptrdiff_t>(ring.first_state), ring.period,
-                static_cast<float>(-std::log(ring.period)));
-  }
-  for (const BarPattern& pattern : patterns_) {
-    auto& terms = likelihood_.emplace_back();
-    for (const BarPattern::Bands& bands : pattern.rise) {
-      // Log of the exponential density, relative to that between the places.
-      for (const double mean : bands)
-        terms.push_back({kWeight * std::log(kBetween / mean), kWeight * (1 / kBetween - 1 / mean)});
-    }
-    place_score_.emplace_back(pattern.rise.size());
-  }
-  leaving_.resize(rings_.size());
-  arriving_.resize(rings_.size());
+  place_scores_.resize(likelihood_.size() / Onset::kBands * kHistory);
+  beginning_.resize(place_scores_.size());
+  best_.resize(rings_.size());
   from_.resize(rings_.size());
   step_cost_.resize(static_cast<size_t>(longest) + 2);
   stay_cost_.resize(step_cost_.size());
@@ -109,92 +64,152 @@ BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limit
   }
 }
 
+void BarPointer::AddPart(size_t nth, const Limits& limits) {
+  const BarPattern& pattern = patterns_[nth];
+  const int shortest = PeriodOf(std::min(pattern.fastest_bpm, limits.fastest_bpm));
+  const int longest = PeriodOf(std::max(pattern.slowest_bpm, limits.slowest_bpm));
+  if (shortest > longest) return;
+  parts_.push_back({nth, static_cast<size_t>(pattern.beats), rings_.size(),
+                    static_cast<size_t>(longest - shortest + 1),
+                    likelihood_.size() / Onset::kBands});
+  for (const BarPattern::Bands& bands : pattern.rise) {
+    // Log of the exponential density, relative to that between the places.
+    for (const double mean : bands)
+      likelihood_.push_back(
+          {kWeight * std::log(kBetween / mean), kWeight * (1 / kBetween - 1 / mean)});
+  }
+  for (int period = shortest; period <= longest; ++period) {
+    Ring ring{0, period, 0, {}};
+    ring.begin.fill(kNowhere);
+    for (size_t place = 0; place < pattern.places; ++place) {
+      const double at = pattern.place[place];
+      // Of positions too close to distinguish at this tempo, the first one counts.
+      const auto is_near = [&](double other) {
+        const double apart = std::abs(other - at);
+        return period * std::min(apart, 1 - apart) < kFrames + 1;
+      };
+      if (!std::any_of(pattern.place.begin(), &pattern.place[place], is_near))
+        ring.begin[place] = static_cast<int8_t>(std::lround(period * at) + kFirstFrame);
+    }
+    rings_.insert(rings_.end(), kBeats, ring);
+  }
+}
+
 void BarPointer::Add(const Onset& onset) {
-  const auto even = even_.Even(onset);
-  for (size_t p = 0; p < patterns_.size(); ++p) {
-    for (size_t place = 0; place < place_score_[p].size(); ++place) {
-      double sum = 0;
-      for (size_t band = 0; band < even.size(); ++band) {
-        const auto& [constant, slope] = likelihood_[p][place * Onset::kBands + band];
-        if (even[band] >= 0) sum += constant + slope * even[band];
-      }
-      place_score_[p][place] = static_cast<float>(sum);
-    }
-  }
-  for (size_t r = 0; r < rings_.size(); ++r) {
-    Ring& ring = rings_[r];
-    ring.zero = ring.zero == 0 ? ring.period - 1 : ring.zero - 1;
-    leaving_[r] = states_[ring.first_state + static_cast<size_t>(ring.zero)];
-  }
-  for (const Group& group : groups_) {
-    // The cost of a tempo change adds up from period to period, so two passes find the best.
-    const size_t before = groups_[group.before].first_ring, first = group.first_ring;
-    float* best = &arriving_[first];
-    uint8_t* from = &from_[first];
-    const auto shortest = static_cast<size_t>(rings_[first].period);
-    for (size_t i = 0; i < group.count; ++i) {
-      best[i] = leaving_[before + i] - stay_cost_[shortest + i];
-      from[i] = static_cast<uint8_t>(i);
-    }
-    for (size_t i = 1; i < group.count; ++i) {
-      const float other = best[i - 1] - step_cost_[shortest + i - 1];
-      if (other > best[i]) best[i] = other, from[i] = from[i - 1];
-    }
-    for (size_t i = group.count - 1; i-- > 0;) {
-      const float other = best[i + 1] - step_cost_[shortest + i];
-      if (other > best[i]) best[i] = other, from[i] = from[i + 1];
-    }
+  for (const Part& part : parts_) {
+    Leave(part);
+    Arrive(part);
   }
   back_.insert(back_.end(), from_.begin(), from_.end());
-  for (size_t r = 0; r < rings_.size(); ++r) {
-    const Ring& ring = rings_[r];
-    float* states = &states_[ring.first_state];
-    states[ring.zero] = arriving_[r];
-    const float* score = place_score_[ring.pattern].data();
-    for (const Hit& hit : ring.hits) {
-      const int at = ring.zero + hit.at;
-      states[at < ring.period ? at : at - ring.period] += score[hit.place];
+  const auto even = even_.Even(onset);
+  for (size_t place = 0; place * even.size() < likelihood_.size(); ++place) {
+    double sum = 0;
+    for (size_t band = 0; band < even.size(); ++band) {
+      const auto& [constant, slope] = likelihood_[place * even.size() + band];
+      if (even[band] >= 0) sum += constant + slope * even[band];
     }
+    place_scores_[At(place, frames_)] = static_cast<float>(sum);
+    float& beginning = beginning_[At(place, frames_ - kFrames + 1)];
+    beginning = 0;
+    for (int i = 0; i < kFrames; ++i) beginning += place_scores_[At(place, frames_ - i)];
   }
   ++frames_;
 }
 
-size_t BarPointer::BestState(int* frames_since) const {
+// Sets best_ of each beat to the path that stays at its tempo.
+void BarPointer::Leave(const Part& part) {
+  for (size_t tempo = 0; tempo < part.tempi; ++tempo) {
+    const size_t first = part.first_ring + tempo * kBeats;
+    const float stay = stay_cost_[static_cast<size_t>(rings_[first].period)];
+    for (size_t beat = 0; beat < part.beats; ++beat) {
+      Ring& ring = rings_[first + beat];
+      ring.zero = ring.zero == 0 ? ring.period - 1 : ring.zero - 1;
+      float score = scores_[ring.first_score + static_cast<size_t>(ring.zero)] - stay;
+      const int64_t start = frames_ - ring.period;
+      const size_t places = part.first_place + beat * BarPattern::kPlaces;
+      for (size_t place = 0; place < ring.begin.size(); ++place) {
+        if (ring.begin[place] != kNowhere)
+          score += beginning_[At(places + place, start + ring.begin[place])];
+      }
+      best_[first + (beat + 1) % part.beats] = score;
+    }
+  }
+}
+
+// Changes of tempo. Their cost adds up from period to period, so two passes find the best.
+void BarPointer::Arrive(const Part& part) {
+  const size_t first = part.first_ring, shortest = static_cast<size_t>(rings_[first].period);
+  float* best = &best_[first];
+  int* from = &from_[first];
+  const auto improve = [&](size_t to, size_t by, float cost) {
+    for (size_t beat = 0; beat < kBeats; ++beat) {
+      const float other = best[by * kBeats + beat] - cost;
+      float& own = best[to * kBeats + beat];
+      int& own_from = from[to * kBeats + beat];
+      own_from = other > own ? from[by * kBeats + beat] : own_from;
+      own = other > own ? other : own;
+    }
+  };
+  for (size_t tempo = 0; tempo < part.tempi; ++tempo)
+    std::fill_n(from + tempo * kBeats, kBeats, static_cast<int>(tempo));
+  for (size_t tempo = 1; tempo < part.tempi; ++tempo)
+    improve(tempo, tempo - 1, step_cost_[shortest + tempo - 1]);
+  for (size_t tempo = part.tempi - 1; tempo-- > 0;)
+    improve(tempo, tempo + 1, step_cost_[shortest + tempo]);
+  for (size_t r = first; r < first + part.tempi * kBeats; ++r)
+    scores_[rings_[r].first_score + static_cast<size_t>(rings_[r].zero)] = best_[r];
+}
+
+float BarPointer::ScoreSince(const Ring& ring, size_t first_place, int64_t start) const {
+  float sum = 0;
+  for (size_t place = 0; place < ring.begin.size(); ++place) {
+    if (ring.begin[place] == kNowhere) continue;
+    const int64_t begin = start + ring.begin[place];
+    for (int64_t frame = begin; frame < std::min(begin + kFrames, frames_); ++frame)
+      sum += place_scores_[At(first_place + place, frame)];
+  }
+  return sum;
+}
+
+size_t BarPointer::BestRing(int* frames_since) const {
   float most = -std::numeric_limits<float>::infinity();
   size_t best = 0;
-  for (size_t r = 0; r < rings_.size(); ++r) {
-    const Ring& ring = rings_[r];
-    const auto states =
-        std::span(states_).subspan(ring.first_state, static_cast<size_t>(ring.period));
-    const auto highest = std::ranges::max_element(states);
-    if (*highest <= most) continue;
-    most = *highest;
-    best = r;
-    *frames_since =
-        (static_cast<int>(highest - states.begin()) - ring.zero + ring.period) % ring.period;
+  for (const Part& part : parts_) {
+    for (size_t at = 0; at < part.tempi * kBeats; ++at) {
+      if (at % kBeats >= part.beats) continue;
+      const Ring& ring = rings_[part.first_ring + at];
+      for (int since = 0; since < ring.period; ++since) {
+        const auto start = static_cast<size_t>((ring.zero + since) % ring.period);
+        const float score = scores_[ring.first_score + start] +
+                            ScoreSince(ring, part.first_place + at % kBeats * BarPattern::kPlaces,
+                                       frames_ - 1 - since);
+        if (score <= most) continue;
+        most = score;
+        best = part.first_ring + at;
+        *frames_since = since;
+      }
+    }
   }
   return best;
 }
 
-BarPointer::Step BarPointer::StepOf(size_t ring, int64_t frame) const {
-  const Ring& of = rings_[ring];
-  return {frame, of.period, of.beat, of.pattern, patterns_[of.pattern].beats};
+const BarPointer::Part& BarPointer::PartOf(size_t ring) const {
+  return *std::ranges::find_if(
+      parts_, [ring](const Part& part) { return ring < part.first_ring + part.tempi * kBeats; });
 }
 
 std::vector<BarPointer::Step> BarPointer::Path() const {
   std::vector<Step> path;
   if (rings_.empty() || frames_ == 0) return path;
   int since = 0;
-  size_t ring = BestState(&since);
-  int64_t frame = frames_ - 1 - since;
-  while (frame >= 0) {
-    path.push_back(StepOf(ring, frame));
-    const auto group = std::ranges::find_if(groups_, [ring](const Group& g) {
-      return ring >= g.first_ring && ring < g.first_ring + g.count;
-    });
-    ring = groups_[group->before].first_ring +
-           back_[static_cast<size_t>(frame) * rings_.size() + ring];
-    frame -= rings_[ring].period;
+  size_t ring = BestRing(&since);
+  const Part& part = PartOf(ring);
+  const auto beats = static_cast<int>(part.beats);
+  for (int64_t frame = frames_ - 1 - since; frame >= 0; frame -= rings_[ring].period) {
+    const auto beat = static_cast<int>((ring - part.first_ring) % kBeats);
+    path.push_back({frame, rings_[ring].period, beat, part.pattern, beats});
+    const size_t tempo = back_[static_cast<size_t>(frame) * rings_.size() + ring];
+    ring = part.first_ring + tempo * kBeats + static_cast<size_t>((beat + beats - 1) % beats);
   }
   std::ranges::reverse(path);
   return path;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +38,17 @@ class EvenOnsets {
 
   std::array<float, Onset::kBands> Even(const Onset& onset);
 
+  /// Begins as if this music had played before; else its beginning would count for much more.
+  void Settle(std::span<const Onset> onsets) {
+    for (int round = 0; round < kRounds; ++round) {
+      for (const Onset& onset : onsets.first(std::min(onsets.size(), kSettled))) Even(onset);
+    }
+  }
+
  private:
+  static constexpr int kRounds = 4;  // until the mean settles
+  static constexpr size_t kSettled = 3 * kModelSampleRate / kOnsetHop;
+
   float loudest_;
   std::array<double, Onset::kBands> level_{};
 };
@@ -62,6 +73,8 @@ class BarPointer {
 
   BarPointer(std::span<const BarPattern> patterns, const Limits& limits);
 
+  /// Before the first Add: EvenOnsets::Settle.
+  void Settle(std::span<const Onset> onsets) { even_.Settle(onsets); }
   void Add(const Onset& onset);
 
   /// The beats of the best path to the last frame, ascending, without those before the first frame.
@@ -69,32 +82,46 @@ class BarPointer {
   std::vector<Step> Path() const;
 
  private:
-  struct Hit {
-    int at;        // frame of the beat
-    size_t place;  // in the pattern
-  };
-  // One beat of a pattern at one tempo. Its states form a ring; moving `zero` advances them all by
-  // a frame.
+  static constexpr size_t kBeats = 4;      // in a bar, at most; shorter bars leave lanes unused
+  static constexpr size_t kHistory = 128;  // frames; longer than any beat
+  static constexpr int8_t kNowhere = -128;
+
+  // One beat of a pattern at one tempo, with the scores of the best paths to its start in the last
+  // `period` frames, as a ring: `zero` is the latest.
   struct Ring {
-    size_t pattern, first_state;
-    int beat, period, zero;
-    std::vector<Hit> hits;
+    uint32_t first_score;
+    int period, zero;
+    // Where the frames that count as each place begin, from the beat's first frame on; kNowhere:
+    // too close to an earlier place.
+    std::array<int8_t, BarPattern::kPlaces> begin;
   };
-  // One beat of a pattern at all tempi.
-  struct Group {
-    size_t pattern, first_ring, count, before;  // before: the group whose beat leads here
+  // A pattern's rings, [tempo][kBeats], from the fastest tempo on.
+  struct Part {
+    size_t pattern, beats, first_ring, tempi;
+    size_t first_place;  // of all patterns'
   };
 
-  Step StepOf(size_t ring, int64_t frame) const;
-  size_t BestState(int* frames_since) const;  // returns its ring
+  static size_t At(size_t place, int64_t frame) {
+    return place * kHistory + static_cast<size_t>(frame) % kHistory;
+  }
+  void AddPart(size_t pattern, const Limits& limits);
+  void Leave(const Part& part);
+  void Arrive(const Part& part);
+  // What the frames so far score of a beat that starts at `start`.
+  float ScoreSince(const Ring& ring, size_t first_place, int64_t start) const;
+  size_t BestRing(int* frames_since) const;
+  const Part& PartOf(size_t ring) const;
 
   std::vector<BarPattern> patterns_;
-  std::vector<std::vector<std::array<double, 2>>> likelihood_;  // [pattern][place * bands]: a + b x
+  std::vector<std::array<double, 2>> likelihood_;  // [place * bands]: a + b x
   std::vector<Ring> rings_;
-  std::vector<Group> groups_;
-  std::vector<std::vector<float>> place_score_;  // of the current frame, by pattern
-  std::vector<float> states_, leaving_, arriving_;
-  std::vector<uint8_t> from_, back_;          // back_: [frame][ring]
+  std::vector<Part> parts_;
+  // Of each place in the last kHistory frames: its score, and the sum of it and of the next three.
+  std::vector<float> place_scores_, beginning_;
+  std::vector<float> scores_;                 // of all rings
+  std::vector<float> best_;                   // by ring: of the paths to its beat in this frame
+  std::vector<int> from_;                     // and the tempo they come from
+  std::vector<uint8_t> back_;                 // from_ by [frame][ring]
   std::vector<float> step_cost_, stay_cost_;  // by period
   EvenOnsets even_;
   int64_t frames_ = 0;

@@ -8,6 +8,7 @@
 #include "model/audio/bar_pointer.h"
 #include "model/audio/format.h"
 #include "model/audio/half_beats.h"
+#include "model/audio/onset_sums.h"
 
 namespace choreo {
 namespace {
@@ -26,6 +27,7 @@ constexpr double kSameTempo = 0.06;  // deviation from the median
 constexpr double kLouder = 2;
 // Listeners rarely tap faster than this unless beats are subdivided.
 constexpr double kFastestTappedBpm = 160;
+constexpr double kAlike = 0.9, kAlikeInStretch = 0.7;  // HalfBeats::AreAlike
 
 using Path = std::vector<BarPointer::Step>;
 
@@ -69,25 +71,6 @@ bool IsInPause(const std::vector<bool>& sounding, int64_t frame, int period) {
   }
   return true;
 }
-
-/// Sums onsets over frames and around beats.
-class OnsetSums {
- public:
-  static constexpr int64_t kBeatFrames = 4;  // a beat's: from one before it to two after
-
-  explicit OnsetSums(std::span<const Onset> onsets) {
-    for (const float strength : OnsetStrength(onsets)) sums_.push_back(sums_.back() + strength);
-  }
-  double Between(int64_t from, int64_t to) const { return Before(to) - Before(from); }
-  double OnBeat(int64_t frame) const { return Between(frame - 1, frame - 1 + kBeatFrames); }
-
- private:
-  double Before(int64_t frame) const {
-    return sums_[static_cast<size_t>(std::clamp<int64_t>(frame, 0, std::ssize(sums_) - 1))];
-  }
-
-  std::vector<double> sums_{0};
-};
 
 enum class Where { kOnBeats, kOnBeatsOrHalfBeats };
 
@@ -144,9 +127,10 @@ std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   return have;
 }
 
-Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> patterns,
+Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> patterns, Heard heard,
               const TempoLimits& limits) {
   BarPointer pointer(patterns, {limits.slowest_bpm, limits.fastest_bpm});
+  if (heard == Heard::kStretch) pointer.Settle(onsets);
   for (const Onset& onset : onsets) pointer.Add(onset);
   return pointer.Path();
 }
@@ -159,27 +143,29 @@ double Sounds(const OnsetSums& sums, const Path& path) {
 }
 
 /// The best path in four: of beats that are divided by two or, where those sound no less, by three.
-Path PathInFour(std::span<const Onset> onsets, const TempoLimits& limits) {
+Path PathInFour(std::span<const Onset> onsets, Heard heard, const TempoLimits& limits) {
   const auto patterns = BarPatterns();
-  Path path = BestPath(onsets, patterns.first(2), limits);
+  Path path = BestPath(onsets, patterns.first(2), heard, limits);
   if (path.empty() || path.back().pattern == 0) return path;
-  Path straight = BestPath(onsets, patterns.first(1), limits);
+  Path straight = BestPath(onsets, patterns.first(1), heard, limits);
   const OnsetSums sums(onsets);
   return Sounds(sums, straight) > kLouder * Sounds(sums, path) ? straight : path;
 }
 
 /// The best path in the metre of the music.
-Path PathOf(std::span<const Onset> onsets, const TempoLimits& limits) {
+Path PathOf(std::span<const Onset> onsets, Heard heard, const TempoLimits& limits) {
   const auto patterns = BarPatterns();
-  const Path path = PathInFour(onsets, limits);
+  const Path path = PathInFour(onsets, heard, limits);
   if (path.empty() || path.back().pattern != 0) return path;
   const HalfBeats halves(onsets, path);
   const double fastest = std::min(limits.fastest_bpm, kFastestTappedBpm);
-  if (2 * 60 * kOnsetRate / (path[path.size() / 2].period + 0.5) <= fastest && halves.AreAlike())
+  if (2 * 60 * kOnsetRate / (path[path.size() / 2].period + 0.5) <= fastest &&
+      halves.AreAlike(heard == Heard::kWhole ? kAlike : kAlikeInStretch))
     return Doubled(path);
   const Meter meter = halves.MeterOf();
   if (meter == Meter::kFour) return path;
-  const Path other = BestPath(onsets, patterns.subspan(meter == Meter::kThree ? 2 : 3, 1), limits);
+  const Path other =
+      BestPath(onsets, patterns.subspan(meter == Meter::kThree ? 2 : 3, 1), heard, limits);
   return other.empty() ? path : other;
 }
 
@@ -221,22 +207,22 @@ double TempoOf(std::span<const double> seconds) {
   return 60 * count / sum;
 }
 
-BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits) {
+BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, Heard heard) {
   BeatTrack track;
   std::vector<int> bars;
   const std::vector<bool> sounding = Sounding(onsets);
   for (const Part& part : PartsOf(sounding)) {
-    const auto heard =
+    const auto part_onsets =
         onsets.subspan(static_cast<size_t>(part.begin), static_cast<size_t>(part.end - part.begin));
     const auto begins = [](const Onset& onset) {
       return std::ranges::any_of(onset.rise, [](float rise) { return rise > 0; });
     };
-    if (std::ranges::none_of(heard, begins)) continue;
-    Path path = PathOf(heard, limits);
+    if (std::ranges::none_of(part_onsets, begins)) continue;
+    Path path = PathOf(part_onsets, heard, limits);
     std::erase_if(path, [&](const BarPointer::Step& step) {
       return IsInPause(sounding, part.begin + step.frame, step.period);
     });
-    const std::vector<bool> have_pulse = HavePulse(heard, path);
+    const std::vector<bool> have_pulse = HavePulse(part_onsets, path);
     for (size_t i = 0; i < path.size(); ++i) {
       if (!have_pulse[i]) continue;
       track.frames.push_back(part.begin + path[i].frame);

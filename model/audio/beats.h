@@ -31,12 +31,17 @@ struct TempoLimits {
   double slowest_bpm = 48, fastest_bpm = 208;
 };
 
+/// Whether onsets are those of a whole song or the last seconds of one, which has played before and
+/// in which few beats tell whether their halves are alike.
+enum class Heard { kWhole, kStretch };
+
 /// Finds a song's beats with the bar pointer model (BarPointer): the tempo, beats and bars that
 /// best explain all onsets. Tempo may drift or jump. Silence has no beats, except one a period
 /// after the last sound; after two seconds of silence tracking starts afresh. Beats and half beats
-/// no more distinct than those found in noise are dropped. Needs the whole song. Without onsets: no
+/// no more distinct than those found in noise are dropped. Without onsets: no
 /// beats, tempo 0.
-BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {});
+BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {},
+                     Heard heard = Heard::kWhole);
 
 /// The beats of mono samples at 22 050 Hz. Errors as FindOnsets.
 BeatTrack FindBeats(std::span<const float> mono);

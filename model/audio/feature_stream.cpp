@@ -12,6 +12,7 @@ namespace choreo {
 namespace {
 
 constexpr int64_t kHalfWindow = kFftSize / 2;
+static_assert(kHalfWindow + (kRowOnsets - 1) * kOnsetHop + kOnsetWindow / 2 <= kFftSize);
 constexpr size_t kBlock = 1024;  // frames of samples
 
 int64_t CeilDivide(int64_t value, int64_t by) { return (value + by - 1) / by; }
@@ -61,7 +62,7 @@ void FeatureStream::ComputeRows() {
     start = (first_row_ + static_cast<int64_t>(rows_.size())) * kFeatureHop - kHalfWindow;
     if (start + kFftSize > end) break;
     rows_.push_back(
-        RowOf(std::span(mono_).subspan(static_cast<size_t>(start - mono_start_)), &onset_));
+        RowOf(std::span(mono_).subspan(static_cast<size_t>(start - mono_start_)), &beginnings_));
   }
   const int64_t done = std::min(start, end) - mono_start_;
   if (done > 0) {
@@ -70,15 +71,21 @@ void FeatureStream::ComputeRows() {
   }
 }
 
-FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples, RowOnset* onset) {
+FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples,
+                                              Beginnings* beginnings) {
   // Shared per thread: its work space is several times the size of a stream.
   thread_local MelSpectrum spectrum;
   const MelBandsDb db = spectrum.Decibels(samples);
   RowValues row{};
   MfccOfMelDb(db, row.mfcc);
-  if (onset == nullptr) return row;
+  if (beginnings == nullptr) return row;
   row.sound = PowersOf(db);
-  row.sound.onset = onset->Add(db);
+  row.sound.onset = beginnings->rows.Add(db);
+  for (size_t i = 0; i < kRowOnsets; ++i) {
+    const size_t centre = kHalfWindow + i * kOnsetHop;
+    row.sound.onsets[i] =
+        beginnings->frames.Add(samples.subspan(centre - kOnsetWindow / 2, kOnsetWindow));
+  }
   return row;
 }
 

@@ -9,7 +9,6 @@
 #include "model/audio/mel.h"
 #include "model/audio/mfcc.h"
 #include "model/audio/resample.h"
-#include "model/audio/row_onset.h"
 #include "model/audio/row_sound.h"
 
 namespace choreo {
@@ -42,7 +41,7 @@ class FeatureStream {
   /// final or before first_row().
   std::span<const float> Row(int64_t row) const;
   /// The sound of a row that is final and not forgotten; no onset and no power beyond the audio. In
-  /// a stream that starts later, the first RowOnset::kMemory rows' onsets differ from the whole
+  /// a stream that starts later, the first kRowSoundMemory rows' onsets differ from the whole
   /// song's.
   const RowSound& Sound(int64_t row) const;
   /// Frees the rows before `row`: first_row() moves to it, or to the first row that is not final.
@@ -67,8 +66,13 @@ class FeatureStream {
 
   const RowValues& ValuesOf(int64_t row) const;
   void ComputeRows();
+  /// How sound begins in the rows so far.
+  struct Beginnings {
+    RowOnset rows;
+    OnsetMeter frames;
+  };
   static RowValues RowOf(std::span<const float> samples,
-                         RowOnset* onset);  // uses the first kFftSize
+                         Beginnings* beginnings);  // uses the first kFftSize
 
   double sample_rate_;
   int channels_;
@@ -80,7 +84,7 @@ class FeatureStream {
   int64_t mono_start_ = 0;   // absolute index of mono_[0]
   int64_t first_row_ = 0;
   std::deque<RowValues> rows_;  // a deque, so that rows keep their addresses
-  RowOnset onset_;
+  Beginnings beginnings_;
   RowValues silence_{};
 };
 

@@ -8,10 +8,8 @@
 namespace choreo {
 namespace {
 
-constexpr int64_t kBehind = 3;  // frames after a beat in which it may sound
-constexpr int kRounds = 4;      // until the mean settles
-constexpr size_t kBefore = 3 * kModelSampleRate / kOnsetHop;  // frames
-constexpr double kAlike = 0.9;  // ratio of the weaker half's mean to the stronger's
+constexpr int64_t kBehind = 3;    // frames after a beat in which it may sound
+constexpr double kClearly = 0.1;  // of all variance; less is chance
 
 }  // namespace
 
@@ -19,10 +17,7 @@ HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::
   std::vector<std::array<float, Onset::kBands>> even;
   // Uncapped: a cap would make all drums alike, and only drums distinguish the beats of a bar.
   EvenOnsets evened(std::numeric_limits<float>::infinity());
-  // Starts as if the music had played before; else its beginning would count for much more.
-  for (int round = 0; round < kRounds; ++round) {
-    for (const Onset& onset : onsets.first(std::min(onsets.size(), kBefore))) evened.Even(onset);
-  }
+  evened.Settle(onsets);
   for (const Onset& onset : onsets) even.push_back(evened.Even(onset));
   for (const BarPointer::Step& step : path) {
     if (step.frame + step.period / 2 + kBehind > std::ssize(even))
@@ -39,14 +34,14 @@ HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::
   }
 }
 
-bool HalfBeats::AreAlike() const {
+bool HalfBeats::AreAlike(double share) const {
   bool any = false;
   for (size_t band = 0; band < Onset::kBands; ++band) {
     std::array<double, 2> sums{};
     for (size_t i = 0; i < halves_.size(); ++i)
       sums[i % 2] += std::min<double>(halves_[i][band], EvenOnsets::kLoudest);
     const auto [weaker, stronger] = std::minmax(sums[0], sums[1]);
-    if (weaker < kAlike * stronger) return false;
+    if (weaker < share * stronger) return false;
     any = any || stronger > 0;
   }
   return any;
@@ -65,7 +60,7 @@ double HalfBeats::Correlation(size_t lag) const {
 }
 
 Meter HalfBeats::MeterOf() const {
-  if (Correlation(6) <= Correlation(8)) return Meter::kFour;
+  if (Correlation(6) < Correlation(8) + kClearly * Correlation(0)) return Meter::kFour;
   return Correlation(3) > Correlation(2) ? Meter::kSix : Meter::kThree;
 }
 

@@ -17,8 +17,9 @@ class HalfBeats {
  public:
   HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path);
 
-  /// Whether both halves of beats sound the same in all bands, so that each is a beat.
-  bool AreAlike() const;
+  /// Whether both halves of beats sound the same in all bands, so that each is a beat: the weaker
+  /// one's mean is at least this share of the stronger one's.
+  bool AreAlike(double share) const;
 
   /// Compares bars: music in 4/4 repeats after eight eighths, in 3/4 and 6/8 after six, and 6/8 is
   /// more alike after three eighths than after two.

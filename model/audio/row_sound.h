@@ -1,13 +1,26 @@
 #pragma once
 
+#include <array>
+
 #include "model/audio/mel.h"
+#include "model/audio/mfcc.h"
+#include "model/audio/onset.h"
+#include "model/audio/row_onset.h"
 
 namespace choreo {
+
+/// Frames of Onset in a row: the first is centred with it.
+inline constexpr int kRowOnsets = kFeatureHop / kOnsetHop;
+static_assert(kRowOnsets * kOnsetHop == kFeatureHop);
+/// A row's onsets depend on at most so many rows before it.
+inline constexpr int kRowSoundMemory = RowOnset::kMemory;
+static_assert(OnsetMeter::kMemory <= kRowOnsets * kRowSoundMemory);
 
 /// The sound of a FeatureStream's row, besides its MFCC. Powers are mean squares over its window; a
 /// full-scale sine has 0.5.
 struct RowSound {
   float onset = 0;  ///< from RowOnset
+  std::array<Onset, kRowOnsets> onsets{};
   float power = 0;  ///< K-weighted as in ITU-R BS.1770: its loudness
   float bass = 0;   ///< the power below 130 Hz, unweighted
 };

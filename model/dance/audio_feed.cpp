@@ -36,7 +36,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
       silence_(SilenceRow()),
       first_row_(features_.first_row()),
       ready_(features_.first_row()),
-      first_sound_(first_row_ > 0 ? first_row_ + RowOnset::kMemory : 0) {}
+      first_sound_(first_row_ > 0 ? first_row_ + kRowSoundMemory : 0) {}
 
 void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                      const std::function<void()>& on_rows) {

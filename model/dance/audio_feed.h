@@ -12,7 +12,6 @@
 #include "model/audio/feature_stream.h"
 #include "model/audio/mfcc.h"
 #include "model/audio/music_dynamics.h"
-#include "model/audio/pulse.h"
 #include "model/core/grid.h"
 
 namespace choreo {
@@ -23,7 +22,6 @@ void CheckSamples(std::span<const float> interleaved, int channels, int64_t firs
 
 /// How many past rows keep their sound: as many as a dance needs.
 inline constexpr int kSoundMemory = kDynamicsMemory + kUsualFrames;
-static_assert(kSoundMemory >= kPulseMemory);
 
 /// Turns samples into the model's audio rows. One thread at a time pushes; any thread reads.
 /// Readers never wait for a transform: rows are computed outside the lock and published in short

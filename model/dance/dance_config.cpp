@@ -5,9 +5,9 @@
 
 #include "model/audio/feature_stream.h"
 #include "model/audio/format.h"
-#include "model/audio/pulse.h"
 #include "model/core/error.h"
 #include "model/dance/audio_feed.h"
+#include "model/dance/music_beats.h"
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
@@ -119,9 +119,9 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats) {
   const auto& [rate, channels, first_sample] = *start.audio;
-  const int heard = start.music_dynamics > 0 ? kSoundMemory : beats ? kPulseMemory : 0;
+  const int heard = start.music_dynamics > 0 ? kSoundMemory : beats ? kBeatMemory : 0;
   if (heard == 0) return LatestFirstSample(first_frame, rate, model);
-  const int64_t row = std::max<int64_t>(0, first_frame - heard - RowOnset::kMemory);
+  const int64_t row = std::max<int64_t>(0, first_frame - heard - kRowSoundMemory);
   return std::max(first_sample, FeatureStream::FirstSampleFor(row, rate));
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "model/audio/pulse.h"
 #include "model/core/error.h"
 #include "model/core/quantile.h"
 #include "model/dance/transition.h"
@@ -15,16 +14,24 @@ namespace {
 
 constexpr double kOnsetOverMedian = 2;  // an onset exceeds the median by this factor
 
-// The onsets of the rows before `row`, as many as HearPulse uses.
-std::vector<float> Onsets(const AudioFeed& audio, int64_t row) {
-  std::vector<float> onsets;
-  for (const RowSound& sound : audio.Sounds(row, kPulseMemory)) onsets.push_back(sound.onset);
-  return onsets;
+constexpr int kHeard = 12 * static_cast<int>(kModelFps);  // rows
+// A crowd of short transitions shares what was heard: it is tracked once a second.
+constexpr int kTracked = static_cast<int>(kModelFps);
+static_assert(kHeard + kTracked <= kBeatMemory);
+
+// Of the rows before `row`.
+HeardBeats HearBefore(const AudioFeed& audio, int64_t row) {
+  const std::vector<RowSound> sounds = audio.Sounds(row, kHeard);
+  std::vector<Onset> onsets;
+  for (const RowSound& sound : sounds)
+    onsets.insert(onsets.end(), sound.onsets.begin(), sound.onsets.end());
+  return HearBeats(onsets, kRowOnsets * (row - std::ssize(sounds)));
 }
 
 // Whether the music rose in the frame of a beat or in the one before.
 bool HasOnset(const AudioFeed& audio, int64_t frame) {
-  const std::vector<float> onsets = Onsets(audio, frame + 1);
+  std::vector<float> onsets;
+  for (const RowSound& sound : audio.Sounds(frame + 1, kHeard)) onsets.push_back(sound.onset);
   if (onsets.size() < 2) return false;
   const float here = std::max(onsets.back(), onsets[onsets.size() - 2]);
   return here > kOnsetOverMedian * Median(onsets);
@@ -128,24 +135,30 @@ void MusicBeats::Begin(std::span<const Beat> beats, int64_t from) {
   }
 }
 
-void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) const {
-  const Pulse pulse = HearPulse(Onsets(*audio_, from));
-  if (!pulse.Certain()) return;
-  const auto frames = static_cast<double>(to - from);
-  const double slack = 0.5 * pulse.period / fps_;
-  // From one frame before the history's last to one after the transition's last. The last row of
-  // music used is the one before `from`.
-  double at = pulse.next - 1;
-  while (at > -1) at -= pulse.period;
-  for (bool is_behind = false; !is_behind; at += pulse.period) {
-    is_behind = at >= frames;
-    const double second = (static_cast<double>(from) + at) / fps_;
+void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) {
+  const int64_t until = from - from % kTracked;
+  if (until != heard_until_) {
+    heard_until_ = until;
+    heard_ = HearBefore(*audio_, until);
+  }
+  // From a beat before the transition to one after it.
+  const double slowest_s = 60 / TempoLimits().slowest_bpm;
+  const BeatsAhead ahead = PredictBeats(heard_.track, Seconds(until), Seconds(to) + slowest_s);
+  if (!heard_.Certain() || ahead.beats.empty()) return;
+  std::vector<double> seconds = heard_.track.Seconds(), downbeats = heard_.track.DownbeatSeconds();
+  std::erase_if(seconds, [&](double second) { return second < Seconds(from) - 2 * slowest_s; });
+  seconds.insert(seconds.end(), ahead.beats.begin(), ahead.beats.end());
+  downbeats.insert(downbeats.end(), ahead.downbeats.begin(), ahead.downbeats.end());
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    const double second = seconds[i], slack = 0.5 * StepAt(seconds, i);
     const bool is_given = std::ranges::any_of(spans_, [=](const Span& span) {
       return second > span.begin - slack && second < span.end + slack;
     });
-    if (!is_given)
-      beats->push_back(
-          {.time_s = second, .source = Beat::Source::kPredicted, .confidence = pulse.confidence});
+    if (is_given) continue;
+    Beat& beat = beats->emplace_back(Beat{.time_s = second,
+                                          .source = Beat::Source::kPredicted,
+                                          .confidence = heard_.track.confidence.back()});
+    beat.downbeat = std::ranges::binary_search(downbeats, second);
   }
   std::ranges::stable_sort(*beats, {}, &Beat::time_s);
 }

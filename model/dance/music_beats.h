@@ -8,17 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "model/audio/beats_ahead.h"
 #include "model/audio/format.h"
 #include "model/dance/audio_feed.h"
 #include "model/messages/dance_event.h"
 
 namespace choreo {
 
+/// Rows of music, before a transition, that its beats can depend on.
+inline constexpr int kBeatMemory = 13 * static_cast<int>(kModelFps);
+
 /// The beats of a dance's music. They are given by the client or found in the whole music. A dance
-/// that starts without any detects them: when a transition begins, the pulse (HearPulse) of the 12
-/// s before its first frame predicts its beats. So beats are a function of the ordered messages and
-/// the samples before the transition; only last() carries over from earlier transitions. Not
-/// thread-safe.
+/// that starts without any detects them: when a transition begins, the beats of the 12 s before its
+/// first frame (HearBeats) predict its own. So beats are a function of the
+/// ordered messages and the samples before the transition; only last() carries over from earlier
+/// transitions. Not thread-safe.
 class MusicBeats {
  public:
   /// `audio`: the dance's, or null to detect no beats. `last`: for a resumed dance, last() at its
@@ -75,11 +79,13 @@ class MusicBeats {
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
   void Replace(double begin, std::span<const double> seconds, std::span<const double> downbeats,
                Beat::Source source);
-  void Predict(int64_t from, int64_t to, std::vector<Beat>* beats) const;
+  void Predict(int64_t from, int64_t to, std::vector<Beat>* beats);
 
   double fps_;
   const AudioFeed* audio_;
   bool hears_;
+  int64_t heard_until_ = -1;  // the row before which heard_ ends
+  HeardBeats heard_;
   std::vector<Beat> known_;  // given or found, for this transition and later ones
   std::vector<Span> spans_;
   std::deque<Given> given_;  // not yet in known_

@@ -54,8 +54,8 @@ struct Beat {
   int64_t frame = 0;  ///< once reported: the nearest danced frame
   double time_s = 0;  ///< exact
   Source source = Source::kUnknown;
-  double confidence = 1;  ///< of the pulse that predicted it, 0 to 1; 1 if not predicted
-  bool downbeat = false;  ///< begins a bar, as far as known from the client or the whole music
+  double confidence = 1;  ///< how much more begins on the beats that predicted it, 0 to 1; 1 if not predicted
+  bool downbeat = false;  ///< begins a bar, as far as known
 };
 
 /// A problem that does not stop the dance.

@@ -99,7 +99,7 @@ TEST(MusicDynamicsTest, DoesNotDependOnChunksOrStart) {
     EXPECT_EQ(HearEnergy(RowsOf(song, chunk)), expected) << chunk;
   constexpr int64_t kRow = 1200;
   const int64_t first =
-      FeatureStream::FirstSampleFor(kRow - kDynamicsMemory - RowOnset::kMemory, kRate);
+      FeatureStream::FirstSampleFor(kRow - kDynamicsMemory - kRowSoundMemory, kRate);
   ASSERT_GT(first, 0);
   FeatureStream later(kRate, 1, first);
   later.Push(std::span(song).subspan(static_cast<size_t>(first)));

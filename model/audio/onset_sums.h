@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/audio/onset.h"
+
+namespace choreo {
+
+/// Sums onsets over frames and around beats.
+class OnsetSums {
+ public:
+  static constexpr int64_t kBeatFrames = 4;  // a beat's: from one before it to two after
+
+  explicit OnsetSums(std::span<const Onset> onsets) {
+    for (const float strength : OnsetStrength(onsets)) sums_.push_back(sums_.back() + strength);
+  }
+  double Between(int64_t from, int64_t to) const { return Before(to) - Before(from); }
+  double OnBeat(int64_t frame) const { return Between(frame - 1, frame - 1 + kBeatFrames); }
+  int64_t frames() const { return std::ssize(sums_) - 1; }
+
+ private:
+  double Before(int64_t frame) const {
+    return sums_[static_cast<size_t>(std::clamp<int64_t>(frame, 0, frames()))];
+  }
+
+  std::vector<double> sums_{0};
+};
+
+}  // namespace choreo
