@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "client/cli/pose_library.h"
+#include "client/authoring/pose_library.h"
 #include "model/core/error.h"
 
 namespace choreo::bench {
@@ -80,7 +80,7 @@ client::Audio ClickSong(double seconds, int sample_rate, int channels) {
 }
 
 void SendKeys(client::RemoteDance& dance, double seconds, double key_each_s) {
-  const std::vector<cli::LibraryPose>& poses = cli::PoseLibrary();
+  const std::vector<authoring::LibraryPose>& poses = authoring::PoseLibrary();
   const auto keys = std::max<int64_t>(1, std::llround(seconds / key_each_s));
   for (int64_t i = 1; i <= keys; ++i) {
     client::KeyPose key;

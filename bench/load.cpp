@@ -9,10 +9,10 @@
 
 #include "bench/live_dance.h"
 #include "bench/relay.h"
-#include "client/cli/local_server.h"
-#include "client/cli/music.h"
+#include "client/authoring/local_server.h"
+#include "client/authoring/music.h"
+#include "client/authoring/pose_library.h"
 #include "client/cli/options.h"
-#include "client/cli/pose_library.h"
 #include "model/audio/format.h"
 #include "model/audio/mfcc.h"
 #include "model/core/error.h"
@@ -64,8 +64,8 @@ class Load {
         client_({.addresses = {server_->address()}}),
         song_(options.song.empty()
                   ? ClickSong(options.seconds, 44100, 1)
-                  : cli::AudioFor(cli::ReadMusic(options.song, options.seconds).audio,
-                                  options.seconds)) {
+                  : authoring::AudioFor(authoring::ReadMusic(options.song, options.seconds).audio,
+                                        options.seconds)) {
     const client::ServerDescription server = client_.GetServerInfo();
     std::printf("model %s on %s, %u cores; dances of %g s in real time, a key each 2 s\n",
                 server.models.front().name.c_str(), server.devices.front().c_str(),
@@ -236,7 +236,7 @@ class Load {
     client::TransitionRequest request;
     request.frames = frames;
     request.candidates = candidates;
-    request.target = cli::PoseLibrary().front().pose;
+    request.target = authoring::PoseLibrary().front().pose;
     return request;
   }
 
@@ -335,7 +335,7 @@ class Load {
   }
 
   Options options_;
-  const std::unique_ptr<cli::LocalServer> server_ = cli::LocalServer::Start("");
+  const std::unique_ptr<authoring::LocalServer> server_ = authoring::LocalServer::Start("");
   client::Client client_;
   client::Audio song_;
 };

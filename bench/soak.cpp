@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "bench/live_dance.h"
-#include "client/cli/local_server.h"
+#include "client/authoring/local_server.h"
 #include "client/cli/options.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
@@ -210,7 +210,7 @@ class Soak {
   }
 
   const Options options_;
-  const std::unique_ptr<cli::LocalServer> server_ = cli::LocalServer::Start("");
+  const std::unique_ptr<authoring::LocalServer> server_ = authoring::LocalServer::Start("");
   const client::Audio song_ = ClickSong(kSong_s, kRate, 1);
   Clock::time_point start_;
   std::vector<Sample> samples_;

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <utility>
 
-#include "client/cli/choreography.h"
-#include "client/cli/key_faults.h"
-#include "client/cli/key_file.h"
-#include "client/cli/music_beats.h"
-#include "client/cli/photo_pose.h"
-#include "client/cli/pose_library.h"
+#include "client/authoring/choreography.h"
+#include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/music_beats.h"
+#include "client/authoring/photo_pose.h"
+#include "client/authoring/pose_library.h"
 #include "client/convert.h"
 #include "client/edit.h"
 #include "model/core/atomic_file.h"
@@ -47,7 +47,7 @@ std::vector<Response> MakeTransition(const StudioContext& context, const Song* m
       request.config.continuation ? request.config.continuation->frame : request.config.first_frame;
   if (music) {
     client::SetMusic(music->audio, context.model(), first, &request);
-    cli::ConfigureMusic(music->music, music->heard.seconds(), &request.config);
+    authoring::ConfigureMusic(music->music, music->heard.seconds(), &request.config);
   }
   client::TransitionResult made = context.client().GenerateTransition(request);
   if (request.target) {
@@ -56,7 +56,7 @@ std::vector<Response> MakeTransition(const StudioContext& context, const Song* m
                               .pose = *request.target,
                               .mask = request.target_mask};
     for (client::Warning& fault :
-         cli::KeyFaults(std::vector{key}, context.model().fps, context.model().skeleton))
+         authoring::KeyFaults(std::vector{key}, context.model().fps, context.model().skeleton))
       made.warnings.push_back(std::move(fault));
   }
   std::vector<Response> answers;
@@ -66,16 +66,16 @@ std::vector<Response> MakeTransition(const StudioContext& context, const Song* m
 }
 
 Response ComposeKeys(const StudioContext& context, const Song* music, const Compose& request) {
-  cli::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
+  authoring::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
   composition.named = "compose.seconds";
   composition.beats.assign(request.beats().begin(), request.beats().end());
-  cli::CheckBeats(composition.beats, "compose.beats");
+  authoring::CheckBeats(composition.beats, "compose.beats");
   if (music && composition.beats.empty()) composition.beats = music->music.track.Seconds();
   if (music) composition.passages = music->music.passages;
   Response response;
   response.mutable_keyframes();
-  const auto library = cli::PosesToDance(context.model().skeleton);
-  for (const client::KeyPose& key : cli::ComposeKeys(composition, library))
+  const auto library = authoring::PosesToDance(context.model().skeleton);
+  for (const client::KeyPose& key : authoring::ComposeKeys(composition, library))
     *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   return response;
 }
@@ -118,7 +118,7 @@ Response MakePhotoPose(const StudioContext& context, const File& landmarks) {
   LibraryPose* pose = response.mutable_pose();
   pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
   *pose->mutable_pose() = client::ToProto(
-      cli::ParseLandmarkPose(landmarks.data(), landmarks.name(), context.model().skeleton));
+      authoring::ParseLandmarkPose(landmarks.data(), landmarks.name(), context.model().skeleton));
   return response;
 }
 
@@ -126,7 +126,7 @@ Response ReadKeys(const StudioContext& context, const File& file) {
   Response response;
   response.mutable_keyframes();
   for (const client::KeyPose& key :
-       cli::ParseKeyFile(file.data(), file.name(), context.model().skeleton))
+       authoring::ParseKeyFile(file.data(), file.name(), context.model().skeleton))
     *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   return response;
 }

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "client/cli/formation.h"
-#include "client/cli/music_beats.h"
+#include "client/authoring/formation.h"
+#include "client/authoring/music_beats.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/gltf.h"
 #include "model/formats/motion_file.h"
@@ -14,9 +14,9 @@
 namespace choreo::studio {
 namespace {
 
-void Describe(const cli::Dancers& stage, Formation* formation) {
+void Describe(const authoring::Dancers& stage, Formation* formation) {
   formation->set_apart(stage.apart);
-  for (const cli::Dancer& dancer : stage.dancers) {
+  for (const authoring::Dancer& dancer : stage.dancers) {
     StageDancer* said = formation->add_dancers();
     said->set_id(dancer.id);
     said->set_x(dancer.place.x());
@@ -37,7 +37,7 @@ void AddFile(const std::string& name, const std::filesystem::path& path, Formati
   file->set_data(ReadFile(path));
 }
 
-void WriteAll(const Skeleton& skeleton, const cli::Dancers& stage,
+void WriteAll(const Skeleton& skeleton, const authoring::Dancers& stage,
               const std::vector<client::FinishedDance>& dances, const std::string& name,
               Formation* formation) {
   RequireWrittenMotionFile(name);
@@ -64,14 +64,14 @@ void WriteAll(const Skeleton& skeleton, const cli::Dancers& stage,
 Response FormCompany(const StudioContext& context, const Company& request) {
   const Skeleton& skeleton = context.model().skeleton;
   const std::string& name = request.dancers().name();
-  const cli::Dancers stage = cli::ParseDancers(request.dancers().data(), name, "");
+  const authoring::Dancers stage = authoring::ParseDancers(request.dancers().data(), name, "");
   Response response;
   Formation* formation = response.mutable_formation();
   Describe(stage, formation);
   if (request.dances().empty()) return response;
 
   const std::vector<double> beats(request.beats().begin(), request.beats().end());
-  cli::CheckBeats(beats, "company.beats");
+  authoring::CheckBeats(beats, "company.beats");
   if (request.dance_of_size() != formation->dancers_size())
     throw InvalidArgument("company.dance_of", "is not of each dancer");
   std::vector<client::FinishedDance> dances;
@@ -86,10 +86,11 @@ Response FormCompany(const StudioContext& context, const Company& request) {
         (frames != std::ssize(dances.front().motion.frames) || fps != dances.front().motion.fps))
       throw InvalidArgument("company.dances", "are not equally long");
     const std::string field = name + ":dancers[" + std::to_string(i) + "].after";
-    const int64_t later = cli::FramesLater(stage.dancers[i], beats, fps, frames, field);
-    dances.push_back(cli::OnStage(skeleton, stage.dancers[i], std::move(dance), later));
+    const int64_t later = authoring::FramesLater(stage.dancers[i], beats, fps, frames, field);
+    dances.push_back(authoring::OnStage(skeleton, stage.dancers[i], std::move(dance), later));
   }
-  const cli::Formed formed = cli::KeepApart(stage.dancers, stage.apart, skeleton, &dances);
+  const authoring::Formed formed =
+      authoring::KeepApart(stage.dancers, stage.apart, skeleton, &dances);
   formation->set_widened(formed.factor);
   if (const auto& nearest = formed.nearest) {
     formation->set_least(nearest->distance.metres);

@@ -4,7 +4,7 @@
 #include <climits>
 #include <cstring>
 
-#include "client/cli/music_beats.h"
+#include "client/authoring/music_beats.h"
 #include "client/convert.h"
 #include "model/audio/format.h"
 #include "model/formats/own_arrays.h"
@@ -98,7 +98,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();
   if (config.has_variation()) out.variation = config.variation();
   out.music_beats.assign(config.music_beats().begin(), config.music_beats().end());
-  cli::CheckBeats(out.music_beats, "config.music_beats");
+  authoring::CheckBeats(out.music_beats, "config.music_beats");
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {

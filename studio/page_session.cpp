@@ -3,7 +3,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "client/cli/key_faults.h"
+#include "client/authoring/key_faults.h"
 #include "client/convert.h"
 #include "proto/wire/controls.h"
 #include "studio/answers.h"
@@ -93,7 +93,7 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
 
 void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
   for (const client::Warning& fault :
-       cli::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
+       authoring::KeyFaults(keys, context_.model().fps, context_.model().skeleton)) {
     Response response;
     *response.mutable_dance() = ToProto(fault, context_.model().fps);
     Answer(call, std::move(response));
@@ -109,7 +109,7 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
   const bool is_live = config.audio.kind != client::AudioKind::kNone;
   const std::shared_ptr<const Song> music = is_live ? nullptr : song();
   const bool hears = music && context_.model().takes_music;
-  if (music) cli::ConfigureMusic(music->music, music->heard.seconds(), &config);
+  if (music) authoring::ConfigureMusic(music->music, music->heard.seconds(), &config);
   if (hears) config.audio = music->audio.format;
   auto dance = context_.client().StartDance(config);
   if (hears) {

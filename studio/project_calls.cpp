@@ -8,11 +8,11 @@
 #include <fstream>
 #include <utility>
 
-#include "client/cli/dance_keys.h"
-#include "client/cli/json_fields.h"
-#include "client/cli/key_faults.h"
-#include "client/cli/key_file.h"
-#include "client/cli/project_file.h"
+#include "client/authoring/dance_keys.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/project_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh.h"
 #include "model/formats/motion_file.h"
@@ -144,11 +144,11 @@ void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
 
 ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) const {
   const client::ModelDescription& model = context_.model();
-  json file = cli::ParseJson(text, kName);
-  const cli::Project project = cli::ParseProject(file, kName);
+  json file = authoring::ParseJson(text, kName);
+  const authoring::Project project = authoring::ParseProject(file, kName);
   const std::optional<Song> song = TakeSong(&file, project.song, context_.most_seconds());
-  cli::DanceKeys keys;
-  keys.poses = cli::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places);
+  authoring::DanceKeys keys;
+  keys.poses = authoring::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
   // An answer must fit into memory.
@@ -167,25 +167,26 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   config.variation = project.variation;
   config.frames = std::llround(seconds * model.fps);
   for (size_t i = 0; i < keys.poses.size(); ++i) {
-    cli::FitIntoDance({.frames = *config.frames, .fps = model.fps}, keys.places[i], &keys.poses[i]);
+    authoring::FitIntoDance({.frames = *config.frames, .fps = model.fps}, keys.places[i],
+                            &keys.poses[i]);
   }
   config.controls = project.controls.Read(model, {.models = {model}, .limits = {}});
   client::Audio audio;
   if (song) {
     config.music_beats = project.beats;
-    cli::ConfigureMusic(song->music, seconds, &config);
-    if (model.takes_music) audio = cli::AudioFor(song->music.audio, seconds);
+    authoring::ConfigureMusic(song->music, seconds, &config);
+    if (model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
   }
-  keys = cli::ByTime(std::move(keys), model.fps);
+  keys = authoring::ByTime(std::move(keys), model.fps);
   client::DanceResult dance;
   try {
     dance = context_.client().Dance(config, keys.poses, audio, [this](const client::Message&) {
       if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
     });
   } catch (const Error& error) {
-    throw cli::InTermsOf(keys, error);
+    throw authoring::InTermsOf(keys, error);
   }
-  for (client::Warning& fault : cli::KeyFaults(keys, model.fps, model.skeleton))
+  for (client::Warning& fault : authoring::KeyFaults(keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));
   if (project.has_dancers)
     dance.warnings.push_back({.message = "dancers: this is the dance that they share"});

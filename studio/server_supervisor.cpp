@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "client/cli/local_server.h"
+#include "client/authoring/local_server.h"
 #include "model/core/error.h"
 
 namespace choreo::studio {
@@ -39,9 +39,9 @@ ServerSupervisor::~ServerSupervisor() {
 void ServerSupervisor::Supervise(const std::filesystem::path& program,
                                  std::exception_ptr* failure) {
   const std::filesystem::path path = program;
-  std::unique_ptr<cli::LocalServer> server;
+  std::unique_ptr<authoring::LocalServer> server;
   try {
-    server = std::make_unique<cli::LocalServer>(path);
+    server = std::make_unique<authoring::LocalServer>(path);
     address_ = server->address();
     process_ = server->process();
   } catch (...) {
@@ -58,7 +58,7 @@ void ServerSupervisor::Supervise(const std::filesystem::path& program,
     try {
       if (server) server->RequireRunning();
       if (!server) {
-        server = std::make_unique<cli::LocalServer>(path, address_);
+        server = std::make_unique<authoring::LocalServer>(path, address_);
         process_ = server->process();
       }
     } catch (const Error& error) {

@@ -47,7 +47,7 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
   Song song;
   try {
     // Stops decoding songs that are too long.
-    song.music = cli::ReadMusic(path, most_seconds);
+    song.music = authoring::ReadMusic(path, most_seconds);
   } catch (const Error& error) {
     throw error.Of(name);
   }
@@ -55,7 +55,7 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
   if (seconds > most_seconds)
     throw InvalidArgument(
         name, "is longer than " + Rounded(most_seconds) + " s, the most that is danced to");
-  song.audio = cli::AudioFor(song.music.audio, seconds);
+  song.audio = authoring::AudioFor(song.music.audio, seconds);
   const std::vector<double> beats = song.music.track.Seconds();
   song.heard.set_seconds(seconds);
   song.heard.set_tempo(song.music.track.tempo_bpm);

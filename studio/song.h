@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <string>
 
-#include "client/cli/music.h"
+#include "client/authoring/music.h"
 #include "studio/studio.pb.h"
 
 namespace choreo::studio {
 
 /// A song to dance to. Immutable, hence shared between threads.
 struct Song {
-  cli::Music music;
+  authoring::Music music;
   client::Audio audio;  ///< sent to the server
   SongHeard heard;
 };

@@ -1,6 +1,6 @@
 #include "studio/studio_context.h"
 
-#include "client/cli/pose_library.h"
+#include "client/authoring/pose_library.h"
 #include "client/convert.h"
 #include "client/style_figures.h"
 #include "model/core/atomic_file.h"
@@ -45,7 +45,7 @@ StudioContext::StudioContext(const client::Options& server, const std::filesyste
   most_seconds_ = description.limits.max_audio_s;
   welcome_.set_version(description.version);
   *welcome_.mutable_model() = wire::ToProto(model_);
-  for (const cli::LibraryPose& pose : cli::PosesToDance(model_.skeleton)) {
+  for (const authoring::LibraryPose& pose : authoring::PosesToDance(model_.skeleton)) {
     LibraryPose* added = welcome_.add_poses();
     added->set_id(pose.id);
     added->set_description(pose.description);

@@ -5,12 +5,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "client/cli/choreography.h"
+#include "client/authoring/choreography.h"
+#include "client/authoring/music.h"
+#include "client/authoring/pose_library.h"
+#include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
-#include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
-#include "client/cli/pose_library.h"
 #include "model/audio/mfcc.h"
 #include "model/audio/suggest_keys.h"
 #include "model/core/error.h"
@@ -26,14 +27,14 @@ struct AnalyzeOptions {
   std::string features;
   double song_start_s = 0;
   double seconds = std::numeric_limits<double>::infinity();
-  BeatOptions beats;
+  authoring::BeatOptions beats;
   std::optional<int64_t> suggest_keys;
   std::optional<uint64_t> seed;
   double from_s = 0;
   double until_s = std::numeric_limits<double>::infinity();
 };
 
-void CheckPart(const Music& music, const AnalyzeOptions& options) {
+void CheckPart(const authoring::Music& music, const AnalyzeOptions& options) {
   const auto seconds = [](double value) { return InFull(value) + " s"; };
   if (options.from_s >= options.until_s) {
     throw InvalidArgument(
@@ -51,19 +52,19 @@ struct ProposedKey {
   std::string id, pose;
 };
 
-std::vector<ProposedKey> Propose(const Music& music, const AnalyzeOptions& options) {
+std::vector<ProposedKey> Propose(const authoring::Music& music, const AnalyzeOptions& options) {
   CheckPart(music, options);
   const std::vector<SuggestedKey> keys =
       SuggestKeys(music.track, music.onset_strength, music.passages,
                   {*options.suggest_keys, options.from_s, options.until_s, "--suggest-keys"});
   std::vector<double> times;
   for (const SuggestedKey& key : keys) times.push_back(key.time_s);
-  const std::vector<LibraryPose> poses = PosesToDance(Skeleton::Smpl24());
+  const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(Skeleton::Smpl24());
   const std::vector<size_t> drawn =
-      DrawPoses(times, music.passages, options.seed.value_or(0), poses.size());
+      authoring::DrawPoses(times, music.passages, options.seed.value_or(0), poses.size());
   std::vector<ProposedKey> proposed;
   for (size_t i = 0; i < keys.size(); ++i)
-    proposed.push_back({keys[i], IdOfKey(i + 1, poses[drawn[i]]), poses[drawn[i]].id});
+    proposed.push_back({keys[i], authoring::IdOfKey(i + 1, poses[drawn[i]]), poses[drawn[i]].id});
   return proposed;
 }
 
@@ -71,7 +72,7 @@ std::vector<ProposedKey> Propose(const Music& music, const AnalyzeOptions& optio
 constexpr const char* kBegins[] = {"a beat", "a bar", "an eight", "a passage"};
 const char* Begins(const SuggestedKey& key) { return kBegins[static_cast<size_t>(key.begins)]; }
 
-void PrintJson(const Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
+void PrintJson(const authoring::Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
   nlohmann::ordered_json json;
   json["duration_s"] = music.audio.seconds();
   json["sample_rate"] = music.audio.sample_rate;
@@ -125,7 +126,7 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
-void PrintText(const Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
+void PrintText(const authoring::Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
   std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats, %zu bars of %d\n",
               music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
               music.track.tempo_bpm, music.track.frames.size(),
@@ -144,7 +145,8 @@ void PrintText(const Music& music, const std::optional<std::vector<ProposedKey>>
 void Run(const AnalyzeOptions& options) {
   RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
   if (!options.features.empty()) RequireExtension("--features", options.features, ".npy");
-  const Music music = ReadMusic(options.song, options.seconds, options.song_start_s, options.beats);
+  const authoring::Music music =
+      authoring::ReadMusic(options.song, options.seconds, options.song_start_s, options.beats);
   if (!options.features.empty()) {
     const FeatureMatrix rows = Mfcc(music.mono);
     WriteNpy(options.features, {{rows.rows(), rows.cols()},

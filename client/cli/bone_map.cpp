@@ -4,7 +4,7 @@
 #include <climits>
 #include <nlohmann/json.hpp>
 
-#include "client/cli/json_fields.h"
+#include "client/authoring/json_fields.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/printable.h"
@@ -21,8 +21,8 @@ using nlohmann::json;
 
 std::vector<BoneChoice> ReadBoneMap(const std::filesystem::path& path) {
   const std::string name = path.string();
-  const json file = ParseJson(ReadText(path, "map"), name);
-  CheckFileMembers(file, name, {"bones"}, "bones");
+  const json file = authoring::ParseJson(authoring::ReadText(path, "map"), name);
+  authoring::CheckFileMembers(file, name, {"bones"}, "bones");
   const auto bones = file.find("bones");
   if (bones == file.end() || !bones->is_object())
     throw InvalidArgument(name + ":bones", "must be an object, as in {\"pelvis\": \"Hips\"}");
@@ -36,8 +36,8 @@ std::vector<BoneChoice> ReadBoneMap(const std::filesystem::path& path) {
     } else if (value.is_string() && !value.get<std::string>().empty()) {
       choice.name = value.get<std::string>();
     } else if (!value.is_null()) {
-      throw InvalidArgument(choice.field,
-                            Shown(value) + ", must be a node's name, its number or null");
+      throw InvalidArgument(
+          choice.field, authoring::Shown(value) + ", must be a node's name, its number or null");
     }
   }
   return chosen;

@@ -18,6 +18,6 @@ void AddConvertCommand(CLI::App& program);
 void AddPoseCommand(CLI::App& program);
 void AddPlotCommand(CLI::App& program);
 void AddRenderCommand(CLI::App& program);
-void AddStudioCommand(CLI::App& program);  ///< in studio/, above this folder
+void AddStudioCommand(CLI::App& program);
 
 }  // namespace choreo::cli

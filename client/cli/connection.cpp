@@ -70,9 +70,9 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
     std::cerr << "note: a server is started for this command alone, which takes seconds; to keep "
                  "one: choreo serve, and CHOREO_SERVER="
               << client_options.addresses.front() << " for commands\n";
-    own_ = LocalServer::Start(!model           ? std::string()
-                              : model->empty() ? std::string(kShippedModels[0])
-                                               : *model);
+    own_ = authoring::LocalServer::Start(!model           ? std::string()
+                                         : model->empty() ? std::string(kShippedModels[0])
+                                                          : *model);
     client_options.addresses = {own_->address()};
     // These settings, which may come from the environment, are for other servers.
     client_options.tls = false;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
 
 namespace choreo::cli {
 
@@ -37,7 +37,7 @@ class Connection {
   const client::ModelDescription& model(const std::string& name) const;
 
  private:
-  std::unique_ptr<LocalServer> own_;
+  std::unique_ptr<authoring::LocalServer> own_;
   std::unique_ptr<client::Client> client_;
   client::ServerDescription server_;
 };

@@ -1,10 +1,10 @@
 #include <memory>
 
+#include "client/authoring/motion_input.h"
 #include "client/cli/bone_map.h"
 #include "client/cli/bvh_options.h"
 #include "client/cli/character_options.h"
 #include "client/cli/commands.h"
-#include "client/cli/motion_input.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/core/error.h"
@@ -38,7 +38,7 @@ SkeletonMotion Read(const ConvertOptions& options) {
   reading.fps = options.fps;
   if (!options.map().empty()) reading.bones = ReadBoneMap(options.map());
   try {
-    return ReadMotionNoting(options.in, reading);
+    return authoring::ReadMotionNoting(options.in, reading);
   } catch (const UnknownBones& error) {
     if (!options.map().empty()) {
       throw InvalidArgument(options.map(), "does not say which bone is the " + error.missing() +

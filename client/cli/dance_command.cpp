@@ -3,16 +3,17 @@
 #include <limits>
 #include <memory>
 
+#include "client/authoring/dancers.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/project_file.h"
+#include "client/cli/authoring_options.h"
 #include "client/cli/bvh_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/dance_performance.h"
-#include "client/cli/dancers.h"
 #include "client/cli/interruption.h"
-#include "client/cli/json_fields.h"
-#include "client/cli/key_file.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
-#include "client/cli/project_file.h"
 #include "client/cli/report.h"
 #include "client/cli/stage_dance.h"
 #include "model/core/atomic_file.h"
@@ -24,7 +25,7 @@ namespace {
 
 /// Fills in what the command line leaves open from the project.
 void TakeProject(DanceOptions* options) {
-  const Project project = ReadProject(options->project);
+  const authoring::Project project = authoring::ReadProject(options->project);
   options->keys = {options->project};
   if (options->song.empty() && !project.song.empty()) {
     if (!std::filesystem::is_regular_file(project.song)) {
@@ -38,7 +39,8 @@ void TakeProject(DanceOptions* options) {
   const auto file_of = [](const std::string& song) {
     return std::filesystem::path(song).filename();
   };
-  if (options->beats == BeatOptions() && file_of(options->song) == file_of(project.song)) {
+  if (options->beats == authoring::BeatOptions() &&
+      file_of(options->song) == file_of(project.song)) {
     for (const double beat : project.beats) {
       if (beat >= options->song_start_s)
         options->project_beats.push_back(beat - options->song_start_s);
@@ -76,18 +78,19 @@ void CheckFiles(const DanceOptions& options, const std::vector<std::filesystem::
     outputs.push_back({"--out", out});
   }
   for (const std::filesystem::path& report : reports) outputs.push_back({"--report", report});
-  std::vector<NamedFile> inputs = options.controls.Files();
+  std::vector<NamedFile> inputs = FilesOf(options.controls);
   inputs.push_back({"song", options.song});
-  for (const std::string& keys : KeySources(options.keys))
-    inputs.push_back({options.project.empty() ? "--keyframes" : "--project", FileOf(keys)});
+  for (const std::string& keys : authoring::KeySources(options.keys))
+    inputs.push_back(
+        {options.project.empty() ? "--keyframes" : "--project", authoring::FileOf(keys)});
   inputs.push_back({"--dancers", options.dancers});
   RequireOutputs(outputs, inputs);
 }
 
 void Run(const DanceOptions& options) {
   const std::filesystem::path out = OutputPath(options);
-  std::optional<Dancers> stage;
-  if (!options.dancers.empty()) stage = ReadDancers(options.dancers);
+  std::optional<authoring::Dancers> stage;
+  if (!options.dancers.empty()) stage = authoring::ReadDancers(options.dancers);
   if (stage && !options.vmc.empty())
     throw InvalidArgument("--vmc", "shows one dancer, and " + options.dancers + " has several");
   if (stage) {
@@ -95,12 +98,12 @@ void Run(const DanceOptions& options) {
   } else {
     CheckFiles(options, {out}, {options.report});
   }
-  std::optional<Music> music;
-  RequireSong(options.beats, options.song);
+  std::optional<authoring::Music> music;
+  authoring::RequireSong(options.beats, options.song);
   if (!options.song.empty()) {
-    music =
-        ReadMusic(options.song, options.seconds.value_or(std::numeric_limits<double>::infinity()),
-                  options.song_start_s, options.beats);
+    music = authoring::ReadMusic(options.song,
+                                 options.seconds.value_or(std::numeric_limits<double>::infinity()),
+                                 options.song_start_s, options.beats);
   }
   const Connection connection(options.server, options.model);
   const Interruption interruption;
@@ -156,7 +159,7 @@ void AddDanceCommand(CLI::App& program) {
   command
       ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
-  options->controls.AddTo(*command);
+  AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command
       ->add_option("--dancers", options->dancers,
@@ -179,7 +182,7 @@ void AddDanceCommand(CLI::App& program) {
   command->callback([options, command] {
     if (!options->project.empty()) TakeProject(options.get());
     CheckSongStart(*command, options->song);
-    const bool keys = !options->keys.empty() && !SaysNoKeys(options->keys);
+    const bool keys = !options->keys.empty() && !authoring::SaysNoKeys(options->keys);
     if (options->song.empty() && !options->seconds && !keys && options->controls.path.empty()) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");
     }

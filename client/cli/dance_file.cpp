@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/cli/motion_input.h"
+#include "client/authoring/motion_input.h"
 #include "model/core/error.h"
 #include "model/formats/npz.h"
 
@@ -28,14 +28,14 @@ std::vector<Contacts> ReadContacts(const std::filesystem::path& path, size_t fra
 }  // namespace
 
 DanceFile ReadDance(const std::filesystem::path& path) {
-  SkeletonMotion read = ReadMotionNoting(path);
+  SkeletonMotion read = authoring::ReadMotionNoting(path);
   std::vector<Contacts> contacts = ReadContacts(path, read.motion.frames.size());
   return {std::move(read.skeleton), {std::move(read.motion), std::move(contacts)}};
 }
 
 client::FinishedDance ReadDance(const std::filesystem::path& path, const Skeleton& skeleton) {
   client::FinishedDance dance;
-  dance.motion = ReadMotionNoting(path, skeleton, OtherSkeleton::kRefuse);
+  dance.motion = authoring::ReadMotionNoting(path, skeleton, OtherSkeleton::kRefuse);
   dance.contacts = ReadContacts(path, dance.motion.frames.size());
   return dance;
 }

@@ -6,13 +6,13 @@
 #include <sstream>
 #include <utility>
 
-#include "client/cli/choreography.h"
+#include "client/authoring/choreography.h"
+#include "client/authoring/dance_keys.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
 #include "client/cli/dance_display.h"
-#include "client/cli/dance_keys.h"
 #include "client/cli/interruption.h"
-#include "client/cli/json_fields.h"
-#include "client/cli/key_faults.h"
-#include "client/cli/key_file.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
@@ -26,14 +26,14 @@ double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& 
                            const client::ModelDescription& model) {
   if (options.seconds) return *options.seconds;
   int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
-  for (const std::string& source : KeySources(options.keys)) {
-    for (const client::KeyPose& key : ReadKeys(source, model.skeleton))
-      last = std::max(last, FrameOf(key, model.fps));
+  for (const std::string& source : authoring::KeySources(options.keys)) {
+    for (const client::KeyPose& key : authoring::ReadKeys(source, model.skeleton))
+      last = std::max(last, authoring::FrameOf(key, model.fps));
   }
   return static_cast<double>(last + 1) / model.fps;
 }
 
-double ChooseSeconds(const DanceOptions& options, const Music& music) {
+double ChooseSeconds(const DanceOptions& options, const authoring::Music& music) {
   const double song = music.audio.seconds();
   if (!options.seconds) return song;
   if (*options.seconds > song) {
@@ -45,9 +45,11 @@ double ChooseSeconds(const DanceOptions& options, const Music& music) {
   return std::min(*options.seconds, song);
 }
 
-DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& music, double seconds,
-                     const DanceLength& length, const client::ModelDescription& model) {
-  if (SaysNoKeys(options.keys)) return {};
+authoring::DanceKeys ChooseKeys(const DanceOptions& options,
+                                const std::optional<authoring::Music>& music, double seconds,
+                                const authoring::DanceLength& length,
+                                const client::ModelDescription& model) {
+  if (authoring::SaysNoKeys(options.keys)) return {};
   if (!options.keys.empty()) {
     if (length.frames < 1) {
       std::ostringstream message;
@@ -55,11 +57,11 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
               << " s, the least";
       throw InvalidArgument("--seconds", message.str());
     }
-    DanceKeys keys = ReadDanceKeys(options.keys, length, model.skeleton);
-    if (!options.allow_bends) RefuseBends(keys, model.skeleton);
+    authoring::DanceKeys keys = authoring::ReadDanceKeys(options.keys, length, model.skeleton);
+    if (!options.allow_bends) authoring::RefuseBends(keys, model.skeleton);
     return keys;
   }
-  CompositionRequest request{
+  authoring::CompositionRequest request{
       .seconds = seconds, .seed = options.seed.value_or(0), .way = options.way_seed};
   if (!options.seconds) request.named = music ? options.song : "--path";
   if (music) {
@@ -68,8 +70,8 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
   }
   // Without a next key its dancers hardly move.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
-  DanceKeys keys;
-  keys.poses = ComposeKeys(request, PosesToDance(model.skeleton));
+  authoring::DanceKeys keys;
+  keys.poses = authoring::ComposeKeys(request, authoring::PosesToDance(model.skeleton));
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
     // The path sets the dancer's place.
@@ -79,9 +81,9 @@ DanceKeys ChooseKeys(const DanceOptions& options, const std::optional<Music>& mu
 }
 
 client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
-                          const DanceKeys& keys, const client::Audio& audio, double model_fps,
-                          const DanceOptions& options, const std::filesystem::path& out,
-                          VmcShow* show) {
+                          const authoring::DanceKeys& keys, const client::Audio& audio,
+                          double model_fps, const DanceOptions& options,
+                          const std::filesystem::path& out, VmcShow* show) {
   client::DanceResult dance;
   DanceDisplay display(*config.frames, model_fps);
   try {
@@ -104,14 +106,14 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
       std::cerr << message.str();
     }
     if (error.field() == "config.style") throw error.Of(options.style_name);
-    throw InTermsOf(keys, options.controls.InTermsOf(error));
+    throw authoring::InTermsOf(keys, options.controls.InTermsOf(error));
   }
   return dance;
 }
 
 }  // namespace
 
-Performance Perform(const DanceOptions& options, const std::optional<Music>& music,
+Performance Perform(const DanceOptions& options, const std::optional<authoring::Music>& music,
                     const Connection& connection, const std::filesystem::path& out,
                     std::optional<VmcShow>* show) {
   const client::ModelDescription& model = connection.model(options.model);
@@ -126,11 +128,11 @@ Performance Perform(const DanceOptions& options, const std::optional<Music>& mus
     std::cerr << "note: the model \"" << model.name
               << "\" takes no music; the song gives the dance its length and its beats\n";
   }
-  CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
-  const DanceLength length{std::llround(seconds * model.fps), model.fps};
-  const DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
+  authoring::CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
+  const authoring::DanceLength length{std::llround(seconds * model.fps), model.fps};
+  const authoring::DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
   options.controls.RequireBegun(controls, length);
-  const std::vector<client::Warning> faults = KeyFaults(keys, model.fps, model.skeleton);
+  const std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
   ShowWarnings(faults);
 
   client::DanceConfig config;
@@ -144,14 +146,15 @@ Performance Perform(const DanceOptions& options, const std::optional<Music>& mus
   config.frames = length.frames;
   config.controls = controls;
   config.music_beats = options.project_beats;
-  if (music) ConfigureMusic(*music, seconds, &config);
+  if (music) authoring::ConfigureMusic(*music, seconds, &config);
   const client::Audio audio =
-      music && model.takes_music ? AudioFor(music->audio, seconds) : client::Audio{};
+      music && model.takes_music ? authoring::AudioFor(music->audio, seconds) : client::Audio{};
   if (!options.vmc.empty()) show->emplace(options.vmc, model.skeleton);
   client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps, options,
                                     out, *show ? &**show : nullptr);
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
-  for (size_t i = 0; i < written.keys.size(); ++i) written.keys[i].holds = HeldKey(keys, i);
+  for (size_t i = 0; i < written.keys.size(); ++i)
+    written.keys[i].holds = authoring::HeldKey(keys, i);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/music.h"
+#include "client/authoring/written_controls.h"
 #include "client/cli/bvh_options.h"
 #include "client/cli/connection.h"
-#include "client/cli/control_options.h"
-#include "client/cli/music.h"
 #include "client/cli/vmc_show.h"
 #include "client/cli/written_dance.h"
 
@@ -19,7 +19,7 @@ namespace choreo::cli {
 struct DanceOptions {
   ServerOptions server;
   std::string song;
-  BeatOptions beats;
+  authoring::BeatOptions beats;
   std::vector<std::string> keys;
   std::string project;
   std::vector<double> project_beats;  ///< of the project, seconds of the dance
@@ -33,7 +33,7 @@ struct DanceOptions {
   std::string style;
   std::string style_name = "--style";  ///< the field of errors about it
   double fps = 0;
-  ControlOptions controls;
+  authoring::WrittenControls controls;
   std::string model;
   std::string dancers;  ///< a file (dancers.h); empty: a single dancer
   std::string out;
@@ -54,7 +54,7 @@ struct Performance {
 /// Dances as the options say, to this music, their song's. Writes what came of a failed or
 /// interrupted dance beside `out`. The show of --vmc starts with the dance. Errors name the option,
 /// or the place in a file.
-Performance Perform(const DanceOptions& options, const std::optional<Music>& music,
+Performance Perform(const DanceOptions& options, const std::optional<authoring::Music>& music,
                     const Connection& connection, const std::filesystem::path& out,
                     std::optional<VmcShow>* show);
 

@@ -1,10 +1,11 @@
 #include <memory>
 
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_file.h"
+#include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/edit_session.h"
 #include "client/cli/edit_whole.h"
-#include "client/cli/json_fields.h"
-#include "client/cli/key_file.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/core/rounded.h"
@@ -25,8 +26,9 @@ bool EditsWhole(const EditOptions& options) {
 }
 
 void CheckTime(const char* option, double at_s) {
-  if (at_s >= 0 && at_s <= kMaxSeconds) return;
-  throw InvalidArgument(option, InFull(at_s) + " s is not in [0, " + InFull(kMaxSeconds) + "]");
+  if (at_s >= 0 && at_s <= authoring::kMaxSeconds) return;
+  throw InvalidArgument(option,
+                        InFull(at_s) + " s is not in [0, " + InFull(authoring::kMaxSeconds) + "]");
 }
 
 /// Edits that need the report, which names the keys.
@@ -74,13 +76,13 @@ void CheckOptions(const EditOptions& options) {
   }
   if (options.hold_s && options.keys.empty()) throw InvalidArgument("--hold", "goes with --key");
   RequireWrittenMotionFile(options.out);
-  std::vector<NamedFile> inputs = options.controls.Files();
+  std::vector<NamedFile> inputs = FilesOf(options.controls);
   inputs.push_back({"dance", options.dance});
   inputs.push_back({"--report", options.report});
   inputs.push_back({"--song", options.song});
   inputs.push_back({"--join", options.join});
   inputs.push_back({"--join-report", options.join_report});
-  for (const std::string& key : options.keys) inputs.push_back({"--key", FileOf(key)});
+  for (const std::string& key : options.keys) inputs.push_back({"--key", authoring::FileOf(key)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
     throw InvalidArgument("--new-report", "needs --report, which it is made of");
@@ -212,7 +214,7 @@ void AddEditCommand(CLI::App& program) {
   AddMusicDynamics(*command, options->music_dynamics);
   AddVariation(*command, options->variation);
   AddStyle(*command, options->style);
-  options->controls.AddTo(*command);
+  AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();

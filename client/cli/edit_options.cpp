@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "client/cli/music.h"
+#include "client/authoring/music.h"
 #include "client/cli/options.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
@@ -24,11 +24,12 @@ client::EditOptions HowToDance(const EditOptions& options, const Connection& con
 }
 
 void TakeSong(const EditOptions& options, double end_s, client::EditOptions* edit) {
-  RequireSong(options.beats, options.song);
+  authoring::RequireSong(options.beats, options.song);
   if (options.song.empty()) return;
-  const Music music = ReadMusic(options.song, end_s, options.song_start_s, options.beats);
-  edit->audio = AudioFor(music.audio, end_s);
-  edit->music_beats = BeatsBefore(music, end_s);
+  const authoring::Music music =
+      authoring::ReadMusic(options.song, end_s, options.song_start_s, options.beats);
+  edit->audio = authoring::AudioFor(music.audio, end_s);
+  edit->music_beats = authoring::BeatsBefore(music, end_s);
   edit->music_passages = music.passages;
   edit->music_id = music.id;
 }

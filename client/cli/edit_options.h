@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "client/authoring/music_beats.h"
+#include "client/authoring/written_controls.h"
 #include "client/cli/connection.h"
-#include "client/cli/control_options.h"
-#include "client/cli/music_beats.h"
 #include "client/cli/report_keys.h"
 #include "client/edit.h"
 
@@ -35,7 +35,7 @@ struct EditOptions {
   std::optional<double> around_s;
   std::string song;
   double song_start_s = 0;
-  BeatOptions beats;
+  authoring::BeatOptions beats;
   std::string report;
   std::string new_report;
   std::optional<uint64_t> seed;
@@ -43,7 +43,7 @@ struct EditOptions {
   std::optional<double> music_dynamics;
   std::optional<double> variation;
   std::string style;
-  ControlOptions controls;
+  authoring::WrittenControls controls;
   std::string model;
   std::string out;
 

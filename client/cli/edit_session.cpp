@@ -7,11 +7,11 @@
 #include <sstream>
 #include <utility>
 
-#include "client/cli/counts.h"
+#include "client/authoring/counts.h"
+#include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/pose_source.h"
 #include "client/cli/dance_file.h"
-#include "client/cli/key_faults.h"
-#include "client/cli/key_file.h"
-#include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
@@ -52,10 +52,10 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
 }
 
 void EditSession::SetKey(const std::string& source, double at_s) {
-  const NamedPose named = ReadPose(source, edit_.model.skeleton);
+  const authoring::NamedPose named = authoring::ReadPose(source, edit_.model.skeleton);
   // The library's poses are known to bend correctly.
   if (named.has_place && !options_.allow_bends)
-    RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
+    authoring::RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
   client::KeyEdit edit;
   edit.key = named.key;
   edit.key.frame = FrameInDance("--at", at_s);
@@ -65,7 +65,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   else if (options_.in_place)
     pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
   edit.held = named.held;
-  if (options_.hold_s) edit.held = Holding(edit.key, *options_.hold_s, "--hold");
+  if (options_.hold_s) edit.held = authoring::Holding(edit.key, *options_.hold_s, "--hold");
   if (options_.hit) edit.key.hit = options_.hit;
   for (client::KeyPose& held : edit.held) {
     held.frame = Frame(at_s + held.time_s - edit.key.time_s);
@@ -114,7 +114,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
 }
 
 void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
-  const Delay delay = ParseDelay(later, "--repeat");
+  const authoring::Delay delay = authoring::ParseDelay(later, "--repeat");
   const auto moved = [&](double seconds) {
     return delay.After(seconds, edit_.music_beats, "--repeat");
   };
@@ -166,7 +166,7 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
 
 void EditSession::Stretch(double from_s, double until_s, double times) {
   const auto stretched = [&](int64_t frame) {
-    return Frame(Stretched(Seconds(frame), from_s, times, edit_.music_beats));
+    return Frame(authoring::Stretched(Seconds(frame), from_s, times, edit_.music_beats));
   };
   std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
   const size_t count = phrase.size();
@@ -259,7 +259,7 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
     around.push_back(
         {Rounded(Seconds(frame)) + " s", Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
   }
-  const auto faults = KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
+  const auto faults = authoring::KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
   ShowWarnings(faults);
   known_.warnings.insert(known_.warnings.end(), faults.begin(), faults.end());
 }

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "client/authoring/pose_library.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
-#include "client/cli/pose_library.h"
 #include "client/style_figures.h"
 #include "model/motion/controls.h"
 
@@ -188,13 +188,13 @@ bool MayServe(const client::Client& client) {
 void Run(const InfoOptions& options) {
   if (options.poses && options.json) {
     auto out = nlohmann::ordered_json::array();
-    for (const LibraryPose& pose : PoseLibrary())
+    for (const authoring::LibraryPose& pose : authoring::PoseLibrary())
       out.push_back({{"id", pose.id}, {"description", pose.description}});
     std::cout << out.dump(2) << std::endl;
     return;
   }
   if (options.poses) {
-    for (const LibraryPose& pose : PoseLibrary())
+    for (const authoring::LibraryPose& pose : authoring::PoseLibrary())
       std::printf("%-14s %s\n", pose.id.c_str(), pose.description.c_str());
     return;
   }

@@ -7,14 +7,14 @@
 #include <optional>
 #include <sstream>
 
+#include "client/authoring/dance_keys.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/pose_library.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
-#include "client/cli/dance_keys.h"
 #include "client/cli/interruption.h"
-#include "client/cli/key_file.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
-#include "client/cli/pose_library.h"
 #include "client/live/live_dance.h"
 #include "client/live/midi_clock.h"
 #include "client/live/vmc.h"
@@ -50,8 +50,8 @@ void CheckOutput(const LiveCommand& options) {
   if (options.out.empty()) return;
   RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> inputs = {{"song", options.song}};
-  for (const std::string& keys : KeySources(options.keys))
-    inputs.push_back({"--keyframes", FileOf(keys)});
+  for (const std::string& keys : authoring::KeySources(options.keys))
+    inputs.push_back({"--keyframes", authoring::FileOf(keys)});
   RequireOutputs({{"--out", options.out}}, inputs);
 }
 
@@ -61,7 +61,7 @@ std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
 }
 
 /// The legend of keyboard keys and their poses, as wide as a terminal.
-std::string Legend(const std::vector<LibraryPose>& poses) {
+std::string Legend(const std::vector<authoring::LibraryPose>& poses) {
   constexpr size_t kColumns = 4;
   std::ostringstream legend;
   for (size_t i = 0; i < std::min(poses.size(), live::KeyboardKeys().size()); ++i) {
@@ -72,12 +72,12 @@ std::string Legend(const std::vector<LibraryPose>& poses) {
   return legend.str();
 }
 
-std::vector<std::unique_ptr<live::Cues>> OpenCues(const LiveCommand& options,
-                                                  const std::vector<LibraryPose>& poses) {
+std::vector<std::unique_ptr<live::Cues>> OpenCues(
+    const LiveCommand& options, const std::vector<authoring::LibraryPose>& poses) {
   std::vector<std::unique_ptr<live::Cues>> cues;
   if (options.osc_port > 0) cues.push_back(live::HearOsc(options.osc_port));
   std::vector<std::string> names;
-  for (const LibraryPose& pose : poses) names.push_back(pose.id);
+  for (const authoring::LibraryPose& pose : poses) names.push_back(pose.id);
   if (auto keyboard = live::ReadKeyboard(STDIN_FILENO, names)) {
     cues.push_back(std::move(keyboard));
     std::cout << Legend(poses);
@@ -129,10 +129,12 @@ void Run(const LiveCommand& options) {
   dance.seconds = std::min(options.seconds.value_or(most), most);
   // A shorter song ends the dance.
   const double longest = std::min(dance.seconds, sound->seconds());
-  const DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)), model.fps};
-  dance.keys = ReadDanceKeys(KeySources(options.keys), length, model.skeleton).poses;
-  const std::vector<LibraryPose> poses = PosesToDance(model.skeleton);
-  for (const LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
+  const authoring::DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)),
+                                      model.fps};
+  dance.keys =
+      authoring::ReadDanceKeys(authoring::KeySources(options.keys), length, model.skeleton).poses;
+  const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(model.skeleton);
+  for (const authoring::LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
 
   live::LiveObserver observer;
   observer.go_on = [] { return !Interruption::Came(); };

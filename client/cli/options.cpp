@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "client/cli/json_fields.h"
+#include "client/authoring/json_fields.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
@@ -42,7 +42,7 @@ CLI::Validator NumberFrom(double low, double high) {
   return NumberThat(limits.str(), "", [=](double value) { return value >= low && value <= high; });
 }
 
-CLI::Validator TimeInSeconds() { return NumberFrom(0, kMaxSeconds); }
+CLI::Validator TimeInSeconds() { return NumberFrom(0, authoring::kMaxSeconds); }
 
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
   return NumberThat("a whole number from " + std::to_string(low) + " to " + std::to_string(high),

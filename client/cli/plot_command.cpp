@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "client/authoring/json_fields.h"
+#include "client/authoring/motion_input.h"
+#include "client/authoring/music.h"
+#include "client/authoring/written_controls.h"
 #include "client/cli/commands.h"
-#include "client/cli/control_options.h"
-#include "client/cli/json_fields.h"
-#include "client/cli/motion_input.h"
-#include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/core/error.h"
@@ -86,7 +86,7 @@ PlotSeries RootOf(const Motion& motion, bool height) {
 }
 
 PlotSeries AskedOf(const std::string& path, double fps, bool height) {
-  const auto asked = ParsePathFile(ReadText(path, "path file"), path, fps);
+  const auto asked = authoring::ParsePathFile(authoring::ReadText(path, "path file"), path, fps);
   if (height && asked.heights.empty()) throw InvalidArgument("--path", path + " has no heights");
   PlotSeries line{.label = "asked", .x = {}, .y = {}, .asked = true};
   for (size_t i = 0; i < asked.points.size(); ++i) {
@@ -134,8 +134,9 @@ std::vector<PlotSeries> BeatsOf(const SkeletonMotion& dance, const std::string& 
   std::vector<double> kinematic;
   for (const int64_t frame : KinematicBeats(speeds, motion.fps))
     kinematic.push_back(static_cast<double>(frame) / motion.fps);
-  std::vector<PlotSeries> series = {MarksAt(BeatsBefore(ReadMusic(song, seconds), seconds), top),
-                                    std::move(line), MarksAt(kinematic, top)};
+  std::vector<PlotSeries> series = {
+      MarksAt(authoring::BeatsBefore(authoring::ReadMusic(song, seconds), seconds), top),
+      std::move(line), MarksAt(kinematic, top)};
   series.front().label = "beats of the song";
   series.back().label = "kinematic beats, its maxima";
   return series;
@@ -190,7 +191,7 @@ void Run(PlotOptions& options) {
     plot.x_label = "s";
     plot.y_label = "m/s";
     plot.from_zero = true;
-    plot.series = BeatsOf(ReadMotionNoting(options.motions.front()), options.song);
+    plot.series = BeatsOf(authoring::ReadMotionNoting(options.motions.front()), options.song);
     DrawPlot(plot, options.out);
     return;
   }
@@ -200,7 +201,7 @@ void Run(PlotOptions& options) {
                  : height ? "height of the root, m"
                           : "cm a frame, mean of 0.5 s";
   for (size_t i = 0; i < motions; ++i) {
-    const SkeletonMotion dance = ReadMotionNoting(options.motions[i]);
+    const SkeletonMotion dance = authoring::ReadMotionNoting(options.motions[i]);
     PlotSeries line = part ? SpeedOf(*part, dance) : RootOf(dance.motion, height);
     line.label = options.labels.empty() ? std::filesystem::path(options.motions[i]).stem().string()
                                         : options.labels[i];

@@ -5,12 +5,12 @@
 #include <iostream>
 #include <memory>
 
+#include "client/authoring/key_file.h"
+#include "client/authoring/pose_file.h"
+#include "client/authoring/pose_library.h"
 #include "client/cli/commands.h"
-#include "client/cli/key_file.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
-#include "client/cli/pose_file.h"
-#include "client/cli/pose_library.h"
 #include "client/cli/pose_recipe.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -89,14 +89,14 @@ void PrintAngles(const client::KeyPose& key) {
 }
 
 void List(const PoseOptions& options) {
-  const auto has_tags = [&](const LibraryPose& pose) {
+  const auto has_tags = [&](const authoring::LibraryPose& pose) {
     return std::ranges::all_of(options.tags, [&](const std::string& tag) {
       return std::ranges::find(pose.tags, tag) != pose.tags.end();
     });
   };
   std::vector<Pose> poses;
   std::vector<std::string> names;
-  for (const LibraryPose& pose : PoseLibrary()) {
+  for (const authoring::LibraryPose& pose : authoring::PoseLibrary()) {
     if (!has_tags(pose)) continue;
     poses.push_back(pose.pose);
     names.push_back(pose.id);
@@ -104,9 +104,9 @@ void List(const PoseOptions& options) {
                 Joined(pose.tags).c_str());
   }
   if (poses.empty()) {
-    throw Error(
-        ErrorCode::kNotFound, "--tag",
-        "no pose of the library is " + Joined(options.tags) + "; tags are " + Joined(PoseTags()));
+    throw Error(ErrorCode::kNotFound, "--tag",
+                "no pose of the library is " + Joined(options.tags) + "; tags are " +
+                    Joined(authoring::PoseTags()));
   }
   if (options.png.empty()) return;
   Draw(poses, names, "", {8, 150, 180}, options.png);
@@ -131,7 +131,8 @@ void Run(const PoseOptions& options) {
     key.id = std::filesystem::path(options.out).stem().string();
     key.time_s = options.at_s;
     key.frame.reset();
-    WriteFile(options.out, PoseFileText({key, options.description, options.tags}, Body()));
+    WriteFile(options.out,
+              authoring::PoseFileText({key, options.description, options.tags}, Body()));
   }
   if (!options.png.empty()) DrawAround(key, options.png);
   if (options.out.empty() && options.png.empty()) PrintAngles(key);

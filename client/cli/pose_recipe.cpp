@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "client/cli/photo_pose.h"
-#include "client/cli/pose_source.h"
+#include "client/authoring/photo_pose.h"
+#include "client/authoring/pose_source.h"
 #include "model/body/doll.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
@@ -52,11 +52,11 @@ client::KeyPose Begin(const PoseRecipe& recipe, const Skeleton& skeleton) {
   client::KeyPose key;
   key.id = "photo";
   if (!recipe.from_landmarks.empty()) {
-    key.pose = ReadLandmarkPose(recipe.from_landmarks, skeleton);
+    key.pose = authoring::ReadLandmarkPose(recipe.from_landmarks, skeleton);
   } else if (!recipe.from_smpl.empty()) {
-    key.pose = ReadSmplPose(recipe.from_smpl, skeleton);
+    key.pose = authoring::ReadSmplPose(recipe.from_smpl, skeleton);
   } else if (recipe.from != "rest") {
-    return ReadPose(recipe.from, skeleton).key;
+    return authoring::ReadPose(recipe.from, skeleton).key;
   } else {
     key.id = recipe.from;
     key.pose = RestPose(skeleton);

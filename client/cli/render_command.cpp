@@ -4,10 +4,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/authoring/motion_input.h"
+#include "client/authoring/music.h"
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
-#include "client/cli/motion_input.h"
-#include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
@@ -48,7 +48,7 @@ std::vector<double> KeyTimes(const std::string& path) {
 Stage ReadStage(const std::vector<std::string>& paths) {
   Stage stage;
   for (const std::string& path : paths) {
-    Motion& motion = stage.emplace_back(ReadMotionNoting(path)).motion;
+    Motion& motion = stage.emplace_back(authoring::ReadMotionNoting(path)).motion;
     if (motion.fps != stage.front().motion.fps) motion = Resample(motion, stage.front().motion.fps);
   }
   return stage;
@@ -79,7 +79,8 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<doub
     throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in " + SizeText({}));
   }
   // Fails if the song is over before the film.
-  if (film.format.song_start_s > 0) ReadMusic(film.format.song, 1, film.format.song_start_s);
+  if (film.format.song_start_s > 0)
+    authoring::ReadMusic(film.format.song, 1, film.format.song_start_s);
   std::unique_ptr<ProgressBar> bar;
   film.on_frame = [&](int64_t frames) {
     Interruption::Check();

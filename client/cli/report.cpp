@@ -7,7 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "client/cli/json_fields.h"
+#include "client/authoring/json_fields.h"
 #include "client/cli/report_keys.h"
 #include "model/core/json_limits.h"
 
@@ -150,11 +150,11 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
   }
   for (size_t i = 0; i < report["keyframes"].size(); ++i) {
     const auto& key = report["keyframes"][i];
-    if (!key.is_object() || !key.contains("frame") || !IsFrameNumber(key["frame"]) ||
+    if (!key.is_object() || !key.contains("frame") || !authoring::IsFrameNumber(key["frame"]) ||
         !key.contains("id") || !key["id"].is_string()) {
       throw InvalidArgument(path.string() + ":keyframes[" + std::to_string(i) + "]",
                             "has no id, or no frame that is a whole number from 0 to " +
-                                std::to_string(kMaxFrameNumber));
+                                std::to_string(authoring::kMaxFrameNumber));
     }
   }
   return report;
@@ -167,11 +167,12 @@ std::vector<client::Warning> ReadWarnings(const nlohmann::ordered_json& report,
   if (!report["warnings"].is_array())
     throw InvalidArgument(path.string() + ":warnings", "is not a list");
   for (const auto& warning : report["warnings"]) {
-    if (!warning.is_object() || !warning.contains("frame") || !IsFrameNumber(warning["frame"]) ||
-        !warning.contains("message") || !warning["message"].is_string()) {
+    if (!warning.is_object() || !warning.contains("frame") ||
+        !authoring::IsFrameNumber(warning["frame"]) || !warning.contains("message") ||
+        !warning["message"].is_string()) {
       throw InvalidArgument(path.string() + ":warnings[" + std::to_string(warnings.size()) + "]",
                             "has no message, or no frame that is a whole number from 0 to " +
-                                std::to_string(kMaxFrameNumber));
+                                std::to_string(authoring::kMaxFrameNumber));
     }
     warnings.push_back({.frame = warning["frame"], .message = warning["message"]});
   }

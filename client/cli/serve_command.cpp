@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/local_server.h"
 #include "client/cli/commands.h"
-#include "client/cli/local_server.h"
 #include "model/core/error.h"
 
 namespace choreo::cli {
@@ -14,7 +14,7 @@ namespace {
 
 /// Becomes choreod, which then handles signals, output and exit code.
 void Run(std::vector<std::string> options) {
-  const std::string program = LocalServer::Program().string();
+  const std::string program = authoring::LocalServer::Program().string();
   std::vector<char*> arguments = {const_cast<char*>("choreod")};
   for (std::string& option : options) arguments.push_back(option.data());
   arguments.push_back(nullptr);

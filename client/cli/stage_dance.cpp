@@ -5,7 +5,7 @@
 #include <iostream>
 #include <utility>
 
-#include "client/cli/formation.h"
+#include "client/authoring/formation.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
 #include "model/core/rounded.h"
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path PathOf(const Dancer& dancer, const fs::path& path) {
+fs::path PathOf(const authoring::Dancer& dancer, const fs::path& path) {
   fs::path own = path;
   return own.replace_filename(path.stem().string() + "." + dancer.id + path.extension().string());
 }
@@ -25,7 +25,7 @@ fs::path PathOf(const Dancer& dancer, const fs::path& path) {
 bool HoldsAll(const fs::path& out) { return SmallExtension(out) == ".glb"; }
 
 /// A dancer's options: her own, and the common ones for the rest.
-DanceOptions OwnOptions(const DanceOptions& options, const Dancer& dancer,
+DanceOptions OwnOptions(const DanceOptions& options, const authoring::Dancer& dancer,
                         const std::string& field) {
   DanceOptions own = options;
   own.way_seed = options.seed.value_or(0);
@@ -47,12 +47,13 @@ struct Shared {
 };
 
 /// Performs each different dance once; returns the index of each dancer's dance.
-std::vector<Shared> PerformAll(const DanceOptions& options, const Dancers& stage,
-                               const std::optional<Music>& music, const Connection& connection,
-                               const fs::path& out, std::vector<size_t>* dance_of) {
+std::vector<Shared> PerformAll(const DanceOptions& options, const authoring::Dancers& stage,
+                               const std::optional<authoring::Music>& music,
+                               const Connection& connection, const fs::path& out,
+                               std::vector<size_t>* dance_of) {
   std::vector<Shared> dances;
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
-    const Dancer& dancer = stage.dancers[i];
+    const authoring::Dancer& dancer = stage.dancers[i];
     DanceOptions own =
         OwnOptions(options, dancer, options.dancers + ":dancers[" + std::to_string(i) + "]");
     const auto same = std::ranges::find_if(
@@ -83,9 +84,9 @@ WrittenDance Later(WrittenDance written, int64_t delay) {
 }
 
 /// Moves dancers apart where they would come too near, and prints how near they are.
-void SeparateDancers(const Dancers& stage, const Skeleton& skeleton,
+void SeparateDancers(const authoring::Dancers& stage, const Skeleton& skeleton,
                      std::vector<client::FinishedDance>* dances) {
-  const auto [factor, nearest] = KeepApart(stage.dancers, stage.apart, skeleton, dances);
+  const auto [factor, nearest] = authoring::KeepApart(stage.dancers, stage.apart, skeleton, dances);
   if (!nearest) return;
   std::cout << "least distance between bodies: " << Rounded(nearest->distance.metres) << " m, "
             << stage.dancers[nearest->one].id << " and " << stage.dancers[nearest->other].id
@@ -101,22 +102,22 @@ void SeparateDancers(const Dancers& stage, const Skeleton& skeleton,
 
 }  // namespace
 
-std::vector<fs::path> OutputsOf(const Dancers& stage, const fs::path& out) {
+std::vector<fs::path> OutputsOf(const authoring::Dancers& stage, const fs::path& out) {
   if (HoldsAll(out)) return {out};
   std::vector<fs::path> outputs;
-  for (const Dancer& dancer : stage.dancers) outputs.push_back(PathOf(dancer, out));
+  for (const authoring::Dancer& dancer : stage.dancers) outputs.push_back(PathOf(dancer, out));
   return outputs;
 }
 
-std::vector<fs::path> ReportsOf(const Dancers& stage, const fs::path& report) {
+std::vector<fs::path> ReportsOf(const authoring::Dancers& stage, const fs::path& report) {
   std::vector<fs::path> reports;
-  for (const Dancer& dancer : stage.dancers)
+  for (const authoring::Dancer& dancer : stage.dancers)
     if (!report.empty()) reports.push_back(PathOf(dancer, report));
   return reports;
 }
 
-void DanceTogether(const DanceOptions& options, const Dancers& stage,
-                   const std::optional<Music>& music, const Connection& connection,
+void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
+                   const std::optional<authoring::Music>& music, const Connection& connection,
                    const fs::path& out) {
   std::vector<size_t> dance_of;
   const std::vector<Shared> shared = PerformAll(options, stage, music, connection, out, &dance_of);
@@ -129,13 +130,14 @@ void DanceTogether(const DanceOptions& options, const Dancers& stage,
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
     const Performance& performance = shared[dance_of[i]].performance;
     const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
-    delays.push_back(FramesLater(stage.dancers[i], performance.beats,
-                                 performance.written.header.model_fps,
-                                 performance.written.report.frames, field));
+    delays.push_back(authoring::FramesLater(stage.dancers[i], performance.beats,
+                                            performance.written.header.model_fps,
+                                            performance.written.report.frames, field));
     const client::DanceResult& danced = performance.dance;
     const double seconds = static_cast<double>(delays.back()) / danced.header.model_fps;
-    dances.push_back(OnStage(skeleton, stage.dancers[i], {danced.motion, danced.contacts},
-                             std::llround(seconds * danced.motion.fps)));
+    dances.push_back(authoring::OnStage(skeleton, stage.dancers[i],
+                                        {danced.motion, danced.contacts},
+                                        std::llround(seconds * danced.motion.fps)));
   }
   SeparateDancers(stage, skeleton, &dances);
   const std::vector<fs::path> outputs = OutputsOf(stage, out);

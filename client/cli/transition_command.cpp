@@ -4,14 +4,15 @@
 #include <limits>
 #include <memory>
 
+#include "client/authoring/key_file.h"
+#include "client/authoring/music.h"
+#include "client/authoring/pose_source.h"
+#include "client/authoring/written_controls.h"
+#include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
-#include "client/cli/control_options.h"
-#include "client/cli/key_file.h"
-#include "client/cli/music.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
-#include "client/cli/pose_source.h"
 #include "client/cli/report.h"
 #include "client/edit.h"
 #include "model/core/atomic_file.h"
@@ -39,7 +40,7 @@ struct TransitionOptions {
   std::optional<double> variation;
   std::string style;
   std::string model;
-  ControlOptions controls;
+  authoring::WrittenControls controls;
   std::string out;
   std::string report;
 };
@@ -54,7 +55,7 @@ std::filesystem::path CandidatePath(const std::filesystem::path& out, size_t ran
 
 client::TransitionResult Generate(const client::Client& client,
                                   const client::TransitionRequest& request,
-                                  const ControlOptions& controls) {
+                                  const authoring::WrittenControls& controls) {
   try {
     return client.GenerateTransition(request);
   } catch (const Error& error) {
@@ -66,7 +67,7 @@ client::TransitionResult Generate(const client::Client& client,
 void CheckAt(const CLI::App& command, const TransitionOptions& options) {
   const auto is_absent = [](const NamedFile& file) { return file.path.empty(); };
   if (command.count("--at") > 0 && options.song.empty() &&
-      std::ranges::all_of(options.controls.Files(), is_absent)) {
+      std::ranges::all_of(FilesOf(options.controls), is_absent)) {
     throw CLI::ValidationError("--at",
                                "there is nothing whose second it could be: it goes with --song, "
                                "--path or a file for --velocity");
@@ -78,9 +79,9 @@ void Run(const TransitionOptions& options) {
   std::vector<NamedFile> outputs = {{"--report", options.report}};
   for (size_t rank = 0; rank < static_cast<size_t>(options.candidates); ++rank)
     outputs.push_back({"--out", CandidatePath(options.out, rank)});
-  std::vector<NamedFile> inputs = options.controls.Files();
-  inputs.push_back({"--from", FileOf(options.from)});
-  inputs.push_back({"--to", FileOf(options.to)});
+  std::vector<NamedFile> inputs = FilesOf(options.controls);
+  inputs.push_back({"--from", authoring::FileOf(options.from)});
+  inputs.push_back({"--to", authoring::FileOf(options.to)});
   inputs.push_back({"--song", options.song});
   RequireOutputs(outputs, inputs);
   const Connection connection(options.server, options.model);
@@ -105,12 +106,12 @@ void Run(const TransitionOptions& options) {
   request.config.first_frame = std::llround(options.at_s * model.fps);
   options.controls.RequireBegun(request.config.controls,
                                 {request.config.first_frame + options.frames, model.fps});
-  request.config.history = {ReadPose(options.from, model.skeleton).key.pose};
+  request.config.history = {authoring::ReadPose(options.from, model.skeleton).key.pose};
   request.frames = options.frames;
   // A deterministic model's candidates would all be equal.
   request.candidates = model.deterministic ? 1 : options.candidates;
   if (options.rank_by == "likelihood") request.rank_by = client::RankBy::kLikelihood;
-  const NamedPose to = ReadPose(options.to, model.skeleton);
+  const authoring::NamedPose to = authoring::ReadPose(options.to, model.skeleton);
   client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it
   // For a library pose the path sets the place.
@@ -120,14 +121,14 @@ void Run(const TransitionOptions& options) {
   request.target_hit = options.hit ? options.hit : target.hit;
   if (!options.song.empty()) {
     const double end_s = options.at_s + options.frames / model.fps;
-    const Music music = ReadMusic(options.song, end_s);
-    const client::Audio song = AudioFor(music.audio, end_s);
-    if (options.at_s >= Seconds(song)) {
+    const authoring::Music music = authoring::ReadMusic(options.song, end_s);
+    const client::Audio song = authoring::AudioFor(music.audio, end_s);
+    if (options.at_s >= authoring::Seconds(song)) {
       throw InvalidArgument("--at", InFull(options.at_s) + " s is after the song's end at " +
-                                        InFull(Seconds(song)) + " s");
+                                        InFull(authoring::Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
-    ConfigureMusic(music, end_s, &request.config);
+    authoring::ConfigureMusic(music, end_s, &request.config);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   ShowWarnings(result.warnings);
@@ -184,7 +185,7 @@ void AddTransitionCommand(CLI::App& program) {
   AddMusicDynamics(*command, options->music_dynamics);
   AddVariation(*command, options->variation);
   AddStyle(*command, options->style);
-  options->controls.AddTo(*command);
+  AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
       ->required();

@@ -25,13 +25,14 @@ const Includes& Sources() {
   return includes;
 }
 
-// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; model/papers and
-// proto/ have several modules.
+// "model/motion/skeleton.h" -> "model/motion", "server/status.h" -> "server"; model/papers, proto/
+// and client/ have several modules.
 std::string ModuleOf(const std::string& path) {
   size_t inner = 0;
-  for (const char* deep : {"model/papers/", "model/", "proto/"}) {
+  for (const char* deep : {"model/papers/", "model/", "proto/", "client/"}) {
     if (inner == 0 && path.starts_with(deep)) inner = std::string_view(deep).size();
   }
+  if (path.starts_with("client/") && path.find('/', inner) == std::string::npos) return "client";
   const size_t end = path.find('/', inner);
   return end == std::string::npos ? "" : path.substr(0, end);
 }
@@ -47,7 +48,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
                       messages = "model/messages", dance = "model/dance", wire = "proto/wire",
                       training = "model/training", paper_training = "model/papers/training",
                       metrics = "model/metrics", evaluation = "model/evaluation",
-                      tables = "model/papers/tables";
+                      tables = "model/papers/tables", live = "client/live",
+                      authoring = "client/authoring", cli = "client/cli";
     return std::vector<std::pair<std::string, std::set<std::string>>>{
         {core, {}},
         {audio, {core}},
@@ -75,13 +77,14 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {wire, {core, motion, messages, "choreo"}},
         {"server",
          {core, audio, motion, engine, samplers, messages, dance, "tls", wire, "choreo", "google"}},
-        {"client",
-         {core, audio, motion, fit, body, formats, draw, messages, "tls", wire, "choreo", "google",
-          "grpc"}},
-        {"studio", {core, audio, motion, formats, messages, wire, "client", "choreo"}},
+        {"client", {core, motion, messages, "tls", wire, "choreo", "google", "grpc"}},
+        {live, {core, audio, motion, "client"}},
+        {authoring, {core, audio, motion, fit, body, formats, "client"}},
+        {"studio", {core, audio, motion, formats, messages, wire, "client", authoring, "choreo"}},
+        {cli, {core, audio, motion, fit, body, formats, draw, "client", live, authoring, "studio"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, networks, paper_samplers, samplers, dance,
-          plan, metrics, "server", "client", "choreo"}},
+          plan, metrics, "server", "client", live, authoring, cli, "choreo"}},
     };
   }();
   return modules;

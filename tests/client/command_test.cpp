@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "client/cli/key_file.h"
-#include "client/cli/pose_library.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/pose_library.h"
 #include "model/core/atomic_file.h"
 #include "model/core/npy.h"
 #include "model/formats/motion_file.h"
@@ -31,9 +31,9 @@ TEST_F(CommandTest, MovesFromPoseToPose) {
   for (const char* name : {"t.npz", "t.2.npz"}) {
     const Motion motion = ReadMotion(folder_ / name, Body());
     ASSERT_EQ(motion.frames.size(), 40U);
-    EXPECT_LE(
-        ComparePoses(Body(), motion.frames.back(), cli::FindLibraryPose("kick").pose).position_m,
-        0.001);
+    EXPECT_LE(ComparePoses(Body(), motion.frames.back(), authoring::FindLibraryPose("kick").pose)
+                  .position_m,
+              0.001);
   }
 }
 
@@ -125,7 +125,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
 
   // The output is a key file with poses of the library.
   WriteFile(folder_ / "keys.json", outcome.said);
-  const auto proposed = cli::ReadKeys(folder_ / "keys.json", Body());
+  const auto proposed = authoring::ReadKeys(folder_ / "keys.json", Body());
   ASSERT_EQ(proposed.size(), 4U);
   std::set<std::string> poses;
   for (size_t i = 0; i < 4; ++i) {
@@ -162,7 +162,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
 
 TEST_F(CommandTest, ConvertsAndDraws) {
   const Motion motion{.fps = 30,
-                      .frames = std::vector<Pose>(31, cli::FindLibraryPose("groove").pose)};
+                      .frames = std::vector<Pose>(31, authoring::FindLibraryPose("groove").pose)};
   WriteMotion(folder_ / "a.bvh", Body(), motion);
   ASSERT_EQ(Choreo("convert " + At("a.bvh") + " " + At("b.npz") + " --fps 60").code, 0);
   const Motion converted = ReadMotion(folder_ / "b.npz", Body());
@@ -181,7 +181,7 @@ TEST_F(CommandTest, ConvertsAndDraws) {
 TEST_F(CommandTest, ConvertsBetweenAllFormats) {
   Motion motion{.fps = 25, .frames = {}};
   for (int frame = 0; frame < 20; ++frame) {
-    Pose& pose = motion.frames.emplace_back(cli::FindLibraryPose("kick").pose);
+    Pose& pose = motion.frames.emplace_back(authoring::FindLibraryPose("kick").pose);
     pose.root_position.x() += 0.02 * frame;
     pose.rotations.col(16) *= 1 - 0.03 * frame;
   }
@@ -213,8 +213,9 @@ TEST_F(CommandTest, RendersAVideoWithItsSong) {
   if (std::system("ffprobe -version >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   WriteClicks(folder_ / "song.wav", 4);
-  WriteMotion(folder_ / "a.npz", Body(),
-              {.fps = 60, .frames = std::vector<Pose>(61, cli::FindLibraryPose("groove").pose)});
+  WriteMotion(
+      folder_ / "a.npz", Body(),
+      {.fps = 60, .frames = std::vector<Pose>(61, authoring::FindLibraryPose("groove").pose)});
   const Outcome outcome = Choreo("render " + At("a.npz") + " --video " + At("a.mp4") + " --song " +
                                  At("song.wav") + " --fps 15 --size 64x48");
   ASSERT_EQ(outcome.code, 0) << outcome.said;

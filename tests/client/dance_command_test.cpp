@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "client/cli/pose_library.h"
+#include "client/authoring/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
@@ -58,7 +58,7 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
     EXPECT_LE(key["output_error_deg"].get<double>(), 0.1);
     // The report agrees with the file.
     const std::string id = key["id"];
-    const Pose& pose = cli::FindLibraryPose(id.substr(id.find('-') + 1)).pose;
+    const Pose& pose = authoring::FindLibraryPose(id.substr(id.find('-') + 1)).pose;
     const Pose& danced = motion.frames[key["frame"].get<size_t>()];
     EXPECT_LT((pose.rotations.rightCols(23) - danced.rotations.rightCols(23)).cwiseAbs().maxCoeff(),
               0.01)

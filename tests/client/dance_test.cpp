@@ -11,8 +11,8 @@
 #include <optional>
 #include <thread>
 
+#include "client/authoring/pose_library.h"
 #include "client/choreo_client.h"
-#include "client/cli/pose_library.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
@@ -20,7 +20,7 @@
 
 namespace choreo::client::dance_test {
 
-using cli::FindLibraryPose;
+using authoring::FindLibraryPose;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "client/cli/pose_library.h"
+#include "client/authoring/pose_library.h"
 #include "client/edit.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
@@ -30,7 +30,7 @@ TEST(EditLibraryTest, SendsOnlyMusicAroundTheKey) {
   client::KeyEdit edit;
   edit.key.id = "kick";
   edit.key.frame = 6000;
-  edit.key.pose = cli::FindLibraryPose("kick").pose;
+  edit.key.pose = authoring::FindLibraryPose("kick").pose;
   edit.from = 5950;
   edit.to = 6050;
   const client::FinishedDance silent = SetKey(client, dance, options, edit).dance;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "client/cli/pose_library.h"
+#include "client/authoring/pose_library.h"
 #include "model/motion/canonical.h"
 #include "tests/client/edit_fixture.h"
 
@@ -46,7 +46,7 @@ TEST_F(EditTest, AKeyChangesTheTwoIntervalsAroundItAlone) {
   const Pose& there = after.frames[keys_[2]];
   const GroundFrame place = GroundFrame::Of(before.frames[keys_[2]]);
   const PoseError error =
-      ComparePoses(Body(), there, place.ToWorld(cli::FindLibraryPose("kick").pose));
+      ComparePoses(Body(), there, place.ToWorld(authoring::FindLibraryPose("kick").pose));
   EXPECT_LE(error.position_m, 0.001);
   EXPECT_LE(error.angle_deg, 0.1);
 
@@ -127,10 +127,10 @@ TEST_F(EditTest, KeepsFramesAtAnotherRate) {
   const Motion after = Read("new.npz");
   EXPECT_EQ(after.fps, 60);
   const GroundFrame place = GroundFrame::Of(Read("dance.npz").frames[300]);
-  EXPECT_LE(
-      ComparePoses(Body(), after.frames[300], place.ToWorld(cli::FindLibraryPose("kick").pose))
-          .position_m,
-      0.001);
+  EXPECT_LE(ComparePoses(Body(), after.frames[300],
+                         place.ToWorld(authoring::FindLibraryPose("kick").pose))
+                .position_m,
+            0.001);
 
   // 599 frames last up to the 300th of the model's; the loop takes as long as 300 of them.
   ASSERT_EQ(Edit("--loop -o " + At("loop.npz")).code, 0);
@@ -169,7 +169,7 @@ TEST_F(EditTest, TheFirstAndTheLastFrameCanBeKeys) {
   const auto error = [&](size_t frame, const char* pose) {
     const GroundFrame place = GroundFrame::Of(before.frames[frame]);
     return ComparePoses(Body(), after.frames[frame],
-                        place.ToWorld(cli::FindLibraryPose(pose).pose));
+                        place.ToWorld(authoring::FindLibraryPose(pose).pose));
   };
   EXPECT_LE(error(0, "kick").position_m, 0.001);
   EXPECT_LE(error(299, "groove").position_m, 0.001);

@@ -10,9 +10,9 @@
 #include <random>
 #include <thread>
 
+#include "client/authoring/local_server.h"
+#include "client/authoring/pose_library.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
-#include "client/cli/pose_library.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
 #include "tests/support/sanitizers.h"
@@ -20,7 +20,7 @@
 /// Processes that are killed in the middle of a dance.
 namespace choreo::client::kill_test {
 
-using cli::LocalServer;
+using authoring::LocalServer;
 
 /// Gone at once, without a word to its clients.
 void Kill(const LocalServer& server) { ASSERT_EQ(::kill(server.process(), SIGKILL), 0); }
@@ -53,7 +53,7 @@ Danced DanceLive(const Client& client, bool with_keys,
       KeyPose key;
       key.id = id;
       key.frame = frame;
-      key.pose = cli::FindLibraryPose(id).pose;
+      key.pose = authoring::FindLibraryPose(id).pose;
       dance->SendKey(key);
     }
   }
@@ -172,7 +172,7 @@ Danced DanceEdited(const Client& client, const std::function<void(int)>& before_
     KeyPose key;
     key.id = std::to_string(second);
     key.frame = 30 * second;
-    key.pose = cli::FindLibraryPose(pose).pose;
+    key.pose = authoring::FindLibraryPose(pose).pose;
     dance->SendKey(key);
   };
   constexpr int64_t kPiece = 2205;

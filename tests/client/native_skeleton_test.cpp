@@ -4,9 +4,9 @@
 #include <fstream>
 #include <memory>
 
+#include "client/authoring/choreography.h"
+#include "client/authoring/pose_library.h"
 #include "client/choreo_client.h"
-#include "client/cli/choreography.h"
-#include "client/cli/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "model/papers/training/paper_options.h"
@@ -115,8 +115,8 @@ class NativeSkeletonTest : public testing::Test {
 
   // Those of SMPL's joints, for a model that has others.
   void ExpectToDanceThroughTheKeyPosesThatShip() const {
-    const auto keys =
-        cli::ComposeKeys({.seconds = 4, .beats = {}, .seed = 1}, cli::PosesToDance(skeleton_));
+    const auto keys = authoring::ComposeKeys({.seconds = 4, .beats = {}, .seed = 1},
+                                             authoring::PosesToDance(skeleton_));
     const client::DanceResult dance =
         client_->Dance({.seed = 1, .frames = 120}, keys, ClicksAudio(4));
     ASSERT_EQ(dance.report.keys.size(), keys.size());
@@ -158,7 +158,7 @@ TEST(PoseLibrary, RequestsKeyframesIfItCannotBeRetargeted) {
   Skeleton stick = Native().skeleton;
   stick.right_elbow = -1;
   ExpectError(ErrorCode::kInvalidArgument, "--keyframes: key poses are needed",
-              [&] { cli::PosesToDance(stick); });
+              [&] { authoring::PosesToDance(stick); });
 }
 
 }  // namespace choreo::native_skeleton_test

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
 #include "tests/support/bad_wire.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/setting.h"
@@ -17,7 +17,7 @@
 /// CHOREO_FAULT_SECONDS makes the dances longer (scripts/faults.sh).
 namespace choreo::client::network_test {
 
-using cli::LocalServer;
+using authoring::LocalServer;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "client/cli/json_fields.h"
-#include "client/cli/pose_file.h"
-#include "client/cli/pose_library.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/pose_file.h"
+#include "client/authoring/pose_library.h"
+#include "client/authoring/pose_source.h"
 #include "client/cli/pose_recipe.h"
-#include "client/cli/pose_source.h"
 #include "model/body/doll.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/run_choreo.h"
@@ -25,7 +25,7 @@ class PoseCommandTest : public testing::Test {
  protected:
   std::string At(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
   Pose Read(const std::string& name) const {
-    return ReadPose((folder_ / name).string(), Body()).key.pose;
+    return authoring::ReadPose((folder_ / name).string(), Body()).key.pose;
   }
   TemporaryFolder folder_;
 };
@@ -53,13 +53,16 @@ TEST_F(PoseCommandTest, OutputIsAValidKey) {
                 .code,
             0);
   const std::string path = (folder_ / "mine.json").string();
-  const DescribedPose read = ParsePoseFile(ReadText(path, "pose"), path, Body());
+  const authoring::DescribedPose read =
+      authoring::ParsePoseFile(authoring::ReadText(path, "pose"), path, Body());
   EXPECT_EQ(read.key.id, "mine");
   EXPECT_EQ(read.key.time_s, 2.5);
   EXPECT_EQ(read.description, "Low \"and\" loose");
   EXPECT_EQ(read.tags, std::vector<std::string>{"standing"});
-  EXPECT_LT(ComparePoses(Body(), read.key.pose, FindLibraryPose("groove").pose).position_m, 1e-3);
-  EXPECT_EQ(PoseFileText(read, Body()), ReadText(path, "pose"));
+  EXPECT_LT(
+      ComparePoses(Body(), read.key.pose, authoring::FindLibraryPose("groove").pose).position_m,
+      1e-3);
+  EXPECT_EQ(authoring::PoseFileText(read, Body()), authoring::ReadText(path, "pose"));
 }
 
 TEST_F(PoseCommandTest, PrintsJointsInDegrees) {
@@ -72,7 +75,8 @@ TEST_F(PoseCommandTest, PrintsJointsInDegrees) {
 TEST_F(PoseCommandTest, ListsTheLibraryByTag) {
   const Outcome all = Choreo("pose --list --png " + At("all.png"));
   EXPECT_EQ(all.code, 0);
-  for (const LibraryPose& pose : PoseLibrary()) EXPECT_THAT(all.said, HasSubstr(pose.id));
+  for (const authoring::LibraryPose& pose : authoring::PoseLibrary())
+    EXPECT_THAT(all.said, HasSubstr(pose.id));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "all.png"));
   const Outcome none = Choreo("pose --list --tag flying");
   EXPECT_EQ(none.code, 1);

@@ -8,15 +8,15 @@
 #include <thread>
 #include <vector>
 
+#include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
 #include "tests/support/setting.h"
 
 /// Three replicas, many dances in real time, and one server after the other that is killed or falls
 /// silent. CHOREO_FAULT_STREAMS and CHOREO_FAULT_SECONDS make it longer (scripts/faults.sh).
 namespace choreo::client::replica_fault_test {
 
-using cli::LocalServer;
+using authoring::LocalServer;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "client/authoring/local_server.h"
+#include "client/authoring/pose_library.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
-#include "client/cli/pose_library.h"
 #include "model/metrics/control_figures.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
@@ -26,7 +26,7 @@ class ShippedControlsTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     if (kSanitized) return;  // choreod runs LibTorch
-    server_ = std::make_unique<cli::LocalServer>(CHOREOD_PROGRAM);
+    server_ = std::make_unique<authoring::LocalServer>(CHOREOD_PROGRAM);
     client_ = std::make_unique<Client>(Options{.addresses = {server_->address()}});
   }
   static void TearDownTestSuite() {
@@ -55,7 +55,7 @@ class ShippedControlsTest : public testing::Test {
       KeyPose& key = keys.emplace_back();
       key.id = id + std::to_string(frame);
       key.frame = frame;
-      key.pose = cli::FindLibraryPose(id).pose;
+      key.pose = authoring::FindLibraryPose(id).pose;
       key.mask.root_position = false;
     }
     return client_->Dance({.seed = seed, .frames = kFrames, .controls = controls}, keys, {});
@@ -80,7 +80,7 @@ class ShippedControlsTest : public testing::Test {
     }
   }
 
-  static inline std::unique_ptr<cli::LocalServer> server_;
+  static inline std::unique_ptr<authoring::LocalServer> server_;
   static inline std::unique_ptr<Client> client_;
 };
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/cli/music_file.h"
+#include "client/authoring/music_file.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "tests/support/expect_error.h"
@@ -73,7 +73,7 @@ std::string OutcomeOf(const std::filesystem::path& file) {
     EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
     EXPECT_NE(std::string(error.what()).find(kAskFfmpeg), std::string::npos) << error.what();
   }
-  lasts(DecodeSong(file, INFINITY, 0));
+  lasts(authoring::DecodeSong(file, INFINITY, 0));
   return "by ffmpeg";
 }
 
@@ -121,7 +121,7 @@ TEST(SoundTable, ReportsFfmpegsErrors) {
   };
   make("-f lavfi -i color=size=16x16:duration=1 -c:v mpeg4", "silent.mp4");
   ExpectError(ErrorCode::kInvalidArgument, "audio, and ffmpeg finds no sound in it: ", [&] {
-    DecodeSong(folder / "silent.mp4", INFINITY, 0);
+    authoring::DecodeSong(folder / "silent.mp4", INFINITY, 0);
   });
 }
 
@@ -139,7 +139,7 @@ TEST(SoundTable, AFilmsSoundCountsFromItsBeginning) {
       "-itsoffset 1.5 -f lavfi -i sine=330:duration=2 -f lavfi -i color=size=16x16:duration=3 "
       "-map 0:a -map 1:v -c:v mpeg4 -c:a pcm_s16le",
       file);
-  const DecodedAudio late = DecodeSong(file, INFINITY, 0);
+  const DecodedAudio late = authoring::DecodeSong(file, INFINITY, 0);
   EXPECT_NEAR(late.seconds(), 3.5, kPadding);
   const auto loud = std::ranges::find_if(late.interleaved, [](float x) { return x > 0.05F; });
   EXPECT_NEAR(
@@ -148,7 +148,8 @@ TEST(SoundTable, AFilmsSoundCountsFromItsBeginning) {
   // A note says which of two tracks is used.
   Make("-f lavfi -i sine=330:duration=1 -f lavfi -i sine=440:duration=1 -map 0 -map 1 -c:a flac",
        folder / "two.mka");
-  const std::vector<std::string> notes = DecodeSong(folder / "two.mka", INFINITY, 0).notes;
+  const std::vector<std::string> notes =
+      authoring::DecodeSong(folder / "two.mka", INFINITY, 0).notes;
   ASSERT_EQ(notes.size(), 2U);
   EXPECT_NE(notes[1].find("has 2 sound tracks, of which ffmpeg chose one"), std::string::npos);
   // A station's rate, and number of channels, may change: each part counts once.
@@ -157,7 +158,7 @@ TEST(SoundTable, AFilmsSoundCountsFromItsBeginning) {
   Make("-f lavfi -i sine=330:duration=3:sample_rate=48000 -ac 2 -c:a libmp3lame -write_xing 0",
        folder / "stereo.mp3");
   WriteFile(folder / "both.mp3", ReadFile(folder / "mono.mp3") + ReadFile(folder / "stereo.mp3"));
-  EXPECT_NEAR(DecodeSong(folder / "both.mp3", INFINITY, 0).seconds(), 5, 1.5 * kPadding);
+  EXPECT_NEAR(authoring::DecodeSong(folder / "both.mp3", INFINITY, 0).seconds(), 5, 1.5 * kPadding);
   // A tag may hold sound of its own.
   Make("-f lavfi -i sine=330:duration=2 -c:a libmp3lame", folder / "a.mp3");
   const std::string song = ReadFile(folder / "a.mp3"), held = song.substr(0, song.size() / 2);

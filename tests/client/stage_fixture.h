@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "client/cli/local_server.h"
+#include "client/authoring/local_server.h"
 #include "model/formats/motion_file.h"
 #include "tests/client/run_choreo.h"
 #include "tests/client/test_music.h"
@@ -16,7 +16,7 @@ namespace choreo {
 class StageTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    server_ = new cli::LocalServer(std::filesystem::path(FAKE_CHOREOD));
+    server_ = new authoring::LocalServer(std::filesystem::path(FAKE_CHOREOD));
   }
   static void TearDownTestSuite() {
     delete server_;
@@ -38,7 +38,7 @@ class StageTest : public testing::Test {
   TemporaryFolder folder_;
 
  private:
-  static inline cli::LocalServer* server_ = nullptr;
+  static inline authoring::LocalServer* server_ = nullptr;
 };
 
 }  // namespace choreo

@@ -1,10 +1,11 @@
-#include "client/cli/dancers.h"
+#include "client/authoring/dancers.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace choreo;
   static const fuzz::InputFile input(".json");
-  fuzz::MayRefuse([&] { cli::ReadDancers(input.Holding(std::string(fuzz::Text(data, size)))); });
+  fuzz::MayRefuse(
+      [&] { authoring::ReadDancers(input.Holding(std::string(fuzz::Text(data, size)))); });
   return 0;
 }

@@ -1,12 +1,12 @@
-#include "client/cli/key_file.h"
-#include "client/cli/pose_file.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/pose_file.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace choreo;
   const std::string text(fuzz::Text(data, size));
   const Skeleton& skeleton = Skeleton::Smpl24();
-  fuzz::MayRefuse([&] { cli::ParseKeyFile(text, "keys.json", skeleton); });
-  fuzz::MayRefuse([&] { cli::ParsePoseFile(text, "pose.json", skeleton); });
+  fuzz::MayRefuse([&] { authoring::ParseKeyFile(text, "keys.json", skeleton); });
+  fuzz::MayRefuse([&] { authoring::ParsePoseFile(text, "pose.json", skeleton); });
   return 0;
 }

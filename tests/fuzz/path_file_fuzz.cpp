@@ -1,8 +1,8 @@
-#include "client/cli/control_options.h"
+#include "client/authoring/written_controls.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace choreo;
-  fuzz::MayRefuse([&] { cli::ParsePathFile(fuzz::Text(data, size), "path.json", 30); });
+  fuzz::MayRefuse([&] { authoring::ParsePathFile(fuzz::Text(data, size), "path.json", 30); });
   return 0;
 }

@@ -1,4 +1,4 @@
-#include "client/cli/velocity_options.h"
+#include "client/authoring/velocities.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/input_file.h"
 
@@ -6,8 +6,9 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace choreo;
   static const fuzz::InputFile input(".json");
   const std::string text(fuzz::Text(data, size));
-  fuzz::MayRefuse([&] { cli::ReadVelocities({input.Holding(text).string()}, "median", 30); });
+  fuzz::MayRefuse([&] { authoring::ReadVelocities({input.Holding(text).string()}, "median", 30); });
   // What stands on a command line: PART=VALUE.
-  if (!cli::IsVelocityFile(text)) fuzz::MayRefuse([&] { cli::ReadVelocities({text}, "", 30); });
+  if (!authoring::IsVelocityFile(text))
+    fuzz::MayRefuse([&] { authoring::ReadVelocities({text}, "", 30); });
   return 0;
 }

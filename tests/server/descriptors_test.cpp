@@ -15,7 +15,7 @@
 
 namespace choreo::descriptors_test {
 
-using cli::LocalServer;
+using authoring::LocalServer;
 
 /// For this process and those that it starts, while it lives.
 class DescriptorLimit {

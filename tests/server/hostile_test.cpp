@@ -145,7 +145,7 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
   const int calls = Setting("CHOREO_FAULT_CALLS", 20'000);
   // The well-behaved dance waits, too, and must not count as silent.
   ::setenv("CHOREO_FIRST_MESSAGE_SECONDS", "600", 1);
-  const cli::LocalServer starved(FAKE_CHOREOD);
+  const authoring::LocalServer starved(FAKE_CHOREOD);
   ::unsetenv("CHOREO_FIRST_MESSAGE_SECONDS");
   const int port = std::stoi(starved.address().substr(starved.address().rfind(':') + 1));
   const std::string process = std::to_string(starved.process());
@@ -205,7 +205,7 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
 TEST_F(HostileTest, SilentConnectionsBlockNobody) {
   constexpr int kConnections = 2'000;
   RaiseDescriptorLimit();
-  const cli::LocalServer server_of_its_own(FAKE_CHOREOD);
+  const authoring::LocalServer server_of_its_own(FAKE_CHOREOD);
   const SilentConnections silent(server_of_its_own.address(), kConnections);
   const auto begin = Clock::now();
   ExpectEventually([&] { return Serves(server_of_its_own); }, "somebody new is served");

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "client/cli/local_server.h"
+#include "client/authoring/local_server.h"
 #include "server/read_message.h"
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
@@ -58,7 +58,7 @@ class MemoryTest : public testing::Test {
     return 0;
   }
 
-  const cli::LocalServer server_{FAKE_CHOREOD};
+  const authoring::LocalServer server_{FAKE_CHOREOD};
   int64_t before_ = 0;
 };
 

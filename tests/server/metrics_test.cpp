@@ -13,7 +13,7 @@
 #include <sstream>
 #include <thread>
 
-#include "client/cli/local_server.h"
+#include "client/authoring/local_server.h"
 #include "server/listener.h"
 #include "server/refusal.h"
 #include "tests/server/fixture.h"
@@ -292,7 +292,7 @@ TEST_F(MetricsTest, AreServedByTheProgram) {
   if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const int port = Listener("127.0.0.1:0").port();  // free, most likely still in a moment
   ::setenv("CHOREO_METRICS", std::to_string(port).c_str(), 1);
-  const cli::LocalServer program(CHOREOD_PROGRAM);
+  const authoring::LocalServer program(CHOREOD_PROGRAM);
   ::unsetenv("CHOREO_METRICS");
   EXPECT_THAT(MetricsAt(port), HasSubstr("choreo_workers{model=\"default\"}"));
 }

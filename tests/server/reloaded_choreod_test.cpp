@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -83,7 +83,7 @@ class ReloadedChoreodTest : public testing::Test {
   }
 
   TemporaryFolder models;
-  std::optional<cli::LocalServer> server;
+  std::optional<authoring::LocalServer> server;
 };
 
 TEST_F(ReloadedChoreodTest, ReloadsItsFolderOnSighup) {

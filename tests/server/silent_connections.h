@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "choreo/v1/choreography.grpc.pb.h"
-#include "client/cli/local_server.h"
+#include "client/authoring/local_server.h"
 
 namespace choreo {
 
@@ -56,7 +56,7 @@ class SilentConnections {
 };
 
 /// Whether it answers somebody new within five seconds.
-inline bool Serves(const cli::LocalServer& server) {
+inline bool Serves(const authoring::LocalServer& server) {
   const auto channel = grpc::CreateChannel(server.address(), grpc::InsecureChannelCredentials());
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(5));

@@ -6,8 +6,8 @@
 #include <functional>
 #include <iostream>
 
+#include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
-#include "client/cli/local_server.h"
 #include "model/core/safetensors.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/shell.h"
@@ -76,7 +76,7 @@ TEST_F(StartTest, RefusesAFileThatIsNoCheckpoint) {
 }
 
 TEST_F(StartTest, ServesAShippedModelByItsName) {
-  const cli::LocalServer server(CHOREOD_PROGRAM, "127.0.0.1:0", "free");
+  const authoring::LocalServer server(CHOREOD_PROGRAM, "127.0.0.1:0", "free");
   const auto models = client::Client({.addresses = {server.address()}}).GetServerInfo().models;
   ASSERT_EQ(models.size(), 1U);
   EXPECT_EQ(models[0].name, "free");
@@ -104,7 +104,7 @@ TEST_F(StartTest, WarnsOfSettingsThatTheModelIgnores) {
 // The server needs only what it loaded: running and later dances are unaffected.
 TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
   ::setenv("CHOREO_CHECKPOINT", path_.c_str(), 1);
-  cli::LocalServer server(CHOREOD_PROGRAM);
+  authoring::LocalServer server(CHOREOD_PROGRAM);
   ::unsetenv("CHOREO_CHECKPOINT");
   const client::Client client({.addresses = {server.address()}});
   const auto dance = [&](const std::function<void()>& between) {

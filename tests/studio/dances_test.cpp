@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "client/cli/key_file.h"
+#include "client/authoring/key_file.h"
 #include "client/convert.h"
 #include "model/motion/kinematics.h"
 #include "studio/server_supervisor.h"
@@ -34,7 +34,7 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   key.pose.rotations =
       Eigen::Map<const Eigen::Matrix3Xf>(kick.pose().rotations().data(), 3, 24).cast<double>();
   client::DanceConfig config{.seed = 7, .frames = 120};
-  cli::ConfigureMusic(song.music, song.heard.seconds(), &config);
+  authoring::ConfigureMusic(song.music, song.heard.seconds(), &config);
   const client::DanceResult own = studio.context().client().Dance(config, {key}, song.audio);
   ASSERT_EQ(own.motion.frames.size(), 120U);
   for (int frame = 0; frame < 120; ++frame) {
@@ -61,7 +61,7 @@ TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
   };
   const Song song = HearSong(folder_ / "clicks.wav", "clicks.wav", 600);
   const std::string heard = danced({});
-  EXPECT_EQ(danced(cli::BeatsBefore(song.music, 4)), heard);
+  EXPECT_EQ(danced(authoring::BeatsBefore(song.music, 4)), heard);
   EXPECT_NE(danced({0.3, 1.3}), heard);
 
   Request request = DanceRequest(60, 7);

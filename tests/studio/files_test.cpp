@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "client/cli/key_file.h"
-#include "client/cli/photo_pose.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/photo_pose.h"
 #include "client/convert.h"
 #include "model/audio/made_song.h"
 #include "tests/studio/fixture.h"
@@ -173,7 +173,7 @@ TEST_F(StudioTest, FitsTheBodyToAPhotosLandmarks) {
   ASSERT_TRUE(seen.has_pose()) << seen.failure().message();
   EXPECT_EQ(seen.pose().id(), "beach");
   const Pose pose =
-      cli::ParseLandmarkPose(landmarks, "beach.jpg", studio.context().model().skeleton);
+      authoring::ParseLandmarkPose(landmarks, "beach.jpg", studio.context().model().skeleton);
   EXPECT_EQ(seen.pose().pose().SerializeAsString(), client::ToProto(pose).SerializeAsString());
   for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
     request.mutable_landmarks()->set_data(bad);
@@ -201,7 +201,7 @@ TEST_F(StudioTest, DescribesJointAxesAndReadsKeyFiles) {
   request.mutable_keys()->set_data(text);
   const Response answer = page.Ask(request);
   ASSERT_TRUE(answer.has_keyframes()) << answer.failure().message();
-  const std::vector<client::KeyPose> keys = cli::ParseKeyFile(text, "mine.json", skeleton);
+  const std::vector<client::KeyPose> keys = authoring::ParseKeyFile(text, "mine.json", skeleton);
   ASSERT_EQ(answer.keyframes().keyframes_size(), 3);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(answer.keyframes().keyframes(i).SerializeAsString(),

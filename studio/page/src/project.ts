@@ -100,7 +100,7 @@ export function holdOf(frames: number, fps: number) {
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
   keys.map((key, i) => ({ ...key, hold: holdOf(Math.min(key.hold, (keys[i + 1]?.frame ?? frames - 1 + closest) - closest - key.frame), fps) }));
 
-/// The keys, and those behind them that hold them, as the program has both (client/cli/key_file.cpp).
+/// The keys, and those behind them that hold them, as the program has both (client/authoring/key_file.cpp).
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
     const steps = Math.round(key.hold / (holdStep * fps));

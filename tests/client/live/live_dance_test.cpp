@@ -14,8 +14,8 @@
 #include <fstream>
 #include <thread>
 
-#include "client/cli/local_server.h"
-#include "client/cli/pose_library.h"
+#include "client/authoring/local_server.h"
+#include "client/authoring/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
@@ -96,7 +96,7 @@ class LiveDanceTest : public CommandTest {
     live::LiveOptions options;
     options.config.seed = 1;
     for (const char* name : {"kick", "groove"})
-      options.poses[name] = cli::FindLibraryPose(name).pose;
+      options.poses[name] = authoring::FindLibraryPose(name).pose;
     options.most_keys = most_keys_;
     live::LiveObserver observer{
         [] { return true; },
@@ -112,8 +112,8 @@ class LiveDanceTest : public CommandTest {
   double Off(size_t frame, const char* pose) const {
     PoseMask mask;
     mask.root_position = false;
-    return ComparePoses(Skeleton::Smpl24(), motion_.frames[frame], cli::FindLibraryPose(pose).pose,
-                        mask)
+    return ComparePoses(Skeleton::Smpl24(), motion_.frames[frame],
+                        authoring::FindLibraryPose(pose).pose, mask)
         .angle_deg;
   }
 
@@ -252,7 +252,7 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
 
 TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
   WriteClicks(folder_ / "song.wav", 60);
-  auto server = std::make_unique<cli::LocalServer>(FAKE_CHOREOD);
+  auto server = std::make_unique<authoring::LocalServer>(FAKE_CHOREOD);
   std::thread killer([&] {
     std::this_thread::sleep_for(std::chrono::seconds(2));
     kill(server->process(), SIGKILL);

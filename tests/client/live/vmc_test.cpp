@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <map>
 
-#include "client/cli/pose_library.h"
+#include "client/authoring/pose_library.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
@@ -46,7 +46,7 @@ Eigen::Vector3f Reach(const std::map<std::string, Placed>& bones,
 
 TEST(VmcTest, FrameIsABundleOfTheMirroredBody) {
   const Skeleton& body = Skeleton::Smpl24();
-  Pose pose = cli::FindLibraryPose("kick").pose;
+  Pose pose = authoring::FindLibraryPose("kick").pose;
   pose.root_position += Eigen::Vector3d(0.7, 0.1, -1.3);
   pose.rotations.col(0) += Eigen::Vector3d(0.2, 0.9, -0.1);
   OscReceiver receiver;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client/authoring/pose_library.h"
+#include "client/choreo_client.h"
+#include "model/core/passage.h"
+
+namespace choreo::authoring {
+
+/// A request for key poses of a dance of `seconds`.
+struct CompositionRequest {
+  double seconds = 0;
+  std::vector<double> beats = {};      ///< seconds, ascending; may be empty
+  std::vector<Passage> passages = {};  ///< repeats in the music
+  uint64_t seed = 0;
+  /// The seed of the way over the floor, shared so that a formation keeps its shape.
+  std::optional<uint64_t> way = {};
+  /// Time of the last key, at most `seconds`; none: the last one that fits the bars.
+  std::optional<double> end_s = {};
+  std::string named = "--seconds";  ///< the field of errors about `seconds`
+};
+
+/// A library pose for a key at each of these ascending seconds: never the same twice in a row, and
+/// none again before all were drawn; but in a repeated passage the original's pose. Deterministic.
+/// Indices below `poses`.
+std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
+                              uint64_t seed, size_t poses);
+
+/// The id of a dance's key, counted from 1.
+std::string IdOfKey(size_t number, const LibraryPose& pose);
+
+/// Library poses as keys on beats of the music: one at second 0, then about one per bar, drawn by
+/// DrawPoses, walking within two metres of the origin and turning gradually. Every two seconds
+/// without beats. Deterministic. Throws Error(kInvalidArgument, named) for a dance of less than two
+/// seconds.
+std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
+                                         std::span<const LibraryPose> poses);
+
+}  // namespace choreo::authoring

@@ -1,0 +1,105 @@
+#include "client/authoring/dance_keys.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string_view>
+
+#include "client/authoring/key_file.h"
+#include "model/core/rounded.h"
+
+namespace choreo::authoring {
+namespace {
+
+constexpr const char* kNoKeys = "none";
+
+}  // namespace
+
+bool SaysNoKeys(const std::vector<std::string>& sources) {
+  const bool none = std::ranges::find(sources, kNoKeys) != sources.end();
+  if (none && sources.size() > 1)
+    throw InvalidArgument("--keyframes", "none stands beside " + sources[sources[0] == kNoKeys]);
+  return none;
+}
+
+std::vector<std::string> KeySources(const std::vector<std::string>& sources) {
+  return SaysNoKeys(sources) ? std::vector<std::string>{} : sources;
+}
+
+std::string DescribeAfterEnd(int64_t frame, const DanceLength& length) {
+  const auto at = [&](int64_t count) {
+    return Rounded(static_cast<double>(count) / length.fps) + " s";
+  };
+  return "at " + at(frame) + " is after the dance's end: its last frame is at " +
+         at(length.frames - 1);
+}
+
+int64_t FrameOf(const client::KeyPose& key, double fps) {
+  return key.frame.value_or(std::llround(key.time_s * fps));
+}
+
+void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key) {
+  const int64_t frame = FrameOf(*key, length.fps);
+  if (!key->frame && frame == length.frames) key->frame = length.frames - 1;
+  if (FrameOf(*key, length.fps) < length.frames) return;
+  throw InvalidArgument(FieldOf(place, key->frame ? ".frame" : ".time"),
+                        "key \"" + key->id + "\" " + DescribeAfterEnd(frame, length));
+}
+
+std::string HeldKey(const DanceKeys& keys, size_t index) {
+  if (!IsHeld(keys.places[index])) return "";
+  const auto held = std::ranges::find(keys.places, FieldOf(keys.places[index], ""));
+  return keys.poses[static_cast<size_t>(held - keys.places.begin())].id;
+}
+
+DanceKeys ByTime(DanceKeys keys, double fps) {
+  std::vector<size_t> order(keys.poses.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return FrameOf(keys.poses[i], fps); });
+  DanceKeys sorted;
+  for (const size_t i : order) {
+    sorted.poses.push_back(std::move(keys.poses[i]));
+    sorted.places.push_back(std::move(keys.places[i]));
+  }
+  return sorted;
+}
+
+DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
+                        const Skeleton& skeleton) {
+  DanceKeys read;
+  std::map<std::string, std::string> place_of;  // by id
+  for (const std::string& source : sources) {
+    std::vector<std::string> places;
+    std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places);
+    for (size_t i = 0; i < keys.size(); ++i) {
+      const std::string& place = places[i];
+      const auto [same, is_new] = place_of.emplace(keys[i].id, place);
+      if (!is_new) {
+        throw InvalidArgument(FieldOf(place, ".id"),
+                              "\"" + keys[i].id + "\" stands for " + same->second + " already");
+      }
+      FitIntoDance(length, place, &keys[i]);
+      read.poses.push_back(std::move(keys[i]));
+      read.places.push_back(place);
+    }
+  }
+  return ByTime(std::move(read), length.fps);
+}
+
+Error InTermsOf(const DanceKeys& keys, const Error& error) {
+  constexpr std::string_view kPrefix = "keyframes[";
+  const std::string& field = error.field();
+  if (!field.starts_with(kPrefix)) return error;
+  size_t index = 0;
+  const char* end = field.data() + field.size();
+  const auto [close, code] = std::from_chars(field.data() + kPrefix.size(), end, index);
+  if (code != std::errc() || close == end || *close != ']' || index >= keys.poses.size())
+    return error;
+  const std::string message = std::string(error.what()).substr(field.size() + 2);
+  return {error.code(), FieldOf(keys.places[index], std::string(close + 1, end)),
+          "key \"" + keys.poses[index].id + "\": " + message};
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/choreo_client.h"
+#include "model/core/grid.h"
+
+namespace choreo::authoring {
+
+/// Whether `--keyframes none` asks for no keys. Throws Error(kInvalidArgument) if others are given,
+/// too.
+bool SaysNoKeys(const std::vector<std::string>& sources);
+/// The key files and motions in --keyframes.
+std::vector<std::string> KeySources(const std::vector<std::string>& sources);
+
+/// A dance's key poses in order of time, as sent.
+struct DanceKeys {
+  std::vector<client::KeyPose> poses;
+  /// The origin of each, "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
+  std::vector<std::string> places;
+};
+
+/// The length of a dance.
+struct DanceLength {
+  int64_t frames = 0;
+  double fps = kModelFps;  ///< of the model
+};
+
+/// Describes a frame after the dance's end: "at 20 s is after the dance's end: its last frame is
+/// at 9.97 s".
+std::string DescribeAfterEnd(int64_t frame, const DanceLength& length);
+
+/// The frame of a key, at the model's rate.
+int64_t FrameOf(const client::KeyPose& key, double fps);
+
+/// Moves a key at second 30 of a dance of 30 seconds to its last frame, as is meant. Throws
+/// Error(kInvalidArgument), whose field begins with `place`, for a later one.
+void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
+
+/// The id of the key whose pose this one holds; empty if it holds none.
+std::string HeldKey(const DanceKeys& keys, size_t index);
+
+/// Sorts by time, as they must be sent: an earlier key after a later one would come too late.
+DanceKeys ByTime(DanceKeys keys, double fps);
+
+/// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws
+/// as ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
+/// duplicate id.
+DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
+                        const Skeleton& skeleton);
+
+/// Translates an error about "keyframes[i]", numbered as sent, to the place where the key was
+/// written; returns other errors unchanged.
+Error InTermsOf(const DanceKeys& keys, const Error& error);
+
+}  // namespace choreo::authoring

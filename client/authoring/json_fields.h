@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/core/limits.h"
+
+/// Reads files that people write (key files, path files). Errors are Error(kInvalidArgument) whose
+/// field is NAME:LIST[i].MEMBER, naming value and limit.
+namespace choreo::authoring {
+
+/// The largest frame number in a file: after the end of any dance.
+inline constexpr uint64_t kMaxFrameNumber = 1'000'000'000;
+/// Whether a JSON value is a frame number: whole, from 0 on.
+template <typename Json>
+bool IsFrameNumber(const Json& value) {
+  return value.is_number_unsigned() && value.template get<uint64_t>() <= kMaxFrameNumber;
+}
+/// After the end of any dance, and far below the limits of frame numbers.
+inline constexpr double kMaxSeconds = 1e9;
+/// Seconds of the longest dance.
+inline constexpr double kLongestDance = kMaxDanceFrames / kModelFps;
+/// Throws Error(kInvalidArgument) with this field for seconds beyond it.
+void CheckInADance(double seconds, const std::string& field);
+
+/// A value for messages: at most 40 characters.
+std::string Shown(const nlohmann::json& value);
+
+double JsonNumber(const nlohmann::json& value, const std::string& field);
+
+/// More bytes than people write.
+inline constexpr size_t kMostText = size_t{64} << 20;
+
+/// The text of a file. Throws Error(kNotFound) if it cannot be opened; `kind` is the expected one,
+/// "key file". Error(kInvalidArgument) for a folder, and for more than kMostText.
+std::string ReadText(const std::filesystem::path& path, const std::string& kind);
+
+/// Parses JSON. For invalid JSON and duplicate members the field says how far the text was
+/// readable: NAME:LIST[i].MEMBER.
+nlohmann::json ParseJson(std::string_view text, const std::string& name);
+
+/// The list of this name in the outermost object of the file `name`; not empty.
+const nlohmann::json& ListIn(const nlohmann::json& file, const std::string& name,
+                             const std::string& list);
+
+/// Checks that the value is an object with only these members; `described` lists them in messages.
+void CheckMembers(const nlohmann::json& value, const std::string& field,
+                  std::initializer_list<std::string_view> members, const std::string& described);
+
+/// The same for the outermost object of the file `name`.
+void CheckFileMembers(const nlohmann::json& file, const std::string& name,
+                      std::initializer_list<std::string_view> members,
+                      const std::string& described);
+
+/// A time: `time`, in seconds, or `frame`, exactly one of them.
+struct Moment {
+  double time_s = 0;
+  std::optional<int64_t> frame = {};
+};
+Moment ParseMoment(const nlohmann::json& value, const std::string& field);
+
+/// Appends the frame, at `fps`, of a point in time: after those before it, within the longest
+/// dance.
+void AppendFrame(const nlohmann::json& value, const std::string& field, double fps,
+                 std::vector<int64_t>* frames);
+
+}  // namespace choreo::authoring

@@ -1,0 +1,78 @@
+#include "client/authoring/key_faults.h"
+
+#include <algorithm>
+
+#include "client/authoring/key_file.h"
+#include "model/core/error.h"
+
+namespace choreo::authoring {
+namespace {
+
+TimedPose Timed(const client::KeyPose& key, double fps) {
+  return {key.id, static_cast<double>(FrameOf(key, fps)) / fps, key.pose, key.mask};
+}
+
+}  // namespace
+
+std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
+                                       const Skeleton& skeleton) {
+  std::vector<TimedPose> poses;
+  for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
+  std::vector<client::Warning> warnings;
+  for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+    // A held pose has the faults of its first key.
+    const bool is_held = !keys.places.empty() && IsHeld(keys.places[fault.pose]);
+    const auto is_said = [&](const client::Warning& warning) {
+      return warning.message.ends_with(": " + fault.message);
+    };
+    if (is_held && std::ranges::any_of(warnings, is_said)) continue;
+    client::Warning& warning = warnings.emplace_back();
+    warning.frame = FrameOf(keys.poses[fault.pose], fps);
+    const std::string place = keys.places.empty() ? "" : " (" + keys.places[fault.pose] + ")";
+    warning.message = "key \"" + keys.poses[fault.pose].id + "\"" + place + ": " + fault.message;
+  }
+  return warnings;
+}
+
+void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton) {
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    const client::KeyPose& key = keys.poses[i];
+    const std::vector<std::string> faults = BendFaults(skeleton, key.pose, key.mask);
+    if (faults.empty()) continue;
+    throw InvalidArgument(keys.places[i], "key \"" + key.id + "\": " + faults.front() +
+                                              "; with --allow-bends it is danced all the same");
+  }
+}
+
+std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
+                                       const Skeleton& skeleton) {
+  DanceKeys by_time{.poses = keys, .places = {}};
+  std::ranges::stable_sort(by_time.poses, {},
+                           [&](const client::KeyPose& key) { return FrameOf(key, fps); });
+  return KeyFaults(by_time, fps, skeleton);
+}
+
+std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
+                                       const Skeleton& skeleton,
+                                       const std::vector<TimedPose>& around) {
+  std::vector<TimedPose> poses = around;
+  const TimedPose timed = Timed(key, fps);
+  const auto place = std::ranges::find_if(
+      poses, [&](const TimedPose& pose) { return pose.seconds > timed.seconds; });
+  const auto index = static_cast<size_t>(place - poses.begin());
+  poses.insert(place, timed);
+  std::vector<client::Warning> warnings;
+  for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
+    // Ignores faults of other keys, but not those of the ways to and from this key.
+    const bool its_own = fault.pose == index;
+    const bool way_from = fault.pose == index + 1 &&
+                          fault.message.find("from \"" + key.id + "\"") != std::string::npos;
+    if (!its_own && !way_from) continue;
+    client::Warning& warning = warnings.emplace_back();
+    warning.frame = FrameOf(key, fps);
+    warning.message = "key \"" + key.id + "\": " + fault.message;
+  }
+  return warnings;
+}
+
+}  // namespace choreo::authoring

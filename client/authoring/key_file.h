@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/choreo_client.h"
+
+/// Reads key poses that people write.
+namespace choreo::authoring {
+
+/// A key file, JSON, as in docs/poses.md. Ignores unknown members of the outermost object, so that
+/// files may describe themselves; within a key they are errors.
+///
+/// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
+/// `name`: the file's. `places`, if given, becomes the place of each key in the file:
+/// NAME:keyframes[i], for keys that hold a pose NAME:keyframes[i].hold.
+std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
+                                          const Skeleton& skeleton,
+                                          std::vector<std::string>* places = nullptr);
+
+/// Keys that hold the pose of this one for `seconds`, so close together that the dancer only
+/// settles between them; uses its time, not its frame. Throws Error(kInvalidArgument, field) for a
+/// time of less than 0.1 or more than 60 s.
+std::vector<client::KeyPose> Holding(const client::KeyPose& key, double seconds,
+                                     const std::string& field);
+
+/// Whether the key at this place only holds the previous one's pose.
+bool IsHeld(const std::string& place);
+
+/// The field of `member` (".time") of the key at `place`: for the time of a held one its ".hold".
+std::string FieldOf(const std::string& place, const std::string& member);
+
+/// The file that a source names: FILE in FILE@.... A file name with an @ is a file.
+std::filesystem::path FileOf(const std::string& source);
+
+/// Key poses named on a command line:
+///   keys.json              a key file
+///   keys.json@ID           one key of it, with those that hold it
+///   walk.bvh@1.2,3.4       the poses of a motion file (formats/motion_file.h) at these seconds,
+///                          each at the same second of the dance
+///   walk.npz@1.2=4,3.4=8   the pose at 1.2 s at second 4 of the dance, that at 3.4 s at second 8
+/// Errors and `places` as above; Error(kNotFound) for a file that is not there.
+std::vector<client::KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
+                                      std::vector<std::string>* places = nullptr);
+
+}  // namespace choreo::authoring

@@ -1,0 +1,123 @@
+#include "client/authoring/key_joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "client/authoring/json_fields.h"
+#include "client/authoring/pose_library.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+#include "model/fit/retarget.h"
+#include "model/motion/canonical.h"
+#include "model/motion/joint_angles.h"
+#include "model/motion/rotation.h"
+
+namespace choreo::authoring {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMostTurn = 360;  // degrees
+
+std::vector<double> NumbersOf(const json& value, const std::string& field) {
+  if (!value.is_array()) return {JsonNumber(value, field)};
+  std::vector<double> numbers;
+  for (size_t i = 0; i < value.size(); ++i)
+    numbers.push_back(JsonNumber(value[i], field + "[" + std::to_string(i) + "]"));
+  return numbers;
+}
+
+/// The joints with this name: one, or a whole limb from hip or shoulder on.
+std::vector<int> Named(const std::string& name, const Skeleton& skeleton,
+                       const std::string& field) {
+  std::vector<int> roots;
+  if (name == "arms" || name == "left_arm") roots.push_back(skeleton.left_shoulder);
+  if (name == "arms" || name == "right_arm") roots.push_back(skeleton.right_shoulder);
+  if (name == "legs" || name == "left_leg") roots.push_back(skeleton.left_hip);
+  if (name == "legs" || name == "right_leg") roots.push_back(skeleton.right_hip);
+  if (roots.empty()) return {RequireJoint(skeleton, name, field)};
+  std::vector<bool> below(static_cast<size_t>(skeleton.joints()), false);
+  std::vector<int> joints;
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    const int parent = skeleton.parents[static_cast<size_t>(joint)];
+    const bool root = std::find(roots.begin(), roots.end(), joint) != roots.end();
+    if (!root && (parent < 0 || !below[static_cast<size_t>(parent)])) continue;
+    below[static_cast<size_t>(joint)] = true;
+    joints.push_back(joint);
+  }
+  return joints;
+}
+
+std::vector<bool> Mask(const json& names, const std::string& field, const Skeleton& skeleton) {
+  if (names.empty()) throw InvalidArgument(field, Shown(names) + " is not a list of joint names");
+  std::vector<bool> mask(static_cast<size_t>(skeleton.joints()), false);
+  for (const json& name : names) {
+    if (!name.is_string()) throw InvalidArgument(field, Shown(name) + " is not a joint's name");
+    for (const int joint : Named(name.get<std::string>(), skeleton, field))
+      mask[static_cast<size_t>(joint)] = true;
+  }
+  return mask;
+}
+
+}  // namespace
+
+client::KeyPose ReadNamedPose(const json& value, const std::string& field,
+                              const Skeleton& skeleton) {
+  const json& name = value["pose"];
+  if (!name.is_string()) throw InvalidArgument(field + ".pose", Shown(name) + " is not a name");
+  client::KeyPose key;
+  try {
+    key.pose =
+        Retarget(Skeleton::Smpl24(), FindLibraryPose(name.get<std::string>()).pose, skeleton);
+  } catch (const Error& error) {
+    throw InvalidArgument(field + ".pose", error.what());
+  }
+  GroundFrame place;
+  if (value.contains("facing")) {
+    const double degrees = JsonNumber(value["facing"], field + ".facing");
+    if (!(std::abs(degrees) <= kMostTurn)) {
+      throw InvalidArgument(field + ".facing", Shown(value["facing"]) + " degrees, must be " +
+                                                   Rounded(-kMostTurn) + " to " +
+                                                   Rounded(kMostTurn));
+    }
+    place.heading = degrees / kDegrees;
+  }
+  key.mask.root_position = value.contains("place");
+  if (key.mask.root_position) {
+    const std::vector<double> at = NumbersOf(value["place"], field + ".place");
+    if (at.size() != 2) {
+      throw InvalidArgument(field + ".place", Shown(value["place"]) + " is not [x, z], metres");
+    }
+    place.origin = {at[0], 0, at[1]};
+  }
+  key.pose = place.ToWorld(key.pose);
+  return key;
+}
+
+void ReadJoints(const json& joints, const std::string& field, const Skeleton& skeleton,
+                client::KeyPose* key) {
+  if (!joints.is_object()) {
+    if (!joints.is_array())
+      throw InvalidArgument(field, Shown(joints) + " is not a list of joint names");
+    key->mask.joints = Mask(joints, field, skeleton);
+    return;
+  }
+  if (joints.empty()) throw InvalidArgument(field, "names no joint");
+  for (const auto& [name, degrees] : joints.items()) {
+    const int joint = RequireJoint(skeleton, name, field);
+    const std::string at = field + "." + name;
+    key->pose.rotations.col(joint) =
+        RotationFromDegrees(skeleton, joint, NumbersOf(degrees, at), at);
+  }
+}
+
+void LimitToNamed(const json& joints, const Skeleton& skeleton, client::KeyPose* key) {
+  key->mask.root_position = false;
+  key->mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
+  for (const auto& [name, degrees] : joints.items())
+    key->mask.joints[static_cast<size_t>(skeleton.Find(name))] = true;
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,51 @@
+#include "client/authoring/motion_input.h"
+
+#include <iostream>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace choreo::authoring {
+namespace {
+
+void Say(const std::filesystem::path& path, const std::vector<std::string>& notes,
+         bool of_convert) {
+  static std::set<std::string> said;
+  for (const std::string& note : notes) {
+    std::string line = "note: " + path.string() + ": " + note;
+    // After the path, which may contain anything.
+    const size_t option =
+        of_convert ? std::string::npos : line.find(" --", line.size() - note.size());
+    if (option != std::string::npos) line.insert(option, " choreo convert");
+    if (said.insert(line).second) std::cerr << line << '\n';
+  }
+}
+
+}  // namespace
+
+SkeletonMotion ReadMotionNoting(const std::filesystem::path& path, MotionReading reading) {
+  std::vector<std::string> notes;
+  reading.notes = &notes;
+  SkeletonMotion read = ReadMotion(path, reading);
+  Say(path, notes, true);
+  return read;
+}
+
+SkeletonMotion ReadMotionNoting(const std::filesystem::path& path) {
+  std::vector<std::string> notes;
+  SkeletonMotion read = ReadMotion(path, {.notes = &notes});
+  Say(path, notes, false);
+  return read;
+}
+
+Motion ReadMotionNoting(const std::filesystem::path& path, const Skeleton& skeleton,
+                        OtherSkeleton other) {
+  std::vector<std::string> notes;
+  MotionReading reading;
+  reading.notes = &notes;
+  Motion motion = ReadMotion(path, skeleton, other, reading);
+  Say(path, notes, false);
+  return motion;
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,68 @@
+#include "client/authoring/music.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "client/edit.h"
+#include "model/audio/beats.h"
+#include "model/audio/music_id.h"
+#include "model/audio/onset.h"
+#include "model/audio/passages.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+
+namespace choreo::authoring {
+
+Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
+                const BeatOptions& beats) {
+  Music music;
+  music.audio = DecodeSong(path, seconds + kTempoWindowSeconds, start);
+  if (music.audio.interleaved.empty()) {
+    throw InvalidArgument("--song-start", InFull(start) + " s is after the end of " +
+                                              path.string() + " at " + Rounded(music.audio.end_s) +
+                                              " s");
+  }
+  music.mono = ToModelRate(music.audio);
+  const std::vector<Onset> onsets = FindOnsets(music.mono);
+  music.onset_strength = OnsetStrength(onsets);
+  music.track = BeatsAsAsked(onsets, start, beats);
+  music.id = MusicId(music.mono);
+  music.passages = FindPassages(music.mono, music.track.Seconds());
+  return music;
+}
+
+std::vector<double> BeatsBefore(const Music& music, double seconds) {
+  std::vector<double> beats = music.track.Seconds();
+  std::erase_if(beats, [seconds](double beat) { return beat >= seconds; });
+  return beats;
+}
+
+void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config) {
+  if (config->music_beats.empty()) {
+    config->music_beats = BeatsBefore(music, seconds);
+    config->music_downbeats = music.track.DownbeatSeconds();
+    std::erase_if(config->music_downbeats, [seconds](double beat) { return beat >= seconds; });
+  }
+  std::erase_if(config->music_beats, [seconds](double beat) { return beat >= seconds; });
+  config->music_id = music.id;
+  config->music_passages = music.passages;
+  std::erase_if(config->music_passages,
+                [seconds](const Passage& passage) { return passage.from >= seconds; });
+}
+
+client::Audio AudioFor(const DecodedAudio& song, double seconds) {
+  const auto samples =
+      static_cast<int64_t>(std::ceil((seconds + client::kMusicBeyond_s) * song.sample_rate));
+  const int64_t values = std::min(song.samples(), samples) * song.channels;
+  client::Audio out;
+  out.format = {client::AudioKind::kPcmFloat, song.sample_rate, song.channels};
+  out.samples.assign(song.interleaved.begin(), song.interleaved.begin() + values);
+  return out;
+}
+
+double Seconds(const client::Audio& audio) {
+  return static_cast<double>(audio.samples.size()) / audio.format.channels /
+         audio.format.sample_rate;
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "client/authoring/music_beats.h"
+#include "client/authoring/music_file.h"
+#include "client/choreo_client.h"
+#include "model/audio/beats.h"
+#include "model/audio/decode.h"
+#include "model/core/passage.h"
+
+namespace choreo::authoring {
+
+/// A song for the commands.
+struct Music {
+  DecodedAudio audio;
+  std::vector<float> mono;            ///< at 22 050 Hz
+  std::vector<float> onset_strength;  ///< that the beats were found in
+  BeatTrack track;
+  std::vector<Passage> passages;  ///< repeats
+  uint64_t id = 0;                ///< MusicId
+};
+
+/// Decodes a song and finds its beats: all of it, or its first `seconds` plus what they depend on.
+/// With `start`, as if the song began there. Errors as DecodeSong and BeatsAsAsked;
+/// Error(kInvalidArgument) whose field is --song-start for a start after its end. Writes notes to
+/// standard error.
+Music ReadMusic(const std::filesystem::path& path,
+                double seconds = std::numeric_limits<double>::infinity(), double start = 0,
+                const BeatOptions& beats = {});
+
+/// Times of the beats before `seconds`, as DanceConfig::music_beats.
+std::vector<double> BeatsBefore(const Music& music, double seconds);
+
+/// Sets these beats with their downbeats, the passages before `seconds`, and the music's id. Keeps
+/// beats that the configuration already has, as far as they are before `seconds`.
+void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config);
+
+/// The samples to send for a dance of `seconds`: the song's beginning.
+client::Audio AudioFor(const DecodedAudio& song, double seconds);
+
+/// The length of samples.
+double Seconds(const client::Audio& audio);
+
+}  // namespace choreo::authoring

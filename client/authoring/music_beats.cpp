@@ -1,0 +1,212 @@
+#include "client/authoring/music_beats.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "model/core/printable.h"
+#include "model/core/rounded.h"
+
+namespace choreo::authoring {
+namespace {
+
+constexpr double kTempoSlack = 1.06;  // either way: a semitone
+constexpr int kUsualBar = 4;
+constexpr double kMostSeconds = 1e6;  // of a song, of which the dance may use only a part
+constexpr std::streamsize kLongestLine = 1000;
+
+/// Counts from beat `first` on, and backwards before it.
+void CountFrom(int64_t first, BeatTrack* track) {
+  const int bar = track->beats_in_bar > 0 ? track->beats_in_bar : kUsualBar;
+  track->beats_in_bar = bar;
+  track->in_bar.resize(track->frames.size());
+  for (size_t i = 0; i < track->frames.size(); ++i) {
+    const int64_t since = static_cast<int64_t>(i) - first;
+    track->in_bar[i] = static_cast<int>((since % bar + bar) % bar);
+  }
+}
+
+/// Continues the count from counted beats to the others.
+void CountOn(BeatTrack* track) {
+  const std::vector<int> told = track->in_bar;
+  const auto first = std::ranges::find_if(told, [](int count) { return count >= 0; });
+  // With downbeats only, a bar lasts from one to the next.
+  if (track->beats_in_bar == 1) {
+    const auto second = std::find(first + 1, told.end(), 0);
+    if (second != told.end()) track->beats_in_bar = static_cast<int>(second - first);
+  }
+  const auto at = static_cast<int64_t>(first - told.begin());
+  const int64_t downbeat = first == told.end() ? 0 : at - *first;
+  CountFrom(downbeat, track);
+}
+
+size_t FirstDownbeat(const BeatTrack& track) {
+  const auto first = std::ranges::find(track.in_bar, 0);
+  return first == track.in_bar.end() ? 0 : static_cast<size_t>(first - track.in_bar.begin());
+}
+
+/// A line of a beat file: the second and, if known, the count in the bar.
+struct BeatLine {
+  double second = 0;
+  int count = 0;  // 0: unknown
+};
+
+BeatLine ParseBeat(const std::string& line, const std::string& field) {
+  std::istringstream words(line);
+  std::string second, count, rest;
+  words >> second >> count >> rest;
+  BeatLine beat;
+  const auto read = [](const std::string& word, auto* number) {
+    const char* end = word.data() + word.size();
+    const auto [at, error] = std::from_chars(word.data(), end, *number);
+    return error == std::errc() && at == end;
+  };
+  if (!rest.empty() || !read(second, &beat.second) || !(beat.second >= 0) ||
+      beat.second > kMostSeconds) {
+    throw InvalidArgument(field, '"' + Printable(line) +
+                                     "\" is no beat: a second of the song, as in 12.5, and, where "
+                                     "it is known, its count in the bar");
+  }
+  if (!count.empty() && (!read(count, &beat.count) || beat.count < 1 || beat.count > kMostInBar)) {
+    throw InvalidArgument(field, '"' + Printable(count) + "\" is no count in a bar, must be 1 to " +
+                                     std::to_string(kMostInBar));
+  }
+  return beat;
+}
+
+BeatTrack ReadBeats(const std::string& path, double start) {
+  if (!std::filesystem::is_regular_file(path))
+    throw Error(ErrorCode::kNotFound, "--beats", path + " is no file");
+  std::ifstream file(path);
+  BeatTrack track;
+  double last = -1;
+  bool counted = true;
+  std::string line(kLongestLine, '\0');
+  for (int number = 1; file.getline(line.data(), kLongestLine) || file.gcount() > 0; ++number) {
+    const std::string field = path + ":" + std::to_string(number);
+    if (file.fail()) throw InvalidArgument(field, "is no line of a beat: it is too long");
+    std::string text = line.c_str();
+    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    text = text.substr(0, text.find('#'));
+    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const BeatLine beat = ParseBeat(text, field);
+    if (beat.second - last < 1 / kOnsetRate) {
+      throw InvalidArgument(field, InFull(beat.second) + " s does not come after the beat before " +
+                                       "it, at " + InFull(last) + " s");
+    }
+    last = beat.second;
+    if (track.frames.size() >= kMostBeats)
+      throw InvalidArgument(field, "is beat " + std::to_string(kMostBeats + 1) + ", the limit is " +
+                                       std::to_string(kMostBeats));
+    if (beat.second < start) continue;
+    track.frames.push_back(std::llround((beat.second - start) * kOnsetRate));
+    track.in_bar.push_back(beat.count - 1);
+    track.confidence.push_back(1);
+    track.beats_in_bar = std::max(track.beats_in_bar, beat.count);
+    counted = counted && beat.count > 0;
+  }
+  if (track.frames.empty())
+    throw InvalidArgument("--beats", path + " has no beat after second " + InFull(start));
+  if (!counted) CountOn(&track);
+  return track;
+}
+
+/// Drops every second beat and keeps the half that contains the downbeats.
+void Halve(BeatTrack* track) {
+  BeatTrack half{.beats_in_bar = track->beats_in_bar};
+  const size_t first = FirstDownbeat(*track);
+  for (size_t i = first % 2; i < track->frames.size(); i += 2) {
+    half.frames.push_back(track->frames[i]);
+    half.confidence.push_back(track->confidence[i]);
+  }
+  CountFrom(static_cast<int64_t>(first / 2), &half);
+  *track = std::move(half);
+}
+
+void Double(BeatTrack* track) {
+  BeatTrack twice{.beats_in_bar = track->beats_in_bar};
+  for (size_t i = 0; i < track->frames.size(); ++i) {
+    twice.frames.push_back(track->frames[i]);
+    twice.confidence.push_back(track->confidence[i]);
+    if (i + 1 == track->frames.size()) break;
+    twice.frames.push_back((track->frames[i] + track->frames[i + 1]) / 2);
+    twice.confidence.push_back(track->confidence[i]);
+  }
+  CountFrom(static_cast<int64_t>(2 * FirstDownbeat(*track)), &twice);
+  *track = std::move(twice);
+}
+
+TempoLimits LimitsOf(const BeatOptions& options) {
+  TempoLimits limits;
+  if (!options.tempo_bpm) return limits;
+  limits.slowest_bpm = std::max(limits.slowest_bpm, *options.tempo_bpm / kTempoSlack);
+  limits.fastest_bpm = std::min(limits.fastest_bpm, *options.tempo_bpm * kTempoSlack);
+  return limits;
+}
+
+}  // namespace
+
+void RequireSong(const BeatOptions& options, const std::string& song) {
+  if (song.empty() && options != BeatOptions())
+    throw InvalidArgument("--beats", "and other options of beats need a song");
+}
+
+BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
+  BeatTrack track = options.beats == "auto" ? TrackBeats(onsets, LimitsOf(options))
+                                            : ReadBeats(options.beats, start);
+  const double end = static_cast<double>(onsets.size()) / kOnsetRate;
+  if (options.downbeat_s && *options.downbeat_s - start > end) {
+    throw InvalidArgument("--downbeat", InFull(*options.downbeat_s) +
+                                            " s is after the song's end at " +
+                                            Rounded(start + end) + " s");
+  }
+  // Drops beats after the song's end.
+  while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
+    track.frames.pop_back();
+    track.in_bar.pop_back();
+    track.confidence.pop_back();
+  }
+  if (track.frames.empty()) {
+    if (options.beats != "auto") {
+      throw InvalidArgument("--beats", options.beats +
+                                           " has no beat within the song, which ends at " +
+                                           Rounded(start + end) + " s; beats are in seconds");
+    }
+    return track;
+  }
+  if (options.half_time) Halve(&track);
+  if (options.double_time) Double(&track);
+  if (options.downbeat_s) {
+    const auto wanted = std::llround((*options.downbeat_s - start) * kOnsetRate);
+    const auto nearest = std::ranges::min_element(
+        track.frames, {}, [wanted](int64_t frame) { return std::abs(frame - wanted); });
+    CountFrom(nearest - track.frames.begin(), &track);
+  }
+  track.tempo_bpm = TempoOf(track.Seconds());
+  return track;
+}
+
+void CheckBeats(std::span<const double> beats, const std::string& field) {
+  if (beats.size() > kMostBeats) {
+    throw InvalidArgument(
+        field, std::to_string(beats.size()) + " beats, the limit is " + std::to_string(kMostBeats));
+  }
+  for (size_t i = 0; i < beats.size(); ++i) {
+    const std::string at = field + "[" + std::to_string(i) + "]";
+    if (!(beats[i] >= 0 && beats[i] <= kMaxAudioSeconds)) {
+      throw InvalidArgument(
+          at, InFull(beats[i]) + " s is not within 0 to " + std::to_string(kMaxAudioSeconds));
+    }
+    if (i > 0 && beats[i] <= beats[i - 1]) {
+      throw InvalidArgument(at, InFull(beats[i]) + " s is not after the beat before it, " +
+                                    InFull(beats[i - 1]) + " s");
+    }
+  }
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "model/audio/beats.h"
+
+namespace choreo::authoring {
+
+inline constexpr int kMostInBar = 16;  ///< that people count to
+
+/// Options that override the beat tracker.
+struct BeatOptions {
+  std::string beats = "auto";  ///< or the name of a file
+  std::optional<double> tempo_bpm = {};
+  bool half_time = false, double_time = false;
+  std::optional<double> downbeat_s = {};  ///< of the song
+
+  bool operator==(const BeatOptions&) const = default;
+};
+
+/// Throws Error(kInvalidArgument) for beat options without a song.
+void RequireSong(const BeatOptions& options, const std::string& song);
+
+/// A song's beats from second `start` on, found or read, depending on the options. Throws
+/// Error(kInvalidArgument), whose field is an option or a line of the file.
+BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
+
+/// Checks beats given in seconds. Throws Error(kInvalidArgument) with FIELD[i], like the API, for
+/// one outside 0 to 600, or not after the previous one, and for too many.
+void CheckBeats(std::span<const double> beats, const std::string& field);
+
+}  // namespace choreo::authoring

@@ -1,0 +1,150 @@
+#include "client/authoring/music_file.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/core/printable.h"
+
+namespace choreo::authoring {
+namespace {
+
+/// A file in memory, freed with its owner.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("choreo", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) throw Error(ErrorCode::kInternal, "", "no memory for a song");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  void Clear() const {
+    if (ftruncate(descriptor_, 0) != 0 || lseek(descriptor_, 0, SEEK_SET) != 0)
+      throw Error(ErrorCode::kInternal, "", "no memory for a song");
+  }
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+/// Has ffmpeg convert `path` to WAV in `wav`. Writes its messages to `log`. Returns false if there
+/// is no ffmpeg or it fails.
+bool ConvertByFfmpeg(const std::filesystem::path& path, const std::string& filter,
+                     const MemoryFile& wav, const MemoryFile& log) {
+  const std::string input = "file:" + path.string();  // a name, whatever it looks like
+  std::vector<std::string> words{"ffmpeg",     "-hide_banner", "-nostats",  "-loglevel",
+                                 "level+info", "-nostdin",     "-i",        input,
+                                 "-vn",        "-af",          filter,      "-f",
+                                 "wav",        "-c:a",         "pcm_f32le", "pipe:1"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, wav.descriptor(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, log.descriptor(), STDERR_FILENO);
+  pid_t process = 0;
+  const int failed = posix_spawnp(&process, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return false;
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// ffmpeg's description of its input.
+struct FfmpegSays {
+  int tracks = 0;          ///< of audio
+  bool restarts = false;   ///< the seconds that it wrote
+  std::string error = {};  ///< the first one, or empty
+};
+
+FfmpegSays Listen(const MemoryFile& log) {
+  std::ifstream lines(log.path());
+  FfmpegSays says;
+  bool of_input = true;
+  for (std::string line; std::getline(lines, line);) {
+    const auto has = [&](const char* words) { return line.find(words) != std::string::npos; };
+    of_input = of_input && !has("] Output #");
+    says.restarts = says.restarts || has("Non-monoto");
+    if (of_input && has("Stream #0:") && has(": Audio: ")) ++says.tracks;
+    for (const std::string level : {"[error] ", "[fatal] "}) {
+      if (says.error.empty() && has(level.c_str()))
+        says.error = Printable(line.substr(line.find(level) + level.size()));
+    }
+  }
+  return says;
+}
+
+std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, double seconds,
+                                           double start) {
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  const MemoryFile wav, log;
+  // From the container's second 0 on, as players do, even if the sound begins later.
+  bool converted = ConvertByFfmpeg(path, "aresample=async=1:first_pts=0", wav, log);
+  FfmpegSays says = Listen(log);
+  if (converted && says.restarts) {
+    // Its rate or channels change: ffmpeg begins again at second 0. A station's stream has no
+    // times.
+    wav.Clear();
+    log.Clear();
+    converted = ConvertByFfmpeg(path, "anull", wav, log);
+    says = Listen(log);
+  }
+  if (!converted && says.error.empty()) return std::nullopt;
+  if (!converted) {
+    throw InvalidArgument(
+        path.string(), std::string("not ") + kSoundFormats + " audio, and ffmpeg " +
+                           (says.tracks > 0 ? "fails: " : "finds no sound in it: ") + says.error);
+  }
+  try {
+    DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start);
+    // ffmpeg cannot write the length into a pipe.
+    audio.notes = {"read by ffmpeg"};
+    if (!says.error.empty()) {
+      audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + says.error);
+    }
+    if (says.tracks > 1) {
+      audio.notes.push_back("has " + std::to_string(says.tracks) +
+                            " sound tracks, of which ffmpeg chose one; `ffmpeg -i FILE -map 0:a:1 "
+                            "song.wav` takes the second");
+    }
+    return audio;
+  } catch (const Error& error) {
+    throw error.Of(path.string());
+  }
+}
+
+}  // namespace
+
+DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start) {
+  std::optional<DecodedAudio> audio;
+  try {
+    audio = DecodeAudioFile(path, seconds, start);
+  } catch (const Error& error) {
+    // The refusal suggests ffmpeg; try it if it is installed.
+    if (error.code() != ErrorCode::kInvalidArgument ||
+        std::string_view(error.what()).find(kAskFfmpeg) == std::string_view::npos)
+      throw;
+    audio = DecodeByFfmpeg(path, seconds, start);
+    if (!audio) throw;
+  }
+  for (const std::string& note : audio->notes)
+    std::cerr << "note: " << path.string() << ": " << note << '\n';
+  return *std::move(audio);
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,63 @@
+#include "client/authoring/pose_library.h"
+
+#include <algorithm>
+
+#include "client/authoring/pose_file.h"
+#include "client/authoring/pose_sources.h"
+#include "model/core/error.h"
+#include "model/fit/retarget.h"
+
+namespace choreo::authoring {
+namespace {
+
+std::vector<LibraryPose> ParseLibrary() {
+  std::vector<LibraryPose> poses;
+  for (const PoseSource& source : kPoseSources) {
+    DescribedPose read = ParsePoseFile(source.json, source.name, Skeleton::Smpl24());
+    poses.push_back({.id = std::move(read.key.id),
+                     .description = std::move(read.description),
+                     .tags = std::move(read.tags),
+                     .pose = std::move(read.key.pose)});
+  }
+  return poses;
+}
+
+}  // namespace
+
+const std::vector<std::string>& PoseTags() {
+  static const std::vector<std::string> kTags = {"standing", "travelling", "jump", "floor"};
+  return kTags;
+}
+
+const std::vector<LibraryPose>& PoseLibrary() {
+  static const std::vector<LibraryPose> kPoses = ParseLibrary();
+  return kPoses;
+}
+
+std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton) {
+  std::vector<LibraryPose> poses = PoseLibrary();
+  std::erase_if(poses, [](const LibraryPose& pose) {
+    return pose.tags.front() == "jump" || pose.tags.front() == "floor";
+  });
+  try {
+    for (LibraryPose& pose : poses) pose.pose = Retarget(Skeleton::Smpl24(), pose.pose, skeleton);
+  } catch (const Error& error) {
+    throw InvalidArgument("--keyframes",
+                          "key poses are needed: those that ship can't be turned "
+                          "into poses of the model (" +
+                              std::string(error.what()) + ")");
+  }
+  return poses;
+}
+
+const LibraryPose& FindLibraryPose(const std::string& id) {
+  const auto& poses = PoseLibrary();
+  const auto found = std::find_if(poses.begin(), poses.end(),
+                                  [&](const LibraryPose& pose) { return pose.id == id; });
+  if (found != poses.end()) return *found;
+  std::string known;
+  for (const LibraryPose& pose : poses) known += (known.empty() ? "" : ", ") + pose.id;
+  throw Error(ErrorCode::kNotFound, id, "is no pose of the library, which has " + known);
+}
+
+}  // namespace choreo::authoring

@@ -1,0 +1,157 @@
+#include "client/authoring/project_file.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "client/authoring/json_fields.h"
+#include "client/authoring/music_beats.h"
+#include "model/core/error.h"
+#include "model/core/rounded.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo::authoring {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kFormat = 1;
+
+std::string Text(const json& file, const std::string& name, const char* member) {
+  if (!file.contains(member)) return {};
+  if (!file[member].is_string())
+    throw InvalidArgument(name + ":" + member, Shown(file[member]) + " is no text");
+  return file[member].get<std::string>();
+}
+
+std::optional<double> Share(const json& file, const std::string& name, const char* member) {
+  if (!file.contains(member)) return std::nullopt;
+  const std::string field = name + ":" + member;
+  const double share = JsonNumber(file[member], field);
+  if (!(share >= 0 && share <= 1))
+    throw InvalidArgument(field, Shown(file[member]) + " is not a number from 0 to 1");
+  return share;
+}
+
+bool IsCount(const json& value) {
+  return IsFrameNumber(value) && value.get<uint64_t>() >= 1 && value.get<uint64_t>() <= kMostInBar;
+}
+
+/// The seconds of [[0.52, 1], [1.02, 2], ...]; the counts are for people.
+std::vector<double> Beats(const json& list, const std::string& field) {
+  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
+  std::vector<double> out;
+  for (const json& beat : list) {
+    const std::string at = field + "[" + std::to_string(out.size()) + "]";
+    if (!beat.is_array() || beat.size() != 2 || !IsCount(beat[1])) {
+      throw InvalidArgument(at, Shown(beat) + " is no beat: its second and its count, 1 to " +
+                                    std::to_string(kMostInBar) + ", as in [12.5, 1]");
+    }
+    out.push_back(JsonNumber(beat[0], at));
+  }
+  CheckBeats(out, field);
+  return out;
+}
+
+/// "left_arm=1.5" for each part, unless all have the usual factor.
+std::vector<std::string> Velocities(const json& lively, const std::string& field) {
+  if (!lively.is_object()) throw InvalidArgument(field, Shown(lively) + " is no object");
+  std::vector<std::string> out;
+  bool as_usual = true;
+  for (const auto& [member, value] : lively.items()) {
+    std::string part = member;
+    std::ranges::replace(part, ' ', '_');
+    if (std::ranges::find(kBodyPartNames, part) == kBodyPartNames.end())
+      throw InvalidArgument(field + "." + member, "is none of " + BodyPartNames());
+    const double factor = JsonNumber(value, field + "." + member);
+    if (!(factor >= 0 && factor <= kMaxVelocityFactor)) {
+      std::ostringstream message;
+      message << Shown(value) << " is not a number from 0 to " << kMaxVelocityFactor;
+      throw InvalidArgument(field + "." + member, message.str());
+    }
+    as_usual = as_usual && factor == 1;
+    out.push_back(part + '=' + value.dump());  // all digits
+  }
+  return as_usual ? std::vector<std::string>{} : out;
+}
+
+/// Markers are for people.
+void CheckMarkers(const json& list, const std::string& field) {
+  if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
+  double before = -1;
+  for (size_t i = 0; i < list.size(); ++i) {
+    const std::string at = field + "[" + std::to_string(i) + "]";
+    CheckMembers(list[i], at, {"time", "name"}, "a marker has time and name");
+    for (const char* member : {"time", "name"})
+      if (!list[i].contains(member)) throw InvalidArgument(at + "." + member, "is missing");
+    if (Text(list[i], at, "name").empty()) throw InvalidArgument(at + ".name", "is empty");
+    const double time = JsonNumber(list[i]["time"], at + ".time");
+    if (!(time > before && time <= kLongestDance)) {
+      throw InvalidArgument(at + ".time", Shown(list[i]["time"]) +
+                                              " is not above the one before it and up to " +
+                                              InFull(kLongestDance));
+    }
+    before = time;
+  }
+}
+
+}  // namespace
+
+Project ParseProject(const json& file, const std::string& name) {
+  ListIn(file, name, "keyframes");  // which says what else the file may be
+  if (!file.contains("studio"))
+    throw InvalidArgument(name + ":studio", "is missing: a key file goes with --keyframes");
+  if (file["studio"] != kFormat) {
+    throw InvalidArgument(name + ":studio", "is format " + Shown(file["studio"]) + ", known is " +
+                                                std::to_string(kFormat));
+  }
+  // song_data: only in the studio's messages, which contain the song (studio/project_calls).
+  CheckFileMembers(
+      file, name,
+      {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics", "variation",
+       "beats", "bar", "lively", "path", "markers", "dancers", "apart", "keyframes", "about"},
+      "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
+      "beats, bar, lively, path, markers, dancers, apart, keyframes and perhaps about");
+  Project project;
+  project.song = Text(file, name, "song");
+  project.style = Text(file, name, "style");
+  project.music_dynamics = Share(file, name, "music_dynamics");
+  project.variation = Share(file, name, "variation");
+  if (file.contains("seconds")) {
+    project.seconds = JsonNumber(file["seconds"], name + ":seconds");
+    if (!(*project.seconds > 0 && *project.seconds <= kLongestDance)) {
+      std::ostringstream message;
+      message << Shown(file["seconds"]) << " is not above 0 and up to " << kLongestDance;
+      throw InvalidArgument(name + ":seconds", message.str());
+    }
+  }
+  if (file.contains("seed")) {
+    if (!file["seed"].is_number_unsigned())
+      throw InvalidArgument(name + ":seed", Shown(file["seed"]) + " is no whole number from 0 on");
+    project.seed = file["seed"].get<uint64_t>();
+  }
+  if (file.contains("beats")) project.beats = Beats(file["beats"], name + ":beats");
+  if (file.contains("bar") && !IsCount(file["bar"])) {
+    throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
+                                             std::to_string(kMostInBar));
+  }
+  if (file.contains("lively"))
+    project.controls.velocities = Velocities(file["lively"], name + ":lively");
+  if (file.contains("path")) {
+    if (!file["path"].is_object())
+      throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");
+    project.controls.path_text = file["path"].dump();
+    project.controls.path_text_name = name + ":path";
+  }
+  if (file.contains("markers")) CheckMarkers(file["markers"], name + ":markers");
+  project.has_dancers = file.contains("dancers");
+  return project;
+}
+
+Project ReadProject(const std::filesystem::path& path) {
+  Project project =
+      ParseProject(ParseJson(ReadText(path, "project"), path.string()), path.string());
+  if (!project.song.empty()) project.song = (path.parent_path() / project.song).string();
+  return project;
+}
+
+}  // namespace choreo::authoring

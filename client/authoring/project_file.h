@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/authoring/written_controls.h"
+
+namespace choreo::authoring {
+
+/// A studio project without its keys, which are read like a key file's (key_file.h).
+struct Project {
+  std::string song = {};  ///< the file's name; empty: it has none
+  std::optional<double> seconds = {};
+  std::optional<uint64_t> seed = {};
+  std::string style = {};                                     ///< empty: as it comes
+  std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
+  std::vector<double> beats = {};  ///< of the song, seconds; none: as they are found
+  WrittenControls controls = {};   ///< no velocities where all are 1
+  bool has_dancers = false;        ///< several, whom ReadDancers reads (dancers.h)
+};
+
+/// Reads a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,
+/// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `lively` (a
+/// factor per part of the body), `path`, `markers` (each with `time` and `name`; no frame depends
+/// on them), `dancers` and `apart` (both ignored here), and `keyframes`. `name` is the file's.
+/// Throws Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
+Project ParseProject(const nlohmann::json& file, const std::string& name);
+
+/// The same from a file; its song's path is relative to it. Throws Error(kNotFound) if the project
+/// cannot be opened. Does not check that the song exists.
+Project ReadProject(const std::filesystem::path& path);
+
+}  // namespace choreo::authoring

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/choreo_client.h"
+
+namespace choreo::authoring {
+
+/// Whether a source is a file.
+bool IsVelocityFile(const std::string& source);
+
+/// Velocity factors of body parts: sources as for `choreo dance --velocity` (docs/song.md), of
+/// which one may be a file; multipliers and centimetres exclude each other. Interpolates between a
+/// file's points and holds the nearest outside. `reference`: what multipliers refer to; empty: the
+/// model's first. Models run at `fps`.
+///
+/// Throws Error(kInvalidArgument) whose field is "--velocity", "--velocity-reference" or
+/// NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
+client::Controls::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
+                                                 const std::string& reference, double fps);
+
+}  // namespace choreo::authoring

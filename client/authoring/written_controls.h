@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/authoring/dance_keys.h"
+#include "client/choreo_client.h"
+
+/// The controls of a dance as people write them down.
+namespace choreo::authoring {
+
+/// A path file, JSON, as docs/song.md describes it; times up to an hour. A smooth curve leads
+/// through its points. Models run at `fps`.
+///
+/// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
+client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
+                                         double fps);
+
+/// The options of every command that dances.
+struct WrittenControls {
+  std::string path;
+  /// The text of a path file that is part of another file, and how errors call it; `path` wins.
+  std::string path_text, path_text_name;
+  std::vector<std::string> velocities;  ///< as ReadVelocities (velocities.h) takes them
+  std::string reference;
+
+  /// Adds a project's settings that these options do not give.
+  void Follow(const WrittenControls& project);
+  /// Throws Error as ParsePathFile and ReadVelocities do, Error(kNotFound) for a path file that
+  /// is not there, and Error(kInvalidArgument) for a control that the model does not have, naming
+  /// those of the server that do.
+  client::Controls Read(const client::ModelDescription& model,
+                        const client::ServerDescription& server) const;
+  /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
+  /// begins after the end of a dance, which it is not meant for.
+  void RequireBegun(const client::Controls& controls, const DanceLength& length) const;
+  /// How errors call the path.
+  const std::string& PathName() const { return path.empty() ? path_text_name : path; }
+  /// An error about controls as they were sent in terms of these options; any other as it is.
+  Error InTermsOf(const Error& error) const;
+};
+
+}  // namespace choreo::authoring

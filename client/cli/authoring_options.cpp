@@ -1,0 +1,69 @@
+#include "client/cli/authoring_options.h"
+
+#include "client/authoring/velocities.h"
+#include "client/cli/options.h"
+#include "model/core/rounded.h"
+
+namespace choreo::cli {
+
+CLI::Validator SongFile() {
+  CLI::Validator validator(
+      [](std::string& name) { return name == "-" ? std::string() : CLI::ExistingFile(name); },
+      "FILE", "song");
+  return validator;
+}
+
+void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
+  CLI::Option* beats = command.add_option(
+      "--beats", options->beats,
+      "FILE of the song's beats, in place of those that are found: a line a beat, its second and, "
+      "where it is known, its count in the bar, 1 for a downbeat. auto (default): found.");
+  command
+      .add_option("--tempo", options->tempo_bpm,
+                  "Beats a minute, about: within 6 % of it they are looked for.")
+      ->check(NumberFrom(50, 200))
+      ->excludes(beats);
+  CLI::Option* half =
+      command.add_flag("--half-time", options->half_time, "Every second beat counts alone.");
+  command
+      .add_flag("--double-time", options->double_time, "Half way between two beats is one, too.")
+      ->excludes(half);
+  command
+      .add_option("--downbeat", options->downbeat_s,
+                  "A second of the song: the beat nearest to it is the first of its bar.")
+      ->check(TimeInSeconds());
+}
+
+void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls) {
+  command
+      .add_option("--path", controls->path,
+                  "JSON file that says where the dancer goes: {\"points\": [{\"time\": 0, "
+                  "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
+                  "win over it, its heights over keys that state no position. For models that have "
+                  "this control (`choreo info`).")
+      ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
+  AddRepeated(command, "--velocity", controls->velocities,
+              "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "
+              "arms, legs or all; left_arm=1.5 is a multiplier, 0 to " +
+                  Rounded(kMaxVelocityFactor) +
+                  ", of the reference, "
+                  "left_arm=1.2cm a speed, 0 to " +
+                  Rounded(100 * kMaxVelocity) +
+                  " cm a frame; one unit in a command. Or a JSON file, "
+                  "for what changes: "
+                  "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
+                  "\"speeds\". May be given more than once; the last one of a part counts.");
+  command.add_option("--velocity-reference", controls->reference,
+                     "What --velocity multiplies, of those that `choreo info` lists; default: the "
+                     "model's first.");
+}
+
+std::vector<NamedFile> FilesOf(const authoring::WrittenControls& controls) {
+  std::vector<NamedFile> files = {{"--path", controls.path}};
+  for (const std::string& source : controls.velocities) {
+    if (authoring::IsVelocityFile(source)) files.push_back({"--velocity", source});
+  }
+  return files;
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "client/authoring/music_beats.h"
+#include "client/authoring/written_controls.h"
+#include "client/cli/output_file.h"
+
+/// The options of what client/authoring reads.
+namespace choreo::cli {
+
+/// An existing file, a pipe, or `-` for standard input.
+CLI::Validator SongFile();
+
+/// --beats, --tempo, --half-time, --double-time, --downbeat.
+void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options);
+
+/// --path, --velocity, --velocity-reference.
+void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls);
+/// The files that these name.
+std::vector<NamedFile> FilesOf(const authoring::WrittenControls& controls);
+
+}  // namespace choreo::cli

@@ -1,0 +1,227 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include "client/authoring/counts.h"
+#include "client/authoring/formation.h"
+#include "model/core/atomic_file.h"
+#include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
+#include "model/motion/mirror.h"
+#include "tests/client/stage_fixture.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/glb_parts.h"
+
+/// `choreo dance --dancers`, and pictures of all of them.
+namespace choreo::dancers_test {
+
+using testing::HasSubstr;
+
+const Skeleton& Body() { return Skeleton::Smpl24(); }
+
+class DancersTest : public StageTest {
+ protected:
+  void Write(const std::string& dancers, const std::string& more = "") const {
+    std::ofstream(folder_ / "dancers.json") << "{\"dancers\": [" << dancers << "]" << more << "}";
+  }
+  Outcome DanceAll(const std::string& arguments = "") const {
+    return Dance("stage", "--seed 3 --dancers " + At("dancers.json") + ' ' + arguments);
+  }
+};
+
+double Apart(const Motion& a, const Motion& b) {
+  return LeastDistance({Body(), a}, {Body(), b}).metres;
+}
+
+TEST_F(DancersTest, SingleDancerEqualsASoloDance) {
+  ASSERT_EQ(Dance("alone", "--seed 3").code, 0);
+  Write(R"({"id": "ada", "place": [0, 0]}, {"id": "ben", "place": [50, 10], "facing": 90})");
+  const Outcome outcome = DanceAll();
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("ada, ben:\n300 frames"));
+  const Motion alone = Read("alone.npz"), ada = Read("stage.ada.npz"), ben = Read("stage.ben.npz");
+  const GroundFrame place{.origin = {50, 0, 10}, .heading = M_PI / 2};
+  ASSERT_EQ(ada.frames.size(), alone.frames.size());
+  for (size_t i = 0; i < alone.frames.size(); ++i) {
+    EXPECT_LT(ComparePoses(Body(), ada.frames[i], alone.frames[i]).position_m, 1e-6);
+    const Pose moved = place.ToWorld(alone.frames[i]);
+    EXPECT_LT(ComparePoses(Body(), ben.frames[i], moved).position_m, 1e-5);
+  }
+  EXPECT_EQ(ReadJson(folder_ / "stage.ben.json")["keyframes"],
+            ReadJson(folder_ / "alone.json")["keyframes"]);
+}
+
+TEST_F(DancersTest, MirroredInCanonAndApart) {
+  Write(R"({"id": "ada", "place": [0, 0]}, {"id": "ben", "place": [0.3, 0], "mirrored": true},
+           {"id": "cy", "place": [-0.3, 0], "after": "4 counts"},
+           {"id": "dee", "place": [0, -0.3], "seed": 9})");
+  const Outcome outcome = DanceAll();
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("ada, ben, cy:\n"));
+  EXPECT_THAT(outcome.said, HasSubstr("dee:\n"));
+  std::vector<Motion> danced;
+  for (const char* id : {"ada", "ben", "cy", "dee"})
+    danced.push_back(Read("stage." + std::string(id) + ".npz"));
+
+  // The formation keeps its form, and nobody touches another.
+  double least = 1e9;
+  for (size_t i = 0; i < danced.size(); ++i) {
+    EXPECT_EQ(danced[i].frames.size(), 300U);
+    for (size_t j = 0; j < i; ++j) least = std::min(least, Apart(danced[i], danced[j]));
+  }
+  EXPECT_NEAR(least, 0.2, 0.005);
+  std::smatch said;
+  const std::string text = outcome.said;
+  ASSERT_TRUE(
+      std::regex_search(text, said, std::regex("least distance between bodies: ([0-9.]+)")));
+  EXPECT_NEAR(std::stod(said[1]), least, 0.001);
+  EXPECT_THAT(text,
+              HasSubstr(" times as far from their middle as said, so that bodies stay 0.2 m"));
+
+  // Mirrored about the place where she stands.
+  const auto own = [](const Motion& motion, size_t frame) {
+    Pose pose = motion.frames[frame];
+    pose.root_position -= motion.frames[0].root_position;
+    return pose;
+  };
+  // 4 counts are two seconds.
+  std::vector<size_t> late;
+  for (size_t delay = 58; delay <= 62; ++delay) {
+    if (ComparePoses(Body(), own(danced[2], 200), own(danced[0], 200 - delay)).position_m < 1e-6)
+      late.push_back(delay);
+  }
+  ASSERT_EQ(late.size(), 1U);
+  for (const size_t frame : {20, 150, 299}) {
+    const Pose mirrored = Mirror(Body(), own(danced[0], frame));
+    EXPECT_LT(ComparePoses(Body(), own(danced[1], frame), mirrored).position_m, 1e-6);
+    const Pose before = own(danced[0], frame < late[0] ? 0 : frame - late[0]);
+    EXPECT_LT(ComparePoses(Body(), own(danced[2], frame), before).position_m, 1e-6);
+  }
+  const auto keys = ReadJson(folder_ / "stage.ada.json")["keyframes"];
+  const auto later = ReadJson(folder_ / "stage.cy.json")["keyframes"];
+  EXPECT_EQ(later[1]["frame"], keys[1]["frame"].get<size_t>() + late[0]);
+  EXPECT_LE(later.size(), keys.size());
+}
+
+TEST_F(DancersTest, AreInOneFileAndOnOnePicture) {
+  Write(R"({"id": "ada", "place": [-1, 0]}, {"place": [1, 0], "style": "", "mirrored": true})");
+  EXPECT_THAT(DanceAll().said, HasSubstr("dancers.json:dancers[1].style: \"\" is no text"));
+  Write(R"({"id": "ada", "place": [-1, 0]}, {"place": [1, 0], "mirrored": true})");
+  Outcome outcome = DanceAll("--seconds 4");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  outcome = Choreo("dance " + At("song.wav") + Server() + "--seed 3 --seconds 4 --dancers " +
+                   At("dancers.json") + " -o " + At("all.glb"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const testing_support::Glb glb(folder_ / "all.glb");
+  EXPECT_EQ(glb.document["skins"].size(), 2U);
+  EXPECT_EQ(glb.document["meshes"].size(), 1U);
+  EXPECT_EQ(glb.document["animations"].size(), 1U);
+  EXPECT_EQ(glb.document["animations"][0]["channels"].size(), 2U * 25);
+  EXPECT_EQ(glb.document["nodes"][25]["name"], "dancer2:pelvis");
+  EXPECT_LT(
+      ComparePoses(Body(), Read("all.glb").frames[50], Read("stage.ada.npz").frames[50]).position_m,
+      0.05);
+
+  const std::string two = At("stage.ada.npz") + ' ' + At("stage.dancer2.npz");
+  outcome = Choreo("render " + two + " --frames 4 -o " + At("two.png"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  outcome = Choreo("render " + At("stage.ada.npz") + " --frames 4 -o " + At("one.png"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_GT(std::filesystem::file_size(folder_ / "two.png"),
+            std::filesystem::file_size(folder_ / "one.png"));
+  outcome = Choreo("render " + two + " -o " + At("stage.dancer2.npz"));
+  EXPECT_NE(outcome.code, 0);
+}
+
+// A project and --dancers have one format.
+TEST_F(DancersTest, ReadAProject) {
+  const std::string all = R"("apart": 0.3, "dancers": [{"id": "ada", "place": [-1, 0]},
+      {"id": "ben", "place": [1, 0], "mirrored": true, "after": "2 counts"}])";
+  std::ofstream(folder_ / "p.json")
+      << R"({"studio": 1, "song": "song.wav", "seed": 3, )" << all
+      << R"(, "keyframes": [{"id": "k", "time": 2, "pose": "kick"}]})";
+  std::ofstream(folder_ / "dancers.json") << "{" << all << "}";
+  const auto dance = [&](const std::string& more, const std::string& out) {
+    const Outcome outcome =
+        Choreo("dance" + Server() + "--project " + At("p.json") + more + " -o " + At(out));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+  };
+  dance("", "own.npz");
+  dance(" --dancers " + At("p.json"), "named.npz");
+  dance(" --dancers " + At("dancers.json"), "apart.npz");
+  for (const char* id : {"ada", "ben"}) {
+    const auto bytes = [&](const std::string& name) {
+      return ReadFile(folder_ / (name + "." + id + ".npz"));
+    };
+    EXPECT_EQ(bytes("own"), bytes("apart")) << id;
+    EXPECT_EQ(bytes("named"), bytes("apart")) << id;
+  }
+  const Outcome shown = Choreo("dance" + Server() + "--project " + At("p.json") +
+                               " --vmc 127.0.0.1:39539 -o " + At("x.npz"));
+  EXPECT_THAT(shown.said, HasSubstr("--vmc: shows one dancer"));
+}
+
+TEST_F(DancersTest, RefuseImpossibleRequests) {
+  const auto expect_failure = [this](const std::string& dancers, const std::string& part,
+                                     const std::string& more = "") {
+    Write(dancers, more);
+    const Outcome outcome = DanceAll();
+    EXPECT_EQ(outcome.code, 1) << dancers;
+    EXPECT_THAT(outcome.said, HasSubstr(part));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "stage.ada.npz"));
+  };
+  const std::string ada = R"({"id": "ada", "place": [0, 0]})";
+  expect_failure("", "dancers.json:dancers");
+  expect_failure(ada + R"(, {"place": [0, 0]})", "dancers[1].place: [0,0] is where ada stands");
+  expect_failure(ada + "," + R"({"id": "ada", "place": [1, 0]})", "dancers[1].id: \"ada\" is an");
+  expect_failure(R"({"id": "../ada", "place": [0, 0]})", "has more than letters, digits, _ and -");
+  expect_failure(R"({"id": "ada"})", "dancers[0].place: is missing: [x, z]");
+  expect_failure(R"({"place": [0, 0, 1]})", "dancers[0].place: [0,0,1] is no place");
+  expect_failure(R"({"place": [0, 0], "turn": 3})", "dancers[0].turn");
+  expect_failure(R"({"place": [0, 0], "facing": 400})", "is not a number from -360 to 360");
+  expect_failure(R"({"place": [0, 0], "after": "soon"})", "dancers[0].after: \"soon\" is neither");
+  expect_failure(R"({"place": [0, 0], "after": 10})", "dancers[0].after: 10 s later she would not");
+  expect_failure(R"({"place": [0, 0], "seed": -1})", "dancers[0].seed: -1 is no whole number");
+  expect_failure(ada, "apart: 11 is not a number from 0 to 10", R"(, "apart": 11)");
+  EXPECT_NE(DanceAll("--vmc 127.0.0.1:39539").code, 0);
+}
+
+TEST(FormationTest, IsWidenedAsFarAsNeeded) {
+  Motion stands{.fps = 30, .frames = std::vector<Pose>(3, RestPose(Body()))};
+  std::vector<MovingBody> bodies;
+  const std::vector<Eigen::Vector3d> places = {{-0.5, 0, 0}, {0.5, 0, 0}};
+  for (const Eigen::Vector3d& place : places) {
+    Motion there = stands;
+    for (Pose& pose : there.frames) pose.root_position += place;
+    bodies.emplace_back(Body(), there);
+  }
+  // With arms held out they reach into each other.
+  EXPECT_LT(authoring::FindNearest(bodies, authoring::MovesOf(places, 1)).distance.metres, 0);
+  const double factor = authoring::WidenFormation(bodies, places, 0.3);
+  EXPECT_GT(factor, 1.5);
+  EXPECT_NEAR(authoring::FindNearest(bodies, authoring::MovesOf(places, factor)).distance.metres,
+              0.3, 0.002);
+}
+
+TEST(CountsTest, ContinueAtTheirTempo) {
+  const std::vector<double> beats = {1, 1.5, 2, 3};
+  const auto after = [&](const std::string& text, double seconds) {
+    return authoring::ParseDelay(text, "x").After(seconds, beats, "x");
+  };
+  EXPECT_DOUBLE_EQ(after("2.5", 1), 3.5);
+  EXPECT_DOUBLE_EQ(after("2.5 s", 1), 3.5);
+  EXPECT_DOUBLE_EQ(after("2c", 1), 2);
+  EXPECT_DOUBLE_EQ(after("2 counts", 1.25), 2.5);
+  EXPECT_DOUBLE_EQ(after("1 count", 0), 0.5);
+  EXPECT_DOUBLE_EQ(after("2c", 2), 4);
+  EXPECT_DOUBLE_EQ(after("1c", 3.5), 4.5);
+  for (const char* wrong : {"", "c", "2 bars", "-1c", "1e99", "nan"}) {
+    ExpectError(ErrorCode::kInvalidArgument, "x: ", [&] { authoring::ParseDelay(wrong, "x"); });
+  }
+  ExpectError(ErrorCode::kInvalidArgument, "counts need music",
+              [] { authoring::ParseDelay("2c", "x").After(0, {}, "x"); });
+}
+
+}  // namespace choreo::dancers_test

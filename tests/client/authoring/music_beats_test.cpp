@@ -1,0 +1,90 @@
+#include "client/authoring/music_beats.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "model/audio/format.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
+
+// Beats that a choreographer gives, and her corrections of those that are found.
+namespace choreo::authoring::music_beats_test {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+class MusicBeats : public testing::Test {
+ protected:
+  /// The beats of a song of ten seconds without detected beats.
+  BeatTrack Read(const std::string& lines, BeatOptions options = {}, double start = 0) {
+    const std::filesystem::path file = folder_ / "beats.txt";
+    std::ofstream(file) << lines;
+    options.beats = file;
+    const std::vector<Onset> silence(static_cast<size_t>(10 * kModelSampleRate / kOnsetHop));
+    return BeatsAsAsked(silence, start, options);
+  }
+
+  TemporaryFolder folder_;
+};
+
+testing::Matcher<double> Near(double seconds) {
+  return DoubleNear(seconds, 0.5 * kOnsetHop / kModelSampleRate);
+}
+
+TEST_F(MusicBeats, AreReadWithCountsFromAFile) {
+  const BeatTrack track = Read("0.5 3\n\n1.0 1  # the first bar\n1.5 2\n2.0 3\n");
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(0.5), Near(1), Near(1.5), Near(2)));
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1)));
+  EXPECT_EQ(track.beats_in_bar, 3);
+  EXPECT_NEAR(track.tempo_bpm, 120, 1);
+}
+
+TEST_F(MusicBeats, WithoutCountsAreCountedInFours) {
+  const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n");
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1), Near(5)));
+}
+
+TEST_F(MusicBeats, SecondsCountFromTheDancesStart) {
+  EXPECT_THAT(Read("1\n2\n3\n", {}, 1.5).Seconds(), ElementsAre(Near(0.5), Near(1.5)));
+}
+
+TEST_F(MusicBeats, HalfTimeKeepsDownbeats) {
+  const BeatTrack track = Read("1 4\n2 1\n3 2\n4 3\n5 4\n6 1\n", {.half_time = true});
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(2), Near(4), Near(6)));
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(2)));
+}
+
+TEST_F(MusicBeats, DoubleTimeAddsOneBetweenTwo) {
+  const BeatTrack track = Read("1\n2\n3\n", {.double_time = true});
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(1.5), Near(2), Near(2.5), Near(3)));
+}
+
+TEST_F(MusicBeats, CountsFromTheChosenDownbeat) {
+  const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n", {.downbeat_s = 2.9});
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(3)));
+}
+
+TEST_F(MusicBeats, CountsFromGivenDownbeats) {
+  const BeatTrack track = Read("0.5 1\n1\n1.5\n2 1\n2.5\n3\n");
+  EXPECT_EQ(track.beats_in_bar, 3);
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(0.5), Near(2)));
+}
+
+TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
+  ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("1\ntwo\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("2\n1\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "1 to 16", [&] { Read("1 17\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "--beats", [&] { Read("# none\n"); });
+  for (const char* bad : {"1 2x\n", "1 2 3\n", "0,5\n", "nan\n", "1e300\n", "-1\n"})
+    ExpectError(ErrorCode::kInvalidArgument, "beats.txt:1", [&] { Read(bad); });
+  ExpectError(ErrorCode::kInvalidArgument, "after the beat before it",
+              [&] { Read("0.5\n0.501\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "--downbeat", [&] { Read("1\n", {.downbeat_s = 500}); });
+}
+
+}  // namespace choreo::authoring::music_beats_test
