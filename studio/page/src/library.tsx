@@ -1,6 +1,7 @@
 // Key poses to choose from: the library's and the user's own.
 import { signal } from '@preact/signals';
 import type { Pose } from './body';
+import { drag } from './drag';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { spoken } from './project';
 import * as studio from './studio';
@@ -12,22 +13,15 @@ const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null)
 /// Drags a pose with the pointer until it is dropped.
 const carry = (pose: LibraryPose) => (event: PointerEvent) => {
   const from = { x: event.clientX, y: event.clientY };
-  const move = ({ clientX: x, clientY: y }: PointerEvent) => {
+  drag(event, ({ clientX: x, clientY: y }) => {
     if (carried.value || Math.hypot(x - from.x, y - from.y) > 6) carried.value = { pose, x, y };
     dropPose.value = carried.value ? frameUnder(x, y) : null;
-  };
-  const end = (last: PointerEvent) => {
-    window.removeEventListener('pointermove', move);
-    window.removeEventListener('pointerup', end);
-    window.removeEventListener('pointercancel', end);
-    const at = carried.value && last.type === 'pointerup' ? dropPose.value : null;
+  }, (isDropped) => {
+    const at = carried.value && isDropped ? dropPose.value : null;
     if (at !== null) studio.addKey(pose, at);
     setTimeout(() => (carried.value = null));
     dropPose.value = null;
-  };
-  window.addEventListener('pointermove', move);
-  window.addEventListener('pointerup', end);
-  window.addEventListener('pointercancel', end);
+  }, window);
 };
 
 const standing = ({ pose }: LibraryPose): Pose => ({ root: [0, pose!.rootPosition!.y, 0], rotations: pose!.rotations });

@@ -1,37 +1,14 @@
 // The markers on the timeline: dragged, or moved by arrow keys.
-import { signal } from '@preact/signals';
+import { useFrameDrag } from './drag';
 import type { Marker } from './project';
-import { snapped, stepped, timeUnder, x } from './scale';
+import { stepped, x } from './scale';
 import * as studio from './studio';
-
-const carried = signal<{ of: Marker; frame: number } | null>(null);
 
 function Flag({ marker }: { marker: Marker }) {
   const { fps } = studio.dancer;
-  const frame = carried.value?.of === marker ? carried.value.frame : marker.frame;
   const seek = () => (studio.audio.currentTime = marker.frame / fps);
-  const grab = (event: PointerEvent) => {
-    const flag = event.currentTarget as HTMLElement;
-    const from = event.clientX;
-    flag.setPointerCapture(event.pointerId);
-    const move = ({ clientX, altKey }: PointerEvent) => {
-      if (!carried.value && Math.abs(clientX - from) < 4) return;
-      const time = timeUnder(clientX);
-      carried.value = { of: marker, frame: altKey ? Math.max(0, Math.round(time * fps)) : snapped(time, marker) };
-    };
-    const end = ({ type }: PointerEvent) => {
-      flag.removeEventListener('pointermove', move);
-      flag.removeEventListener('pointerup', end);
-      flag.removeEventListener('pointercancel', end);
-      const to = carried.value;
-      carried.value = null;
-      if (to && type === 'pointerup') studio.moveMarker(marker, to.frame);
-      else if (!to) seek();
-    };
-    flag.addEventListener('pointermove', move);
-    flag.addEventListener('pointerup', end);
-    flag.addEventListener('pointercancel', end);
-  };
+  const [dragged, grab] = useFrameDrag({ marker, drop: (to) => studio.moveMarker(marker, to), press: seek });
+  const frame = dragged ?? marker.frame;
   const press = (event: KeyboardEvent) => {
     if (event.key === 'Enter') seek();
     else if (event.key === 'Delete' || event.key === 'Backspace') studio.removeMarker(marker);

@@ -1,25 +1,11 @@
 // The selected phrase on the timeline; its ends are dragged or moved by arrow keys.
-import { content, snapped, stepped, timeUnder, x } from './scale';
+import { drag } from './drag';
+import { content, frameAt, stepped, timeUnder, x } from './scale';
 import * as studio from './studio';
 
 /// Drags one end to the pointer; the other stays.
-function pull(event: PointerEvent, stays: number) {
-  const grip = event.currentTarget as HTMLElement;
-  event.stopPropagation();
-  grip.setPointerCapture(event.pointerId);
-  const move = ({ clientX, altKey }: PointerEvent) => {
-    const time = timeUnder(clientX);
-    studio.choosePhrase(stays, altKey ? Math.round(time * studio.dancer.fps) : snapped(time));
-  };
-  const end = () => {
-    grip.removeEventListener('pointermove', move);
-    grip.removeEventListener('pointerup', end);
-    grip.removeEventListener('pointercancel', end);
-  };
-  grip.addEventListener('pointermove', move);
-  grip.addEventListener('pointerup', end);
-  grip.addEventListener('pointercancel', end);
-}
+const pull = (event: PointerEvent, stays: number) =>
+  drag(event, ({ clientX, altKey }) => studio.choosePhrase(stays, frameAt(timeUnder(clientX), altKey)));
 
 export function PhraseBand() {
   const phrase = studio.chosen.value;

@@ -29,6 +29,9 @@ export function snapped(time: number, moved?: Marker): number {
 
 export const timeUnder = (clientX: number) => (clientX - content.value!.getBoundingClientRect().left - edge) / zoom.value;
 
+/// The frame of a time under the pointer: that of a near beat or marker, unless it moves freely.
+export const frameAt = (time: number, isFree: boolean, moved?: Marker) => (isFree ? Math.max(0, Math.round(time * studio.dancer.fps)) : snapped(time, moved));
+
 export const zoomTo = (pixels: number) => (zoom.value = Math.min(200, Math.max(8, pixels)));
 
 /// As large as fits what is between two frames.

@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import WaveSurfer from 'wavesurfer.js';
+import { useFrameDrag } from './drag';
 import { eight, isDownbeat, tempo } from './counts';
 import type { Pose } from './body';
 import { colour } from './palette';
@@ -120,42 +121,18 @@ function Warnings() {
   });
 }
 
-const carriedKey = signal<{ id: string; frame: number } | null>(null);
-
 function KeyChip({ item, pictureOf }: { item: Key; pictureOf: (pose: Pose) => string }) {
   const { fps } = studio.dancer;
   const isSelected = studio.selectedKey.value === item.id;
   const isReplaced = dropPose.value !== null && studio.keyNear(dropPose.value) === item;
-  const frame = carriedKey.value?.id === item.id ? carriedKey.value.frame : item.frame;
   const choose = () => {
     if (studio.live.value) return;
     studio.selectedKey.value = item.id;
     studio.audio.pause();
     seek(item.frame / fps);
   };
-  const grab = (event: PointerEvent) => {
-    const chip = event.currentTarget as HTMLElement;
-    const offset = item.frame / fps - timeUnder(event.clientX);
-    const from = event.clientX;
-    chip.setPointerCapture(event.pointerId);
-    const move = ({ clientX, altKey }: PointerEvent) => {
-      if (!carriedKey.value && Math.abs(clientX - from) < 4) return;
-      const time = timeUnder(clientX) + offset;
-      carriedKey.value = { id: item.id, frame: altKey ? Math.max(0, Math.round(time * fps)) : snapped(time) };
-    };
-    const end = ({ type }: PointerEvent) => {
-      chip.removeEventListener('pointermove', move);
-      chip.removeEventListener('pointerup', end);
-      chip.removeEventListener('pointercancel', end);
-      const to = carriedKey.value;
-      carriedKey.value = null;
-      if (to && type === 'pointerup') studio.moveKey(item.id, to.frame);
-      else if (!to) choose();
-    };
-    chip.addEventListener('pointermove', move);
-    chip.addEventListener('pointerup', end);
-    chip.addEventListener('pointercancel', end);
-  };
+  const [dragged, grab] = useFrameDrag({ from: item.frame, drop: (to) => studio.moveKey(item.id, to), press: choose });
+  const frame = dragged ?? item.frame;
   // Moves the keyboard focus to a neighbouring key.
   const remove = (chip: EventTarget | null) => {
     const chips = [...document.querySelectorAll<HTMLElement>('[data-key]')];

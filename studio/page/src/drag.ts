@@ -1,0 +1,51 @@
+// Dragging with the pointer.
+import { useState } from 'preact/hooks';
+import type { Marker } from './project';
+import { frameAt, timeUnder } from './scale';
+import * as studio from './studio';
+
+/// Calls `move` until the pointer is let go, or the browser cancels the drag. `events`: captures the pointer, unless it is the window.
+export function drag(event: PointerEvent, move: (at: PointerEvent) => void, end: (isDropped: boolean) => void = () => {},
+  events: HTMLElement | Window = event.currentTarget as HTMLElement) {
+  const listening = new AbortController();
+  const { signal } = listening;
+  const over = ({ type }: Event) => {
+    listening.abort();
+    end(type === 'pointerup');
+  };
+  if (events instanceof HTMLElement) events.setPointerCapture(event.pointerId);
+  event.stopPropagation();
+  events.addEventListener('pointermove', move as EventListener, { signal });
+  events.addEventListener('pointerup', over, { signal });
+  events.addEventListener('pointercancel', over, { signal });
+}
+
+const slip = 4; // pixels
+
+type FrameDrag = {
+  /// The frame that keeps its distance to the pointer; without it the pointer's own is taken.
+  from?: number;
+  /// The marker that is dragged, which attracts nothing.
+  marker?: Marker;
+  drop: (frame: number) => void;
+  /// Instead of a drop, for a press that slips a little at most; without it every move is a drag.
+  press?: () => void;
+};
+
+/// Drags a frame along the timeline, from beat to beat, or freely with Alt. Gives the frame while it is dragged, else null, and what begins it.
+export function useFrameDrag({ from, marker, drop, press }: FrameDrag): [number | null, (event: PointerEvent) => void] {
+  const [frame, setFrame] = useState<number | null>(null);
+  const begin = (event: PointerEvent) => {
+    const offset = from === undefined ? 0 : from / studio.dancer.fps - timeUnder(event.clientX);
+    let to: number | null = null;
+    drag(event, ({ clientX, altKey }) => {
+      if (to === null && press && Math.abs(clientX - event.clientX) < slip) return;
+      setFrame((to = frameAt(timeUnder(clientX) + offset, altKey, marker)));
+    }, (isDropped) => {
+      setFrame(null);
+      if (to === null) press?.();
+      else if (isDropped) drop(to);
+    });
+  };
+  return [frame, begin];
+}
