@@ -11,7 +11,7 @@
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
 #include "proto/wire/controls.h"
-#include "server/read_pose.h"
+#include "proto/wire/read_pose.h"
 
 namespace choreo {
 namespace {
@@ -29,7 +29,7 @@ std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) 
   // Only the last poses are used, but all are checked.
   std::vector<Pose> poses;
   for (int i = 0; i < history.poses_size(); ++i) {
-    poses.push_back(ToPose(history.poses(i), model.skeleton, At(field, i)));
+    poses.push_back(wire::ToPose(history.poses(i), model.skeleton, At(field, i)));
   }
   ValidateHistory(model.skeleton, poses, field);
   CheckedIn(history.first_frame(), 0, kMaxDanceFrames, "config.history.first_frame");
@@ -95,7 +95,7 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
 // Reads what both RPCs share.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
-  NumbersPerJoint(config.encoding(), "config.encoding");
+  wire::NumbersPerJoint(config.encoding(), "config.encoding");
   out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
   if (config.has_temperature()) out->temperature = static_cast<float>(config.temperature());
   if (config.has_music_dynamics()) out->music_dynamics = config.music_dynamics();
@@ -146,6 +146,14 @@ DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
 }
 
 }  // namespace
+
+Target ReadTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
+                  const std::string& pose_field, const std::string& mask_field) {
+  Target target = wire::ToTarget(pose, mask, skeleton, pose_field, mask_field);
+  ValidatePose(skeleton, target.pose, pose_field);
+  ValidateMask(skeleton, target.mask, mask_field);
+  return target;
+}
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
   switch (keyframe.when_case()) {
@@ -218,8 +226,8 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   }
   if (message.has_target()) {
     request.target =
-        ToTarget(message.target(), message.has_target_mask() ? &message.target_mask() : nullptr,
-                 model.skeleton, "target", "target_mask");
+        ReadTarget(message.target(), message.has_target_mask() ? &message.target_mask() : nullptr,
+                   model.skeleton, "target", "target_mask");
   } else if (message.has_target_mask()) {
     throw InvalidArgument("target_mask", "there is no target");
   }
@@ -236,7 +244,7 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   }
   std::vector<Pose> after;
   for (int i = 0; i < message.after_size(); ++i) {
-    after.push_back(ToPose(message.after(i), model.skeleton, At("after", i)));
+    after.push_back(wire::ToPose(message.after(i), model.skeleton, At("after", i)));
   }
   ValidateHistory(model.skeleton, after, "after");
   if (!after.empty()) request.after = after.front();

@@ -15,7 +15,6 @@
 #include "server/call_session.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
-#include "server/read_pose.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
 #include "server/write_response.h"
@@ -193,8 +192,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const std::string field = stream.NextKeyframe();
     if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
     const Target target =
-        ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr, model.skeleton,
-                 field, field + ".mask");
+        ReadTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
+                   model.skeleton, field, field + ".mask");
     std::optional<double> hit;
     if (keyframe.has_hit()) hit = keyframe.hit();
     stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit);

@@ -7,9 +7,11 @@
 #include "client/authoring/music_beats.h"
 #include "client/convert.h"
 #include "model/audio/format.h"
+#include "model/core/field.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"
 #include "proto/wire/controls.h"
+#include "proto/wire/read_pose.h"
 
 namespace choreo::studio {
 namespace {
@@ -20,34 +22,11 @@ void RequireCount(const std::string& field, int count, int wanted) {
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
 }
 
-Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field,
-            double max_rotation) {
-  if (pose.encoding() > v1::ROTATION_ENCODING_AXIS_ANGLE)
-    throw InvalidArgument(field + ".encoding", "must be axis-angle");
-  RequireCount(field + ".rotations", pose.rotations_size(), 3 * skeleton.joints());
-  Pose out;
-  const v1::Vector3& root = pose.root_position();
-  out.root_position = {root.x(), root.y(), root.z()};
-  out.rotations = Eigen::Map<const Eigen::Matrix3Xf>(pose.rotations().data(), 3, skeleton.joints())
-                      .cast<double>();
-  CheckPoseLimits(out, max_rotation, "the limit", field);
-  return out;
-}
-
-PoseMask ToMask(const v1::JointMask* joints, bool root_position, const Skeleton& skeleton,
-                const std::string& field) {
-  PoseMask mask;
-  mask.root_position = root_position;
-  if (!joints) return mask;
-  mask.joints.assign(static_cast<size_t>(skeleton.joints()), false);
-  for (const int joint : joints->joints()) {
-    if (joint < 0 || joint >= skeleton.joints()) {
-      throw InvalidArgument(field, "joint " + std::to_string(joint) + ", must be 0 to " +
-                                       std::to_string(skeleton.joints() - 1));
-    }
-    mask.joints[static_cast<size_t>(joint)] = true;
-  }
-  return mask;
+/// A pose of a file, whose rotations may have wound up: the shortest way.
+Pose Unwound(Pose pose, const std::string& field) {
+  CheckPoseLimits(pose, kMaxWoundRotation, Show(kMaxWoundRotation), field);
+  MakeContinuous(pose, {{}, Eigen::Matrix3Xd::Zero(3, pose.rotations.cols())});
+  return pose;
 }
 
 }  // namespace
@@ -65,9 +44,11 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
     default:
       throw InvalidArgument("keyframe.when", "must be a frame or a time");
   }
-  out.pose = ToPose(key.pose(), skeleton, "keyframe.pose", kMaxRotation);
-  out.mask = ToMask(key.has_mask() ? &key.mask() : nullptr, key.pose().has_root_position(),
-                    skeleton, "keyframe.mask.joints");
+  Target target = wire::ToTarget(key.pose(), key.has_mask() ? &key.mask() : nullptr, skeleton,
+                                 "keyframe.pose", "keyframe.mask");
+  CheckPoseLimits(target.pose, kMaxRotation, "2π", "keyframe.pose");
+  out.pose = std::move(target.pose);
+  out.mask = std::move(target.mask);
   if (key.has_hit()) out.hit = key.hit();
   return out;
 }
@@ -102,15 +83,11 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {
-    out.history.push_back(ToPose(config.history().poses(i), skeleton,
-                                 "config.history.poses[" + std::to_string(i) + "]",
-                                 kMaxWoundRotation));
+    const std::string field = At("config.history.poses", i);
+    out.history.push_back(Unwound(wire::ToPose(config.history().poses(i), skeleton, field), field));
   }
   out.first_frame = config.history().first_frame();
   if (config.has_continuation()) out.continuation = client::FromProto(config.continuation());
-  // A file's rotations may have wound up; send the shortest way.
-  const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, skeleton.joints())};
-  for (Pose& pose : out.history) MakeContinuous(pose, unturned);
   return out;
 }
 
@@ -132,19 +109,18 @@ client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request
   out.frames = request.frames();
   if (request.has_audio() || request.config().has_audio_format())
     throw InvalidArgument("audio", "must be absent: the studio sees to it");
-  const Pose unturned{{}, Eigen::Matrix3Xd::Zero(3, skeleton.joints())};
   if (request.has_target()) {
-    out.target = ToPose(request.target(), skeleton, "target", kMaxWoundRotation);
-    MakeContinuous(*out.target, unturned);
-    out.target_mask = ToMask(request.has_target_mask() ? &request.target_mask() : nullptr,
-                             request.target().has_root_position(), skeleton, "target_mask.joints");
+    Target target = wire::ToTarget(request.target(),
+                                   request.has_target_mask() ? &request.target_mask() : nullptr,
+                                   skeleton, "target", "target_mask");
+    out.target = Unwound(std::move(target.pose), "target");
+    out.target_mask = std::move(target.mask);
   }
   if (request.has_target_hit()) out.target_hit = request.target_hit();
   out.target_id = request.target_id();
   for (int i = 0; i < request.after_size(); ++i) {
     out.after.push_back(
-        ToPose(request.after(i), skeleton, "after[" + std::to_string(i) + "]", kMaxWoundRotation));
-    MakeContinuous(out.after.back(), unturned);
+        Unwound(wire::ToPose(request.after(i), skeleton, At("after", i)), At("after", i)));
   }
   out.candidates = static_cast<int>(std::max(1U, request.candidates()));
   return out;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "model/core/error.h"
@@ -15,16 +14,6 @@ int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string&
   if (value >= least && value <= most) return value;
   throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
                                    ", " + std::to_string(most) + "]");
-}
-
-std::string At(const std::string& field, int64_t index) {
-  return field + '[' + std::to_string(index) + ']';
-}
-
-std::string Show(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
 }
 
 void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "model/core/field.h"
 #include "model/core/limits.h"
 #include "model/dance/transition.h"
 #include "model/engine/transition_spec.h"
@@ -18,9 +19,6 @@ namespace choreo {
 
 /// Returns the value; throws unless it is in [least, most].
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
-
-/// The name of element `index` of a list: "frames[3]".
-std::string At(const std::string& field, int64_t index);
 
 /// A pose of this skeleton: joint count, finite, position within kMaxPosition, every angle at most
 /// kMaxRotation; also for joints that the mask leaves free. `field` is the path of the pose:
@@ -51,8 +49,5 @@ void ValidateOutputFps(double fps, const std::string& field);
 /// Error(kFailedPrecondition) unless `allow_inexact`; malformed ones throw as above.
 void ValidateContinuation(const ModelInfo& model, const Continuation& continuation,
                           bool allow_inexact, const std::string& field);
-
-/// Formats a number for messages: short, without trailing zeros.
-std::string Show(double value);
 
 }  // namespace choreo

@@ -1,14 +1,14 @@
-#include "server/read_pose.h"
+#include "proto/wire/read_pose.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
 
 #include "model/core/error.h"
-#include "model/dance/validation.h"
+#include "model/core/field.h"
 #include "model/motion/rotation.h"
 
-namespace choreo {
+namespace choreo::wire {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;
@@ -108,9 +108,7 @@ Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton&
       previous = joint;
     }
   }
-  ValidatePose(skeleton, target.pose, pose_field);
-  ValidateMask(skeleton, target.mask, mask_field);
   return target;
 }
 
-}  // namespace choreo
+}  // namespace choreo::wire

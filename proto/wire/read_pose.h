@@ -1,18 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <string>
 
 #include "choreo/v1/choreography.pb.h"
 #include "choreo/v1/motion.pb.h"
-#include "model/dance/transition.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// The API's poses -> ours. Throw Error(kInvalidArgument) with the path of the field, beginning
-/// with `field`. Pure functions, thread-safe.
-namespace choreo {
+/// The API's poses -> ours, as server and studio get them. Throw Error(kInvalidArgument) with the
+/// path of the field, beginning with `field`. The callers check how large the numbers are. Pure
+/// functions, thread-safe.
+namespace choreo::wire {
 
 /// Numbers per joint in an encoding: 3, 4 or 9.
 int NumbersPerJoint(v1::RotationEncoding encoding, const std::string& field);
@@ -24,8 +23,8 @@ Eigen::Matrix3Xd ToRotations(const v1::Pose& pose, const Skeleton& skeleton,
 /// A pose with a required root position.
 Pose ToPose(const v1::Pose& pose, const Skeleton& skeleton, const std::string& field);
 
-/// A key pose and its mask. `mask` null: all joints.
+/// A key pose and its mask, which may be empty. `mask` null: all joints.
 Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
                 const std::string& pose_field, const std::string& mask_field);
 
-}  // namespace choreo
+}  // namespace choreo::wire

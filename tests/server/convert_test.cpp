@@ -1,6 +1,3 @@
-#include "server/read_pose.h"
-#include "server/read_request.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,6 +6,8 @@
 #include "model/core/error.h"
 #include "model/motion/rotation.h"
 #include "proto/wire/convert.h"
+#include "proto/wire/read_pose.h"
+#include "server/read_request.h"
 
 namespace choreo::convert_test {
 
@@ -39,7 +38,7 @@ TEST_P(EncodingTest, RoundTrips) {
   message.mutable_root_position()->set_x(frames.root_positions(0));
   message.mutable_root_position()->set_y(frames.root_positions(1));
   message.mutable_root_position()->set_z(frames.root_positions(2));
-  const Pose back = ToPose(message, Body(), "pose");
+  const Pose back = wire::ToPose(message, Body(), "pose");
   EXPECT_TRUE(back.root_position.isApprox(pose.root_position, 1e-6));
   for (int joint = 0; joint < Body().joints(); ++joint) {
     EXPECT_LT(RotationDifference(pose.rotations.col(joint), back.rotations.col(joint)).norm(), 1e-5)
@@ -74,7 +73,7 @@ TEST(ConvertTest, QuaternionsAreContinuous) {
 
 void ExpectRefused(const v1::Pose& pose, const std::string& field, const std::string& says) {
   try {
-    ToPose(pose, Body(), "keyframes[3]");
+    wire::ToPose(pose, Body(), "keyframes[3]");
     FAIL() << "taken: " << field;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);

@@ -105,7 +105,9 @@ TEST_F(StudioTest, ExplainsErrors) {
   page.Say(3, key);
   Response end = page.Read();
   while (end.has_dance()) end = page.Read();  // what came before the bad key
-  EXPECT_EQ(end.failure().message(), "keyframe.pose.rotations: 71 numbers, must be 72");
+  EXPECT_EQ(end.failure().message(),
+            "keyframe.pose.rotations: 71 numbers are no multiple of 3; the model has 24 joints, 72 "
+            "numbers");
   // The next call is served.
   page.Say(2, DanceRequest(20, 1));
   page.Say(2, Complete());
