@@ -1,12 +1,19 @@
 #include "studio/studio_context.h"
 
+#include "client/authoring/dancers.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/music_beats.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
 #include "client/style_figures.h"
 #include "model/core/atomic_file.h"
+#include "model/core/hit.h"
+#include "model/core/limits.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/joint_angles.h"
 #include "model/motion/kinematics.h"
+#include "model/motion/pose_limits.h"
 #include "model/motion/velocity_factors.h"
 #include "studio/scratch_folder.h"
 
@@ -35,6 +42,25 @@ JointTurn TurnOf(const Skeleton& skeleton, int joint) {
   return turn;
 }
 
+Limits LimitsOf(double song_s) {
+  Limits limits;
+  limits.set_dance_s(authoring::kLongestDance);
+  limits.set_song_s(song_s);
+  limits.set_beats_in_bar(authoring::kMostInBar);
+  limits.set_velocity_factor(kMaxVelocityFactor);
+  limits.set_hit(kMostHit);
+  limits.set_key_distance(kMinKeyDistance);
+  limits.set_hold_step_s(authoring::kHoldStep);
+  limits.set_hold_s(authoring::kLongestHold);
+  limits.set_position_m(kMaxPosition);
+  limits.set_dancers(authoring::kMostDancers);
+  limits.set_stage_m(authoring::kLargestStage);
+  limits.set_usual_apart_m(authoring::kUsuallyApart);
+  limits.set_usual_music_dynamics(kUsualDynamics);
+  limits.set_usual_variation(kUsualVariation);
+  return limits;
+}
+
 }  // namespace
 
 StudioContext::StudioContext(const client::Options& server, const std::filesystem::path& song,
@@ -45,6 +71,7 @@ StudioContext::StudioContext(const client::Options& server, const std::filesyste
   most_seconds_ = description.limits.max_audio_s;
   welcome_.set_version(description.version);
   *welcome_.mutable_model() = wire::ToProto(model_);
+  *welcome_.mutable_limits() = LimitsOf(most_seconds_);
   for (const authoring::LibraryPose& pose : authoring::PosesToDance(model_.skeleton)) {
     LibraryPose* added = welcome_.add_poses();
     added->set_id(pose.id);

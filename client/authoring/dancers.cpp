@@ -12,10 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kUsuallyApart = 0.2;   // metres: dancers do not brush against each other
-constexpr double kMostApart = 10;       // metres
-constexpr double kLargestStage = 1000;  // metres
-constexpr double kFullTurn = 360;       // degrees
+constexpr double kMostApart = 10;  // metres
+constexpr double kFullTurn = 360;  // degrees
 
 double NumberIn(const json& value, const std::string& field, double low, double high) {
   const double number = JsonNumber(value, field);

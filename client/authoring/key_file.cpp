@@ -23,10 +23,7 @@ namespace {
 using client::KeyPose;
 using nlohmann::json;
 
-// Seconds between the keys that hold a pose, at least: between nearer ones arms and legs tremble,
-// between farther ones they wander.
-constexpr double kHoldStep = 0.2;
-constexpr double kShortestHold = 0.1, kLongestHold = 60;  // seconds
+constexpr double kShortestHold = 0.1;  // seconds
 constexpr const char* kHold = ".hold";
 constexpr size_t kMostNamed = 8;  // keys named in a message
 

@@ -49,6 +49,9 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
   EXPECT_EQ(page.welcome().model().skeleton().joint_names_size(), 24);
   EXPECT_GE(page.welcome().poses_size(), 12);
   EXPECT_EQ(page.welcome().body().substr(0, 4), "glTF");
+  EXPECT_EQ(page.welcome().limits().song_s(), 600);  // the server's
+  EXPECT_EQ(page.welcome().limits().dancers(), 64);
+  EXPECT_EQ(page.welcome().limits().key_distance(), 2);
   EXPECT_EQ(page.welcome().song().name(), "clicks.wav");
   EXPECT_NEAR(page.welcome().heard().seconds(), 4, 1e-3);
   EXPECT_FALSE(page.welcome().has_styles_shown());  // nobody measured the fake model's

@@ -4,6 +4,7 @@ import { beats } from './beats';
 import type { Clip, Formation } from './generated/studio/studio_pb';
 import { later } from './counts';
 import { note } from './history';
+import { limits } from './limits';
 import { dancer, wire } from './link';
 import type { Motion } from './motion';
 import { dancersJson } from './project_file';
@@ -11,7 +12,6 @@ import type { Partner, Project, Spot } from './project';
 import { busy, complain, live, moment, project } from './state';
 import type { Moment, Song } from './state';
 
-const most = 64; // of the program (kMostDancers)
 const beside = 1.4; // metres between a new dancer and the last one
 const behind = 0.4; // metres that a new dancer stands further back
 
@@ -151,7 +151,7 @@ export function removePartner(nth: number) {
 /// Adds a dancer beside the others, on alternating sides; the first call makes the present dancer one of two.
 export function addPartner() {
   const { dancers } = project.value;
-  if (dancers.length >= most) return;
+  if (dancers.length >= limits.dancers) return;
   const named = (all: Partner[], spot: Spot): Partner => {
     let number = all.length + 1;
     while (all.some(({ id }) => id === `dancer${number}`)) ++number;

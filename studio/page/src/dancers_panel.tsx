@@ -1,10 +1,10 @@
 // The dancers, and how each differs from the others.
+import { limits } from './limits';
 import { NumberField } from './number_field';
 import { shirtOf } from './palette';
 import type { Partner } from './project';
 import * as studio from './studio';
 
-const farthest = 1000; // metres (kLargestStage of the program)
 const longest = 120; // counts or seconds
 
 function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
@@ -17,8 +17,8 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
     <fieldset class="partner">
       <legend style={{ '--shirt': `var(--${shirtOf(studio.shirtNumber(nth))})` }} class="take">{id}</legend>
       <div class="row">
-        <NumberField label="x" name={`${id}, x in metres`} value={x} low={-farthest} high={farthest} step={0.1} rule="x is metres to the left, seen from her" set={(value) => put({ x: value, z })} />
-        <NumberField label="z" name={`${id}, z in metres`} value={z} low={-farthest} high={farthest} step={0.1} rule="z is metres towards the audience" set={(value) => put({ x, z: value })} />
+        <NumberField label="x" name={`${id}, x in metres`} value={x} low={-limits.stageM} high={limits.stageM} step={0.1} rule="x is metres to the left, seen from her" set={(value) => put({ x: value, z })} />
+        <NumberField label="z" name={`${id}, z in metres`} value={z} low={-limits.stageM} high={limits.stageM} step={0.1} rule="z is metres towards the audience" set={(value) => put({ x, z: value })} />
         <NumberField label="faces" name={`${id}, degrees that her dance is turned`} value={facing} low={-360} high={360} step={5} rule="Her dance turns -360 to 360 degrees" set={(value) => set({ facing: value })} />
         <NumberField label="later" name={`${id}, ${inCounts ? 'counts' : 'seconds'} later`} value={after} low={0} high={longest} step={1}
           rule={`She comes 0 to ${longest} ${inCounts ? 'counts' : 'seconds'} later`} set={(value) => set({ after: value })} />

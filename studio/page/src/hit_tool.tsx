@@ -1,5 +1,5 @@
 // How hard the chosen key is hit: danced through, or rested in, from gently to late and fast.
-import { hardest } from './project';
+import { limits } from './limits';
 import type { Key } from './project';
 import * as studio from './studio';
 
@@ -16,7 +16,7 @@ export function HitTool({ item }: { item: Key }) {
       {item.hit !== null && (
         <label class="slider" title="0 settles into it early and gently, 1 takes her own time, 3 comes late and fast, and stops dead">
           <span>hit</span>
-          <input type="range" aria-label="How hard it is hit" min={0} max={hardest} step="0.1" value={item.hit}
+          <input type="range" aria-label="How hard it is hit" min={0} max={limits.hit} step="0.1" value={item.hit}
             onChange={(event) => set(Number(event.currentTarget.value))} />
           <output>{item.hit.toFixed(1)}</output>
         </label>

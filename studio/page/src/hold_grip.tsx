@@ -1,6 +1,6 @@
 // How long the chosen key's pose is kept: its end is pulled on the timeline, or moved by arrow keys.
 import { useFrameDrag } from './drag';
-import { holdStep } from './project';
+import { limits } from './limits';
 import type { Key } from './project';
 import { seconds, x, zoom } from './scale';
 import * as studio from './studio';
@@ -14,7 +14,7 @@ function Grip({ item }: { item: Key }) {
     const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (!way) return;
     event.preventDefault();
-    studio.holdKey(item.id, item.hold + way * holdStep * fps);
+    studio.holdKey(item.id, item.hold + way * limits.holdStepS * fps);
   };
   return (
     <>

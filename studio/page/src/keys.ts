@@ -9,7 +9,8 @@ import { danceFrom, edit } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
-import { closest, emptyProject, freeId, holdOf, holdStep, longestHold, sorted, spoken, wishes } from './project';
+import { limits } from './limits';
+import { emptyProject, freeId, holdOf, sorted, spoken, wishes } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
@@ -42,7 +43,7 @@ export function freeFrame(keys: Key[], frame: number): number | null {
   const most = dancer.frames(project.value) - 1;
   for (let away = 0; away < reach; ++away) {
     for (const at of [frame + away, frame - away]) {
-      if (at >= 0 && at <= most && keys.every((key) => Math.abs(key.frame - at) >= closest)) return at;
+      if (at >= 0 && at <= most && keys.every((key) => Math.abs(key.frame - at) >= limits.keyDistance)) return at;
     }
   }
   return null;
@@ -95,7 +96,7 @@ export function holdKey(id: string, frames: number) {
   const key = keyOf(id);
   if (!key || live.value) return;
   const { fps } = dancer;
-  const held = { ...key, hold: holdOf(Math.min(frames + (holdStep * fps) / 2, longestHold * fps), fps) };
+  const held = { ...key, hold: holdOf(Math.min(frames + (limits.holdStepS * fps) / 2, limits.holdS * fps), fps) };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? held : other)) }, [key.frame]);
 }
 

@@ -2,6 +2,7 @@
 import { Skeleton } from './body';
 import { Dancer } from './dancer';
 import type { Welcome } from './generated/studio/studio_pb';
+import { setLimits } from './limits';
 import { complain, isConnected, welcome } from './state';
 import { Wire } from './wire';
 
@@ -18,6 +19,7 @@ export const wire = new Wire(
     const isFirst = !welcome.value;
     skeleton = new Skeleton(response.value.model!.skeleton!);
     dancer = new Dancer(wire, response.value.model!);
+    setLimits(response.value.limits!);
     welcome.value = response.value;
     isConnected.value = true;
     greet(response.value, isFirst);

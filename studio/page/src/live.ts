@@ -9,7 +9,8 @@ import { dancer, skeleton, wire } from './link';
 import { listen } from './microphone';
 import type { Microphone } from './microphone';
 import { Motion } from './motion';
-import { closest, emptyProject, freeId, sorted, wishes } from './project';
+import { limits } from './limits';
+import { emptyProject, freeId, sorted, wishes } from './project';
 import type { Key } from './project';
 import { dropSketch } from './photos';
 import { audio, hear } from './songs';
@@ -22,7 +23,7 @@ const ahead = 1; // seconds until a pose that is pressed, at least
 const spare = 0.07; // seconds for a piece of sound, and the way to the program and back
 const shownAhead = 8; // seconds of the timeline after now
 const lastWait = 10000; // ms for the end of the dance
-const longest = 590; // seconds: songs may be ten minutes long
+const unheard = 10; // seconds of the longest song that nobody plays live
 const name = 'microphone.wav';
 
 let call = 0;
@@ -117,7 +118,7 @@ function take(piece: Float32Array) {
   say({ request: { case: 'audio', value: { data: new Uint8Array(piece.buffer, piece.byteOffset, piece.byteLength) } } });
   if (live.value.project.seconds < heardSeconds() + shownAhead - 1)
     update({ project: { ...live.value.project, seconds: Math.floor(heardSeconds()) + shownAhead } });
-  if (heardSeconds() > longest) void stopLive();
+  if (heardSeconds() > limits.songS - unheard) void stopLive();
 }
 
 /// Lets go of the microphone: what it heard is the song from now on, and the dance to it stays.
@@ -175,7 +176,7 @@ export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   const { keys } = live.value!.project;
   const soon = heardSeconds() + ahead;
   let frame = Math.max(earliest(), wanted ?? Math.round((coming.value.find((beat) => beat >= soon) ?? soon) * dancer.fps));
-  while (keys.some((key) => Math.abs(key.frame - frame) < closest)) frame += closest;
+  while (keys.some((key) => Math.abs(key.frame - frame) < limits.keyDistance)) frame += limits.keyDistance;
   const { x, y, z } = pose.pose!.rootPosition!;
   const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, asks: null, hold: 0, hit: null };
   say({ request: { case: 'keyframe', value: keyMessage(key) } });
@@ -193,7 +194,7 @@ export function changeLiveKey(id: string, to: number | null) {
     return keep(others);
   }
   const moved = { ...key, frame: Math.max(earliest(), to) };
-  if (others.some(({ frame }) => Math.abs(frame - moved.frame) < closest)) return;
+  if (others.some(({ frame }) => Math.abs(frame - moved.frame) < limits.keyDistance)) return;
   say({ request: { case: 'keyframe', value: keyMessage(moved) } });
   keep([...others, moved]);
 }

@@ -7,7 +7,8 @@ import { later, placeAmong } from './counts';
 import { onPath } from './floor_path';
 import { edit, total } from './history';
 import { dancer, skeleton } from './link';
-import { closest, freeId, holdOf, sorted } from './project';
+import { limits } from './limits';
+import { freeId, holdOf, sorted } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { chosen, complain, live, project, selectedKey, takes, tell } from './state';
@@ -23,7 +24,7 @@ const frameOf = (seconds: number) => Math.round(seconds * dancer.fps);
 /// Selects the frames between two, in any order; fewer than the least distance of keys is no phrase.
 export function choosePhrase(a: number, b: number) {
   const [from, to] = [Math.max(0, Math.min(a, b)), Math.min(Math.max(a, b), total.value)];
-  if (live.value || to - from < closest) return;
+  if (live.value || to - from < limits.keyDistance) return;
   takes.value = [];
   chosen.value = [from, to];
 }
@@ -100,7 +101,7 @@ export function repeatPhrase(withAnotherEnding = false) {
   const most = total.value;
   const set = (withAnotherEnding ? keys.slice(0, -1) : keys).filter((key) => frameOfKey(key) < most);
   if (set.length === 0 || (withAnotherEnding && ending >= most)) return complain(new Error('The dance ends before the phrase could come again.'));
-  const [first, last] = [Math.min(from, begin - closest + 1), Math.max(to, ending + closest)];
+  const [first, last] = [Math.min(from, begin - limits.keyDistance + 1), Math.max(to, ending + limits.keyDistance)];
   const stay = project.value.keys.filter(({ frame }) => frame < first || frame >= last);
   const makeWay = project.value.keys.filter((key) => !stay.includes(key));
   const all = [...stay];
@@ -131,11 +132,11 @@ export function stretchPhrase(times: number) {
   const set = keys.map((key) => onPath(project.value.path, {
     ...key, frame: stretched(key.frame), hold: holdOf(times * key.hold, fps),
   })).filter(({ frame }) => frame < most);
-  if (set.some(({ frame }, i) => i > 0 && frame - set[i - 1].frame < closest)) return complain(new Error('Its keys would stand too close together.'));
+  if (set.some(({ frame }, i) => i > 0 && frame - set[i - 1].frame < limits.keyDistance)) return complain(new Error('Its keys would stand too close together.'));
   const touched = keys.filter((key, i) => set[i]?.frame !== key.frame);
   if (touched.length === 0) return tell('The phrase has no key behind its beginning.');
-  const begin = Math.min(from, (set[0]?.frame ?? from) - closest + 1);
-  const end = Math.max(to, stretched(to), (set.at(-1)?.frame ?? 0) + closest);
+  const begin = Math.min(from, (set[0]?.frame ?? from) - limits.keyDistance + 1);
+  const end = Math.max(to, stretched(to), (set.at(-1)?.frame ?? 0) + limits.keyDistance);
   const stay = project.value.keys.filter((key) => !keys.includes(key) && (key.frame < begin || key.frame >= end));
   const makeWay = project.value.keys.filter((key) => !keys.includes(key) && !stay.includes(key));
   const moved = set.filter((key, i) => key.frame !== keys[i].frame);

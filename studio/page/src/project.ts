@@ -1,6 +1,7 @@
 // A project: key poses, and how to dance between them.
 import type { Pose } from './body';
 import type { Beats } from './counts';
+import { limits } from './limits';
 
 /// A place on the floor; metres.
 export type Spot = { x: number; z: number };
@@ -8,26 +9,13 @@ export type Spot = { x: number; z: number };
 export type Step = Spot & { frame: number };
 
 /// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
-/// all of them. `hold`: frames for which its pose is kept. `hit`: how hard it is hit, 0 to `hardest`; null: it is danced through.
+/// all of them. `hold`: frames for which its pose is kept. `hit`: how hard it is hit, 0 to `limits.hit`; null: it is danced through.
 export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number; hit: number | null };
-
-/// The program's kMostHit.
-export const hardest = 3;
 
 /// A named moment.
 export type Marker = { frame: number; name: string };
 
-/// The least distance between keys, frames (the program's kMinKeyDistance).
-export const closest = 2;
-
 export const parts = ['trunk', 'left arm', 'right arm', 'left leg', 'right leg'];
-
-/// The program's defaults: kUsualDynamics, kUsualVariation.
-const [usualDynamics, usualVariation] = [0.5, 0.3];
-/// Seconds between the keys that hold a pose (kHoldStep), and for which one is held at most (kLongestHold).
-export const holdStep = 0.2;
-export const longestHold = 60;
-const usuallyApart = 0.2; // metres (kUsuallyApart)
 
 /// One of several dancers, with the settings in which she differs.
 export type Partner = Spot & {
@@ -77,33 +65,33 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   seconds,
   seed: 1,
   style: '',
-  dynamics: usualDynamics,
-  variation: usualVariation,
+  dynamics: limits.usualMusicDynamics,
+  variation: limits.usualVariation,
   beats: null,
   lively: parts.map(() => 1),
   path: [],
   keys: [],
   markers: [],
   dancers: [],
-  apart: usuallyApart,
+  apart: limits.usualApartM,
 });
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
 
 /// Frames for which a pose can be held that is to be held for so many.
 export function holdOf(frames: number, fps: number) {
-  const step = holdStep * fps;
+  const step = limits.holdStepS * fps;
   return Math.round(Math.max(0, Math.floor(frames / step + 1e-9)) * step);
 }
 
 /// The keys, none of which is held into the next one, or behind the last of so many frames.
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
-  keys.map((key, i) => ({ ...key, hold: holdOf(Math.min(key.hold, (keys[i + 1]?.frame ?? frames - 1 + closest) - closest - key.frame), fps) }));
+  keys.map((key, i) => ({ ...key, hold: holdOf(Math.min(key.hold, (keys[i + 1]?.frame ?? frames - 1 + limits.keyDistance) - limits.keyDistance - key.frame), fps) }));
 
 /// The keys, and those behind them that hold them, as the program has both (client/authoring/key_file.cpp).
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
-    const steps = Math.round(key.hold / (holdStep * fps));
+    const steps = Math.round(key.hold / (limits.holdStepS * fps));
     return [{ ...key, hold: 0 }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
   });
 }

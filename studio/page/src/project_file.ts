@@ -1,15 +1,10 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
 import type { Beats } from './counts';
-import { closest, emptyProject, parts, sorted, trimmed, withHolds } from './project';
+import { limits } from './limits';
+import { emptyProject, parts, sorted, trimmed, withHolds } from './project';
 import type { Key, Marker, Project, Step } from './project';
 
 const format = 1; // version of the file format
-// The program's limits: kLongestDance, kMaxAudioSeconds, kMostInBar, kMaxVelocityFactor, kMaxPosition.
-const mostSeconds = 3600;
-const mostSong = 600; // seconds
-const mostInBar = 16;
-const mostLively = 10;
-const most = 10000; // metres from the origin along an axis
 
 type Json = Record<string, unknown>;
 /// What a project must be compatible with.
@@ -85,9 +80,9 @@ function readPath(path: Json, name: string, known: Known): Step[] {
     if (typeof point !== 'object' || point === null) throw new Error(`${at}: ${shown(point)} is no point.`);
     if ('y' in point) throw new Error(`${at}.y: the studio's paths lie on the floor.`);
     const frame = Math.round('frame' in point
-      ? number(point.frame, `${at}.frame`, 0, mostSeconds * known.fps)
-      : number(point.time, `${at}.time`, 0, mostSeconds) * known.fps);
-    return { frame, x: number(point.x, `${at}.x`, -most, most), z: number(point.z, `${at}.z`, -most, most) };
+      ? number(point.frame, `${at}.frame`, 0, limits.danceS * known.fps)
+      : number(point.time, `${at}.time`, 0, limits.danceS) * known.fps);
+    return { frame, x: number(point.x, `${at}.x`, -limits.positionM, limits.positionM), z: number(point.z, `${at}.z`, -limits.positionM, limits.positionM) };
   });
   if (steps.length < 2) throw new Error(`${name}: path.points: ${steps.length} points, a path has at least 2.`);
   const back = steps.findIndex((step, i) => i > 0 && step.frame <= steps[i - 1].frame);
@@ -99,12 +94,12 @@ function readBeats({ beats, bar = 4 }: Json, name: string): Beats {
   if (!Array.isArray(beats)) throw new Error(`${name}: beats: ${shown(beats)} is no list.`);
   const count = (value: unknown, where: string) => {
     if (!Number.isInteger(value)) throw new Error(`${where}: ${shown(value)} is no count.`);
-    return number(value, where, 1, mostInBar);
+    return number(value, where, 1, limits.beatsInBar);
   };
   const list = beats.map((beat: unknown, i) => {
     const at = `${name}: beats[${i}]`;
     if (!Array.isArray(beat) || beat.length !== 2) throw new Error(`${at}: ${shown(beat)} is no beat: its second and its count.`);
-    return { time: number(beat[0], at, 0, mostSong), count: count(beat[1], at) };
+    return { time: number(beat[0], at, 0, limits.songS), count: count(beat[1], at) };
   });
   const back = list.findIndex(({ time }, i) => i > 0 && time <= list[i - 1].time);
   if (back > 0) throw new Error(`${name}: beats[${back}] does not come after the beat before it.`);
@@ -117,7 +112,7 @@ function readMarkers(list: unknown, name: string, fps: number): Marker[] {
     const at = `${name}: markers[${i}]`;
     if (typeof marker !== 'object' || marker === null) throw new Error(`${at}: ${shown(marker)} is no marker: its time and its name.`);
     if (typeof marker.name !== 'string' || marker.name === '') throw new Error(`${at}.name: ${shown(marker.name)} is no name.`);
-    return { frame: Math.round(number(marker.time, `${at}.time`, 0, mostSeconds) * fps), name: marker.name };
+    return { frame: Math.round(number(marker.time, `${at}.time`, 0, limits.danceS) * fps), name: marker.name };
   });
   const back = markers.findIndex(({ frame }, i) => i > 0 && frame <= markers[i - 1].frame);
   if (back > 0) throw new Error(`${name}: markers[${back}] does not come after the marker before it.`);
@@ -127,13 +122,13 @@ function readMarkers(list: unknown, name: string, fps: number): Marker[] {
 /// The keys of a file as read by the program, in order. Throws for keys that do not fit a dance here.
 export function inOrder(keys: Key[], name: string, fps: number): Key[] {
   for (const { id, frame, pose } of keys) {
-    if (!(frame >= 0 && frame <= mostSeconds * fps)) throw new Error(`${name}: the key "${id}" stands at ${frame / fps} s, and may from 0 to ${mostSeconds}.`);
-    if (!pose.root.every((value) => Math.abs(value) <= most)) throw new Error(`${name}: the key "${id}" is more than ${most} m away.`);
+    if (!(frame >= 0 && frame <= limits.danceS * fps)) throw new Error(`${name}: the key "${id}" stands at ${frame / fps} s, and may from 0 to ${limits.danceS}.`);
+    if (!pose.root.every((value) => Math.abs(value) <= limits.positionM)) throw new Error(`${name}: the key "${id}" is more than ${limits.positionM} m away.`);
   }
   const list = sorted(keys);
   list.forEach(({ id, frame }, i) => {
-    if (i > 0 && frame - list[i - 1].frame < closest)
-      throw new Error(`${name}: the keys "${list[i - 1].id}" and "${id}" stand closer than ${closest} frames.`);
+    if (i > 0 && frame - list[i - 1].frame < limits.keyDistance)
+      throw new Error(`${name}: the keys "${list[i - 1].id}" and "${id}" stand closer than ${limits.keyDistance} frames.`);
   });
   return withHolds(list);
 }
@@ -146,7 +141,7 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
     throw new Error(`${name} is of format ${shown(json.studio)}; this studio knows ${format}. It was saved by another version.`);
   const at = (member: string) => `${name}: ${member}`;
   const project = emptyProject(typeof json.song === 'string' ? json.song : '', 0);
-  if (json.seconds !== undefined) project.seconds = number(json.seconds, at('seconds'), 0, mostSeconds);
+  if (json.seconds !== undefined) project.seconds = number(json.seconds, at('seconds'), 0, limits.danceS);
   if (json.seed !== undefined) project.seed = Math.round(number(json.seed, at('seed'), 0, Number.MAX_SAFE_INTEGER));
   if (typeof json.style === 'string') project.style = json.style;
   if (project.style && !known.styles.includes(project.style)) {
@@ -157,7 +152,7 @@ export function fromJson(text: string, name: string, known: Known, tell: (words:
   project.variation = number(json.variation ?? project.variation, at('variation'), 0, 1);
   if (json.beats !== undefined) project.beats = readBeats(json, name);
   const lively = (json.lively ?? {}) as Json;
-  project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, mostLively));
+  project.lively = parts.map((part) => number(lively[part] ?? 1, at(`lively.${part}`), 0, limits.velocityFactor));
   if (json.markers !== undefined) project.markers = readMarkers(json.markers, name, known.fps);
   if (json.path !== undefined) project.path = readPath(json.path as Json, name, known);
   return project;

@@ -9,15 +9,20 @@ import { test } from 'node:test';
 const page = new URL('../../../studio/page/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', page))('esbuild');
 
-/// A module of the page, with all that it imports.
+const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, positionM: 10000, dancers: 64,
+  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3 };
+
+/// A module of the page, with all that it imports, and the program's limits.
 async function load(name) {
-  const entry = fileURLToPath(new URL(`src/${name}.ts`, page));
-  const { outputFiles } = buildSync({ entryPoints: [entry], bundle: true, write: false, format: 'esm', platform: 'node' });
-  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString('base64')}`);
+  const stdin = { contents: `export * from './${name}'; export { setLimits } from './limits';`, resolveDir: fileURLToPath(new URL('src', page)) };
+  const { outputFiles } = buildSync({ stdin, bundle: true, write: false, format: 'esm', platform: 'node' });
+  const loaded = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString('base64')}`);
+  loaded.setLimits(limits);
+  return loaded;
 }
 
 const { roughly, timeLeft } = await load('time_left');
-const { closest, emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withHolds, withMarker } = await load('project');
+const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withHolds, withMarker } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
 const { counted, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
@@ -240,6 +245,6 @@ test('beats that people said are kept with the project, a line each', () => {
 });
 
 test('keys that stand too close are refused', () => {
-  const keys = [0, closest - 1].map((frame, i) => ({ id: `k${i}`, frame, pose: still(1) }));
+  const keys = [0, limits.keyDistance - 1].map((frame, i) => ({ id: `k${i}`, frame, pose: still(1) }));
   assert.throws(() => inOrder(keys, 'p.json', 30), /"k0" and "k1" stand closer/);
 });

@@ -1,0 +1,5 @@
+// What the program takes and assumes: its constants, told in its first message.
+import type { Limits } from './generated/studio/studio_pb';
+
+export let limits: Limits;
+export const setLimits = (told: Limits) => (limits = told);
