@@ -133,7 +133,7 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   lost_because_ = status.error_message().empty() ? "lost" : status.error_message();
   const int64_t frame =
       config_.has_continuation() ? config_.continuation().frame() : header_->first_frame;
-  seen_->Restart(frame, journal_.KeysBefore(frame, header_->model_fps));
+  filter_->Restart(frame, journal_.KeysBefore(frame, header_->model_fps));
 }
 
 std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& response) {
@@ -152,7 +152,7 @@ std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& 
   }
   if (response.has_frames()) {
     FrameBlock block = FromProto(response.frames(), header_->skeleton.joints());
-    if (!seen_->Admit(&block)) return std::nullopt;
+    if (!filter_->Admit(&block)) return std::nullopt;
     patience_.Reset();
     return block;
   }
@@ -163,7 +163,7 @@ std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& 
     return FromProto(response.continuation());
   }
   const std::optional<DanceEvent> event = FromProto(response.event());
-  if (!event || !seen_->Admit(*event)) return std::nullopt;
+  if (!event || !filter_->Admit(*event)) return std::nullopt;
   return std::visit([](const auto& said) { return Message(said); }, *event);
 }
 
@@ -174,7 +174,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
     // The position of the first output frame that is not before the first frame.
     const double first =
         static_cast<double>(received.first_frame) * received.fps / received.model_fps;
-    seen_.emplace(static_cast<int64_t>(std::ceil(first - 1e-9)));
+    filter_.emplace(static_cast<int64_t>(std::ceil(first - 1e-9)));
     // Another server must dance the same dance with the same model.
     config_.set_seed(received.seed);
     config_.set_model(received.model);
@@ -184,7 +184,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
     throw Error(ErrorCode::kInternal, "",
                 "the server that should go on with the dance has another frame rate or body");
   }
-  return Resumed{attempt_->server().address, seen_->next_frame(), header.exact_resume(),
+  return Resumed{attempt_->server().address, filter_->next_frame(), header.exact_resume(),
                  lost_because_};
 }
 

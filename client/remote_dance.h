@@ -8,9 +8,9 @@
 
 #include "client/choreo_client.h"
 #include "client/convert.h"
+#include "client/delivery_filter.h"
 #include "client/journal.h"
 #include "client/replicas.h"
-#include "client/seen.h"
 
 namespace choreo::client {
 
@@ -82,7 +82,7 @@ struct RemoteDance::Impl {
 
   // Used by Next alone.
   std::optional<Header> header_;
-  std::optional<Seen> seen_;
+  std::optional<DeliveryFilter> filter_;
   std::string lost_because_;  // not empty: the next header is a resumption
   bool complete_ = false;
 };

@@ -4,7 +4,7 @@ import { answersOf } from './answers.js';
 import { ChoreoError, unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { Journal } from './journal.js';
-import { Seen } from './seen.js';
+import { DeliveryFilter } from './delivery_filter.js';
 
 /** The answers of StreamDance to `requests`. */
 export async function* dance(replicas, requests, { signal, deadline, onResume } = {}) {
@@ -70,7 +70,7 @@ class Progress {
   #onResume;
   #header;
   #continuation;
-  #seen;
+  #filter;
 
   constructor(journal, onResume) {
     this.#journal = journal;
@@ -97,7 +97,7 @@ class Progress {
   restart() {
     if (!this.#header) return;
     const frame = Number(this.#continuation?.frame ?? this.#header.first_frame);
-    this.#seen.restart(frame, this.#journal.keysBefore(frame, this.#header.model_frame_rate));
+    this.#filter.restart(frame, this.#journal.keysBefore(frame, this.#header.model_frame_rate));
   }
 
   /** What the caller is to see of an answer, if anything. `sent`: how many requests the server has been sent. */
@@ -106,11 +106,11 @@ class Progress {
       case 'header':
         return this.#takeHeader(answer, address);
       case 'frames': {
-        const frames = this.#seen.frames(answer.frames);
+        const frames = this.#filter.frames(answer.frames);
         return frames && { ...answer, frames };
       }
       case 'event':
-        return this.#seen.event(answer.event) ? answer : undefined;
+        return this.#filter.event(answer.event) ? answer : undefined;
       case 'continuation':
         this.#continuation = answer.continuation;
         this.#journal.forgetMusicBefore(Number(answer.continuation.audio_from_sample), sent);
@@ -125,7 +125,7 @@ class Progress {
     const { header } = answer;
     if (!this.#header) {
       this.#header = header;
-      this.#seen = new Seen(firstOutputFrame(header));
+      this.#filter = new DeliveryFilter(firstOutputFrame(header));
       return answer;
     }
     const { frame_rate, skeleton } = this.#header;
@@ -135,7 +135,7 @@ class Progress {
     }
     // A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
     if (!this.#continuation) requireSameFingerprint(this.#header, header, address);
-    this.#onResume?.({ address, frame: this.#seen.nextFrame(), exact: header.exact_resume, because: this.lostBecause });
+    this.#onResume?.({ address, frame: this.#filter.nextFrame(), exact: header.exact_resume, because: this.lostBecause });
     return undefined;
   }
 

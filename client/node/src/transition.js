@@ -2,12 +2,12 @@
 import { answersOf } from './answers.js';
 import { unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
-import { Seen } from './seen.js';
+import { DeliveryFilter } from './delivery_filter.js';
 
 /** The answers of GenerateTransition to `request`. */
 export async function* transition(replicas, request, { signal, deadline } = {}) {
   let begun; // the first server's header
-  let seen;
+  let filter;
   yield* replicas.persist(attempt, { signal, deadline });
 
   async function* attempt(server, patience) {
@@ -19,14 +19,14 @@ export async function* transition(replicas, request, { signal, deadline } = {}) 
         requireSameFingerprint(begun, answer.header, server.address);
       } else if (answer.header) {
         begun = answer.header;
-        seen = new Seen(firstOutputFrame(begun));
+        filter = new DeliveryFilter(firstOutputFrame(begun));
         yield answer;
       } else if (answer.frames) {
-        const frames = seen.frames(answer.frames);
+        const frames = filter.frames(answer.frames);
         if (!frames) continue;
         patience.reset();
         yield { ...answer, frames };
-      } else if (!answer.event || seen.event(answer.event)) {
+      } else if (!answer.event || filter.event(answer.event)) {
         complete ||= answer.response === 'summary';
         yield answer;
       }

@@ -8,7 +8,7 @@ import grpc
 from . import choreography
 from ._errors import ChoreoError, unavailable
 from ._journal import Journal
-from ._seen import Seen, require_same_fingerprint
+from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,7 +88,7 @@ class _Progress:
 
     def __init__(self, journal, on_resume):
         self._journal, self._on_resume = journal, on_resume
-        self._header = self._continuation = self._seen = None
+        self._header = self._continuation = self._filter = None
         self.complete = False
         self.lost_because = None
 
@@ -110,7 +110,7 @@ class _Progress:
         """Another server begins."""
         if self._header is not None:
             frame = self._header.first_frame if self._continuation is None else self._continuation.frame
-            self._seen.restart(frame, self._journal.keys_before(frame, self._header.model_frame_rate))
+            self._filter.restart(frame, self._journal.keys_before(frame, self._header.model_frame_rate))
 
     def take(self, answer, address, sent):
         """Whether the caller is to see an answer, which is changed to what the caller should see. `sent`: how many requests the server has
@@ -119,9 +119,9 @@ class _Progress:
         if kind == "header":
             return self._take_header(answer.header, address)
         if kind == "frames":
-            return self._seen.take_frames(answer.frames)
+            return self._filter.take_frames(answer.frames)
         if kind == "event":
-            return self._seen.take_event(answer.event)
+            return self._filter.take_event(answer.event)
         if kind == "continuation":
             self._continuation = answer.continuation
             self._journal.forget_music_before(self._continuation.audio_from_sample, sent)
@@ -131,7 +131,7 @@ class _Progress:
 
     def _take_header(self, header, address):
         if self._header is None:
-            self._header, self._seen = header, Seen(header)
+            self._header, self._filter = header, DeliveryFilter(header)
             return True
         if header.frame_rate != self._header.frame_rate or header.skeleton.joint_names != self._header.skeleton.joint_names:
             raise ChoreoError("DATA_LOSS", "the server that should go on with the dance has another frame rate or body")
@@ -139,7 +139,7 @@ class _Progress:
         if self._continuation is None:
             require_same_fingerprint(self._header, header, address)
         if self._on_resume is not None:
-            self._on_resume(Resumed(address, self._seen.next_frame(), header.exact_resume, self.lost_because))
+            self._on_resume(Resumed(address, self._filter.next_frame(), header.exact_resume, self.lost_because))
         return False
 
     def _take_summary(self, report):

@@ -2,17 +2,17 @@
 
 from . import choreography
 from ._errors import unavailable
-from ._seen import Seen, require_same_fingerprint
+from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
 
 def transition(replicas, request, until):
     """The answers of GenerateTransition to `request`."""
     asked = choreography.GenerateTransitionRequest()
     asked.CopyFrom(request)
-    begun = seen = None  # by the first server
+    begun = delivery_filter = None  # by the first server
 
     def attempt(server, patience):
-        nonlocal begun, seen
+        nonlocal begun, delivery_filter
         call = until.begin(server.generate_transition(asked, timeout=until.remaining(), metadata=replicas.options.metadata()))
         complete = False
         try:
@@ -21,13 +21,13 @@ def transition(replicas, request, until):
                     require_same_fingerprint(begun, answer.header, server.address)
                     continue
                 if answer.HasField("header"):
-                    begun, seen = answer.header, Seen(answer.header)
+                    begun, delivery_filter = answer.header, DeliveryFilter(answer.header)
                     asked.config.seed, asked.config.model = begun.seed, begun.model
                 elif answer.HasField("frames"):
-                    if not seen.take_frames(answer.frames):
+                    if not delivery_filter.take_frames(answer.frames):
                         continue
                     patience.reset()
-                elif answer.HasField("event") and not seen.take_event(answer.event):
+                elif answer.HasField("event") and not delivery_filter.take_event(answer.event):
                     continue
                 complete |= answer.HasField("summary")
                 yield answer

@@ -20,7 +20,7 @@ def require_same_fingerprint(begun, header, address):
         raise wrong_field("FAILED_PRECONDITION", "config.continuation.fingerprint", what)
 
 
-class Seen:
+class DeliveryFilter:
     def __init__(self, header):
         self._next_frames = collections.defaultdict(lambda: first_output_frame(header))  # of each candidate; a dance has one
         self._rejected = []  # (id, frame) of keys, as they were told

@@ -14,9 +14,9 @@ using KeyPlace = std::pair<std::string, int64_t>;
 
 /// Filters out what a resumed dance repeats, so that the caller receives everything once. Not
 /// thread-safe.
-class Seen {
+class DeliveryFilter {
  public:
-  explicit Seen(int64_t next_frame) : next_frame_(next_frame) {}
+  explicit DeliveryFilter(int64_t next_frame) : next_frame_(next_frame) {}
 
   /// The next frame to be delivered, at the output rate.
   int64_t next_frame() const { return next_frame_; }

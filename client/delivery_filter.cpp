@@ -1,15 +1,15 @@
-#include "client/seen.h"
+#include "client/delivery_filter.h"
 
 namespace choreo::client {
 
-void Seen::Restart(int64_t frame, std::vector<KeyPlace> late) {
+void DeliveryFilter::Restart(int64_t frame, std::vector<KeyPlace> late) {
   expected_ = {late.begin(), late.end()};
   for (const KeyPlace& place : rejected_) {
     if (place.second >= frame) expected_.insert(place);
   }
 }
 
-bool Seen::Admit(FrameBlock* block) {
+bool DeliveryFilter::Admit(FrameBlock* block) {
   if (block->first_frame > next_frame_) {
     throw Error(ErrorCode::kInternal, "",
                 "the server left out frames: " + std::to_string(block->first_frame) +
@@ -24,14 +24,14 @@ bool Seen::Admit(FrameBlock* block) {
   return true;
 }
 
-bool Seen::TakeExpected(const KeyPlace& place) {
+bool DeliveryFilter::TakeExpected(const KeyPlace& place) {
   const auto expected = expected_.find(place);
   if (expected == expected_.end()) return false;
   expected_.erase(expected);
   return true;
 }
 
-bool Seen::Admit(const DanceEvent& event) {
+bool DeliveryFilter::Admit(const DanceEvent& event) {
   if (const auto* rejected = std::get_if<KeyRejected>(&event)) {
     const KeyPlace place = {rejected->id, rejected->frame};
     if (TakeExpected(place)) return false;

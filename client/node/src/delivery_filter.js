@@ -5,7 +5,7 @@ import { placeOf } from './journal.js';
 
 const perFrame = ['root_positions', 'rotations', 'contacts'];
 
-export class Seen {
+export class DeliveryFilter {
   #nextFrames = new Map(); // of each candidate, at the output rate; a dance has one
   #firstFrame;
   #rejected = []; // places of keys, as they were told
