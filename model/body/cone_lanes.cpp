@@ -52,6 +52,10 @@ Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions
   const Lane k1 = taper * ray_from - axis_from * axis_ray + axis_ray * slope * cones.radius_a;
   const Lane k2 = taper - axis_ray * axis_ray;
   const Lane square = k1 * k1 - k0 * k2;
+  // A ray that misses the mantle's cone misses the balls, too. If taper is not positive, one ball
+  // contains the other.
+  const auto misses = taper > 0 && square < 0;
+  if (!Any(!misses)) return AllLanes(-1);
 
   constexpr float kNone = std::numeric_limits<float>::infinity();
   Lane nearest = AllLanes(kNone);
@@ -59,7 +63,6 @@ Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions
     nearest = is_there && along > kMinDistance && along < nearest ? along : nearest;
   };
   const Lane root = Sqrt(Max(square, 0));
-  // If taper is not positive, one ball contains the other.
   for (const Lane along : {(-root - k1) / k2, (root - k1) / k2}) {
     const Lane s = axis_from - cones.radius_a * slope + along * axis_ray;
     meet(along, s > 0 && s < taper);
@@ -70,8 +73,7 @@ Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions
   };
   meet_ball(from, ray_from, cones.radius_a);
   meet_ball(from - cones.axis, ray_from - axis_ray, cones.radius_b);
-  // A ray that misses the mantle's cone misses the balls, too.
-  return nearest == kNone || (taper > 0 && square < 0) ? AllLanes(-1) : nearest;
+  return nearest == kNone || misses ? AllLanes(-1) : nearest;
 }
 
 Lane ShadowOf(const ConeLanes& cones, const Lanes& points, const Eigen::Vector3f& light,

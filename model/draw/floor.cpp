@@ -8,15 +8,23 @@ namespace {
 
 constexpr float kFloorGrid = 0.5f;        // metres between the lines
 constexpr float kGridHalfWidth = 0.008f;  // metres
+constexpr float kFadeFrom = 0.55f;        // of the reach
+constexpr int kStretch = 16;              // columns that are tried for one colour at once
 
 Eigen::Vector2f OnFloor(const Eigen::Vector3f& point) { return {point.x(), point.z()}; }
 
-// The share that grid lines leave free in stretches of the floor, `width` wide around `at`.
-Lane BetweenLines(Lane at, Lane width) {
+// The way from the nearest grid line.
+template <class Value>
+Value FromLine(Value at) {
   // Adding it rounds to whole numbers: floats of this size have no fraction.
   constexpr float kWhole = 3 << 22;
-  const Lane whole = (at / kFloorGrid + kWhole) - kWhole;
-  const Lane covered = (kGridHalfWidth + 0.5f * width - Abs(at - kFloorGrid * whole)) / width;
+  const Value whole = (at / kFloorGrid + kWhole) - kWhole;
+  return at - kFloorGrid * whole;
+}
+
+// The share that grid lines leave free in stretches of the floor, `width` wide around `at`.
+Lane BetweenLines(Lane at, Lane width) {
+  const Lane covered = (kGridHalfWidth + 0.5f * width - Abs(FromLine(at))) / width;
   return 1 - Min(Max(covered, 0), Min(2 * kGridHalfWidth / width, AllLanes(1)));
 }
 
@@ -32,7 +40,11 @@ Floor::Floor(const View& view, const Camera& camera, const FloorLight& light, in
       reach_(static_cast<float>(0.72 * view.extent * std::max(1.0, double{1} * width / height))),
       floor_(floor),
       background_(background) {
-  tone_.Put(background_, background_bytes_);
+  for (const auto& [colour, row] :
+       {std::pair(&floor_, &plain_row_), std::pair(&background_, &background_row_)}) {
+    row->resize(size_t{3} * width);
+    for (int x = 0; x < width; ++x) tone_.Put(*colour, &(*row)[size_t{3} * x]);
+  }
 }
 
 Floor::Row Floor::RowAt(float y, float size) const {
@@ -42,6 +54,23 @@ Floor::Row Floor::RowAt(float y, float size) const {
     return {OnFloor(camera_.eye() + along * ray), OnFloor(along * camera_.right())};
   };
   return {camera_.Direction({half_width_, y}).y() < 0, size, line(y), line(y + size)};
+}
+
+bool Floor::IsPlain(const Row& row, float from, float to) const {
+  const auto at = [](const Line& line, float from_middle) -> Eigen::Array2f {
+    return line.middle + from_middle * line.step;
+  };
+  const Eigen::Array2f a = at(row.here, from), b = at(row.here, to), middle = middle_;
+  const float clear = kFadeFrom * reach_;
+  if (std::max((a - middle).square().sum(), (b - middle).square().sum()) > clear * clear)
+    return false;
+  if (light_.IsShaded({a.min(b).matrix(), a.max(b).matrix()})) return false;
+  const Eigen::Array2f down = (at(row.next, from) - a).abs().max((at(row.next, to) - b).abs());
+  const Eigen::Array2f width = row.size * row.here.step.array().abs() + down;
+  const Eigen::Array2f reach = kGridHalfWidth + 0.5f * (width + (b - a).abs());
+  for (int i = 0; i < 2; ++i)
+    if (std::abs(FromLine(0.5f * (a[i] + b[i]))) < reach[i]) return false;
+  return true;
 }
 
 Lanes Floor::Light(const Row& row, Lane from_middle) const {
@@ -57,7 +86,7 @@ Lanes Floor::Light(const Row& row, Lane from_middle) const {
   shade *= 1 - 0.20f * (1 - free(x, 0) * free(z, 1));
   const Lane right = x - middle_.x(), near = z - middle_.y();
   const Lane away = Sqrt(right * right + near * near);
-  const Lane t = Within01((away - 0.55f * reach_) / (0.45f * reach_));
+  const Lane t = Within01((away - kFadeFrom * reach_) / ((1 - kFadeFrom) * reach_));
   const Lane fade = t * t * (3 - 2 * t);
   return ((1 - fade) * shade) * Lanes::All(floor_) + fade * Lanes::All(background_);
 }
@@ -83,19 +112,26 @@ void Floor::DrawRow(int y, uint8_t* rgb) const {
     from = column(nearest - std::sqrt(around2));
     to = column(nearest + std::sqrt(around2));
   }
-  const auto put_background = [&](int begin, int end) {
-    for (int x = begin; x < end; ++x)
-      for (int i = 0; i < 3; ++i) rgb[3 * x + i] = background_bytes_[i];
+  const auto put = [&](const std::vector<uint8_t>& colours, int begin, int end) {
+    std::copy_n(colours.data(), 3 * (end - begin), rgb + 3 * begin);
   };
   const Lane columns = MakeLane([](int lane) { return static_cast<float>(lane) + 0.5f; });
-  put_background(0, from);
-  for (int x = from; x < to; x += kLanes) {
-    const Lanes light = Light(row, columns + (static_cast<float>(x) - half_width_));
-    uint8_t bytes[3 * kLanes];
-    tone_.Put(light, bytes);
-    std::copy_n(bytes, 3 * std::min(kLanes, to - x), rgb + 3 * x);
+  put(background_row_, 0, from);
+  for (int begin = from, end; begin < to; begin = end) {
+    end = std::min(begin + kStretch, to);
+    if (IsPlain(row, static_cast<float>(begin) - half_width_,
+                static_cast<float>(end) - half_width_)) {
+      put(plain_row_, begin, end);
+      continue;
+    }
+    for (int x = begin; x < end; x += kLanes) {
+      const Lanes light = Light(row, columns + (static_cast<float>(x) - half_width_));
+      uint8_t bytes[3 * kLanes];
+      tone_.Put(light, bytes);
+      std::copy_n(bytes, 3 * std::min(kLanes, end - x), rgb + 3 * x);
+    }
   }
-  put_background(to, width_);
+  put(background_row_, to, width_);
 }
 
 }  // namespace choreo

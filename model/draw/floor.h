@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "model/body/lanes.h"
 #include "model/draw/floor_light.h"
@@ -35,6 +36,8 @@ class Floor {
     Line here, next;  // `next`: the row `size` pixels below
   };
   Row RowAt(float y, float size) const;
+  // Whether columns [from, to] of a row show nothing but the floor's own colour.
+  bool IsPlain(const Row& row, float from, float to) const;
   Lanes Light(const Row& row, Lane from_middle) const;
 
   const Camera& camera_;
@@ -45,7 +48,7 @@ class Floor {
   Eigen::Vector2f middle_;  // of the visible part
   float reach_;             // of the floor around it, metres
   Eigen::Vector3f floor_, background_;
-  uint8_t background_bytes_[3];
+  std::vector<uint8_t> plain_row_, background_row_;  // of one colour
 };
 
 }  // namespace choreo

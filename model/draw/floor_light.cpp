@@ -41,6 +41,7 @@ FloorLight::FloorLight(const std::vector<BoundedCone>& parts, const Vector3f& la
   low_ = reached.min();
   rows_ = 2 + CellsIn(reached.sizes().y());
   columns_ = kLanes * (1 + (1 + CellsIn(reached.sizes().x())) / kLanes);
+  grid_ = {low_, low_ + kShadowCell * Eigen::Array2f(columns_, rows_).matrix()};
   // Each part darkens the cells around itself and its shadow.
   const size_t lanes = static_cast<size_t>(rows_) * columns_ / kLanes;
   std::vector<Lane> hidden(lanes, AllLanes(0)), open(lanes, AllLanes(1));

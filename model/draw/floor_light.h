@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "model/body/rounded_cone.h"
@@ -15,9 +15,12 @@ class FloorLight {
 
   /// The share of full light at a point of the floor, 0 to 1.
   float At(float x, float z) const;
+  /// Whether it may be less than full light anywhere in a rectangle of x and z.
+  bool IsShaded(const Eigen::AlignedBox2f& floor) const { return grid_.intersects(floor); }
 
  private:
   Eigen::Vector2f low_;
+  Eigen::AlignedBox2f grid_;
   int columns_, rows_;
   std::vector<float> light_;  // [rows, columns]
 };

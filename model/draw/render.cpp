@@ -159,12 +159,15 @@ class Renderer {
     const int left = box_.min().x();
     const Lane columns = MakeLane([&](int lane) { return Last(left + lane, y).x(); });
     const Lane middle = AllLanes(Last(left, y).y());
+    std::vector<Lanes> rays(row->size());
+    for (size_t i = 0; i < rays.size(); ++i)
+      rays[i] = Rays(columns + static_cast<float>(i * kLanes), middle);
     for (size_t part = 0; part < parts_.size(); ++part) {
       const Eigen::Vector2i &from = boxes_[part].min(), &to = boxes_[part].max();
       if (y < from.y() || y >= to.y()) continue;
-      for (int i = (from.x() - left) / kLanes; i * kLanes < std::min(to.x(), box_.max().x()) - left;
-           ++i)
-        Meet(part, Rays(columns + static_cast<float>(i * kLanes), middle), &(*row)[i]);
+      const int end = std::min(to.x(), box_.max().x()) - left;
+      for (int i = (from.x() - left) / kLanes; i * kLanes < end; ++i)
+        Meet(part, rays[i], &(*row)[i]);
     }
   }
 

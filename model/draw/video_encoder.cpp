@@ -13,6 +13,7 @@
 
 #include "model/core/error.h"
 #include "model/draw/check_within.h"
+#include "model/draw/yuv420.h"
 
 namespace choreo {
 namespace {
@@ -34,8 +35,8 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
                                    const std::filesystem::path& out) {
   std::vector<std::string> arguments = {
       "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y",
-      // Frames in order, as DrawFrame makes them.
-      "-f", "rawvideo", "-pixel_format", "rgb24", "-framerate", std::to_string(format.fps),
+      // Frames in order, as Yuv420 makes them.
+      "-f", "rawvideo", "-pixel_format", "yuv420p", "-framerate", std::to_string(format.fps),
       "-video_size", std::to_string(format.width) + "x" + std::to_string(format.height), "-i",
       "pipe:0"};
   const auto add = [&](std::initializer_list<std::string> more) {
@@ -44,14 +45,13 @@ std::vector<std::string> Arguments(const VideoFormat& format, int64_t frames,
   if (!format.song.empty()) {
     // A song may contain cover art, which would be a second picture.
     add({"-ss", std::to_string(format.song_start_s), "-i", FileUrl(format.song), "-map", "0:v:0",
-         "-map", "1:a:0", "-c:a", "aac", "-b:a", "192k"});
+         "-map", "1:a:0", "-c:a", "aac", "-aac_coder", "fast", "-b:a", "192k"});
   }
   add({"-c:v", "libx264", "-preset", "veryfast", "-x264-params", "subme=1", "-crf", "18",
        // Players assume BT.709 for unmarked files, which would shift our colours.
-       "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
-       "-color_primaries", "bt709", "-color_trc", "bt709", "-t",
-       std::to_string(static_cast<double>(frames) / format.fps), "-fflags", "+bitexact", "-flags",
-       "+bitexact", "-movflags", "+faststart", "-f", "mp4", FileUrl(out)});
+       "-colorspace", "bt709", "-color_range", "tv", "-color_primaries", "bt709", "-color_trc",
+       "bt709", "-t", std::to_string(static_cast<double>(frames) / format.fps), "-fflags",
+       "+bitexact", "-flags", "+bitexact", "-movflags", "+faststart", "-f", "mp4", FileUrl(out)});
   return arguments;
 }
 
@@ -99,8 +99,9 @@ VideoEncoder::~VideoEncoder() {
 }
 
 void VideoEncoder::Write(const Picture& picture) {
-  const uint8_t* data = picture.rgb.data();
-  size_t left = picture.rgb.size();
+  const std::vector<uint8_t> frame = Yuv420(picture);
+  const uint8_t* data = frame.data();
+  size_t left = frame.size();
   while (left > 0) {
     const ssize_t sent = send(input_, data, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
