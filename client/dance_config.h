@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/hand_pose.h"
 #include "model/core/hit.h"
 #include "model/core/passage.h"
 #include "model/motion/control_request.h"
@@ -45,6 +46,8 @@ struct KeyPose {
   /// How hard it is hit, 0 (gently) to kMostHit (late and fast), to rest in it. None: it is danced
   /// through.
   std::optional<double> hit = {};
+  /// What hands do there; not danced, but kept for characters that have fingers.
+  std::optional<HandPose> hands = {};
 };
 
 /// A point where any server of the same fingerprint can resume a dance. Opaque except for the

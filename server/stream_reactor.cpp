@@ -2,6 +2,8 @@
 
 #include <grpcpp/server_context.h>
 
+#include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -83,6 +85,12 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     }
     DanceResponse response;
     *response.mutable_event() = wire::ToProto(event, queue_->model().fps);
+    if (response.event().has_keyframe_reached()) {
+      v1::KeyframeReached& reached = *response.mutable_event()->mutable_keyframe_reached();
+      const std::lock_guard lock(hands_mutex_);
+      const auto hands = hands_.find(reached.id());
+      if (hands != hands_.end()) reached.set_hands(hands->second);
+    }
     outbox().Send(std::move(response));
   }
 
@@ -196,6 +204,14 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
                    model.skeleton, field, field + ".mask");
     std::optional<double> hit;
     if (keyframe.has_hit()) hit = keyframe.hit();
+    if (!v1::HandPose_IsValid(keyframe.hands())) {
+      throw InvalidArgument(field + ".hands", std::to_string(keyframe.hands()) + ", must be 0 to " +
+                                                  std::to_string(v1::HandPose_MAX));
+    }
+    {
+      const std::lock_guard lock(hands_mutex_);
+      hands_[keyframe.id()] = keyframe.hands();
+    }
     stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit);
   }
 
@@ -222,6 +238,9 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   // From messages.
   MusicFile file_;
   bool file_decoded_ = false;
+
+  std::mutex hands_mutex_;
+  std::map<std::string, v1::HandPose> hands_;  // of keys, for the events that tell of them
 };
 
 class StreamReactor final

@@ -50,6 +50,10 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
   out.pose = std::move(target.pose);
   out.mask = std::move(target.mask);
   if (key.has_hit()) out.hit = key.hit();
+  if (!v1::HandPose_IsValid(key.hands()))
+    throw InvalidArgument("keyframe.hands", std::to_string(key.hands()) + " is no hand pose");
+  if (key.hands() != v1::HAND_POSE_UNSPECIFIED)
+    out.hands = static_cast<HandPose>(key.hands() - v1::HAND_POSE_REST);
   return out;
 }
 

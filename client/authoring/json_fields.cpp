@@ -111,6 +111,13 @@ double JsonNumber(const json& value, const std::string& field) {
   return value.get<double>();
 }
 
+HandPose JsonHands(const json& value, const std::string& field) {
+  const auto found =
+      value.is_string() ? FindHandPose(value.get<std::string>()) : std::optional<HandPose>();
+  if (found) return *found;
+  throw InvalidArgument(field, Shown(value) + " is none of " + HandPoseNames());
+}
+
 std::string ReadText(const std::filesystem::path& path, const std::string& kind) {
   if (std::filesystem::is_directory(path)) {
     throw InvalidArgument(path.string(), "is a folder, not a " + kind);

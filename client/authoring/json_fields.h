@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/core/hand_pose.h"
 #include "model/core/limits.h"
 
 /// Reads files that people write (key files, path files). Errors are Error(kInvalidArgument) whose
@@ -33,6 +34,8 @@ void CheckInADance(double seconds, const std::string& field);
 std::string Shown(const nlohmann::json& value);
 
 double JsonNumber(const nlohmann::json& value, const std::string& field);
+/// One of kHandPoseNames.
+HandPose JsonHands(const nlohmann::json& value, const std::string& field);
 
 /// More bytes than people write.
 inline constexpr size_t kMostText = size_t{64} << 20;

@@ -46,9 +46,9 @@ KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& 
 KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
                  size_t number) {
   CheckMembers(value, field,
-               {"id", "time", "frame", "hold", "hit", "pose", "place", "facing", "joints",
+               {"id", "time", "frame", "hold", "hit", "hands", "pose", "place", "facing", "joints",
                 "root_position", "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
-               "a key has id, time or frame, hold, hit, joints, and pose, place, facing; or "
+               "a key has id, time or frame, hold, hit, hands, joints, and pose, place, facing; or "
                "root_position, rotations; or smpl_poses, smpl_trans; or poses, trans");
   for (const char* member : {"place", "facing"}) {
     if (value.contains(member) && !value.contains("pose"))
@@ -71,6 +71,7 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
                                                 InFull(kMostHit) + " (late and fast)");
     }
   }
+  if (value.contains("hands")) key.hands = JsonHands(value["hands"], field + ".hands");
   const Moment moment = ParseMoment(value, field);
   key.time_s = moment.time_s;
   key.frame = moment.frame;

@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "client/cli/bone_map.h"
+#include "client/cli/options.h"
+#include "client/cli/report.h"
+#include "client/cli/report_keys.h"
 #include "model/core/error.h"
 #include "model/fit/finger_bones.h"
 #include "model/fit/retarget.h"
@@ -22,17 +25,19 @@ void CharacterOptions::AddTo(CLI::App& command) {
           "--map", map,
           "FILE.json that says which of its nodes are which bones, where their names do not.")
       ->check(CLI::ExistingFile);
+  AddHands(command, hands,
+           "What the fingers of --character do (default: relaxed; rest: as its file has them)");
   command
-      .add_option("--hands", hands,
-                  "What the fingers of --character do: relaxed (default), open, fist, point, or "
-                  "rest, which leaves them as its file has them.")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(kHandPoseNames.begin(), kHandPoseNames.end())));
+      .add_option("--report", report,
+                  "Report of the dance: where its keys say what hands do, fingers of --character "
+                  "go from one to the next, instead of --hands.")
+      ->check(CLI::ExistingFile);
 }
 
 void CharacterOptions::Check(const std::filesystem::path& out, bool of_motion) const {
   if (!given()) {
-    if (!hands.empty()) throw InvalidArgument("--hands", "goes with --character");
+    for (const auto& [option, value] : {std::pair("--hands", &hands), {"--report", &report}})
+      if (!value->empty()) throw InvalidArgument(option, "goes with --character");
     if (!map.empty() && !of_motion) throw InvalidArgument("--map", "goes with --character");
     return;
   }
@@ -59,10 +64,13 @@ void CharacterOptions::Write(const std::filesystem::path& out, const Skeleton& s
     throw Error(error.code(), map.empty() ? character : map, error.what());
   }
   const Motion smpl = Retarget(skeleton, motion, Skeleton::Smpl24());
-  const auto pose = std::ranges::find(kHandPoseNames, hands.empty() ? "relaxed" : hands);
-  file.WriteDance(
-      out, body, TransferToCharacter(smpl, body.skeleton),
-      CurlFingers(file.rig(), bones, static_cast<HandPose>(pose - kHandPoseNames.begin())));
+  std::vector<HandKey> keys;
+  if (!report.empty()) keys = HandKeys(ReadReport(report));
+  const std::vector<CurledBone> fingers =
+      keys.empty()
+          ? CurlFingers(file.rig(), bones, *FindHandPose(hands.empty() ? "relaxed" : hands))
+          : CurlFingers(file.rig(), bones, keys, std::ssize(smpl.frames), smpl.fps);
+  file.WriteDance(out, body, TransferToCharacter(smpl, body.skeleton), fingers);
 }
 
 }  // namespace choreo::cli

@@ -9,15 +9,17 @@
 
 namespace choreo::cli {
 
-/// `--character`, `--map` and `--hands`: a dance on a user's character.
+/// `--character`, `--map`, `--hands` and `--report`: a dance on a user's character.
 struct CharacterOptions {
   std::string character;   ///< .glb or .vrm; empty: none
   std::string map;         ///< bone_map.h; empty: by names
   std::string hands = "";  ///< one of kHandPoseNames; empty: relaxed
+  std::string report;      ///< whose keys say what hands do; or empty
 
   void AddTo(CLI::App& command);
   bool given() const { return !character.empty(); }
-  /// Throws Error(kInvalidArgument) whose field is the option: `--map` or `--hands` alone, a
+  /// Throws Error(kInvalidArgument) whose field is the option: `--map`, `--hands`
+  /// or `--report` alone, a
   /// character other than .glb or .vrm, an `out` other than .glb. `of_motion`: without a character
   /// the map is for the motion's own bones.
   void Check(const std::filesystem::path& out, bool of_motion = false) const;

@@ -58,6 +58,7 @@ void Run(const ConvertOptions& options) {
   RequireOutputs({{"out", options.out}}, {{"in", options.in},
                                           {"--character", options.character.character},
                                           {"--map", options.character.map},
+                                          {"--report", options.character.report},
                                           {"--motion-map", options.motion_map}});
   auto [skeleton, motion] = Read(options);
   if (options.smpl) {

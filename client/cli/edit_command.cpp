@@ -95,6 +95,8 @@ void CheckOptions(const EditOptions& options) {
 void Run(const EditOptions& options) {
   CheckOptions(options);
   if (EditsWhole(options)) return EditWhole(options);
+  if (!options.hands.empty() && options.keys.empty() && options.moves.empty())
+    throw InvalidArgument("--hands", "goes with --key and --move");
   const Connection connection(options.server, options.model);
   EditSession session(options, connection);
   try {
@@ -182,6 +184,9 @@ void AddEditCommand(CLI::App& program) {
                    "Second at which what stays of the dance begins, its second 0 from then on.")
       ->check(TimeInSeconds());
   command->add_option("--until", options->until_s, "Second before which it ends.")
+  AddHands(*command, options->hands,
+           "What hands do in the poses of --key and --move, for characters that have fingers "
+           "(convert --report)");
       ->check(TimeInSeconds());
   command->add_flag("--mirror", options->mirror,
                     "Exchange left and right of body and stage: the plane x = 0 is the mirror.");

@@ -29,6 +29,7 @@ struct EditOptions {
   std::vector<std::tuple<double, double, double>> stretches;  ///< phrases: start, end, factor
   std::optional<double> hold_s;                               ///< of `keys`
   std::optional<double> hit;                                  ///< of `keys` and `moves`
+  std::string hands;                                          ///< the same; or empty
   bool in_place = false;
   bool allow_bends = false;
   bool loop = false;

@@ -65,11 +65,13 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   else if (options_.in_place)
     pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
   edit.held = named.held;
+  if (!options_.hands.empty()) edit.key.hands = FindHandPose(options_.hands);
   if (options_.hold_s) edit.held = authoring::Holding(edit.key, *options_.hold_s, "--hold");
   if (options_.hit) edit.key.hit = options_.hit;
   for (client::KeyPose& held : edit.held) {
     held.frame = Frame(at_s + held.time_s - edit.key.time_s);
     held.pose = pose;
+    held.hands = edit.key.hands;
   }
   if (!edit.held.empty()) CheckRoom("--at", at_s, *edit.key.frame, *edit.held.back().frame);
   Set("--at", at_s, std::move(edit));
@@ -97,6 +99,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   for (const int64_t frame : frames) {
     client::KeyPose& key = frame == frames.front() ? edit.key : edit.held.emplace_back();
     key.id = IdAt(frame);
+    key.hands = options_.hands.empty() ? HandsOf(keys_.at(frame)) : FindHandPose(options_.hands);
     key.pose = PoseAt(dance_.motion, Seconds(frame));
     key.frame = frame + by;
     if (options_.in_place)
@@ -152,7 +155,8 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
        ++key) {
     client::KeyPose danced{.id = IdAt(key->first),
                            .frame = key->first,
-                           .pose = PoseAt(dance_.motion, Seconds(key->first))};
+                           .pose = PoseAt(dance_.motion, Seconds(key->first)),
+                           .hands = HandsOf(key->second)};
     if (HoldsAnother(key->second) && !phrase.empty()) {
       phrase.back().held.push_back(std::move(danced));
     } else {
@@ -234,7 +238,11 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   DropWarnings(edit.from, edit.to);
   WarnOfFaults(edit);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
-  for (const client::KeyPose& held : edit.held) MarkHeld(edit.key.id, &keys_[*held.frame]);
+  MarkHands(edit.key.hands, &keys_[*edit.key.frame]);
+  for (const client::KeyPose& held : edit.held) {
+    MarkHeld(edit.key.id, &keys_[*held.frame]);
+    MarkHands(held.hands, &keys_[*held.frame]);
+  }
 }
 
 void EditSession::Free(const std::vector<int64_t>& frames, const std::string& what) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "client/authoring/json_fields.h"
+#include "model/core/hand_pose.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
@@ -108,6 +109,12 @@ void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& wh
                       " (late and fast), to rest there. Default: danced through, or as a key file "
                       "says.")
       ->check(NumberFrom(0, kMostHit));
+}
+
+void AddHands(CLI::App& command, std::string& hands, const std::string& what) {
+  command.add_option("--hands", hands, what + ": " + HandPoseNames() + ".")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(kHandPoseNames.begin(), kHandPoseNames.end())));
 }
 
 void AddModel(CLI::App& command, std::string& model) {

@@ -34,6 +34,9 @@ void AddAllowBends(CLI::App& command, bool& allowed);
 /// `--hit`, of "the poses of --key are", "the end is".
 void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose);
 
+/// `--hands`, one of kHandPoseNames, after which the text names the choice.
+void AddHands(CLI::App& command, std::string& hands, const std::string& what);
+
 /// `--vmc`, HOST:PORT.
 void AddVmc(CLI::App& command, std::string& address);
 

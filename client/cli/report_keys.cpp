@@ -1,5 +1,6 @@
 #include "client/cli/report_keys.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -10,6 +11,7 @@ namespace choreo::cli {
 namespace {
 
 constexpr const char* kHolds = "holds";
+constexpr const char* kHands = "hands";
 
 std::string IdOf(const nlohmann::ordered_json& key) { return key["id"].get<std::string>(); }
 
@@ -70,6 +72,25 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
 std::optional<int64_t> HeldEnd(const ReportKeys& keys) {
   if (keys.empty() || !HoldsAnother(keys.rbegin()->second)) return std::nullopt;
   return keys.rbegin()->first;
+}
+
+std::optional<HandPose> HandsOf(const nlohmann::ordered_json& key) {
+  if (!key.contains(kHands)) return std::nullopt;
+  return FindHandPose(key[kHands].get<std::string>());
+}
+
+void MarkHands(const std::optional<HandPose>& hands, nlohmann::ordered_json* key) {
+  if (hands) (*key)[kHands] = kHandPoseNames[static_cast<size_t>(*hands)];
+}
+
+std::vector<HandKey> HandKeys(const nlohmann::ordered_json& report) {
+  std::vector<HandKey> keys;
+  for (const auto& key : report["keyframes"]) {
+    if (const auto hands = HandsOf(key))
+      keys.push_back({key["frame"].get<double>() / report["fps"].get<double>(), *hands});
+  }
+  std::ranges::stable_sort(keys, {}, &HandKey::time_s);
+  return keys;
 }
 
 void MarkHeld(const std::string& id, nlohmann::ordered_json* key) { (*key)[kHolds] = id; }

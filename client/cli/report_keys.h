@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "model/fit/finger_bones.h"
+
 namespace choreo::cli {
 
 /// The keys of a dance as in its report (ReportJson), by frame, while the dance is edited.
@@ -29,5 +31,12 @@ std::optional<int64_t> HeldEnd(const ReportKeys& keys);
 
 /// Marks a key as only holding the pose of this id.
 void MarkHeld(const std::string& id, nlohmann::ordered_json* key);
+
+/// What hands do at a key, if it says so.
+std::optional<HandPose> HandsOf(const nlohmann::ordered_json& key);
+void MarkHands(const std::optional<HandPose>& hands, nlohmann::ordered_json* key);
+
+/// What hands do in a dance, by the keys of its report that say so (ReadReport), in order of time.
+std::vector<HandKey> HandKeys(const nlohmann::ordered_json& report);
 
 }  // namespace choreo::cli

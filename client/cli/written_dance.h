@@ -19,6 +19,7 @@ struct WrittenKey {
   PoseError error = {};             ///< of that frame
   /// The id of the key whose pose it only holds, or empty. Examine leaves it empty.
   std::string holds = {};
+  std::optional<HandPose> hands = {};  ///< as in the key
 };
 
 /// A written dance and facts about it.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "model/motion/skeleton.h"
 
@@ -125,7 +127,7 @@ class HandCurl {
           bone + 1 < chain.size() ? Vector3d(Place(chain[bone + 1]) - Place(chain[bone])) : before;
       const double rests = std::atan2(axis.dot(before.cross(along)), before.dot(along));
       const double bend = bends_[finger][bone] * kDegree - rests;
-      if (bend != 0) curled->push_back({chain[bone], axis, bend});
+      if (bend != 0) curled->push_back({chain[bone], axis, {bend}});
       before = along;
     }
   }
@@ -150,6 +152,39 @@ std::vector<CurledBone> CurlFingers(const RigNodes& rig, const HumanBones& bones
     HandCurl(rig, wrist, side == std::string("left_"), pose).AddTo(&curled);
   }
   return curled;
+}
+
+std::vector<CurledBone> CurlFingers(const RigNodes& rig, const HumanBones& bones,
+                                    const std::vector<HandKey>& keys, int64_t frames, double fps) {
+  std::map<int, CurledBone> curled;  // by node
+  for (size_t i = 0; i < keys.size(); ++i) {
+    for (CurledBone& bone : CurlFingers(rig, bones, keys[i].pose)) {
+      const double angle = std::exchange(bone.angles, {}).front();
+      auto& own = curled.try_emplace(bone.node, std::move(bone)).first->second;
+      own.angles.resize(keys.size());  // straight where a pose does not bend it
+      own.angles[i] = angle;
+    }
+  }
+  std::vector<CurledBone> moved;
+  for (auto& [node, bone] : curled) {
+    std::vector<double> angles;
+    for (int64_t frame = 0; frame < frames; ++frame) {
+      const double time = static_cast<double>(frame) / fps;
+      const auto next = std::ranges::upper_bound(keys, time, {}, &HandKey::time_s);
+      const auto after = static_cast<size_t>(next - keys.begin());
+      const size_t before = after == 0 ? 0 : after - 1;
+      const double from = bone.angles[before];
+      if (after == 0 || after == keys.size()) {
+        angles.push_back(from);
+        continue;
+      }
+      const double t = (time - keys[before].time_s) / (next->time_s - keys[before].time_s);
+      angles.push_back(from + t * t * (3 - 2 * t) * (bone.angles[after] - from));
+    }
+    bone.angles = std::move(angles);
+    moved.push_back(std::move(bone));
+  }
+  return moved;
 }
 
 }  // namespace choreo

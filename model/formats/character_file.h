@@ -35,7 +35,8 @@ class CharacterFile {
   /// Everything else stays, byte for byte. The dance keeps our axes in the file's world: Y up, +Z
   /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which is of
   /// this file. Throws Error(kInvalidArgument) for a motion without frames, zero scales, or more
-  /// than 4 GiB; Error(kInternal) if the file cannot be written. `fingers` keep their turns.
+  /// than 4 GiB; Error(kInternal) if the file cannot be written. `fingers` have an angle, or one
+  /// per frame.
   void WriteDance(const std::filesystem::path& out, const CharacterBody& body, const Motion& motion,
                   const std::vector<CurledBone>& fingers = {}) const;
 

@@ -98,15 +98,14 @@ class DrivenNodes {
 };
 
 // The rotation of a finger's node in its parent, which carries it along.
-Eigen::Quaterniond Curled(const CurledBone& finger, const GltfNodes& nodes,
+Eigen::Quaterniond Curled(const CurledBone& finger, double angle, const GltfNodes& nodes,
                           const std::vector<Eigen::Affine3d>& rest) {
   const int parent = nodes.parents[finger.node];
   Eigen::Matrix3d above = Eigen::Matrix3d::Identity();
   if (parent >= 0) above = rest[parent].linear();
   const double sense = above.determinant() < 0 ? -1 : 1;  // of a mirrored rig
   const Eigen::Vector3d axis = above.inverse() * finger.axis;
-  return Eigen::AngleAxisd(sense * finger.angle, axis.normalized()) *
-         nodes.rest[finger.node].rotation;
+  return Eigen::AngleAxisd(sense * angle, axis.normalized()) * nodes.rest[finger.node].rotation;
 }
 
 // Animated nodes must not have a matrix.
@@ -148,7 +147,7 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
     for (const CurledBone& finger : fingers) {
       GltfTrack& track = tracks.emplace_back();
       track.node = finger.node;
-      track.AddTurn(Curled(finger, nodes_, rest));
+      for (const double angle : finger.angles) track.AddTurn(Curled(finger, angle, nodes_, rest));
     }
     const GlbChunks chunks = SplitGlb(bytes_);
     GltfBuilder added(ordered_json::parse(chunks.json), chunks.binary);

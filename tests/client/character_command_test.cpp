@@ -43,6 +43,19 @@ TEST_F(CharacterCommandTest, ACharacterDances) {
   EXPECT_EQ(back.motion.frames.size(), 23U);
 }
 
+TEST_F(CharacterCommandTest, AReportSaysWhatHandsDo) {
+  WriteCharacter(folder_ / "hero.glb", {});
+  const auto with = [&](const std::string& hands) {
+    std::ofstream(folder_ / "report.json")
+        << R"({"fps": 30, "keyframes": [{"id": "a", "frame": 3, "hands": )" << hands << "}]}";
+    return Convert("--character " + At("hero.glb") + " --report " + At("report.json"));
+  };
+  ExpectRefused(Convert("--report " + At("hero.glb")), "--report: goes with --character");
+  ExpectRefused(with("\"claw\""), "report.json:keyframes[0].hands: \"claw\" is none of rest");
+  const Outcome outcome = with("\"fist\"");
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+}
+
 TEST_F(CharacterCommandTest, AsksForAMapOfMeaninglessNames) {
   WriteCharacter(folder_ / "hero.glb", {.rig = "", .arms_down = 20});
   ExpectRefused(Convert("--character " + At("hero.glb")), "do not say which bone is the pelvis");

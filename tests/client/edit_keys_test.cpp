@@ -64,6 +64,33 @@ TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   EXPECT_THAT(outcome.said, HasSubstr("--move: needs --report"));
 }
 
+TEST_F(EditTest, KeysSayWhatHandsDo) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0], "hands": "open"},
+                           {"id": "b", "time": 3, "pose": "kick", "place": [0, 0]},
+                           {"id": "c", "time": 5, "pose": "bow", "place": [0, 0], "hands": "fist",
+                            "hold": 0.4}]})";
+  Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("dance.npz") +
+                           " --report " + At("report.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const auto hands = [&](const std::string& report) {
+    std::string said;
+    const nlohmann::json read = ReadJson(folder_ / report);
+    for (const auto& key : read["keyframes"]) said += key.value("hands", "-") + " ";
+    return said;
+  };
+  EXPECT_EQ(hands("report.json"), "open - fist fist fist ");
+  const std::string to =
+      " --report " + At("report.json") + " --new-report " + At("new.json") + " -o " + At("new.npz");
+  ASSERT_EQ(Edit("--move c 4.5 --key kick --at 2" + to).code, 0);
+  EXPECT_EQ(hands("new.json"), "open - - fist fist fist ");
+  ASSERT_EQ(Edit("--move b 2.5 --hands point" + to).code, 0);
+  EXPECT_EQ(hands("new.json"), "open point fist fist fist ");
+  outcome = Edit("--remove b --hands point" + to);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("--hands: goes with --key and --move"));
+}
+
 TEST_F(EditTest, LoopKeepsAHeldEnd) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},

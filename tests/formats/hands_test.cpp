@@ -177,6 +177,43 @@ TEST_F(HandsTest, FingersOfKnownRigsBendTowardsThePalm) {
   }
 }
 
+TEST_F(HandsTest, HandsGoFromKeyToKey) {
+  WriteWithFingers(kMakers[0], 0, false);
+  const CharacterFile file(folder_ / "hero.glb");
+  const HumanBones bones = file.FindBones();
+  const std::vector<CurledBone> open = CurlFingers(file.rig(), bones, HandPose::kOpen);
+  const std::vector<CurledBone> fist = CurlFingers(file.rig(), bones, HandPose::kFist);
+  const std::vector<HandKey> keys = {{0.1, HandPose::kOpen}, {0.3, HandPose::kFist}};
+  const auto moved = CurlFingers(file.rig(), bones, keys, 5, 10);
+  ASSERT_EQ(moved.size(), fist.size());
+  const auto angle = [](const std::vector<CurledBone>& of, int node) {
+    const auto bone = std::ranges::find(of, node, &CurledBone::node);
+    return bone == of.end() ? 0 : bone->angles.front();
+  };
+  for (const CurledBone& bone : moved) {
+    ASSERT_EQ(bone.angles.size(), 5U);
+    const double from = angle(open, bone.node), to = angle(fist, bone.node);
+    const double expected[] = {from, from, (from + to) / 2, to, to};
+    for (size_t frame = 0; frame < 5; ++frame)
+      EXPECT_NEAR(bone.angles[frame], expected[frame], 1e-9);
+  }
+  // In the file they turn by as much.
+  const CharacterBody body = MakeCharacterBody(bones, file.places());
+  Motion still = smpl_;
+  still.frames.assign(5, smpl_.frames.front());
+  still.fps = 10;
+  file.WriteDance(folder_ / "out.glb", body, TransferToCharacter(still, body.skeleton), moved);
+  const GltfScene scene = ReadGltfScene(folder_ / "out.glb");
+  ASSERT_EQ(scene.frames, 5);
+  const int node = moved.front().node;
+  const auto turn = [&](int64_t frame) {
+    return Eigen::Quaterniond(scene.Frame(frame)[static_cast<size_t>(node)].rotation());
+  };
+  EXPECT_LT(turn(0).angularDistance(turn(1)), 1e-4);
+  EXPECT_GT(turn(1).angularDistance(turn(2)), 0.2);
+  EXPECT_NEAR(turn(1).angularDistance(turn(2)), turn(2).angularDistance(turn(3)), 1e-3);
+}
+
 TEST_F(HandsTest, RigsWithoutFingersAndRestingHandsAreAsBefore) {
   WriteCharacter(folder_ / "hero.glb", {});
   const CharacterFile bare(folder_ / "hero.glb");

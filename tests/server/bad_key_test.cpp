@@ -45,6 +45,11 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalid,
                       "keyframes[0].hit",
                       {"nan", "[0, 3]"}},
+        BadStreamCase{"Hands",
+                      WithKey([](auto& k) { k.set_hands(static_cast<v1::HandPose>(9)); }),
+                      kInvalid,
+                      "keyframes[0].hands",
+                      {"9", "0 to 5"}},
         BadStreamCase{"NaN",
                       WithKey([](auto& k) {
                         k.mutable_pose()->set_rotations(50,

@@ -96,6 +96,25 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
             answer.summary->report().keyframes(0).errors().SerializeAsString());
 }
 
+TEST_F(StreamKeysTest, EventsRepeatWhatHandsDoAndFramesDoNot) {
+  Start();
+  const auto dance = [&](v1::HandPose hands) {
+    DanceClient client(stub());
+    Begin(client);
+    v1::Keyframe key = Key("a", 50);
+    key.set_hands(hands);
+    client.SendKeyframe(key);
+    client.SendKeyframe(Key("b", 100));
+    return client.Finish();
+  };
+  const Answer fist = dance(v1::HAND_POSE_FIST), none = dance(v1::HAND_POSE_UNSPECIFIED);
+  std::vector<v1::HandPose> said;
+  for (const v1::Event& event : fist.events)
+    if (event.has_keyframe_reached()) said.push_back(event.keyframe_reached().hands());
+  EXPECT_EQ(said, (std::vector{v1::HAND_POSE_FIST, v1::HAND_POSE_UNSPECIFIED}));
+  EXPECT_EQ(fist.Join().rotations, none.Join().rotations);
+}
+
 TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedAfterTheFrontier) {
   Start();
   DanceClient client(stub());

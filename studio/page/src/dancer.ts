@@ -7,7 +7,7 @@ import type { Keyframe, ModelInfo } from './generated/choreo/v1/choreography_pb'
 import { PoseSchema } from './generated/choreo/v1/motion_pb';
 import type { Continuation } from './generated/choreo/v1/motion_pb';
 import { Motion } from './motion';
-import { withHeld } from './project';
+import { handPoses, withHeld } from './project';
 import type { Key, Project } from './project';
 import type { Wire } from './wire';
 
@@ -37,10 +37,11 @@ export const keyMessage = (key: Key): Init<typeof KeyframeSchema> => ({
   pose: poseMessage(key.pose, key.hasPlace),
   mask: key.asks ? { joints: key.asks } : undefined,
   hit: key.hit ?? undefined,
+  hands: key.hands ? handPoses.indexOf(key.hands) + 1 : 0,
 });
 
 /// The other way round. `height`: of the hips where the key does not say where they are.
-export function readKey({ id, when, pose, mask, hit }: Keyframe, fps: number, height: number): Key {
+export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: number, height: number): Key {
   const root = pose!.rootPosition;
   return {
     id,
@@ -50,6 +51,7 @@ export function readKey({ id, when, pose, mask, hit }: Keyframe, fps: number, he
     asks: mask ? mask.joints : null,
     hold: 0,
     hit: hit ?? null,
+    hands: hands ? handPoses[hands - 1] : null,
   };
 }
 

@@ -5,13 +5,13 @@ import type { Pose, Triple } from './body';
 import { readKey } from './dancer';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { onPath } from './floor_path';
-import { danceFrom, edit } from './history';
+import { danceFrom, edit, note } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { limits } from './limits';
 import { emptyProject, freeId, holdOf, sorted, spoken, wishes } from './project';
-import type { Key } from './project';
+import type { Hands, Key } from './project';
 import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
 import type { Moment } from './state';
@@ -73,7 +73,7 @@ export function addKey(pose: LibraryPose, at?: number) {
     placed = turned(placed, heading(here));
     placed.root = [here.root[0], root.y, here.root[2]];
   }
-  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0, hit: old?.hit ?? null });
+  const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? null });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
   if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
@@ -104,6 +104,12 @@ export function holdKey(id: string, frames: number) {
 export function hitKey(id: string, hit: number | null) {
   const key = keyOf(id);
   if (key && key.hit !== hit) edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? { ...key, hit } : other)) }, [key.frame]);
+}
+
+/// What hands do at it; null: nothing is said. No frame depends on it.
+export function handKey(id: string, hands: Hands | null) {
+  const key = keyOf(id);
+  if (key && key.hands !== hands) note({ keys: project.value.keys.map((other) => (other === key ? { ...key, hands } : other)) });
 }
 
 export function removeKey(id: string) {

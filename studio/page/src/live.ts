@@ -178,7 +178,7 @@ export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   let frame = Math.max(earliest(), wanted ?? Math.round((coming.value.find((beat) => beat >= soon) ?? soon) * dancer.fps));
   while (keys.some((key) => Math.abs(key.frame - frame) < limits.keyDistance)) frame += limits.keyDistance;
   const { x, y, z } = pose.pose!.rootPosition!;
-  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, asks: null, hold: 0, hit: null };
+  const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, asks: null, hold: 0, hit: null, hands: null };
   say({ request: { case: 'keyframe', value: keyMessage(key) } });
   keep([...keys, key]);
 }

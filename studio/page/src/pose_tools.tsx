@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { Vector3 } from 'three';
 import { turned } from './body';
 import type { Pose } from './body';
+import { HandsTool } from './hands_tool';
 import { HitTool } from './hit_tool';
 import { degreesOf, withDegrees } from './joint_angles';
 import { NumberField } from './number_field';
@@ -134,6 +135,7 @@ export function PoseTools({ stage, pose }: { stage: Stage | null; pose: Pose }) 
         {key && <button onClick={() => studio.removeKey(key)}>Remove</button>}
       </div>
       {item && <HitTool item={item} />}
+      {item && <HandsTool item={item} />}
       <Parts />
       <TakeFrom />
       <Joints pose={pose} />

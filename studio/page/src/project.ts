@@ -8,9 +8,14 @@ export type Spot = { x: number; z: number };
 /// A point of a path at a frame. A path has at least two, in order of time.
 export type Step = Spot & { frame: number };
 
+/// What hands do, on characters with fingers (kHandPoseNames of the program, HandPose of its messages).
+export const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'] as const;
+export type Hands = (typeof handPoses)[number];
+
 /// A key pose. Without a place it asks for the pose alone, wherever the dancer is. `asks`: the joints that it asks for, in order; null:
-/// all of them. `hold`: frames for which its pose is kept. `hit`: how hard it is hit, 0 to `limits.hit`; null: it is danced through.
-export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number; hit: number | null };
+/// all of them. `hold`: frames for which its pose is kept. `hit`: how hard it is hit, 0 to `limits.hit`; null: it is danced through. `hands`: null: nothing is
+/// said, they go on to the next key that does.
+export type Key = { id: string; frame: number; pose: Pose; hasPlace: boolean; asks: number[] | null; hold: number; hit: number | null; hands: Hands | null };
 
 /// A named moment.
 export type Marker = { frame: number; name: string };

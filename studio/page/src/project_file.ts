@@ -27,18 +27,20 @@ export const dancersJson = ({ dancers, apart }: Project) => ({
 });
 
 export function toJson(project: Project, fps: number, names: string[]): string {
-  const keyframes = trimmed(project.keys, Math.round(project.seconds * fps), fps).map(({ id, frame, pose, hasPlace, asks, hold, hit }) => ({
+  const said = (keys: Key[]) => trimmed(keys, Math.round(project.seconds * fps), fps).map(({ id, frame, pose, hasPlace, asks, hold, hit, hands }) => ({
     id,
     time: round(frame / fps),
     ...(hold ? { hold: round(hold / fps) } : {}),
     ...(hit === null ? {} : { hit }),
     ...(asks ? { joints: asks.map((joint) => names[joint]) } : {}),
+    ...(hands ? { hands } : {}),
     ...(hasPlace ? { root_position: pose.root.map(round) } : {}),
     rotations: Array.from({ length: pose.rotations.length / 3 }, (_, joint) =>
       pose.rotations.slice(3 * joint, 3 * joint + 3).map(round),
     ),
   }));
   const { song, seconds, seed, style, dynamics, variation, beats } = project;
+  const keyframes = said(project.keys);
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
   const markers = project.markers.map(({ frame, name }) => ({ time: round(frame / fps), name }));

@@ -346,6 +346,25 @@ TEST(KeyFileTest, SaysHowHardAKeyIsHit) {
               [&] { read(R"(, "hit": 4)"); });
 }
 
+TEST(KeyFileTest, SaysWhatHandsDo) {
+  const auto read = [](const std::string& more) {
+    return ParseKeyFile(R"({"keyframes": [{"time": 1, "pose": "stand")" + more + "}]}", "k.json",
+                        Body());
+  };
+  EXPECT_FALSE(read("").front().hands);
+  EXPECT_EQ(client::ToProto(read("").front()).hands(), v1::HAND_POSE_UNSPECIFIED);
+  const auto held = read(R"(, "hands": "fist", "hold": 0.4)");
+  ASSERT_EQ(held.size(), 3U);
+  for (const client::KeyPose& key : held) EXPECT_EQ(key.hands, HandPose::kFist);
+  EXPECT_EQ(client::ToProto(held[0]).hands(), v1::HAND_POSE_FIST);
+  for (const char* wrong : {"\"claw\"", "3"}) {
+    ExpectError(ErrorCode::kInvalidArgument,
+                std::string("k.json:keyframes[0].hands: ") + wrong +
+                    " is none of rest, relaxed, open, fist, point",
+                [&] { read(std::string(", \"hands\": ") + wrong); });
+  }
+}
+
 TEST_F(MotionKeysTest, ReadsAKeyFileByItsPath) {
   const std::string path = (folder_ / "odd@name.json").string();
   std::ofstream(path) << Key();

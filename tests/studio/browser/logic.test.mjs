@@ -102,7 +102,7 @@ test('of a pose some joints are taken', () => {
 });
 
 test('a project is read as it was written', () => {
-  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null, hold: 6, hit: 2.5 };
+  const key = { id: 'bow', frame: 15, pose: still(2), hasPlace: true, asks: null, hold: 6, hit: 2.5, hands: 'fist' };
   const markers = [{ frame: 6, name: 'the "drop", 1' }, { frame: 90, name: 'break' }];
   const project = { ...emptyProject('song.mp3', 4), markers, seed: 7, dynamics: 0.9, variation: 0, path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key] };
   const text = toJson(project, 30, ['pelvis', 'left_hip']);
@@ -113,6 +113,7 @@ test('a project is read as it was written', () => {
   assert.equal(JSON.parse(text).keyframes[0].time, 0.5);
   assert.equal(JSON.parse(text).keyframes[0].hold, 0.2);
   assert.equal(JSON.parse(text).keyframes[0].hit, 2.5);
+  assert.equal(JSON.parse(text).keyframes[0].hands, 'fist');
   assert.match(text, /"markers": \[\n {2}\{"time": 0.2, "name": "the \\"drop\\", 1"\},\n {2}\{"time": 3, "name": "break"\}\n/);
 });
 

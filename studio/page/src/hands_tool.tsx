@@ -1,0 +1,16 @@
+// What hands do at the chosen key, on characters with fingers.
+import { handPoses } from './project';
+import type { Hands, Key } from './project';
+import * as studio from './studio';
+
+export function HandsTool({ item }: { item: Key }) {
+  return (
+    <label class="row" title="Characters with fingers show it: choreo convert --character --report">
+      <span>hands</span>
+      <select aria-label="What hands do" value={item.hands ?? ''} onChange={(event) => studio.handKey(item.id, (event.currentTarget.value || null) as Hands | null)}>
+        <option value="">as before</option>
+        {handPoses.map((pose) => <option key={pose} value={pose}>{pose}</option>)}
+      </select>
+    </label>
+  );
+}
