@@ -4,6 +4,7 @@
 #include "client/authoring/key_file.h"
 #include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
+#include "client/cli/edit_markers.h"
 #include "client/cli/edit_session.h"
 #include "client/cli/edit_whole.h"
 #include "client/cli/options.h"
@@ -56,7 +57,26 @@ void CheckReported(const EditOptions& options) {
   }
 }
 
+/// A project is edited for its markers alone: dances are edited where they are danced.
+void CheckMarkers(const EditOptions& options) {
+  if (EditsKeys(options) || EditsWhole(options)) {
+    throw InvalidArgument("dance", options.dance +
+                                       " is a project: --mark and --unmark change it; choreo dance "
+                                       "--project dances it");
+  }
+  if (options.marks.empty() && options.unmarked.empty())
+    throw InvalidArgument("--mark", "is missing, and so is --unmark: nothing is to be changed");
+  for (const auto& [id, at_s] : options.marks) {
+    if (id.empty()) throw InvalidArgument("--mark", "has an empty name");
+    authoring::CheckInADance(at_s, "--mark");
+  }
+  RequireExtension("--out", options.out, ".json");
+  RequireOutputs({{"--out", options.out}}, {{"dance", options.dance}});
+}
+
 void CheckOptions(const EditOptions& options) {
+  if (!options.marks.empty() || !options.unmarked.empty())
+    throw InvalidArgument("--mark", "goes with a project, and " + options.dance + " is none");
   if (!EditsKeys(options) && !EditsWhole(options)) {
     throw InvalidArgument("--key",
                           "is missing, and so are --move, --remove, --repeat, --stretch, --loop, "
@@ -75,6 +95,8 @@ void CheckOptions(const EditOptions& options) {
                                       " keys; each --key needs one");
   }
   if (options.hold_s && options.keys.empty()) throw InvalidArgument("--hold", "goes with --key");
+  if (!options.hands.empty() && options.keys.empty() && options.moves.empty())
+    throw InvalidArgument("--hands", "goes with --key and --move");
   RequireWrittenMotionFile(options.out);
   std::vector<NamedFile> inputs = FilesOf(options.controls);
   inputs.push_back({"dance", options.dance});
@@ -93,10 +115,12 @@ void CheckOptions(const EditOptions& options) {
 }
 
 void Run(const EditOptions& options) {
+  if (IsProject(options)) {
+    CheckMarkers(options);
+    return EditMarkers(options);
+  }
   CheckOptions(options);
   if (EditsWhole(options)) return EditWhole(options);
-  if (!options.hands.empty() && options.keys.empty() && options.moves.empty())
-    throw InvalidArgument("--hands", "goes with --key and --move");
   const Connection connection(options.server, options.model);
   EditSession session(options, connection);
   try {
@@ -128,7 +152,9 @@ void AddEditCommand(CLI::App& program) {
       "away. A key at the frame of another one replaces it. Keys are removed first, then moved, "
       "then stretched, then repeated, then set. Whole dances are cut first, then mirrored, then "
       "joined.");
-  command->add_option("dance", options->dance, MotionFileExtensions() + " file.")
+  command
+      ->add_option("dance", options->dance,
+                   MotionFileExtensions() + " file; with --mark and --unmark a project.")
       ->required()
       ->check(CLI::ExistingFile);
   AddRepeated(*command, "-k,--key", options->keys,
@@ -146,11 +172,21 @@ void AddEditCommand(CLI::App& program) {
               "ID: a key of --report to dance on without. May be given more than once. Of several "
               "keys of one name: ID@SECOND.");
   command
+      ->add_option("--mark", options->marks,
+                   "NAME TIME: a marker to set in a project, or to move to this second, if it has "
+                   "the name already. May be given more than once.")
+      ->allow_extra_args(false);
+  AddRepeated(*command, "--unmark", options->unmarked,
+              "NAME: a marker to remove from a project. Of several of one name: NAME@SECOND.");
+  command
       ->add_option("--hold", options->hold_s,
                    "Seconds for which the poses of --key are kept. Default: as a key file says, or "
                    "they are passed.")
       ->check(AboveZero());
   AddHit(*command, options->hit, "the poses of --key and --move are");
+  AddHands(*command, options->hands,
+           "What hands do in the poses of --key and --move, for characters that have fingers "
+           "(convert --report)");
   command
       ->add_option("--repeat", options->repeats,
                    "FROM UNTIL LATER: the keys of --report from second FROM on and before UNTIL "
@@ -184,9 +220,6 @@ void AddEditCommand(CLI::App& program) {
                    "Second at which what stays of the dance begins, its second 0 from then on.")
       ->check(TimeInSeconds());
   command->add_option("--until", options->until_s, "Second before which it ends.")
-  AddHands(*command, options->hands,
-           "What hands do in the poses of --key and --move, for characters that have fingers "
-           "(convert --report)");
       ->check(TimeInSeconds());
   command->add_flag("--mirror", options->mirror,
                     "Exchange left and right of body and stage: the plane x = 0 is the mirror.");
@@ -221,7 +254,9 @@ void AddEditCommand(CLI::App& program) {
   AddStyle(*command, options->style);
   AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
-  command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
+  command
+      ->add_option("-o,--out", options->out,
+                   "FILE.npz, FILE.bvh or FILE.glb to write; of a project, FILE.json.")
       ->required();
   options->server.AddTo(*command);
   command->callback([options, command] {

@@ -48,6 +48,10 @@ struct EditOptions {
   std::string model;
   std::string out;
 
+  // For projects (edit_markers.h).
+  std::vector<std::pair<std::string, double>> marks;  ///< names and seconds
+  std::vector<std::string> unmarked;
+
   // For whole dances (edit_whole.h).
   std::optional<double> from_s, until_s;
   bool mirror = false;

@@ -1,0 +1,107 @@
+#include "client/cli/edit_markers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "client/authoring/json_fields.h"
+#include "client/authoring/project_file.h"
+#include "model/core/atomic_file.h"
+#include "model/core/error.h"
+#include "model/core/grid.h"
+#include "model/core/rounded.h"
+#include "model/formats/motion_file.h"
+
+namespace choreo::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kMarkers = "markers";
+
+double TimeOf(const ordered_json& marker) { return marker["time"].get<double>(); }
+
+std::string Spoken(const ordered_json& marker) {
+  return marker["name"].get<std::string>() + '@' + Rounded(TimeOf(marker));
+}
+
+/// The marker called NAME, or NAME@SECOND where several are; the end if there is none.
+ordered_json::iterator Find(ordered_json& markers, const std::string& id, const char* option) {
+  std::vector<ordered_json::iterator> found;
+  for (auto marker = markers.begin(); marker != markers.end(); ++marker) {
+    if (Spoken(*marker) == id) return marker;
+    if ((*marker)["name"] == id) found.push_back(marker);
+  }
+  if (found.size() > 1) {
+    throw InvalidArgument(option, "several markers are called \"" + id + "\"; say which, as in " +
+                                      Spoken(*found.front()));
+  }
+  return found.empty() ? markers.end() : found.front();
+}
+
+void Remove(const std::string& id, ordered_json* markers) {
+  const auto found = Find(*markers, id, "--unmark");
+  if (found != markers->end()) return void(markers->erase(found));
+  std::string known;
+  for (const ordered_json& marker : *markers) known += (known.empty() ? "" : ", ") + Spoken(marker);
+  throw InvalidArgument("--unmark", "the project has no marker \"" + id + "\"; it has " +
+                                        (known.empty() ? "none" : known));
+}
+
+/// Sets a marker, or moves the one of this name.
+void Mark(const std::string& id, double time_s, ordered_json* markers) {
+  ordered_json marker = {{"time", time_s}, {"name", id}};
+  const auto old = Find(*markers, id, "--mark");
+  if (old != markers->end()) {
+    marker["name"] = (*old)["name"];
+    markers->erase(old);
+  }
+  const auto frame = [](double seconds) { return std::llround(seconds * kModelFps); };
+  const auto there = std::ranges::find_if(
+      *markers, [&](const ordered_json& other) { return frame(TimeOf(other)) == frame(time_s); });
+  if (there != markers->end())
+    throw InvalidArgument("--mark", InFull(time_s) + " s is where " + Spoken(*there) + " stands");
+  const auto next = std::ranges::find_if(
+      *markers, [&](const ordered_json& other) { return TimeOf(other) > time_s; });
+  markers->insert(next, std::move(marker));
+}
+
+/// As the studio writes it: short lists and objects, as vectors and markers are, have a line each.
+std::string Readable(const ordered_json& value, const std::string& indent = "") {
+  const bool is_flat =
+      std::ranges::none_of(value, [](const ordered_json& part) { return part.is_structured(); });
+  const bool is_line = !indent.empty() && is_flat && (value.is_array() || value.size() < 4);
+  if (!value.is_structured()) return value.dump();
+  const std::string next = is_line ? "" : "\n" + indent + " ";
+  std::string parts;
+  for (const auto& [member, part] : value.items()) {
+    if (!parts.empty()) parts += is_line ? ", " : ",";
+    parts += next;
+    if (value.is_object()) parts += ordered_json(member).dump() + ": ";
+    parts += Readable(part, indent + " ");
+  }
+  if (!is_line) parts += "\n" + indent;
+  return value.is_object() ? "{" + parts + "}" : "[" + parts + "]";
+}
+
+}  // namespace
+
+bool IsProject(const EditOptions& options) { return SmallExtension(options.dance) == ".json"; }
+
+void EditMarkers(const EditOptions& options) {
+  const std::string text = authoring::ReadText(options.dance, "project");
+  authoring::ParseProject(authoring::ParseJson(text, options.dance), options.dance);
+  auto project = ordered_json::parse(text);
+  ordered_json markers = project.value(kMarkers, ordered_json::array());
+  for (const std::string& id : options.unmarked) Remove(id, &markers);
+  for (const auto& [id, time_s] : options.marks) Mark(id, time_s, &markers);
+  if (markers.empty()) {
+    project.erase(kMarkers);
+  } else {
+    project[kMarkers] = std::move(markers);
+  }
+  WriteFile(options.out, Readable(project) + "\n");
+  std::cout << options.out << std::endl;
+}
+
+}  // namespace choreo::cli
