@@ -1,10 +1,14 @@
 #include "studio/company.h"
 
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
+#include "client/authoring/dance_keys.h"
 #include "client/authoring/formation.h"
+#include "client/authoring/key_file.h"
 #include "client/authoring/music_beats.h"
+#include "client/convert.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/gltf.h"
 #include "model/formats/motion_file.h"
@@ -14,7 +18,40 @@
 namespace choreo::studio {
 namespace {
 
-void Describe(const authoring::Dancers& stage, Formation* formation) {
+/// Keeps files for reading in a folder of ours, by name: the page knows no paths.
+void Keep(const google::protobuf::RepeatedPtrField<File>& files, const ScratchFolder& folder) {
+  for (const File& file : files) {
+    const std::filesystem::path name = std::filesystem::path(file.name()).filename();
+    std::ofstream(folder.path() / name, std::ios::binary) << file.data();
+  }
+}
+
+/// A dancer's own keys, of these files or in her own text.
+void DescribeKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
+                  const Skeleton& skeleton, StageDancer* said) {
+  said->set_has_keys(!dancer.keyframes.empty());
+  for (const std::string& source : authoring::KeySources(dancer.keyframes)) {
+    const bool is_text = source.starts_with('{');
+    const std::string kept =
+        is_text ? source : (folder.path() / std::filesystem::path(source).filename()).string();
+    if (!is_text && !std::filesystem::exists(authoring::FileOf(kept))) {
+      throw Error(ErrorCode::kNotFound, std::filesystem::path(source).filename().string(),
+                  "has keys of " + dancer.id + ": open it together with the project");
+    }
+    try {
+      for (const client::KeyPose& key : authoring::ReadKeys(kept, skeleton))
+        *said->add_keys() = client::ToProto(key);
+    } catch (const Error& error) {
+      std::string message = error.what();
+      const std::string path = folder.path().string() + "/";
+      if (message.starts_with(path)) message.erase(0, path.size());
+      throw Error(error.code(), "", message);
+    }
+  }
+}
+
+void Describe(const authoring::Dancers& stage, const ScratchFolder& folder,
+              const Skeleton& skeleton, Formation* formation) {
   formation->set_apart(stage.apart);
   for (const authoring::Dancer& dancer : stage.dancers) {
     StageDancer* said = formation->add_dancers();
@@ -27,7 +64,7 @@ void Describe(const authoring::Dancers& stage, Formation* formation) {
     said->set_in_counts(dancer.after && dancer.after->counts);
     if (dancer.seed) said->set_seed(*dancer.seed);
     said->set_style(dancer.style);
-    said->set_has_keys(!dancer.keyframes.empty());
+    DescribeKeys(dancer, folder, skeleton, said);
   }
 }
 
@@ -65,9 +102,11 @@ Response FormCompany(const StudioContext& context, const Company& request) {
   const Skeleton& skeleton = context.model().skeleton;
   const std::string& name = request.dancers().name();
   const authoring::Dancers stage = authoring::ParseDancers(request.dancers().data(), name, "");
+  const ScratchFolder folder;
+  Keep(request.key_files(), folder);
   Response response;
   Formation* formation = response.mutable_formation();
-  Describe(stage, formation);
+  Describe(stage, folder, skeleton, formation);
   if (request.dances().empty()) return response;
 
   const std::vector<double> beats(request.beats().begin(), request.beats().end());

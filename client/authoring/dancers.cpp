@@ -46,6 +46,8 @@ Eigen::Vector2d PlaceOf(const json& value, const std::string& field) {
 
 std::vector<std::string> Keyframes(const json& value, const std::string& field,
                                    const std::filesystem::path& folder) {
+  if (value.is_array() && !value.empty() && value[0].is_object())
+    return {json{{"name", field.substr(0, field.rfind('.'))}, {"keyframes", value}}.dump()};
   std::vector<std::string> sources;
   const json list = value.is_array() ? value : json::array({value});
   for (const json& source : list) sources.push_back(TextOf(source, field));

@@ -25,7 +25,7 @@ struct Dancer {
       {};  ///< she does everything this much later, and stands still before
   std::optional<uint64_t> seed = {};
   std::string style = {};
-  std::vector<std::string> keyframes = {};  ///< as --keyframes takes them
+  std::vector<std::string> keyframes = {};  ///< her own, as ReadKeys takes them (key_file.h)
 };
 
 /// The dancers of a file; docs/dancers.md describes it.

@@ -205,6 +205,10 @@ std::filesystem::path FileOf(const std::string& source) {
 
 std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
                               std::vector<std::string>* places) {
+  if (source.starts_with('{')) {
+    const std::string name = ParseJson(source, "keyframes").value("name", "keyframes");
+    return ParseKeyFile(source, name, skeleton, places);
+  }
   const std::string file = FileOf(source);
   const bool chooses = file.size() < source.size();
   const std::string chosen = chooses ? source.substr(file.size() + 1) : "";

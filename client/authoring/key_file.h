@@ -42,6 +42,8 @@ std::filesystem::path FileOf(const std::string& source);
 
 /// Key poses named on a command line:
 ///   keys.json              a key file
+///   {"name": "a.json:b", "keyframes": [...]}
+///                          the text of one, whose errors begin with this name
 ///   keys.json@ID           one key of it, with those that hold it
 ///   walk.bvh@1.2,3.4       the poses of a motion file (formats/motion_file.h) at these seconds,
 ///                          each at the same second of the dance

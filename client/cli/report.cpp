@@ -158,7 +158,8 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
                                 std::to_string(authoring::kMaxFrameNumber));
     }
     if (key.contains("hands"))
-      authoring::JsonHands(key["hands"], path.string() + ":keyframes[" + std::to_string(i) + "].hands");
+      authoring::JsonHands(key["hands"],
+                           path.string() + ":keyframes[" + std::to_string(i) + "].hands");
   }
   return report;
 }

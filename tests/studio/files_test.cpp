@@ -40,6 +40,37 @@ TEST_F(StudioTest, AnalysesASongAndComposesOnItsBeats) {
     EXPECT_NEAR(std::fmod(few.keyframes().keyframes(i).time(), 4), 1.1, 0.02);
 }
 
+TEST_F(StudioTest, DancersHaveKeysOfTheirOwn) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request request;
+  Company* company = request.mutable_company();
+  company->mutable_dancers()->set_name("p.json");
+  company->mutable_dancers()->set_data(
+      R"({"dancers": [{"id": "ada", "place": [0, 0], "keyframes": "none"},
+          {"id": "ben", "place": [1, 0], "keyframes": "keys/ben.json"},
+          {"id": "cy", "place": [2, 0], "keyframes": [{"id": "dab", "time": 1, "pose": "dab"}]},
+          {"id": "dee", "place": [3, 0]}]})");
+  EXPECT_THAT(page.Ask(request).failure().message(),
+              HasSubstr("ben.json: has keys of ben: open it together with the project"));
+  File* keys = company->add_key_files();
+  keys->set_name("ben.json");
+  keys->set_data(R"({"keyframes": [{"id": "kick", "time": 2, "pose": "kick", "hands": "fist"}]})");
+  const Response answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_formation()) << answer.failure().message();
+  const auto& dancers = answer.formation().dancers();
+  EXPECT_TRUE(dancers[0].has_keys() && dancers[0].keys().empty());
+  ASSERT_EQ(dancers[1].keys_size(), 1);
+  EXPECT_EQ(dancers[1].keys(0).id(), "kick");
+  EXPECT_EQ(dancers[1].keys(0).hands(), v1::HAND_POSE_FIST);
+  ASSERT_EQ(dancers[2].keys_size(), 1);
+  EXPECT_EQ(dancers[2].keys(0).time(), 1);
+  EXPECT_FALSE(dancers[3].has_keys());
+  keys->set_data(R"({"keyframes": [{"time": 2, "pose": "kik"}]})");
+  EXPECT_THAT(page.Ask(request).failure().message(),
+              testing::StartsWith("ben.json:keyframes[0].pose: "));
+}
+
 // As `choreo dance --dancers` places them.
 TEST_F(StudioTest, ArrangesSeveralDancers) {
   const Opened studio(server_.address());

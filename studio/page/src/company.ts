@@ -3,26 +3,30 @@ import { computed, effect, signal } from '@preact/signals';
 import { beats } from './beats';
 import type { Clip, Formation } from './generated/studio/studio_pb';
 import { later } from './counts';
-import { note } from './history';
+import { readKey } from './dancer';
+import { change, note } from './history';
 import { limits } from './limits';
-import { dancer, wire } from './link';
+import { dancer, skeleton, wire } from './link';
 import type { Motion } from './motion';
-import { dancersJson } from './project_file';
+import { dancersJson, inOrder } from './project_file';
 import type { Partner, Project, Spot } from './project';
-import { busy, complain, live, moment, project } from './state';
+import { busy, complain, live, moment, project, selectedKey } from './state';
 import type { Moment, Song } from './state';
 
 const beside = 1.4; // metres between a new dancer and the last one
 const behind = 0.4; // metres that a new dancer stands further back
 
-/// A dance with another seed or style than the project's, and what it was made from.
+/// A file that is sent.
+export type Asked = { name: string; data: Uint8Array };
+
+/// A dance with another seed, other keys or style than the project's, and what it was made from.
 type Other = { project: Project; song: Song | null; motion: Motion };
 let others: Other[] = [];
 let forming: AbortController | null = null;
 
 const madeOf = ({ dancers: _, apart: __, markers: ___, ...rest }: Project) => rest;
 const isSame = (a: Project, b: Project) => Object.entries(madeOf(a)).every(([name, value]) => value === b[name as keyof Project]);
-const ownProject = (all: Project, { seed, style }: Partner): Project => ({ ...all, seed: seed ?? all.seed, style: style || all.style });
+const ownProject = (all: Project, { seed, style, keys }: Partner): Project => ({ ...all, seed: seed ?? all.seed, style: style || all.style, keys: keys ?? all.keys });
 
 /// The program's formation of the present dancers and their dances, with the index of each dancer's dance.
 export const formation = signal<{ of: Moment; said: Formation; dances: Motion[]; danceOf: number[] } | null>(null);
@@ -122,13 +126,15 @@ function secondsLater({ after, inCounts }: Partner): number {
   return later(times[0], after, times) - times[0];
 }
 
-/// The dancers of a project file.
-export async function readCompany(name: string, data: Uint8Array): Promise<{ dancers: Partner[]; apart: number; haveKeys: boolean }> {
-  const answer = await wire.ask({ case: 'company', value: { dancers: { name, data } } });
+/// The dancers of a project file; `keyFiles`: those that it names.
+export async function readCompany(name: string, data: Uint8Array, keyFiles: Asked[]): Promise<{ dancers: Partner[]; apart: number }> {
+  const answer = await wire.ask({ case: 'company', value: { dancers: { name, data }, keyFiles } });
   if (answer.case !== 'formation') throw new Error(`${name} has no dancers.`);
-  const dancers = answer.value.dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style }): Partner =>
-    ({ id, x, z, facing, mirrored, after, inCounts: inCounts || after === 0, seed: seed === undefined ? null : Number(seed), style }));
-  return { dancers, apart: answer.value.apart, haveKeys: answer.value.dancers.some(({ hasKeys }) => hasKeys) };
+  const dancers = answer.value.dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style, hasKeys, keys }): Partner => ({
+    id, x, z, facing, mirrored, after, inCounts: inCounts || after === 0, seed: seed === undefined ? null : Number(seed), style,
+    keys: hasKeys ? inOrder(keys.map((key) => readKey(key, dancer.fps, skeleton.height)), `${name}: ${id}`, dancer.fps) : null,
+  }));
+  return { dancers, apart: answer.value.apart };
 }
 
 /// All dancers as files of one format, as the command line writes them.
@@ -141,6 +147,18 @@ export async function writeCompany(name: string, now: Moment) {
 const changeAll = (dancers: Partner[]) => note({ dancers });
 export const changePartner = (nth: number, what: Partial<Partner>) =>
   changeAll(project.value.dancers.map((old, i) => (i === nth ? { ...old, ...what } : old)));
+
+/// Makes the dance of one of them the one that is worked on; the others dance on as they did.
+export function workOnDanceOf(nth: number) {
+  const { value } = project;
+  const mine = ownProject(value, value.dancers[nth]);
+  const dancers = value.dancers.map((partner, i) => {
+    const own = i === nth ? mine : ownProject(value, partner);
+    return { ...partner, keys: own.keys === mine.keys ? null : own.keys, seed: own.seed === mine.seed ? null : own.seed };
+  });
+  selectedKey.value = null;
+  change({ keys: mine.keys, seed: mine.seed, dancers });
+}
 
 /// A single remaining dancer is no longer a company.
 export function removePartner(nth: number) {
@@ -155,7 +173,7 @@ export function addPartner() {
   const named = (all: Partner[], spot: Spot): Partner => {
     let number = all.length + 1;
     while (all.some(({ id }) => id === `dancer${number}`)) ++number;
-    return { id: `dancer${number}`, ...spot, facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '' };
+    return { id: `dancer${number}`, ...spot, facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '', keys: null };
   };
   const all = dancers.length ? dancers : [named([], { x: 0, z: 0 })];
   const isFree = (spot: Spot) => all.every(({ x, z }) => Math.hypot(x - spot.x, z - spot.z) > beside / 2);

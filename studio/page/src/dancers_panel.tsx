@@ -8,11 +8,11 @@ import * as studio from './studio';
 const longest = 120; // counts or seconds
 
 function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
-  const { id, x, z, facing, mirrored, after, inCounts, seed } = partner;
+  const { id, x, z, facing, mirrored, after, inCounts, seed, keys } = partner;
   const set = (what: Partial<Partner>) => studio.changePartner(nth, what);
   const isTaken = (spot: { x: number; z: number }) => studio.project.value.dancers.some((other) => other !== partner && other.x === spot.x && other.z === spot.z);
   const put = (spot: { x: number; z: number }) => (isTaken(spot) ? studio.tell('Somebody stands there.') : set(spot));
-  const isPlain = !mirrored && after === 0 && seed === null;
+  const isPlain = !mirrored && after === 0 && seed === null && keys === null;
   return (
     <fieldset class="partner">
       <legend style={{ '--shirt': `var(--${shirtOf(studio.shirtNumber(nth))})` }} class="take">{id}</legend>
@@ -26,6 +26,8 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
       <div class="row">
         <label class="check"><input type="checkbox" checked={mirrored} onChange={(event) => set({ mirrored: event.currentTarget.checked })} />Mirrored</label>
         <button aria-pressed={seed !== null} title="The same keys, danced otherwise" onClick={() => set({ seed: seed === null ? studio.project.value.seed + 1 + nth : null })}>Dances otherwise</button>
+        <button aria-pressed={keys !== null} title="Keys of her own instead of the keys of all" onClick={() => set({ keys: keys === null ? [...studio.project.value.keys] : null })}>Own keys</button>
+        {keys && <button title="Show her keys above, to set and move them; those of the others stay as they are" onClick={() => studio.workOnDanceOf(nth)}>Work on her keys</button>}
         <button aria-label={`Remove ${id}`} class="icon" title="Remove" onClick={() => studio.removePartner(nth)}>×</button>
       </div>
       {isPlain && nth > 0 && <p class="small">The same dance at another place.</p>}

@@ -2,6 +2,7 @@
 import { film, fps, height, width } from './film';
 import type { Kind, Painter } from './film';
 import { readCompany, writeCompany } from './company';
+import type { Asked } from './company';
 import { danceFrom, made, push } from './history';
 import { compose } from './keys';
 import { readKey } from './dancer';
@@ -28,7 +29,9 @@ export const openFiles = (files: File[]) => work(async () => {
   const strange = files.find((file) => ![...songs, ...others, ...photos].includes(file));
   if (strange) throw new Error(`${strange.name} is none of the files that the studio knows: ${accepted.replaceAll(',', ' ')}`);
   if (live.value && photos.length < files.length) throw new Error('Stop the live dance first.');
-  if (songs.length > 1 || others.length > 1 || photos.length > 1)
+  // Dancers of a project may have key files of their own, which come with it.
+  const main = others.length > 1 ? await findProject(others) : undefined;
+  if (songs.length > 1 || (others.length > 1 && !main) || photos.length > 1)
     throw new Error('One song at a time, one photo, and one project or motion.');
   for (const file of songs) {
     tell(`Listening to ${file.name} …`);
@@ -36,7 +39,7 @@ export const openFiles = (files: File[]) => work(async () => {
     message.value = null;
   }
   await begin(async () => {
-    for (const file of others) await openOther(file);
+    if (others.length) await openOther(main ?? others[0], main ? others.filter((file) => file !== main) : []);
     if (others.length === 0 && songs.length === 1) await compose();
   });
   if (songs.length === 1 && !message.value?.isError) tellOfSong(message.value?.text);
@@ -49,24 +52,30 @@ async function bytesOf(file: File) {
   return new Uint8Array(await file.arrayBuffer());
 }
 
-async function openOther(file: File) {
+/// The one file of several that has dancers, if there is one.
+async function findProject(files: File[]) {
+  const found: File[] = [];
+  for (const file of files)
+    if (extensionOf(file) === 'json' && new TextDecoder().decode(await bytesOf(file)).includes('"dancers"')) found.push(file);
+  return found.length === 1 ? found[0] : undefined;
+}
+
+async function openOther(file: File, keyFiles: File[]) {
   const bytes = await bytesOf(file);
-  if (extensionOf(file) === 'json') await openProject(file.name, bytes);
+  const beside: Asked[] = [];
+  for (const other of keyFiles) beside.push({ name: other.name, data: await bytesOf(other) });
+  if (extensionOf(file) === 'json') await openProject(file.name, bytes, beside);
   else await openMotion(file.name, bytes);
 }
 
-async function openProject(name: string, bytes: Uint8Array) {
+async function openProject(name: string, bytes: Uint8Array, keyFiles: Asked[]) {
   const said: string[] = [];
   const model = { fps: dancer.fps, styles: welcome.value!.model!.styles };
   const text = new TextDecoder().decode(bytes);
   const read = fromJson(text, name, model, (words) => said.push(words));
   const answer = await wire.ask({ case: 'keys', value: { name, data: bytes } });
   if (answer.case !== 'keyframes') return;
-  if (text.includes('"dancers"')) {
-    const { haveKeys, ...company } = await readCompany(name, bytes);
-    Object.assign(read, company);
-    if (haveKeys) said.push('Its dancers have files of keys of their own, which the studio does not open: they share the keys here.');
-  }
+  if (text.includes('"dancers"')) Object.assign(read, await readCompany(name, bytes, keyFiles));
   read.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
   if (song.value) read.seconds = song.value.heard.seconds;
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;

@@ -34,6 +34,8 @@ export type Partner = Spot & {
   seed: number | null;
   /// Empty: the project's.
   style: string;
+  /// Her own; null: the project's.
+  keys: Key[] | null;
 };
 
 export type Project = {

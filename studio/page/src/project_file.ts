@@ -12,9 +12,9 @@ export type Known = { fps: number; styles: string[] };
 
 const round = (value: number) => Math.round(value * 1e5) / 1e5;
 
-/// The dancers of a project, in the form of a dancers' file.
-export const dancersJson = ({ dancers, apart }: Project) => ({
-  dancers: dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style }) => ({
+/// The dancers of a project, in the form of a dancers' file; with keys of their own as `said`.
+export const dancersJson = ({ dancers, apart }: Project, said?: (keys: Key[]) => Json[]) => ({
+  dancers: dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style, keys }) => ({
     id,
     place: [round(x), round(z)],
     ...(facing ? { facing } : {}),
@@ -22,6 +22,7 @@ export const dancersJson = ({ dancers, apart }: Project) => ({
     ...(after ? { after: inCounts ? `${after} counts` : after } : {}),
     ...(seed === null ? {} : { seed }),
     ...(style ? { style } : {}),
+    ...(said && keys ? { keyframes: keys.length ? said(keys) : 'none' } : {}),
   })),
   apart,
 });
@@ -32,21 +33,21 @@ export function toJson(project: Project, fps: number, names: string[]): string {
     time: round(frame / fps),
     ...(hold ? { hold: round(hold / fps) } : {}),
     ...(hit === null ? {} : { hit }),
-    ...(asks ? { joints: asks.map((joint) => names[joint]) } : {}),
     ...(hands ? { hands } : {}),
+    ...(asks ? { joints: asks.map((joint) => names[joint]) } : {}),
     ...(hasPlace ? { root_position: pose.root.map(round) } : {}),
     rotations: Array.from({ length: pose.rotations.length / 3 }, (_, joint) =>
       pose.rotations.slice(3 * joint, 3 * joint + 3).map(round),
     ),
   }));
-  const { song, seconds, seed, style, dynamics, variation, beats } = project;
   const keyframes = said(project.keys);
+  const { song, seconds, seed, style, dynamics, variation, beats } = project;
   const path = { points: project.path.map(({ frame, x, z }) => ({ frame, x: round(x), z: round(z) })) };
   const lively = Object.fromEntries(parts.map((part, i) => [part, project.lively[i]]));
   const markers = project.markers.map(({ frame, name }) => ({ time: round(frame / fps), name }));
   const text = JSON.stringify({ studio: format, song, seconds, seed, style, music_dynamics: dynamics, variation,
     ...(beats ? { bar: beats.bar, beats: beats.list.map(({ time, count }) => [time, count]) } : {}), lively, ...(path.points.length ? { path } : {}),
-    ...(markers.length ? { markers } : {}), ...(project.dancers.length ? dancersJson(project) : {}), keyframes }, null, 1);
+    ...(markers.length ? { markers } : {}), ...(project.dancers.length ? dancersJson(project, said) : {}), keyframes }, null, 1);
   // Puts each vector, beat, place and list of joints on one line.
   return text.replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2, $3]')
     .replace(/\[\s+(-?[\d.e-]+),\s+(-?[\d.e-]+)\s+\]/g, '[$1, $2]')

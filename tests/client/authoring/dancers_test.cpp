@@ -163,6 +163,25 @@ TEST_F(DancersTest, ReadAProject) {
   EXPECT_THAT(shown.said, HasSubstr("--vmc: shows one dancer"));
 }
 
+TEST_F(DancersTest, HaveKeysInTheirOwnFileOrBesideTheirPlace) {
+  const std::string key =
+      R"({"id": "ks", "time": 2, "pose": "kick", "place": [0, 0], "hands": "fist"})";
+  std::ofstream(folder_ / "ben.json") << R"({"keyframes": [)" << key << "]}";
+  Write(R"({"id": "ada", "place": [-2, 0]}, {"id": "ben", "place": [0, 0], "keyframes": "ben.json"},
+           {"id": "cy", "place": [2, 0], "keyframes": [)" +
+        key + "]}");
+  const Outcome outcome = DanceAll("--seconds 4");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const nlohmann::json ben = ReadJson(folder_ / "stage.ben.json")["keyframes"];
+  ASSERT_EQ(ben.size(), 1U);
+  EXPECT_EQ(ben[0]["hands"], "fist");
+  EXPECT_EQ(ReadJson(folder_ / "stage.cy.json")["keyframes"], ben);
+  EXPECT_NE(ReadJson(folder_ / "stage.ada.json")["keyframes"], ben);
+  Write(R"({"id": "cy", "place": [2, 0], "keyframes": [{"time": 1, "pose": "kik"}]})");
+  EXPECT_THAT(DanceAll("--seconds 4").said,
+              HasSubstr("dancers.json:dancers[0]:keyframes[0].pose: "));
+}
+
 TEST_F(DancersTest, RefuseImpossibleRequests) {
   const auto expect_failure = [this](const std::string& dancers, const std::string& part,
                                      const std::string& more = "") {

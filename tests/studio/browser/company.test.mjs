@@ -99,6 +99,40 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
     await until(() => window.choreo.stage.value.company.dolls.filter(({ scene }) => scene.visible).length === 2);
   });
 
+  await check('one has keys of her own, in a file of its own or not, and they can be worked on', async () => {
+    const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
+    const all = JSON.parse(text);
+    all.dancers = [{ id: 'ada', place: [0, 0] }, { id: 'ben', place: [1.4, 0], keyframes: 'ben.json' }];
+    await give(['own.json', JSON.stringify(all)]);
+    await until(() => window.choreo.message.value?.isError);
+    assert.match(await page.evaluate(() => window.choreo.message.value.text), /ben.json: has keys of ben: open it together/);
+    const kick = { keyframes: [{ id: 'own', time: 2, pose: 'kick', place: [0, 0], hands: 'fist' }] };
+    await give(['own.json', JSON.stringify(all)], ['ben.json', JSON.stringify(kick)]);
+    assert.deepEqual((await formed()).danceOf, [0, 1]);
+    const of = () => page.evaluate(() => {
+      const { keys, dancers } = window.choreo.project.value;
+      return [keys.map(({ id }) => id), dancers.map((partner) => partner.keys?.map(({ id }) => id) ?? null)];
+    });
+    const common = all.keyframes.map(({ id }) => id);
+    assert.deepEqual(await of(), [common, [null, ['own']]]);
+    await panel.getByRole('button', { name: 'Work on her keys' }).click();
+    assert.deepEqual((await formed()).danceOf, [1, 0]);
+    assert.deepEqual(await of(), [['own'], [common, null]]);
+    await page.locator('.key').first().click();
+    assert.equal(await page.getByLabel('What hands do').inputValue(), 'fist');
+    const before = await frames();
+    await page.getByLabel('What hands do').selectOption('point');
+    await formed();
+    assert.deepEqual(await frames(), before);
+    const kept = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
+    assert.equal(JSON.parse(kept).keyframes[0].hands, 'point');
+    await give(['kept.json', kept]);
+    await formed();
+    assert.deepEqual(await of(), [['own'], [common, null]]);
+    await give(['before.json', text]);
+    await formed();
+  });
+
   let saved = '';
   await check('they are saved as a file of dancers has them, opened as they were, and undone', async () => {
     saved = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');

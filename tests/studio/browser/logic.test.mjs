@@ -133,14 +133,16 @@ test('markers stand one at a moment, in order, each with a name of its own', () 
 });
 
 test('dancers are saved as a file of dancers has them, a line for each place', () => {
-  const plain = { facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '' };
+  const plain = { facing: 0, mirrored: false, after: 0, inCounts: true, seed: null, style: '', keys: null };
+  const key = { id: 'bow', frame: 15, pose: still(1), hasPlace: true, asks: null, hold: 0, hit: null, hands: null };
   const dancers = [{ id: 'ada', x: 0, z: 0.6, ...plain }, { id: 'ben', x: -1.4, z: -0.4, ...plain, mirrored: true, facing: 90, after: 4, seed: 3 },
-    { id: 'cy', x: 1, z: 0, ...plain, after: 2.5, inCounts: false, style: 'happy' }];
+    { id: 'cy', x: 1, z: 0, ...plain, after: 2.5, inCounts: false, style: 'happy', keys: [key] }, { id: 'dee', x: 2, z: 0, ...plain, keys: [] }];
   const text = toJson({ ...emptyProject('song.mp3', 4), dancers }, 30, []);
   const { dancers: saved, apart } = JSON.parse(text);
   assert.equal(apart, 0.2);
   assert.deepEqual(saved, [{ id: 'ada', place: [0, 0.6] }, { id: 'ben', place: [-1.4, -0.4], facing: 90, mirrored: true, after: '4 counts', seed: 3 },
-    { id: 'cy', place: [1, 0], after: 2.5, style: 'happy' }]);
+    { id: 'cy', place: [1, 0], after: 2.5, style: 'happy', keyframes: [{ id: 'bow', time: 0.5, root_position: [0, 1, 0], rotations: [[0, 0, 0]] }] },
+    { id: 'dee', place: [2, 0], keyframes: 'none' }]);
   assert.match(text, /"place": \[-1.4, -0.4\]/);
   assert.equal('dancers' in JSON.parse(toJson(emptyProject('song.mp3', 4), 30, [])), false);
 });
