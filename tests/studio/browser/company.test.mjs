@@ -131,6 +131,7 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
     assert.deepEqual(await of(), [['own'], [common, null]]);
     await give(['before.json', text]);
     await formed();
+    await page.evaluate(() => (window.choreo.message.value = null));
   });
 
   let saved = '';
