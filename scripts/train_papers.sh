@@ -9,7 +9,7 @@
 #   harvey, and c-harvey, which knows paper C's data alone
 # or `all` for every one. Killed, it goes on from where it was when it is started again; what is finished is not trained again.
 # $F_STEPS, $C_STEPS and $HARVEY_STEPS are the steps of the networks, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of all that are compared with
-# f-full and c-full, which are paper-f and paper-c of as few. $DEVICE says where flows train: cpu, cuda:0, auto.
+# f-full and c-full, which are paper-f and paper-c of as few (f-full without its loss of whole roll-outs). $DEVICE says where flows train: cpu, cuda:0, auto.
 set -euo pipefail
 (($# >= 3)) || { echo "train_papers.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -75,7 +75,7 @@ controllers() {  # controllers NAME STEPS OPTION...
 one() {
   local f=${F_ABLATION_STEPS:-$f_steps} c=${C_ABLATION_STEPS:-$c_steps}
   case $1 in
-    paper-f) flow paper-f "$f_steps" ;;
+    paper-f) flow paper-f "$f_steps" --rollout-loss 2 ;;
     f-full) flow f-full "$f" ;;
     f-no-key-loss) flow "$1" "$f" --no-key-loss ;;
     f-no-time-embedding) flow "$1" "$f" --no-time-embedding ;;
