@@ -118,14 +118,14 @@ class CommandsTest(unittest.TestCase):
         (made / "seen.json").write_text(json.dumps(landmarks()))
         key = {"studio": 1, "seconds": 4, "style": "happy", "keyframes": [{"time": 2, "pose": "kick"}]}
         (made / "keys.json").write_text(json.dumps(key))
-        (made / "project.json").write_text(json.dumps(key | {"song": "song.mp3"}))
+        (made / "project.json").write_text(json.dumps(key | {"song": "song.mp3", "markers": [{"time": 1, "name": "verse"}]}))
         (made / "out.map.json").write_text('{"bones": {"pelvis": "pelvis"}}')
         for take in ("walk1", "run1", "sprint1"):
             (made / "lafan1").mkdir(exist_ok=True)
             (made / f"lafan1/{take}.bvh").touch()
         numpy.savez(made / "seen.npz", poses=numpy.zeros((1, 72)))
         for out in (made / "dance.npz", made / "hero.glb", made / "walk.bvh"):
-            subprocess.run([BIN / "choreo", "dance", made / "song.mp3", "--seconds", "5", "--out", out], check=True, capture_output=True)
+            subprocess.run([BIN / "choreo", "dance", made / "song.mp3", "--seconds", "5", "--out", out, "--report", made / "report.json"], check=True, capture_output=True)
 
     @classmethod
     def tearDownClass(cls):
