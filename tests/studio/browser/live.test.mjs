@@ -30,8 +30,18 @@ await inStudio(async ({ page, until, settle, message, give, host }) => {
     const off = await page.evaluate(([frame, id]) => {
       const asked = window.choreo.project.value.keys.find((key) => key.id === id).pose.rotations;
       const danced = window.choreo.motion.value.pose(frame).rotations;
-      // Of the root the way it faces is asked for, too.
-      return Math.max(...asked.map((value, i) => Math.abs(value - danced[i])));
+      // Of the root the way it faces is asked for, too. Rotation vectors a whole turn apart are one rotation: compare quaternions.
+      const quaternion = ([x, y, z]) => {
+        const angle = Math.hypot(x, y, z);
+        const scale = angle > 0 ? Math.sin(angle / 2) / angle : 0.5;
+        return [Math.cos(angle / 2), x * scale, y * scale, z * scale];
+      };
+      const joint = (rotations, at) => quaternion([...rotations.slice(3 * at, 3 * at + 3)]);
+      const apart = (at) => {
+        const of = joint(danced, at);
+        return 2 * Math.acos(Math.min(1, Math.abs(joint(asked, at).reduce((sum, value, i) => sum + value * of[i], 0))));
+      };
+      return Math.max(...Array.from({ length: asked.length / 3 }, (_, at) => apart(at)));
     }, [frame, id]);
     assert.ok(off < 0.01, `${off} rad off`);
   });

@@ -180,7 +180,8 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     ] })]);
     await settle();
     const keys = await page.evaluate(() => window.choreo.project.value.keys);
-    assert.deepEqual(keys.map(({ id }) => id), ['begin', 'wave', 'arms', 'strong', 'strong held 1', 'strong held 2']);
+    assert.deepEqual(keys.map(({ id }) => id), ['begin', 'wave', 'arms', 'strong']);
+    assert.equal(keys[3].hold, 6);
     assert.deepEqual(keys[1].asks.map((joint) => names[joint]), ['right_elbow']);
     await choose(1);
     await panel.getByText('The key asks for right elbow.').waitFor();
