@@ -208,11 +208,16 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       throw InvalidArgument(field + ".hands", std::to_string(keyframe.hands()) + ", must be 0 to " +
                                                   std::to_string(v1::HandPose_MAX));
     }
-    {
-      const std::lock_guard lock(hands_mutex_);
-      hands_[keyframe.id()] = keyframe.hands();
-    }
-    stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit);
+    // Known before the key can be reached; a key that comes too late leaves those of the former
+    // one.
+    const v1::HandPose former = ExchangeHands(keyframe.id(), keyframe.hands());
+    if (!stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit))
+      ExchangeHands(keyframe.id(), former);
+  }
+
+  v1::HandPose ExchangeHands(const std::string& id, v1::HandPose hands) {
+    const std::lock_guard lock(hands_mutex_);
+    return std::exchange(hands_[id], hands);
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {

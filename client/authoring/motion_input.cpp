@@ -1,6 +1,7 @@
 #include "client/authoring/motion_input.h"
 
 #include <iostream>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,7 +11,9 @@ namespace {
 
 void Say(const std::filesystem::path& path, const std::vector<std::string>& notes,
          bool of_convert) {
+  static std::mutex mutex;  // pages of the studio read files at the same time
   static std::set<std::string> said;
+  const std::lock_guard lock(mutex);
   for (const std::string& note : notes) {
     std::string line = "note: " + path.string() + ": " + note;
     // After the path, which may contain anything.

@@ -58,18 +58,22 @@ std::string DanceStream::NextControls() const { return At("controls", controls_)
 std::string DanceStream::NextMusicBeats() const { return At("music_beats", beats_); }
 std::string DanceStream::NextMusicPassages() const { return At("music_passages", passages_); }
 
-void DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
+bool DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
                          const PoseMask& mask, std::optional<double> hit) {
   std::lock_guard lock(messages_);
   const std::string field = NextKeyframe();
   ValidatePose(model_.skeleton, pose, field);
   ValidateMask(model_.skeleton, mask, field + ".mask");
   ValidateHit(hit, field + ".hit");
+  bool is_set = true;
   chain_->Change([&](Timeline& timeline) {
-    if (auto rejection = timeline.Set(id, when, pose, mask, field, hit))
+    if (auto rejection = timeline.Set(id, when, pose, mask, field, hit)) {
+      is_set = false;
       chain_->PostLate(*rejection);
+    }
   });
   ++keyframes_;
+  return is_set;
 }
 
 void DanceStream::RemoveKey(const std::string& id) {

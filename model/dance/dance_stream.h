@@ -58,9 +58,9 @@ class DanceStream {
   std::string NextMusicBeats() const;
   std::string NextMusicPassages() const;
 
-  /// See Timeline. A key that comes too late causes a KeyRejected event. Errors name
-  /// NextKeyframe().
-  void SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
+  /// See Timeline. A key that comes too late causes a KeyRejected event and changes nothing:
+  /// returns false. Errors name NextKeyframe().
+  bool SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
               const PoseMask& mask = {}, std::optional<double> hit = {});
   void RemoveKey(const std::string& id);
   /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();

@@ -19,8 +19,8 @@ namespace choreo {
 inline constexpr int kBeatMemory = 13 * static_cast<int>(kModelFps);
 
 /// The beats of a dance's music. They are given by the client or found in the whole music. A dance
-/// that starts without any detects them: when a transition begins, the beats of the 12 s before its
-/// first frame (HearBeats) predict its own. So beats are a function of the
+/// that starts without any detects them: when a transition begins, the beats of the 12 s before the
+/// last whole second (HearBeats) predict its own. So beats are a function of the
 /// ordered messages and the samples before the transition; only last() carries over from earlier
 /// transitions. Not thread-safe.
 class MusicBeats {

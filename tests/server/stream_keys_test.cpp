@@ -115,6 +115,27 @@ TEST_F(StreamKeysTest, EventsRepeatWhatHandsDoAndFramesDoNot) {
   EXPECT_EQ(fist.Join().rotations, none.Join().rotations);
 }
 
+TEST_F(StreamKeysTest, HandsOfAKeyThatComesTooLateAreNotRepeated) {
+  Start();
+  DanceClient client(stub());
+  Begin(client);
+  v1::Keyframe key = Key("a", 50);
+  key.set_hands(v1::HAND_POSE_FIST);
+  client.SendKeyframe(key);
+  client.SendGenerateUntil(51);
+  key.set_hands(v1::HAND_POSE_OPEN);
+  client.SendKeyframe(key);
+  const Answer answer = client.Finish();
+  std::vector<v1::HandPose> said;
+  int rejected = 0;
+  for (const v1::Event& event : answer.events) {
+    if (event.has_keyframe_reached()) said.push_back(event.keyframe_reached().hands());
+    rejected += event.has_keyframe_rejected();
+  }
+  EXPECT_EQ(rejected, 1);
+  EXPECT_EQ(said, std::vector{v1::HAND_POSE_FIST});
+}
+
 TEST_F(StreamKeysTest, KeysAreAddedMovedAndRemovedAfterTheFrontier) {
   Start();
   DanceClient client(stub());
