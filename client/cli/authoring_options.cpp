@@ -16,17 +16,17 @@ CLI::Validator SongFile() {
 void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
   CLI::Option* beats = command.add_option(
       "--beats", options->beats,
-      "FILE of the song's beats, in place of those that are found: a line a beat, its second and, "
-      "where it is known, its count in the bar, 1 for a downbeat. auto (default): found.");
+      "FILE of the song's beats, one a line: its second and, if known, its count in the bar (1: a "
+      "downbeat). auto (default): they are found.");
   command
       .add_option("--tempo", options->tempo_bpm,
-                  "Beats a minute, about: within 6 % of it they are looked for.")
+                  "Rough tempo, beats a minute: beats are looked for within 6 % of it.")
       ->check(NumberFrom(50, 200))
       ->excludes(beats);
   CLI::Option* half =
-      command.add_flag("--half-time", options->half_time, "Every second beat counts alone.");
+      command.add_flag("--half-time", options->half_time, "Count every second beat only.");
   command
-      .add_flag("--double-time", options->double_time, "Half way between two beats is one, too.")
+      .add_flag("--double-time", options->double_time, "Count a beat half way between two, too.")
       ->excludes(half);
   command
       .add_option("--downbeat", options->downbeat_s,

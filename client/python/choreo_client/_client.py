@@ -6,7 +6,7 @@ from ._transition import transition
 
 
 class Answers:
-    """What a server answers, as it comes. As a context manager it ends the call, which who stops reading should do."""
+    """A server's answers, as they arrive. If you stop reading early, end the call: use this as a context manager."""
 
     def __init__(self, answers, until):
         self._answers, self._until = answers, until

@@ -1,4 +1,4 @@
-// What the program takes and assumes: its constants, told in its first message.
+// The program's limits and constants, from its first message.
 import type { Limits } from './generated/studio/studio_pb';
 
 export let limits: Limits;

@@ -85,17 +85,17 @@ export const emptyProject = (song: string, seconds: number): Project => ({
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
 
-/// Frames for which a pose can be held that is to be held for so many.
+/// The nearest time, in frames, for which a pose can be held: whole steps, rounded down.
 export function holdOf(frames: number, fps: number) {
   const step = limits.holdStepS * fps;
   return Math.round(Math.max(0, Math.floor(frames / step + 1e-9)) * step);
 }
 
-/// The keys, none of which is held into the next one, or behind the last of so many frames.
+/// The keys. None is held until the next one, or past the last frame.
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
   keys.map((key, i) => ({ ...key, hold: holdOf(Math.min(key.hold, (keys[i + 1]?.frame ?? frames - 1 + limits.keyDistance) - limits.keyDistance - key.frame), fps) }));
 
-/// The keys, and those behind them that hold them, as the program has both (client/authoring/key_file.cpp).
+/// The keys, each followed by the repeated keys that hold its pose, as the program reads them (client/authoring/key_file.cpp).
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
     const steps = Math.round(key.hold / (limits.holdStepS * fps));
@@ -104,7 +104,7 @@ export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
 }
 const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0, hit: null });
 
-/// The other way round.
+/// The inverse: repeated keys become holds.
 export function withHolds(keys: Key[]): Key[] {
   const list: Key[] = [];
   for (const key of keys) {
