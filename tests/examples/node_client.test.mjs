@@ -181,7 +181,9 @@ for (const frame_rate of [30, 50]) {
     const { answers, resumes } = await danceAndKill(source, enough);
     assert.equal(resumes.length, 1);
     const [{ address, exact, frame, because }] = resumes;
-    assert.deepEqual([address, exact, because.code], [other, true, 'UNAVAILABLE']);
+    assert.deepEqual([address, exact], [other, true]);
+    // A stream that is cut in mid-frame has broken, too.
+    assert.ok(['UNAVAILABLE', 'INTERNAL', 'UNKNOWN'].includes(because.code), because.code);
     assert.ok(frame > 3.5 * frame_rate, frame);
     assert.deepEqual(told(answers), told(whole));
   });
