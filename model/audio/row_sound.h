@@ -20,7 +20,7 @@ static_assert(OnsetMeter::kMemory <= kRowOnsets * kRowSoundMemory);
 /// full-scale sine has 0.5.
 struct RowSound {
   float onset = 0;  ///< from RowOnset
-  std::array<Onset, kRowOnsets> onsets{};
+  std::array<Onset, kRowOnsets> onsets{};  ///< from OnsetMeter, oldest first
   float power = 0;  ///< K-weighted as in ITU-R BS.1770: its loudness
   float bass = 0;   ///< the power below 130 Hz, unweighted
 };
