@@ -101,9 +101,11 @@ TEST_F(MetricsTest, ShowWorkInProgress) {
     one->SendKeyframe(Key("a", 20));
   }
   const std::string of_fake = R"({model="fake"})";
+  // Both may wait for a moment: until the worker takes one of them up.
+  ExpectEventually([&] { return Figure("choreo_transitions_active" + of_fake) == 1; },
+                   "the one has begun");
   ExpectEventually([&] { return Figure("choreo_transitions_waiting" + of_fake) == 1; },
-                   "the one waits for the other");
-  EXPECT_EQ(Figure("choreo_transitions_active" + of_fake), 1);
+                   "the other waits for it");
   other.Cancel();
   probe->closed = false;
   ExpectEventually([&] { return Figure("choreo_streams") == 1; }, "the other has left");
