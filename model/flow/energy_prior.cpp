@@ -42,8 +42,7 @@ EnergyPrior::Levels EnergyPrior::Sample(const Known& known, const Levels& normal
 }
 
 Eigen::MatrixXd EnergyPrior::Bound(const Eigen::MatrixXd& levels) const {
-  const Levels floor = least.segment<kBodyParts>(kHistoryInput),
-               ceiling = most.segment<kBodyParts>(kHistoryInput);
+  const Levels floor = least.segment<kBodyParts>(kHistoryInput), ceiling = MostLively();
   return levels.cwiseMax(floor.replicate(1, levels.cols()))
       .cwiseMin(ceiling.replicate(1, levels.cols()));
 }

@@ -58,6 +58,8 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   if (lingers) ways = model.energy.Bound(ways);
   levels.array() += request->energy_shift.now;
   ways.array() += request->energy_shift.now;
+  const EnergyPrior::Levels most = model.energy.MostLively();
+  levels = levels.cwiseMin(most);
   for (int part = 0; part < kBodyParts; ++part) {
     if (asked.Asks(part)) continue;
     const double median = model.config.median_factors[static_cast<size_t>(part)];
@@ -66,6 +68,7 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
     // The window's level is that of its mean.
     if (const double mean = energy.mean(); lingers && mean > 0)
       energy *= EnergyFactor(levels[part], median) / mean;
+    energy = energy.cwiseMin(EnergyFactor(most[part], median));
     asked.asked[static_cast<size_t>(part)] = true;
   }
 }
@@ -82,7 +85,7 @@ void Tell(const FlowModelParts& model, double temperature, WindowRequest* reques
     const double level = EnergyLevel(wanted, median);
     const double told = level + temperature * (model.response.Told(part, level) - level);
     // Not beyond training's range, unless requested.
-    const double most = EnergyFactor(model.energy.most[EnergyPrior::kHistoryInput + part], median);
+    const double most = EnergyFactor(model.energy.MostLively()[part], median);
     for (double& energy : factors.row(part))
       energy = std::min(energy * (EnergyFactor(told, median) / wanted), std::max(energy, most));
   }

@@ -14,8 +14,6 @@ namespace {
 // Radians that coordinates may be from the mean: with a key less than half a turn, where the other
 // way round becomes nearer; without one less than a whole turn, where they are singular.
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
-// Times a velocity's spread: a faster history was forced by a key and does not continue so.
-constexpr double kFastest = 8;
 // Radians that a dancer turns of herself in a window without a key: networks have seen little
 // beyond a whole turn, which the way on to her audience may complete.
 constexpr double kMostFreeTurn = std::numbers::pi;
@@ -38,7 +36,7 @@ Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& 
   const Eigen::Index tau = history.cols();
   for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p)
     velocity.col(p) = history.col(tau - 1 - p) - history.col(tau - 2 - p);
-  const Eigen::ArrayXd fastest = kFastest * prior.VelocitySpread().array();
+  const Eigen::ArrayXd fastest = MotionPrior::kFastest * prior.VelocitySpread().array();
   for (auto&& one : velocity.colwise()) one = one.array().min(fastest).max(-fastest);
   return velocity;
 }

@@ -64,6 +64,9 @@ class MotionPrior {
   static constexpr int kTurn = 4;    ///< the dimension of the root's turn about the vertical
   /// Bound of white coordinates, in deviations from the mean: recordings beyond it are faulty.
   static constexpr double kMostWhite = 5;
+  /// Bound of the history's velocities, times their spread: faster ones were forced by keys and
+  /// floor, do not continue so, and lead networks far out of the range they know.
+  static constexpr double kFastest = 8;
 
   /// What is known of one degree of freedom's displacements f_1..f_w from the last history frame.
   /// `past` [w, kPast] and `key` [w] are the weights in their mean of the last velocities (latest

@@ -131,7 +131,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   put(last.root_position.y() - skeleton.pelvis_height);
   for (int d = 0; d < dimensions; ++d) {
     const double before = tau > 1 ? window.history()(d, tau - 2) : 0;
-    put(-before / spread[d]);
+    put(std::clamp(-before / spread[d], -MotionPrior::kFastest, MotionPrior::kFastest));
   }
   for (int d = 0; d < dimensions; ++d) put(window.displacement()[d]);
   for (int d = 0; d < dimensions; ++d) put(window.keyed()[static_cast<size_t>(d)] ? 1 : 0);

@@ -204,6 +204,32 @@ TEST(FlowSampler, MusicShiftsOnlySampledEnergyAndOnce) {
   EXPECT_NEAR((told(arm) - follows).minCoeff(), -0.25, 1e-5);
 }
 
+// Beyond it networks answer with anything: dancers flew off the stage.
+TEST(FlowSampler, MusicAsksForNoMoreEnergyThanTrainingHad) {
+  Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.config.median_factors.fill(0.01);
+  parts.curve = {.correlation = {1.0, 0.9}, .spread = EnergyPrior::Levels::Constant(0.5)};
+  const Listening network;
+  const auto told = [&](double shift) {
+    scene.request.energy_shift.now = shift;
+    SampleWindow(parts, network, scene.request, {.seed = 3, .temperature = 1});
+    return network.all;
+  };
+  const Eigen::MatrixXf calm = told(0);
+  parts.energy.most.setConstant(0.4);
+  // Rows that differ are levels of energy.
+  const Eigen::MatrixXf loud = told(3);
+  int rows = 0;
+  for (Eigen::Index row = 0; row < loud.rows(); ++row) {
+    if (loud.row(row) == calm.row(row)) continue;
+    ++rows;
+    EXPECT_LE(loud.row(row).maxCoeff(), 0.4F + 1e-5F);
+    EXPECT_GT(loud.row(row).maxCoeff(), 0.39F);
+  }
+  EXPECT_EQ(rows, kBodyParts);
+}
+
 TEST(FlowSampler, LaterWindowsStartFromTheFirstsEnergyShift) {
   WindowRequest request = MakeScene(30).request;
   request.energy_shift = {.before = 0.1, .now = 0.7};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/flow/window_features.h"
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
 
@@ -213,6 +214,17 @@ TEST(WindowFeatures, BeatsHaveAPhaseAndSlowOnesAreHalved) {
   EXPECT_NEAR(PhaseAt(slow, 30)->phase, 0.5, 1e-12);
   EXPECT_NEAR(PhaseAt(slow, 30)->period, 20, 1e-12);
   EXPECT_FALSE(PhaseAt(std::vector<double>{3}, 3));
+}
+
+// A foot that a key or the floor tears away says nothing of what follows.
+TEST(DescribeWindow, BoundsTheHistorysVelocities) {
+  const FlowModelParts parts = Parts();
+  WindowRequest request = MakeScene(30).request;
+  request.history[request.history.size() - 2].rotations.col(7).x() += 1.5;
+  const FlowWindow window(parts.prior, request);
+  const Eigen::VectorXf whole =
+      DescribeWindow(parts.skeleton, parts.config, parts.prior, request, window).whole;
+  EXPECT_FLOAT_EQ(whole.cwiseAbs().maxCoeff(), MotionPrior::kFastest);
 }
 
 }  // namespace choreo::flow_window_test
