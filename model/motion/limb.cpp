@@ -127,17 +127,12 @@ double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vecto
 
 Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
                             const Eigen::Vector3d& toes, double most) {
-  const Eigen::Vector3d now = placement.positions.col(leg.toes), way = toes - now;
-  const Eigen::Vector3d from =
-      placement.positions.col(leg.ankle) - placement.positions.col(leg.hip);
-  const double length = from.norm() / Reach(leg, placement, now);
-  const double farthest = std::max(most * length, from.norm());
-  if ((from + way).norm() <= farthest) return toes;
-  // Solves |from + share way| = farthest for the root that is not behind.
-  const double a = way.squaredNorm(), b = from.dot(way);
-  const double c = from.squaredNorm() - farthest * farthest;
-  const double share = (std::sqrt(std::max(0.0, b * b - a * c)) - b) / a;
-  return now + std::clamp(share, 0.0, 1.0) * way;
+  const double reach = Reach(leg, placement, toes);
+  const double farthest = std::max(most, Reach(leg, placement, placement.positions.col(leg.toes)));
+  if (reach <= farthest) return toes;
+  const Eigen::Vector3d ankle =
+      placement.positions.col(leg.ankle) + toes - placement.positions.col(leg.toes);
+  return toes - (1 - farthest / reach) * (ankle - placement.positions.col(leg.hip));
 }
 
 double PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,

@@ -53,8 +53,8 @@ struct Leg {
 /// thigh and shin: below 1 the ankle of `placement` can get there.
 double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
 
-/// `toes`, or the point on the way there from the present toes where the leg is as straight as
-/// `most` (a Reach). Stays at the present toes if they are farther already.
+/// `toes`, or the nearest point to them at which the leg is as straight as `most` (a Reach) or, if
+/// that is more, as it already is.
 Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
                             const Eigen::Vector3d& toes, double most);
 

@@ -49,8 +49,8 @@ class PlanStander {
     stances_ = PlanContacts(feet, context_.fps, context_.options);
     if (context_.has_path) StepUnder();
     for (size_t side = 0; side < 2; ++side) {
-      toes_[side] =
-          ToesPath(feet[side], stances_[side], toes_rest_[side], context_.keyed, context_.fps);
+      toes_[side] = ToesPath(feet[side], stances_[side], toes_rest_[side], context_.keyed,
+                             context_.fps, context_.options.shortest_step);
       LayDown(side);
     }
     offset_ = Eigen::Matrix3Xd::Zero(3, frames_);

@@ -16,12 +16,13 @@ double Smootherstep(double u) { return u * u * u * (10 + u * (6 * u - 15)); }
 class PathMaker {
  public:
   PathMaker(const FootTrack& foot, const std::vector<Stance>& stances, double rest, bool keyed,
-            double fps)
+            double fps, double shortest_step)
       : foot_(foot),
         stances_(stances),
         rest_(rest),
         keyed_(keyed),
         settle_(kSettleSeconds * fps),
+        shortest_step_(static_cast<int>(std::lround(shortest_step * fps))),
         last_(static_cast<int>(foot.toes.size()) - 1) {}
 
   std::vector<Eigen::Vector3d> Make() {
@@ -41,7 +42,7 @@ class PathMaker {
 
  private:
   Eigen::Vector3d Planned(int frame) const {
-    return frame < 0 ? foot_.before : foot_.toes[static_cast<size_t>(frame)];
+    return frame < 0 ? foot_.before : foot_.toes[static_cast<size_t>(std::min(frame, last_))];
   }
 
   Eigen::Vector3d Standing(const Stance& stance, int frame) const {
@@ -61,13 +62,17 @@ class PathMaker {
   void Fly(int from, int to) {
     const bool leaves = from > 0 || foot_.stood;
     const Stance* next = to < last_ ? StanceAt(stances_, to + 1) : nullptr;
-    const int before = from - 1, after = next != nullptr ? to + 1 : to;
+    const int before = from - 1;
+    int after = next != nullptr ? to + 1 : to;
+    if (next == nullptr && !keyed_) after = std::max(after, before + shortest_step_);
     const Eigen::Vector3d start = from > 0 ? path_.back() : foot_.before;
     const Eigen::Vector3d goal = next != nullptr ? Standing(*next, after) : Planned(to);
     const Eigen::Vector3d far = goal - start;
     const double arc = std::min(kHighestArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
     // Beside the straight way the plan is free, except near a standing end.
-    const auto free = [](double u) { return SmoothStep(std::min(1.0, 3 * u)); };
+    const auto free = [&](double u) {
+      return SmoothStep(std::min({1.0, 3 * u, u * (after - before) / settle_}));
+    };
     for (int frame = from; frame <= to; ++frame) {
       const double u = static_cast<double>(frame - before) / (after - before);
       const double eased = Smootherstep(u);
@@ -84,7 +89,8 @@ class PathMaker {
   const std::vector<Stance>& stances_;
   const double rest_;
   const bool keyed_;
-  const double settle_;  // frames
+  const double settle_;      // frames
+  const int shortest_step_;  // frames
   const int last_;
   std::vector<Eigen::Vector3d> path_;
 };
@@ -92,8 +98,8 @@ class PathMaker {
 }  // namespace
 
 std::vector<Eigen::Vector3d> ToesPath(const FootTrack& foot, const std::vector<Stance>& stances,
-                                      double rest, bool keyed, double fps) {
-  return PathMaker(foot, stances, rest, keyed, fps).Make();
+                                      double rest, bool keyed, double fps, double shortest_step) {
+  return PathMaker(foot, stances, rest, keyed, fps, shortest_step).Make();
 }
 
 }  // namespace choreo

@@ -162,8 +162,11 @@ TEST(Leg, LimitsTargetsToItsReach) {
   for (const Eigen::Vector3d& far : {Eigen::Vector3d(1, -0.2, 0.3), Eigen::Vector3d(0, -2, 0)}) {
     const Eigen::Vector3d at = WithinReach(leg, placement, toes + far, 0.99);
     EXPECT_NEAR(Reach(leg, placement, at), 0.99, 1e-9);
-    EXPECT_LT((at - toes).cross(far).norm(), 1e-9);
-    EXPECT_GT((at - toes).dot(far), 0);
+    // The nearest such point: straight towards the hip.
+    const Eigen::Vector3d ankle = placement.positions.col(leg.ankle) + far;
+    const Eigen::Vector3d back = (toes + far) - at;
+    EXPECT_GT(back.dot(ankle - placement.positions.col(leg.hip)), 0);
+    EXPECT_LT(back.cross(ankle - placement.positions.col(leg.hip)).norm(), 1e-9);
   }
   // A leg that is stretched more already may stay so, but not stretch further.
   const double stretched = Reach(leg, placement, toes);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model/plan/toes_path.h"
+
 namespace choreo::contact_plan_test {
 
 constexpr double kFps = 30;
@@ -147,6 +149,20 @@ TEST(PlanContacts, DoesNotDependOnTheScenesPlace) {
       EXPECT_NEAR((moved - by).norm(), 0, 1e-9);
     }
   }
+}
+
+// The next plan goes on with the step.
+TEST(ToesPath, AFootThatLeavesAtAnOpenEndOnlyBeginsItsStep) {
+  FootTrack foot = Standing(0.1);
+  Lift(&foot, kFrames - 1, kFrames, 0.2);
+  foot.toes.back().z() += 0.3;
+  const std::vector<Stance> stances = {{0, kFrames - 2, foot.before}};
+  const auto moved = [&](bool keyed) {
+    const auto toes = ToesPath(foot, stances, 0.02, keyed, kFps, FootworkOptions{}.shortest_step);
+    return (toes[kFrames - 1] - toes[kFrames - 2]).norm();
+  };
+  EXPECT_GT(moved(true), 0.3) << "a key is reached in any case";
+  EXPECT_LT(moved(false), 0.1);
 }
 
 }  // namespace choreo::contact_plan_test
