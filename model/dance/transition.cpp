@@ -25,13 +25,31 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
-// Takes the position that a key leaves open from the path.
-std::optional<Target> Placed(std::optional<Target> target, const Controls& controls) {
-  const ControlCurve& path = controls[kRootPath];
-  if (target && !target->mask.root_position && path.IsGiven()) {
-    target->pose.root_position = path.values.rightCols<1>();
-    target->mask.root_position = true;
+// Whether a key is the pose that she already is in.
+bool IsHeld(const Target& target, const Pose& now) {
+  constexpr double kSame = 1e-3;  // radians
+  for (Eigen::Index joint = 0; joint < now.rotations.cols(); ++joint) {
+    if (!target.mask.Asks(joint) ||
+        RotationDifference(now.rotations.col(joint), target.pose.rotations.col(joint)).norm() >
+            kSame)
+      return false;
   }
+  return true;
+}
+
+// Takes the position that a key leaves open from the path. Who holds a pose stays where she is.
+std::optional<Target> Placed(std::optional<Target> target, const Controls& controls,
+                             const Pose& now) {
+  if (!target || target->mask.root_position) return target;
+  const ControlCurve& path = controls[kRootPath];
+  if (path.IsGiven()) {
+    target->pose.root_position = path.values.rightCols<1>();
+  } else if (IsHeld(*target, now)) {
+    target->pose.root_position = now.root_position;
+  } else {
+    return target;
+  }
+  target->mask.root_position = true;
   return target;
 }
 
@@ -77,7 +95,7 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
-    : model_(&model), spec_(request), world_target_(Placed(request.target, request.controls)) {
+    : model_(&model), spec_(request) {
   CheckedIn(request.frames, 1, std::min(model.max_transition_frames, kMaxTransitionFrames),
             "frames");
   for (size_t i = 0; i < request.history.size(); ++i) {
@@ -91,6 +109,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
 
   const std::vector<Pose> history = FillHistory(model, request.history);
   world_ = history.back();
+  world_target_ = Placed(request.target, request.controls, world_);
   ground_ = GroundFrame::Of(world_);
   spec_.history = CanonicalHistory(ground_, history);
   stage_ = request.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});

@@ -61,6 +61,23 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
             1e-9);
 }
 
+// A repeated key without a place once let a held pose glide by up to a metre.
+TEST(Transition, AHeldPoseKeepsItsPlace) {
+  const FakeSampler sampler;
+  TransitionRequest request = RandomRequest(5);
+  request.target->mask.root_position = false;
+  EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
+  request.target->pose.rotations = request.history.back().rotations;
+  const TransitionRun held(sampler.model(), request);
+  EXPECT_TRUE(held.spec().target->mask.root_position);
+  EXPECT_LT(
+      (held.spec().target->pose.root_position - held.spec().history.back().root_position).norm(),
+      1e-6);
+  request.target->mask.joints.assign(24, true);
+  request.target->mask.joints[16] = false;  // an open arm moves the body
+  EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
+}
+
 TEST(Transition, FramesAreFloatsAndHitTheKey) {
   FakeSampler sampler;
   const TransitionRequest request = RandomRequest(3);
