@@ -41,6 +41,8 @@ def show(value):
         return "–"
     if isinstance(value, str):
         return value
+    if isinstance(value, list):
+        return "–".join(map(show, value))
     return f"{value:.0f}" if abs(value) >= 99.5 else f"{value:.1f}" if abs(value) >= 9.95 else f"{value:.2f}"
 
 

@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Trains the papers' own networks, their ablations and their baseline, and measures them.
 #   scripts/train_papers.sh BIN_DIRECTORY RECORDINGS RUN [prepare | train [NAME...] | eval | study]
-# RECORDINGS holds dancedb/, tang61/ and splits.json (docs/training.md). RUN gets data/ and a folder for each network. Where none is named,
-# all but `study` are done, which films paper-f, paper-c, default, interpolation and real dancers to songs and writes RUN/study/index.html, where
-# people rank them (the networks that ship, where RUN has trained none). `train` alone makes paper-f and paper-c; NAME is any of
-#   paper-f f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
+# RECORDINGS holds dancedb/, splits.json and, for its songs, tang61/ (docs/training.md). RUN gets data/, a folder for each network, and tables
+# (JSON). Without a task it prepares, trains and measures. `study` films paper-f, paper-c, default, interpolation and real dancers to songs and
+# writes RUN/study/index.html, where people rank them. `eval` and `study` take the paper-f and paper-c that ship where RUN has none.
+# `train` alone makes paper-f and paper-c; NAME is any of
+#   paper-f paper-f-printed (without the loss of whole roll-outs) f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
 #   paper-c c-full c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
 #   harvey, and c-harvey, which knows paper C's data alone
 # or `all` for every one. Killed, it goes on from where it was when it is started again; what is finished is not trained again.
 # $F_STEPS, $C_STEPS and $HARVEY_STEPS are the steps of the networks, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of all that are compared with
-# f-full and c-full, which are paper-f and paper-c of as few (f-full without its loss of whole roll-outs). $DEVICE says where flows train: cpu, cuda:0, auto.
+# f-full and c-full, which are paper-f-printed and paper-c of as few. $DEVICE says where flows train: cpu, cuda:0, auto. $WINDOWS and $LONG_DANCES are
+# how many transitions of each clip and dances `eval` measures.
 set -euo pipefail
 (($# >= 3)) || { echo "train_papers.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -24,8 +26,9 @@ shift $(($# < 4 ? $# : 4))
 # On few cores one thread is fastest.
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 
-prepare_tang61() {  # paper F's networks and the study alone want it
-  [[ -f $run/data/tang61/report.json ]] || "$lab" prepare tang61 "$recordings/tang61" "$run/data/tang61" \
+has_tang61() { [[ -d $recordings/tang61 ]]; }
+prepare_tang61() {  # only paper F's networks and the study use it
+  ! has_tang61 || [[ -f $run/data/tang61/report.json ]] || "$lab" prepare tang61 "$recordings/tang61" "$run/data/tang61" \
     --terms "none stated (Tang et al. 2018); commercial music: internal use only"
 }
 prepare_dancedb() {
@@ -39,7 +42,7 @@ groups = {k: v for k, v in json.load(open(sys.argv[1]))["dancedb"].items() if k 
 held = {name for names in groups.values() for name in names}
 others = sorted((clip.stem for clip in pathlib.Path(sys.argv[2]).glob("*.clip") if clip.stem not in held),
                 key=lambda name: hashlib.sha256(name.encode()).hexdigest())
-groups["test_random"] = others[: round(len(others) / 5)]
+groups["test_random"] = others[: max(1, round(len(others) / 5))]
 json.dump({"dancedb": groups}, sys.stdout)
 PYTHON
 }
@@ -60,7 +63,9 @@ train() {  # train NAME STEPS OPTION...
   "$lab" train --name "$name" --run "$folder" --steps "$steps" --rate 0.001 --resume "$@"
   touch "$folder/finished"
 }
-both=(--data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --shortest 10 --longest 90)
+clips=("$run/data/dancedb")
+! has_tang61 || clips+=("$run/data/tang61")
+both=(--data "${clips[@]}" --splits "$recordings/splits.json" --shortest 10 --longest 90)
 dancedb=(--data "$run/data/dancedb" --splits "$run/random_splits.json")
 flow() {  # flow NAME STEPS OPTION...
   prepare_tang61
@@ -76,6 +81,7 @@ one() {
   local f=${F_ABLATION_STEPS:-$f_steps} c=${C_ABLATION_STEPS:-$c_steps}
   case $1 in
     paper-f) flow paper-f "$f_steps" --rollout-loss 2 ;;
+    paper-f-printed) flow "$1" "$f_steps" ;;
     f-full) flow f-full "$f" ;;
     f-no-key-loss) flow "$1" "$f" --no-key-loss ;;
     f-no-time-embedding) flow "$1" "$f" --no-time-embedding ;;
@@ -100,58 +106,68 @@ one() {
   esac
 }
 
+checkpoint_of() {  # checkpoint_of NAME: of the run or, if it has none, the one that ships
+  if [[ -f $run/$1/finished ]]; then
+    echo "$run/$1/checkpoint.safetensors"
+  elif [[ -f $root/model/checkpoints/$1.safetensors ]]; then
+    echo "$root/model/checkpoints/$1.safetensors"
+  fi
+}
 # Rows beside the judged network: all others.
 others=()
 beside() {  # beside NAME...
-  local name
+  local name checkpoint
   others=()
   for name in "$@"; do
-    [[ ! -f $run/$name/finished ]] || others+=(--other "$name=$run/$name/checkpoint.safetensors")
+    checkpoint=$(checkpoint_of "$name")
+    [[ -z $checkpoint ]] || others+=(--other "$name=$checkpoint")
   done
 }
-measure() {  # measure NAME JSON OPTION...: nothing of one that is not trained
-  if [[ ! -f $run/$1/finished ]]; then
+measure() {  # measure NAME JSON OPTION...: nothing of a network that does not exist
+  local checkpoint
+  checkpoint=$(checkpoint_of "$1")
+  if [[ -z $checkpoint ]]; then
     echo "train_papers.sh: $2 is not measured: $1 is not trained"
     return
   fi
-  "$lab" eval --model "$run/$1/checkpoint.safetensors" --name "$1" --json "$run/$2.json" "${@:3}"
+  "$lab" eval --model "$checkpoint" --name "$1" --json "$run/$2.json" "${@:3}"
 }
 evaluate() {
-  local shipped=(--other "default=$root/model/checkpoints/default.safetensors") baselines=(--baseline real interpolation)
-  local f=(--paper --data "$run/data/dancedb" "$run/data/tang61" --splits "$recordings/splits.json" --split test --lengths 30 60 90
-    --windows 6 --long-dances 14 --long-frames 600)
-  measure paper-f paper_f "${f[@]}" --best-of 10 "${baselines[@]}" "${shipped[@]}"
+  prepare_dancedb
+  prepare_tang61
+  local baselines=(--baseline real interpolation)
+  local f=(--paper --data "${clips[@]}" --splits "$recordings/splits.json" --split test --lengths 30 60 90
+    --windows "${WINDOWS:-6}" --long-dances "${LONG_DANCES:-14}" --long-frames 600)
+  beside default paper-f-printed
+  measure paper-f paper_f "${f[@]}" --best-of 10 "${baselines[@]}" "${others[@]}"
   measure harvey harvey_f "${f[@]}" --best-of 1 --no-encoder --baseline interpolation  # it draws nothing
   measure paper-f paper_f_calm "${f[@]}" --best-of 3 --long-dances 6 --temperature 0.6 --no-encoder --baseline interpolation
   beside f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys
   measure f-full f_ablations "${f[@]}" --best-of 3 --long-dances 6 --baseline interpolation "${others[@]}"
-  local c=(--controls paper --splits "$run/random_splits.json" --data "$run/data/dancedb" --windows 4 --no-encoder "${baselines[@]}")
+  local c=(--controls paper --splits "$run/random_splits.json" --data "$run/data/dancedb" --windows "${WINDOWS:-4}" --no-encoder "${baselines[@]}")
   beside c-harvey
   # `default` learnt from the clips of the random fifth.
   measure paper-c paper_c_random "${c[@]}" --split test_random "${others[@]}"
-  beside harvey
-  measure paper-c paper_c_unseen "${c[@]}" --split test "${shipped[@]}" "${others[@]}"
-  beside c-residual c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss
+  beside default harvey
+  measure paper-c paper_c_unseen "${c[@]}" --split test "${others[@]}"
+  beside c-residual c-no-velocity-factors c-no-key-loss
   measure c-full c_ablations "${c[@]}" --split test_random "${others[@]}"
+  beside c-one-decoder c-condition-fc
+  measure c-one-lstm c_ablations_shape "${c[@]}" --split test_random "${others[@]}"
+  beside c-relative
+  measure c-absolute c_ablations_coding "${c[@]}" --split test_random "${others[@]}"
 }
 
 study() {
   prepare_dancedb
   prepare_tang61
-  local name networks=()
-  for name in paper-f paper-c; do
-    if [[ -f $run/$name/finished ]]; then
-      networks+=(--other "$name=$run/$name/checkpoint.safetensors")
-    else
-      networks+=(--other "$name=$root/model/checkpoints/$name.safetensors")
-    fi
-  done
-  "$lab" study dance "$run/study" --model "$root/model/checkpoints/default.safetensors" --name default "${networks[@]}" \
+  beside paper-f paper-c
+  "$lab" study dance "$run/study" --model "$root/model/checkpoints/default.safetensors" --name default "${others[@]}" \
     --data "$run/data/tang61" --splits "$recordings/splits.json" --songs "$recordings/tang61"
 }
 
-all=(paper-f paper-c harvey c-harvey f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys c-full c-residual c-absolute c-relative
-  c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss)
+all=(paper-f paper-f-printed paper-c harvey c-harvey f-full f-no-key-loss f-no-time-embedding f-forward-embedding f-no-keys c-full c-residual
+  c-absolute c-relative c-one-lstm c-condition-fc c-one-decoder c-no-velocity-factors c-no-key-loss)
 names=("$@")
 ((${#names[@]})) || names=(paper-f paper-c)
 [[ ${names[*]} != all ]] || names=("${all[@]}")
