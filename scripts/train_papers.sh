@@ -49,7 +49,7 @@ PYTHON
 
 # The papers train for some 40 hours on a GPU at 1e-4; so few steps want a higher rate. A step of paper F's with roll-outs takes three times as
 # long as one of likelihood alone, and samples are noise at first: the last third has them. Paper C's transitions grow from 5 to 70 frames.
-f_steps=${F_STEPS:-7000} f_batch=${F_BATCH:-16}
+f_steps=${F_STEPS:-9000} f_batch=${F_BATCH:-16}
 c_steps=${C_STEPS:-7500} c_batch=${C_BATCH:-32}
 harvey_steps=${HARVEY_STEPS:-1500} harvey_batch=${HARVEY_BATCH:-32}
 
