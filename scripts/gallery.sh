@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Draws what changes a dance (paper F, Figures 6 to 9): the same keys and song with other seeds, other keys, other songs, short and long intervals.
-# A row is a dance of 8 or 24 seconds in nine pictures; key poses are framed.
+# A row is a dance of 4, 8 or 24 seconds in nine pictures; key poses are framed.
 #   scripts/gallery.sh BIN_DIRECTORY OUT.webp [MODEL]
 set -euo pipefail
 (($# >= 2)) || { echo "gallery.sh: BIN_DIRECTORY and OUT.webp are wanted" >&2; exit 2; }
@@ -37,7 +37,7 @@ row 8 "Keys at 0, 2, 4, 6 and 8 s: Escape from chaosland, seed 1" "Escape from c
 row 8 "Figure 6: the same keys and song, seed 2" "Escape from chaosland" 2 "$usual"
 row 8 "Figure 7: the same song and seed, other keys" "Escape from chaosland" 1 "$(keys 0@0 4@2 5@4 6@6 1@8)"
 row 8 "Figure 8: the same keys, another song, Feelings" "Feelings" 1 "$usual"
-row 8 "Figure 9a: short intervals, a key each second" "Escape from chaosland" 1 "$(keys 0@0 1@1 2@2 3@3 4@4 5@5 6@6 1@7 2@8)"
+row 4 "Figure 9a: short intervals, keys at 0, 1, 2, 3 and 4 s" "Escape from chaosland" 1 "$(keys 0@0 1@1 2@2 3@3 4@4)"
 row 24 "Figure 9b: long intervals, keys at 0, 6, 12, 18 and 24 s" "Metal madness" 1 "$(keys 0@0 1@6 2@12 3@18 4@24)"
 ffmpeg -v error -y "${rows[@]}" -filter_complex "vstack=inputs=$((${#rows[@]} / 2)),scale=900:-1" -c:v libwebp -quality 40 -frames:v 1 "$out"
 echo "$out"
