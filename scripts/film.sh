@@ -67,4 +67,4 @@ ffmpeg -v error -y -f concat -i "$scratch/scenes.txt" -i "$song" -map 0:v -map 1
   -c:v libvpx-vp9 -crf 36 -b:v 0 -deadline good -cpu-used 4 -row-mt 1 -c:a libopus -b:a 80k "$2"
 bytes=$(stat -c %s "$2")
 ((bytes <= 4 << 20)) || { echo "film.sh: $2 is $bytes bytes, more than 4 MiB" >&2; exit 1; }
-ffmpeg -v error -y -ss 5.3 -i "$2" -frames:v 1 -q:v 3 "${2%.webm}.jpg"
+ffmpeg -v error -y -ss 5.3 -i "$2" -frames:v 1 -q:v 6 "${2%.webm}.jpg"
