@@ -9,6 +9,7 @@
 #include "model/core/gaussian_mean.h"
 #include "model/core/threads.h"
 #include "model/draw/render.h"
+#include "model/draw/yuv420.h"
 #include "model/motion/resample.h"
 
 namespace choreo {
@@ -86,10 +87,10 @@ void DrawVideo(const Stage& source, const VideoOptions& options, const std::file
               picture);
     const double glow = Glow(static_cast<double>(frame) / format.fps, options.keys);
     if (glow > 0.01) DrawKeyFrame(glow, &picture);
-    return picture;
+    return Yuv420(picture);
   };
   // Draws a few frames ahead and writes them in order.
-  std::deque<std::future<Picture>> ahead;
+  std::deque<std::future<std::vector<uint8_t>>> ahead;
   const auto width = static_cast<size_t>(UsableCores());
   int64_t next = 0;
   for (int64_t written = 0; written < frames; ++written) {

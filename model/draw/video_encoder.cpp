@@ -10,10 +10,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "model/core/error.h"
 #include "model/draw/check_within.h"
-#include "model/draw/yuv420.h"
 
 namespace choreo {
 namespace {
@@ -98,16 +99,12 @@ VideoEncoder::~VideoEncoder() {
   close(said_);
 }
 
-void VideoEncoder::Write(const Picture& picture) {
-  const std::vector<uint8_t> frame = Yuv420(picture);
-  const uint8_t* data = frame.data();
-  size_t left = frame.size();
-  while (left > 0) {
-    const ssize_t sent = send(input_, data, left, MSG_NOSIGNAL);
+void VideoEncoder::Write(std::span<const uint8_t> yuv) {
+  while (!yuv.empty()) {
+    const ssize_t sent = send(input_, yuv.data(), yuv.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) Fail();
-    data += sent;
-    left -= static_cast<size_t>(sent);
+    yuv = yuv.subspan(static_cast<size_t>(sent));
   }
 }
 

@@ -2,11 +2,12 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 
 #include "model/core/atomic_file.h"
 #include "model/core/grid.h"
-#include "model/draw/picture.h"
 
 namespace choreo {
 
@@ -33,8 +34,8 @@ class VideoEncoder {
   VideoEncoder(const VideoEncoder&) = delete;
   VideoEncoder& operator=(const VideoEncoder&) = delete;
 
-  /// A picture of the format's size.
-  void Write(const Picture& picture);
+  /// A picture of the format's size, as Yuv420 makes it.
+  void Write(std::span<const uint8_t> yuv);
   void Finish();
 
  private:

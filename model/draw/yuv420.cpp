@@ -45,8 +45,9 @@ std::vector<uint8_t> Yuv420(const Picture& picture) {
     const uint8_t *upper = &picture.rgb[3 * y * width], *lower = upper + 3 * width;
     uint8_t* luma = &planes[y * width];
     for (size_t x = 0; x < width; x += 2, upper += 6, lower += 6, luma += 2, ++cb, ++cr) {
-      // Most of a film is floor: four pixels like those before them.
-      if (x > 0 && std::memcmp(upper, upper - 6, 6) == 0 && std::memcmp(lower, lower - 6, 6) == 0) {
+      // Most of a film is floor: pixels like those before them, also the one that colour overlaps.
+      if (x > 2 && std::memcmp(upper - 3, upper - 9, 9) == 0 &&
+          std::memcmp(lower - 3, lower - 9, 9) == 0) {
         std::memcpy(luma, luma - 2, 2), std::memcpy(luma + width, luma + width - 2, 2);
         *cb = cb[-1], *cr = cr[-1];
         continue;
@@ -54,9 +55,10 @@ std::vector<uint8_t> Yuv420(const Picture& picture) {
       std::array<int, 3> sum{};
       for (const auto& [rgb, to] : {std::pair(upper, luma), std::pair(lower, luma + width)}) {
         to[0] = kLuma.Of(rgb[0], rgb[1], rgb[2]), to[1] = kLuma.Of(rgb[3], rgb[4], rgb[5]);
-        for (size_t i = 0; i < 3; ++i) sum[i] += rgb[i] + rgb[i + 3];
+        const uint8_t* before = x > 0 ? rgb - 3 : rgb;
+        for (size_t i = 0; i < 3; ++i) sum[i] += before[i] + 2 * rgb[i] + rgb[i + 3];
       }
-      *cb = kCb.Of(sum[0], sum[1], sum[2], 2), *cr = kCr.Of(sum[0], sum[1], sum[2], 2);
+      *cb = kCb.Of(sum[0], sum[1], sum[2], 3), *cr = kCr.Of(sum[0], sum[1], sum[2], 3);
     }
   }
   return planes;

@@ -29,7 +29,22 @@ TEST(Yuv420, PlayersShowTheColoursAgain) {
   }
 }
 
-TEST(Yuv420, LumaIsOfEachPixelAndColourOfFour) {
+// Half a pixel further right, as the mean of four would be, colours would leave their shapes.
+TEST(Yuv420, ColourIsThatOfTheLeftColumn) {
+  Picture picture{.width = 12, .height = 2, .rgb = std::vector<uint8_t>(72)};
+  const auto paint = [&](int column) {
+    picture.rgb.assign(72, 9);
+    for (const int at : {column, column + 12}) picture.rgb[static_cast<size_t>(3 * at)] = 249;
+    const std::vector<uint8_t> yuv = Yuv420(picture);
+    return std::vector<int>(yuv.begin() + 30, yuv.end());  // Cr
+  };
+  const int none = 128, all = static_cast<int>(std::lround(128 + 0.5 * 224 * 240 / 255.0));
+  const int half = (none + all + 1) / 2, quarter = (none + half) / 2;
+  EXPECT_EQ(paint(4), (std::vector{none, none, half, none, none, none}));
+  EXPECT_EQ(paint(5), (std::vector{none, none, quarter, quarter, none, none}));
+}
+
+TEST(Yuv420, LumaIsOfEachPixelAndColourOfTwoRows) {
   const std::vector<uint8_t> upper = {255, 0, 0, 0, 255, 0, 9, 9, 9, 9, 9, 9},
                              lower = {0, 0, 255, 0, 0, 0, 9, 9, 9, 250, 9, 9};
   Picture picture{.width = 4, .height = 2, .rgb = upper};
@@ -43,9 +58,10 @@ TEST(Yuv420, LumaIsOfEachPixelAndColourOfFour) {
   EXPECT_EQ(yuv[4], luma(0, 0, 255));
   EXPECT_EQ(yuv[5], luma(0, 0, 0));
   EXPECT_EQ(yuv[7], luma(250, 9, 9));
-  EXPECT_EQ(yuv[8], 128);  // all four together are grey
-  EXPECT_EQ(yuv[10], 128);
-  EXPECT_GT(yuv[11], 128 + 10);  // red in one of four
+  const auto cr = [](double r, double g, double b) {
+    return 128 + 224 * 0.5 / (1 - 0.2126) * (0.7874 * r - 0.7152 * g - 0.0722 * b) / 255;
+  };
+  EXPECT_NEAR(yuv[10], cr(95.6, 31.9, 95.6), 1);  // of eight 3 are red, 1 green, 3 blue
 }
 
 }  // namespace choreo::yuv420_test
