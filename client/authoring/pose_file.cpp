@@ -36,6 +36,9 @@ std::string PoseFileText(const DescribedPose& pose, const Skeleton& skeleton) {
   if (!pose.tags.empty()) text << "  \"tags\": " << json(pose.tags).dump() << ",\n";
   text << "  \"keyframes\": [{\n    \"id\": " << json(key.id).dump()
        << ",\n    \"time\": " << json(key.time_s).dump() << ",\n";
+  if (key.hit) text << "    \"hit\": " << json(*key.hit).dump() << ",\n";
+  if (key.hands)
+    text << "    \"hands\": \"" << kHandPoseNames[static_cast<size_t>(*key.hands)] << "\",\n";
   if (key.mask.root_position)
     text << "    \"root_position\": " << VectorText(key.pose.root_position) << ",\n";
   if (!key.mask.joints.empty()) {

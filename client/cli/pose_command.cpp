@@ -26,6 +26,7 @@ struct PoseOptions {
   PoseRecipe recipe;
   std::string photo;
   double at_s = 0;
+  std::string hands;
   std::string description;
   std::vector<std::string> tags;
   std::string out;
@@ -131,6 +132,7 @@ void Run(const PoseOptions& options) {
     key.id = std::filesystem::path(options.out).stem().string();
     key.time_s = options.at_s;
     key.frame.reset();
+    if (!options.hands.empty()) key.hands = FindHandPose(options.hands);
     WriteFile(options.out,
               authoring::PoseFileText({key, options.description, options.tags}, Body()));
   }
@@ -190,6 +192,9 @@ void AddPoseCommand(CLI::App& program) {
   command->add_option("--at", options->at_s, "Second of the dance for the key that is written.")
       ->check(TimeInSeconds())
       ->capture_default_str();
+  AddHands(*command, options->hands,
+           "What hands do in the key that is written, for characters that have fingers (choreo "
+           "convert)");
   command->add_option("--description", options->description, "Is written with the pose.");
   AddRepeated(*command, "--tag", options->tags,
               "Is written with the pose; with --list, only poses that have it. May be given more "

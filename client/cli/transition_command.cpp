@@ -34,6 +34,7 @@ struct TransitionOptions {
   int candidates = 1;
   std::string rank_by = "quality";
   std::optional<double> hit;
+  std::string hands;
   std::optional<uint64_t> seed;
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
@@ -116,6 +117,7 @@ void Run(const TransitionOptions& options) {
   target.id = "target";  // as the report calls it
   // For a library pose the path sets the place.
   if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
+  if (!options.hands.empty()) target.hands = FindHandPose(options.hands);
   request.target = target.pose;
   request.target_mask = target.mask;
   request.target_hit = options.hit ? options.hit : target.hit;
@@ -180,6 +182,8 @@ void AddTransitionCommand(CLI::App& program) {
       ->check(CLI::IsMember({"quality", "likelihood"}))
       ->capture_default_str();
   AddHit(*command, options->hit, "the end is");
+  AddHands(*command, options->hands,
+           "What hands do at the end, for characters that have fingers (choreo convert --report)");
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);

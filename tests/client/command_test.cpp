@@ -26,8 +26,10 @@ const Skeleton& Body() { return Skeleton::Smpl24(); }
 TEST_F(CommandTest, MovesFromPoseToPose) {
   const Outcome outcome =
       Choreo("transition --from contrapposto --to kick --frames 40 --candidates 2 --out " +
-             At("t.npz") + Server());
+             At("t.npz") + " --hands fist --report " + At("t.json") + Server());
   ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const auto report = nlohmann::json::parse(std::ifstream(folder_ / "t.json"));
+  EXPECT_EQ(report["keyframes"][0]["hands"], "fist");
   for (const char* name : {"t.npz", "t.2.npz"}) {
     const Motion motion = ReadMotion(folder_ / name, Body());
     ASSERT_EQ(motion.frames.size(), 40U);

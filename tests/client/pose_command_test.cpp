@@ -65,6 +65,21 @@ TEST_F(PoseCommandTest, OutputIsAValidKey) {
   EXPECT_EQ(authoring::PoseFileText(read, Body()), authoring::ReadText(path, "pose"));
 }
 
+TEST_F(PoseCommandTest, WritesWhatHandsDoAndKeepsWhatAKeyFileSays) {
+  const auto key_of = [&](const std::string& name, const std::string& arguments) {
+    EXPECT_EQ(Choreo("pose " + arguments + " --out " + At(name)).code, 0) << arguments;
+    return authoring::ReadPose((folder_ / name).string(), Body()).key;
+  };
+  EXPECT_EQ(key_of("fist.json", "--from kick --hands fist").hands, HandPose::kFist);
+  EXPECT_EQ(key_of("kick.json", "--from kick").hands, std::nullopt);
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
+    {"id": "hit", "time": 1, "pose": "kick", "hit": 2, "hands": "point"}]})";
+  const client::KeyPose kept = key_of("kept.json", "--mirror --from " + At("keys.json@hit"));
+  EXPECT_EQ(kept.hands, HandPose::kPoint);
+  EXPECT_EQ(kept.hit, 2);
+  EXPECT_EQ(Choreo("pose --hands paw").code, 2);
+}
+
 TEST_F(PoseCommandTest, PrintsJointsInDegrees) {
   const Outcome outcome = Choreo("pose --set left_elbow=90 --set neck=-10,20,5");
   EXPECT_THAT(outcome.said, HasSubstr("left_elbow=90\n"));
