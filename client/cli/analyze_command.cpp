@@ -127,8 +127,9 @@ void PrintStretches(const BeatTrack& track) {
 }
 
 void PrintText(const authoring::Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
-  std::printf("%.2f s at %d Hz, %d channels; %.1f beats a minute, %zu beats, %zu bars of %d\n",
-              music.audio.seconds(), music.audio.sample_rate, music.audio.channels,
+  const int channels = music.audio.channels;
+  std::printf("%.2f s at %d Hz, %d channel%s; %.1f beats a minute, %zu beats, %zu bars of %d\n",
+              music.audio.seconds(), music.audio.sample_rate, channels, channels == 1 ? "" : "s",
               music.track.tempo_bpm, music.track.frames.size(),
               music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
   PrintStretches(music.track);

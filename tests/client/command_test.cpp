@@ -118,6 +118,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
     }
   }
   const Outcome text = Choreo(analyze + "4");
+  EXPECT_THAT(text.said, HasSubstr(" Hz, 1 channel; "));
   EXPECT_EQ(text.code, 0);
   EXPECT_EQ(std::count(text.said.begin(), text.said.end(), '\n'), 6) << text.said;
   char line[32];
