@@ -166,11 +166,11 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   config.music_dynamics = project.music_dynamics;
   config.variation = project.variation;
   config.frames = std::llround(seconds * model.fps);
-  for (size_t i = 0; i < keys.poses.size(); ++i) {
-    authoring::FitIntoDance({.frames = *config.frames, .fps = model.fps}, keys.places[i],
-                            &keys.poses[i]);
-  }
-  config.controls = project.controls.Read(model, {.models = {model}, .limits = {}});
+  const authoring::DanceLength length{.frames = *config.frames, .fps = model.fps};
+  for (size_t i = 0; i < keys.poses.size(); ++i)
+    authoring::FitIntoDance(length, keys.places[i], &keys.poses[i]);
+  config.controls = project.controls.Read(model, context_.server());
+  project.controls.RequireBegun(config.controls, length);
   client::Audio audio;
   if (song) {
     config.music_beats = project.beats;
@@ -184,7 +184,8 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
       if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
     });
   } catch (const Error& error) {
-    throw authoring::InTermsOf(keys, error);
+    if (error.field() == "config.style") throw error.Of(std::string(kName) + ":style");
+    throw authoring::InTermsOf(keys, project.controls.InTermsOf(error));
   }
   for (client::Warning& fault : authoring::KeyFaults(keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));

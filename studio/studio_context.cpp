@@ -65,31 +65,29 @@ Limits LimitsOf(double song_s) {
 
 StudioContext::StudioContext(const client::Options& server, const std::filesystem::path& song,
                              const std::filesystem::path& photo_model)
-    : client_(server), photo_model_(photo_model) {
-  const client::ServerDescription description = client_.GetServerInfo();
-  model_ = description.models.front();
-  most_seconds_ = description.limits.max_audio_s;
-  welcome_.set_version(description.version);
-  *welcome_.mutable_model() = wire::ToProto(model_);
-  *welcome_.mutable_limits() = LimitsOf(most_seconds_);
-  for (const authoring::LibraryPose& pose : authoring::PosesToDance(model_.skeleton)) {
+    : client_(server), server_(client_.GetServerInfo()), photo_model_(photo_model) {
+  const Skeleton& skeleton = model().skeleton;
+  welcome_.set_version(server_.version);
+  *welcome_.mutable_model() = wire::ToProto(model());
+  *welcome_.mutable_limits() = LimitsOf(most_seconds());
+  for (const authoring::LibraryPose& pose : authoring::PosesToDance(skeleton)) {
     LibraryPose* added = welcome_.add_poses();
     added->set_id(pose.id);
     added->set_description(pose.description);
     *added->mutable_pose() = client::ToProto(pose.pose);
   }
-  for (int joint = 0; joint < model_.skeleton.joints(); ++joint)
-    *welcome_.add_turns() = TurnOf(model_.skeleton, joint);
-  if (const auto figures = client::FindStyleFigures(model_.fingerprint)) {
+  for (int joint = 0; joint < skeleton.joints(); ++joint)
+    *welcome_.add_turns() = TurnOf(skeleton, joint);
+  if (const auto figures = client::FindStyleFigures(model().fingerprint)) {
     StylesShown* shown = welcome_.mutable_styles_shown();
     shown->set_percent(figures->recognised);
     shown->set_percent_by_chance(figures->chance);
     shown->set_shows(figures->shows());
   }
-  welcome_.set_body(BodyAtRest(model_.skeleton));
+  welcome_.set_body(BodyAtRest(skeleton));
   welcome_.set_reads_photos(photo_model_.is_there());
   if (song.empty()) return;
-  song_ = std::make_shared<const Song>(HearSong(song, song.string(), most_seconds_));
+  song_ = std::make_shared<const Song>(HearSong(song, song.string(), most_seconds()));
   welcome_.mutable_song()->set_name(song.filename().string());
   welcome_.mutable_song()->set_data(ReadFile(song));
   *welcome_.mutable_heard() = song_->heard;

@@ -21,9 +21,11 @@ class StudioContext {
                 const std::filesystem::path& photo_model = {});
 
   const client::Client& client() const { return client_; }
-  const client::ModelDescription& model() const { return model_; }
+  const client::ServerDescription& server() const { return server_; }
+  /// The server's first.
+  const client::ModelDescription& model() const { return server_.models.front(); }
   /// Longest music that the server accepts.
-  double most_seconds() const { return most_seconds_; }
+  double most_seconds() const { return server_.limits.max_audio_s; }
   const PhotoModel& photo_model() const { return photo_model_; }
   /// The first message to every page.
   const Welcome& welcome() const { return welcome_; }
@@ -32,8 +34,7 @@ class StudioContext {
 
  private:
   client::Client client_;
-  client::ModelDescription model_;
-  double most_seconds_ = 0;
+  client::ServerDescription server_;
   std::shared_ptr<const Song> song_;
   PhotoModel photo_model_;
   Welcome welcome_;

@@ -22,7 +22,7 @@ struct CompositionRequest {
   std::optional<uint64_t> way = {};
   /// Time of the last key, at most `seconds`; none: the last one that fits the bars.
   std::optional<double> end_s = {};
-  std::string named = "--seconds";  ///< the field of errors about `seconds`
+  std::string named = "seconds";  ///< the field of errors about `seconds`
 };
 
 /// A library pose for a key at each of these ascending seconds: never the same twice in a row, and

@@ -20,7 +20,7 @@ constexpr const char* kNoKeys = "none";
 bool SaysNoKeys(const std::vector<std::string>& sources) {
   const bool none = std::ranges::find(sources, kNoKeys) != sources.end();
   if (none && sources.size() > 1)
-    throw InvalidArgument("--keyframes", "none stands beside " + sources[sources[0] == kNoKeys]);
+    throw InvalidArgument("keyframes", "none stands beside " + sources[sources[0] == kNoKeys]);
   return none;
 }
 

@@ -18,9 +18,8 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   Music music;
   music.audio = DecodeSong(path, seconds + kTempoWindowSeconds, start);
   if (music.audio.interleaved.empty()) {
-    throw InvalidArgument("--song-start", InFull(start) + " s is after the end of " +
-                                              path.string() + " at " + Rounded(music.audio.end_s) +
-                                              " s");
+    throw InvalidArgument("song_start", InFull(start) + " s is after the end of " + path.string() +
+                                            " at " + Rounded(music.audio.end_s) + " s");
   }
   music.mono = ToModelRate(music.audio);
   const std::vector<Onset> onsets = FindOnsets(music.mono);

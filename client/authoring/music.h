@@ -25,7 +25,7 @@ struct Music {
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` plus what they depend on.
 /// With `start`, as if the song began there. Errors as DecodeSong and BeatsAsAsked;
-/// Error(kInvalidArgument) whose field is --song-start for a start after its end. Writes notes to
+/// Error(kInvalidArgument) whose field is "song_start" for a start after its end. Writes notes to
 /// standard error.
 Music ReadMusic(const std::filesystem::path& path,
                 double seconds = std::numeric_limits<double>::infinity(), double start = 0,

@@ -81,7 +81,7 @@ BeatLine ParseBeat(const std::string& line, const std::string& field) {
 
 BeatTrack ReadBeats(const std::string& path, double start) {
   if (!std::filesystem::is_regular_file(path))
-    throw Error(ErrorCode::kNotFound, "--beats", path + " is no file");
+    throw Error(ErrorCode::kNotFound, "beats", path + " is no file");
   std::ifstream file(path);
   BeatTrack track;
   double last = -1;
@@ -111,7 +111,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     counted = counted && beat.count > 0;
   }
   if (track.frames.empty())
-    throw InvalidArgument("--beats", path + " has no beat after second " + InFull(start));
+    throw InvalidArgument("beats", path + " has no beat after second " + InFull(start));
   if (!counted) CountOn(&track);
   return track;
 }
@@ -153,7 +153,7 @@ TempoLimits LimitsOf(const BeatOptions& options) {
 
 void RequireSong(const BeatOptions& options, const std::string& song) {
   if (song.empty() && options != BeatOptions())
-    throw InvalidArgument("--beats", "and other options of beats need a song");
+    throw InvalidArgument("beats", "and other options of beats need a song");
 }
 
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
@@ -161,9 +161,9 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
                                             : ReadBeats(options.beats, start);
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
-    throw InvalidArgument("--downbeat", InFull(*options.downbeat_s) +
-                                            " s is after the song's end at " +
-                                            Rounded(start + end) + " s");
+    throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +
+                                          " s is after the song's end at " + Rounded(start + end) +
+                                          " s");
   }
   // Drops beats after the song's end.
   while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
@@ -173,9 +173,9 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   }
   if (track.frames.empty()) {
     if (options.beats != "auto") {
-      throw InvalidArgument("--beats", options.beats +
-                                           " has no beat within the song, which ends at " +
-                                           Rounded(start + end) + " s; beats are in seconds");
+      throw InvalidArgument("beats", options.beats +
+                                         " has no beat within the song, which ends at " +
+                                         Rounded(start + end) + " s; beats are in seconds");
     }
     return track;
   }

@@ -24,7 +24,7 @@ struct BeatOptions {
 void RequireSong(const BeatOptions& options, const std::string& song);
 
 /// A song's beats from second `start` on, found or read, depending on the options. Throws
-/// Error(kInvalidArgument), whose field is an option or a line of the file.
+/// Error(kInvalidArgument), whose field is "beats", "downbeat" or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
 
 /// Checks beats given in seconds. Throws Error(kInvalidArgument) with FIELD[i], like the API, for

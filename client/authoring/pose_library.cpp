@@ -42,7 +42,7 @@ std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton) {
   try {
     for (LibraryPose& pose : poses) pose.pose = Retarget(Skeleton::Smpl24(), pose.pose, skeleton);
   } catch (const Error& error) {
-    throw InvalidArgument("--keyframes",
+    throw InvalidArgument("keyframes",
                           "key poses are needed: those that ship can't be turned "
                           "into poses of the model (" +
                               std::string(error.what()) + ")");

@@ -26,7 +26,7 @@ const std::vector<std::string>& PoseTags();
 const std::vector<LibraryPose>& PoseLibrary();
 
 /// The poses that keys are drawn from, all that stand or travel, on this skeleton (fit/retarget.h).
-/// Throws Error(kInvalidArgument) that asks for --keyframes if the skeleton lacks joints for
+/// Throws Error(kInvalidArgument) whose field is "keyframes" if the skeleton lacks joints for
 /// retargeting.
 std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton);
 

@@ -99,7 +99,9 @@ void CheckMarkers(const json& list, const std::string& field) {
 Project ParseProject(const json& file, const std::string& name) {
   ListIn(file, name, "keyframes");  // which says what else the file may be
   if (!file.contains("studio"))
-    throw InvalidArgument(name + ":studio", "is missing: a key file goes with --keyframes");
+    throw InvalidArgument(
+        name + ":studio",
+        "is missing: a project says \"studio\": 1; a key file goes with choreo dance --keyframes");
   if (file["studio"] != kFormat) {
     throw InvalidArgument(name + ":studio", "is format " + Shown(file["studio"]) + ", known is " +
                                                 std::to_string(kFormat));
@@ -134,8 +136,10 @@ Project ParseProject(const json& file, const std::string& name) {
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
                                              std::to_string(kMostInBar));
   }
-  if (file.contains("lively"))
-    project.controls.velocities = Velocities(file["lively"], name + ":lively");
+  if (file.contains("lively")) {
+    project.controls.velocity_name = name + ":lively";
+    project.controls.velocities = Velocities(file["lively"], project.controls.velocity_name);
+  }
   if (file.contains("path")) {
     if (!file["path"].is_object())
       throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");

@@ -53,14 +53,14 @@ class Asked {
     const size_t equals = source.find('=');
     const std::string name = source.substr(0, equals);
     const std::vector<size_t> parts = PartsOf(name);
-    if (parts.empty()) throw InvalidArgument("--velocity", '"' + name + "\" " + NoPart());
+    if (parts.empty()) throw InvalidArgument("velocity_factors", '"' + name + "\" " + NoPart());
     const std::string text = equals == std::string::npos ? "" : source.substr(equals + 1);
     const bool speeds = text.ends_with(kCentimetres);
     const char* end = text.data() + text.size() - (speeds ? kCentimetres.size() : 0);
     double value = 0;
     const auto [stop, code] = std::from_chars(text.data(), end, value);
     if (code != std::errc() || stop != end || !IsWithinLimits(value, speeds)) {
-      throw InvalidArgument("--velocity",
+      throw InvalidArgument("velocity_factors",
                             '"' + source + "\": \"" + text + "\" is not " + Limits(speeds));
     }
     SetUnit(speeds, source);
@@ -68,7 +68,7 @@ class Asked {
   }
 
   void AddFile(const std::string& name) {
-    if (!frames_.empty()) throw InvalidArgument("--velocity", name + " is a second file");
+    if (!frames_.empty()) throw InvalidArgument("velocity_factors", name + " is a second file");
     const nlohmann::json file = ParseJson(ReadText(name, "velocity file"), name);
     CheckFileMembers(file, name, {"factors", "speeds", "about"},
                      "a velocity file has factors or speeds, and perhaps about");
@@ -110,7 +110,7 @@ class Asked {
 
   client::Controls::VelocityFactors Finish(const std::string& reference) const {
     if (*speeds_ && !reference.empty())
-      throw InvalidArgument("--velocity-reference", "is for multipliers, not for speeds");
+      throw InvalidArgument("velocity_factors.reference", "is for multipliers, not for speeds");
     client::Controls::VelocityFactors velocity;
     velocity.reference = reference;
     velocity.frames = frames_;
@@ -135,7 +135,7 @@ class Asked {
  private:
   void SetUnit(bool speeds, const std::string& source) {
     if (speeds_.value_or(speeds) != speeds)
-      throw InvalidArgument("--velocity", source + ": multipliers and cm exclude each other");
+      throw InvalidArgument("velocity_factors", source + ": multipliers and cm exclude each other");
     speeds_ = speeds;
   }
 

@@ -15,8 +15,8 @@ bool IsVelocityFile(const std::string& source);
 /// file's points and holds the nearest outside. `reference`: what multipliers refer to; empty: the
 /// model's first. Models run at `fps`.
 ///
-/// Throws Error(kInvalidArgument) whose field is "--velocity", "--velocity-reference" or
-/// NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
+/// Throws Error(kInvalidArgument) whose field is "velocity_factors", "velocity_factors.reference"
+/// or NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
 client::Controls::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
                                                  const std::string& reference, double fps);
 

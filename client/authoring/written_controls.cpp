@@ -14,17 +14,17 @@ bool Has(const client::ModelDescription& model, const std::string& control) {
   return std::ranges::find(model.controls, control) != model.controls.end();
 }
 
-void RequireControl(size_t row, const std::string& option, const client::ModelDescription& model,
+void RequireControl(size_t row, const std::string& field, const client::ModelDescription& model,
                     const client::ServerDescription& server) {
   const std::string control(kControls[row].name);
   if (Has(model, control)) return;
   std::string others;
   for (const client::ModelDescription& other : server.models) {
-    if (Has(other, control)) others += (others.empty() ? "" : ", ") + ("--model " + other.name);
+    if (Has(other, control)) others += (others.empty() ? "" : ", ") + ('"' + other.name + '"');
   }
-  throw InvalidArgument(option,
-                        "the model \"" + model.name + "\" does not have this control, " +
-                            (others.empty() ? "nor has any other of the server" : "but " + others));
+  throw InvalidArgument(field, "the model \"" + model.name + "\" does not have this control, " +
+                                   (others.empty() ? "nor has any other of the server"
+                                                   : "but these of the server do: " + others));
 }
 
 }  // namespace
@@ -60,6 +60,7 @@ client::Controls::RootPath ParsePathFile(std::string_view text, const std::strin
 void WrittenControls::Follow(const WrittenControls& project) {
   path_text = project.path_text;
   path_text_name = project.path_text_name;
+  if (velocities.empty()) velocity_name = project.velocity_name;
   // The last source that names a part counts, so the command line's come after the project's.
   velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
 }
@@ -68,15 +69,15 @@ client::Controls WrittenControls::Read(const client::ModelDescription& model,
                                        const client::ServerDescription& server) const {
   client::Controls controls;
   if (!path.empty() || !path_text.empty()) {
-    RequireControl(kRootPath, path.empty() ? path_text_name : "--path", model, server);
+    RequireControl(kRootPath, NameOf(kRootPath), model, server);
     controls.root_path = ParsePathFile(path.empty() ? path_text : ReadText(path, "path file"),
                                        PathName(), model.fps);
   }
   if (!velocities.empty()) {
-    RequireControl(kVelocityFactors, "--velocity", model, server);
+    RequireControl(kVelocityFactors, velocity_name, model, server);
     controls.velocity_factors = ReadVelocities(velocities, reference, model.fps);
   } else if (!reference.empty()) {
-    throw InvalidArgument("--velocity-reference", "there is no --velocity");
+    throw InvalidArgument("velocity_factors.reference", "there is no velocity that it could be of");
   }
   return controls;
 }
@@ -96,17 +97,23 @@ void WrittenControls::RequireBegun(const client::Controls& controls,
       "the velocities' first point " + DescribeAfterEnd(asked->frames.front(), length));
 }
 
+std::string WrittenControls::NameOf(size_t row) const {
+  if (row == kVelocityFactors) return velocity_name;
+  return path.empty() && !path_text.empty() ? path_text_name : std::string(kControls[row].name);
+}
+
 Error WrittenControls::InTermsOf(const Error& error) const {
   // The command sends one message: controls[0] of a stream, controls of a transition.
   std::string_view field = error.field();
   for (const std::string_view prefix : {"controls[0].", "controls."}) {
     if (!field.starts_with(prefix)) continue;
     field.remove_prefix(prefix.size());
-    if (field == "velocity_factors.reference") return error.Of("--velocity-reference");
+    if (field == "velocity_factors.reference") return error.Of(std::string(field));
     const auto row =
         std::ranges::find(kControls, field.substr(0, field.find('.')), &ControlRow::name);
     if (row == std::end(kControls)) break;
-    if (!field.starts_with("root_path.")) return error.Of(std::string(row->option));
+    if (!field.starts_with("root_path."))
+      return error.Of(NameOf(static_cast<size_t>(row - kControls)));
     const size_t bracket = field.find('[');
     size_t index = 0;
     if (bracket != std::string_view::npos)

@@ -17,12 +17,13 @@ namespace choreo::authoring {
 client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
                                          double fps);
 
-/// The options of every command that dances.
+/// What every dance takes. Errors name the place in a file, or a control as the API does.
 struct WrittenControls {
   std::string path;
   /// The text of a path file that is part of another file, and how errors call it; `path` wins.
   std::string path_text, path_text_name;
-  std::vector<std::string> velocities;  ///< as ReadVelocities (velocities.h) takes them
+  std::vector<std::string> velocities;             ///< as ReadVelocities (velocities.h) takes them
+  std::string velocity_name = "velocity_factors";  ///< how errors call them
   std::string reference;
 
   /// Adds a project's settings that these options do not give.
@@ -37,8 +38,12 @@ struct WrittenControls {
   void RequireBegun(const client::Controls& controls, const DanceLength& length) const;
   /// How errors call the path.
   const std::string& PathName() const { return path.empty() ? path_text_name : path; }
-  /// An error about controls as they were sent in terms of these options; any other as it is.
+  /// An error about controls as they were sent in terms of what was written; any other as it is.
   Error InTermsOf(const Error& error) const;
+
+ private:
+  /// How errors call a control: as the file that it is of, or else as the API.
+  std::string NameOf(size_t row) const;
 };
 
 }  // namespace choreo::authoring

@@ -136,6 +136,7 @@ void AddStyle(CLI::App& command, std::string& style) {
 Error AsTyped(const Error& error) {
   static const std::map<std::string_view, std::string> kOptions = {
       {"addresses", "--server"},
+      {"beats", "--beats"},
       {"ca_certificate", "--ca"},
       {"client_certificate", "--client-cert"},
       {"client_key", "--client-key"},
@@ -143,7 +144,14 @@ Error AsTyped(const Error& error) {
       {"config.style", "--style"},
       {"config.temperature", "--temperature"},
       {"config.variation", "--variation"},
+      {"downbeat", "--downbeat"},
+      {"keyframes", "--keyframes"},
+      {"root_path", "--path"},
+      {"seconds", "--seconds"},
+      {"song_start", "--song-start"},
       {"token_file", "--token-file"},
+      {"velocity_factors", "--velocity"},
+      {"velocity_factors.reference", "--velocity-reference"},
       {"video.fps", "--fps"},
       {"video.height", "--size"},
       {"video.width", "--size"},

@@ -356,7 +356,7 @@ TEST_F(ControlledCommandTest, BadVelocitiesAreRefused) {
   ExpectRefused(dance + "--velocity trunk=11", "\"11\" is not a number from 0 to 10");
   ExpectRefused(dance + "--velocity trunk", "--velocity: \"trunk\": \"\" is not a number");
   ExpectRefused(dance + "--velocity-reference calm",
-                "--velocity-reference: there is no --velocity");
+                "--velocity-reference: there is no velocity that it could be of");
   ExpectRefused(dance + "--velocity all=1 --velocity-reference wild",
                 "--velocity-reference: \"wild\" is none of the model's, median, calm");
   const Outcome outcome = Choreo("dance" + Walker() + "--velocity all=1");

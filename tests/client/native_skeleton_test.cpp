@@ -157,7 +157,7 @@ TEST_F(NativeSkeletonTest, FromRecordingsToADanceOn23Joints) {
 TEST(PoseLibrary, RequestsKeyframesIfItCannotBeRetargeted) {
   Skeleton stick = Native().skeleton;
   stick.right_elbow = -1;
-  ExpectError(ErrorCode::kInvalidArgument, "--keyframes: key poses are needed",
+  ExpectError(ErrorCode::kInvalidArgument, "keyframes: key poses are needed",
               [&] { authoring::PosesToDance(stick); });
 }
 

@@ -28,10 +28,10 @@ def ask(method, path, body=None, headers=None):
         connection.close()
 
 
-def dance(path="/dance", **changes):
+def dance(call="/dance", **changes):
     project = {"studio": 1, "seconds": 2, "keyframes": [{"id": "a", "time": 1, "rotations": REST, "root_position": [0.5, 0.9, 0]}]}
     project.update(changes)
-    return ask("POST", path, json.dumps({name: value for name, value in project.items() if value is not None}))
+    return ask("POST", call, json.dumps({name: value for name, value in project.items() if value is not None}))
 
 
 def clicks(seconds):
@@ -123,7 +123,10 @@ class ProjectCalls(unittest.TestCase):
             ({"seconds": 1e9}, "project:seconds"),
             ({"seconds": 601}, "project:seconds: 601 is beyond 600, the most that is danced"),
             ({"seed": 1.5}, "project:seed"),
-            ({"style": "foxtrot"}, "foxtrot"),
+            ({"style": "foxtrot"}, 'project:style: "foxtrot"'),
+            ({"path": {"points": [{"time": 9, "x": 0, "z": 0}, {"time": 10, "x": 1, "z": 0}]}}, "project:path:points[0]: the path's first point at 9 s"),
+            ({"lively": {"tail": 2}}, "project:lively.tail: is none of trunk"),
+            ({"path": {"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 2e4, "z": 0}]}}, "project:path:points[1].x"),
             ({"beats": [[1, 0]]}, "project:beats[0]: [1,0] is no beat"),
             ({"variation": 2}, "project:variation: 2 is not a number from 0 to 1"),
             ({"song": "a.wav"}, "project:song_data: is missing beside song"),

@@ -170,8 +170,9 @@ TEST(ChoreographyTest, DependsOnTheSeedAlone) {
 }
 
 TEST(ChoreographyTest, RefusesADanceThatIsTooShort) {
-  ExpectError(ErrorCode::kInvalidArgument, "--seconds",
-              [] { ComposeKeys({.seconds = 1, .beats = {}, .seed = 0}, PoseLibrary()); });
+  ExpectError(ErrorCode::kInvalidArgument, "seconds: ", [] {
+    ComposeKeys({.seconds = 1, .beats = {}, .seed = 0}, PoseLibrary());
+  });
 }
 
 }  // namespace choreo::authoring::choreography_test

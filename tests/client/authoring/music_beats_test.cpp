@@ -77,14 +77,14 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("1\ntwo\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "beats.txt:2", [&] { Read("2\n1\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "1 to 16", [&] { Read("1 17\n"); });
-  ExpectError(ErrorCode::kInvalidArgument, "--beats", [&] { Read("# none\n"); });
+  ExpectError(ErrorCode::kInvalidArgument, "beats: ", [&] { Read("# none\n"); });
   for (const char* bad : {"1 2x\n", "1 2 3\n", "0,5\n", "nan\n", "1e300\n", "-1\n"})
     ExpectError(ErrorCode::kInvalidArgument, "beats.txt:1", [&] { Read(bad); });
   ExpectError(ErrorCode::kInvalidArgument, "after the beat before it",
               [&] { Read("0.5\n0.501\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
   ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
-  ExpectError(ErrorCode::kInvalidArgument, "--downbeat", [&] { Read("1\n", {.downbeat_s = 500}); });
+  ExpectError(ErrorCode::kInvalidArgument, "downbeat: ", [&] { Read("1\n", {.downbeat_s = 500}); });
 }
 
 }  // namespace choreo::authoring::music_beats_test

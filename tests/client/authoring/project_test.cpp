@@ -205,7 +205,8 @@ TEST_F(ProjectTest, NamesInvalidFields) {
   ExpectRefused("p.json:style: \"foxtrot\"");
   project_ = good;
   project_.erase("studio");
-  ExpectRefused("p.json:studio: is missing: a key file goes with --keyframes");
+  ExpectRefused(
+      "p.json:studio: is missing: a project says \"studio\": 1; a key file goes with choreo");
   project_ = good;
   project_.erase("keyframes");
   ExpectRefused("p.json: has no list");
