@@ -84,6 +84,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.has_variation()) out.variation = config.variation();
   out.music_beats.assign(config.music_beats().begin(), config.music_beats().end());
   authoring::CheckBeats(out.music_beats, "config.music_beats");
+  out.music_downbeats.assign(config.music_downbeats().begin(), config.music_downbeats().end());
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();
   for (int i = 0; i < config.history().poses_size(); ++i) {

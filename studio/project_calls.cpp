@@ -174,6 +174,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   client::Audio audio;
   if (song) {
     config.music_beats = project.beats;
+    config.music_downbeats = project.downbeats;
     authoring::ConfigureMusic(song->music, seconds, &config);
     if (model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
   }

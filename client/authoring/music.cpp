@@ -38,11 +38,11 @@ std::vector<double> BeatsBefore(const Music& music, double seconds) {
 
 void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config) {
   if (config->music_beats.empty()) {
-    config->music_beats = BeatsBefore(music, seconds);
+    config->music_beats = music.track.Seconds();
     config->music_downbeats = music.track.DownbeatSeconds();
-    std::erase_if(config->music_downbeats, [seconds](double beat) { return beat >= seconds; });
   }
-  std::erase_if(config->music_beats, [seconds](double beat) { return beat >= seconds; });
+  for (std::vector<double>* beats : {&config->music_beats, &config->music_downbeats})
+    std::erase_if(*beats, [seconds](double beat) { return beat >= seconds; });
   config->music_id = music.id;
   config->music_passages = music.passages;
   std::erase_if(config->music_passages,

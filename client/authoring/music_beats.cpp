@@ -16,7 +16,6 @@ namespace choreo::authoring {
 namespace {
 
 constexpr double kTempoSlack = 1.06;  // either way: a semitone
-constexpr int kUsualBar = 4;
 constexpr double kMostSeconds = 1e6;  // of a song, of which the dance may use only a part
 constexpr std::streamsize kLongestLine = 1000;
 

@@ -36,10 +36,10 @@ bool IsCount(const json& value) {
   return IsFrameNumber(value) && value.get<uint64_t>() >= 1 && value.get<uint64_t>() <= kMostInBar;
 }
 
-/// The seconds of [[0.52, 1], [1.02, 2], ...]; the counts are for people.
-std::vector<double> Beats(const json& list, const std::string& field) {
+/// Takes [[0.52, 1], [1.02, 2], ...]: seconds and counts, which go on over several bars.
+void TakeBeats(const json& list, int bar, const std::string& field, Project* project) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
-  std::vector<double> out;
+  std::vector<double>& out = project->beats;
   for (const json& beat : list) {
     const std::string at = field + "[" + std::to_string(out.size()) + "]";
     if (!beat.is_array() || beat.size() != 2 || !IsCount(beat[1])) {
@@ -47,9 +47,9 @@ std::vector<double> Beats(const json& list, const std::string& field) {
                                     std::to_string(kMostInBar) + ", as in [12.5, 1]");
     }
     out.push_back(JsonNumber(beat[0], at));
+    if ((beat[1].get<int>() - 1) % bar == 0) project->downbeats.push_back(out.back());
   }
   CheckBeats(out, field);
-  return out;
 }
 
 /// "left_arm=1.5" for each part, unless all have the usual factor.
@@ -131,11 +131,12 @@ Project ParseProject(const json& file, const std::string& name) {
       throw InvalidArgument(name + ":seed", Shown(file["seed"]) + " is no whole number from 0 on");
     project.seed = file["seed"].get<uint64_t>();
   }
-  if (file.contains("beats")) project.beats = Beats(file["beats"], name + ":beats");
   if (file.contains("bar") && !IsCount(file["bar"])) {
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
                                              std::to_string(kMostInBar));
   }
+  if (file.contains("beats"))
+    TakeBeats(file["beats"], file.value("bar", kUsualBar), name + ":beats", &project);
   if (file.contains("lively")) {
     project.controls.velocity_name = name + ":lively";
     project.controls.velocities = Velocities(file["lively"], project.controls.velocity_name);

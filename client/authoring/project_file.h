@@ -18,9 +18,10 @@ struct Project {
   std::optional<uint64_t> seed = {};
   std::string style = {};                                     ///< empty: as it comes
   std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
-  std::vector<double> beats = {};  ///< of the song, seconds; none: as they are found
-  WrittenControls controls = {};   ///< no velocities where all are 1
-  bool has_dancers = false;        ///< several, whom ReadDancers reads (dancers.h)
+  /// Of the song, seconds; none: as they are found. Downbeats are beats, too.
+  std::vector<double> beats = {}, downbeats = {};
+  WrittenControls controls = {};  ///< no velocities where all are 1
+  bool has_dancers = false;       ///< several, whom ReadDancers reads (dancers.h)
 };
 
 /// Reads a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,

@@ -41,9 +41,10 @@ void TakeProject(DanceOptions* options) {
   };
   if (options->beats == authoring::BeatOptions() &&
       file_of(options->song) == file_of(project.song)) {
-    for (const double beat : project.beats) {
-      if (beat >= options->song_start_s)
-        options->project_beats.push_back(beat - options->song_start_s);
+    for (const auto& [beats, of_dance] : {std::pair(&project.beats, &options->project_beats),
+                                          {&project.downbeats, &options->project_downbeats}}) {
+      for (const double beat : *beats)
+        if (beat >= options->song_start_s) of_dance->push_back(beat - options->song_start_s);
     }
   }
   if (!options->seconds) options->seconds = project.seconds;

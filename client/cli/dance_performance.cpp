@@ -146,6 +146,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   config.frames = length.frames;
   config.controls = controls;
   config.music_beats = options.project_beats;
+  config.music_downbeats = options.project_downbeats;
   if (music) authoring::ConfigureMusic(*music, seconds, &config);
   const client::Audio audio =
       music && model.takes_music ? authoring::AudioFor(music->audio, seconds) : client::Audio{};

@@ -22,7 +22,7 @@ struct DanceOptions {
   authoring::BeatOptions beats;
   std::vector<std::string> keys;
   std::string project;
-  std::vector<double> project_beats;  ///< of the project, seconds of the dance
+  std::vector<double> project_beats, project_downbeats;  ///< seconds of the dance
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;

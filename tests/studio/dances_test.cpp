@@ -65,6 +65,20 @@ TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
   EXPECT_NE(danced({0.3, 1.3}), heard);
 
   Request request = DanceRequest(60, 7);
+  for (const double beat : {0.3, 0.8, 1.3})
+    request.mutable_dance()->mutable_config()->add_music_beats(beat);
+  request.mutable_dance()->mutable_config()->add_music_downbeats(0.8);
+  page.Say(2, request);
+  page.Say(2, Complete());
+  std::vector<double> downbeats;
+  for (Response said = page.Read(); !said.dance().has_summary(); said = page.Read()) {
+    ASSERT_FALSE(said.has_failure()) << said.failure().message();
+    const v1::Event& event = said.dance().event();
+    if (event.beat().downbeat()) downbeats.push_back(event.time());
+  }
+  EXPECT_EQ(downbeats, std::vector{0.8}) << "of which it is the 1";
+
+  request = DanceRequest(60, 7);
   auto* beats = request.mutable_dance()->mutable_config()->mutable_music_beats();
   beats->Add(1);
   beats->Add(std::nan(""));

@@ -6,6 +6,8 @@ import { BodyPart, DanceConfigSchema, GenerateTransitionRequestSchema, KeyframeS
 import type { Keyframe, ModelInfo } from './generated/choreo/v1/choreography_pb';
 import { PoseSchema } from './generated/choreo/v1/motion_pb';
 import type { Continuation } from './generated/choreo/v1/motion_pb';
+import { isDownbeat } from './counts';
+import type { Beats } from './counts';
 import { Motion } from './motion';
 import { handPoses, withHeld } from './project';
 import type { Key, Project } from './project';
@@ -57,6 +59,11 @@ export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: num
 
 /// How all of a dance is danced.
 export const how = ({ seed, style, dynamics, variation }: Project) => ({ seed: BigInt(seed), style, musicDynamics: dynamics, variation });
+
+/// The beats that a project sets, if any.
+export const beatsMessage = (beats: Beats | null): Init<typeof DanceConfigSchema> => beats
+  ? { musicBeats: beats.list.map(({ time }) => time), musicDownbeats: beats.list.filter((beat) => isDownbeat(beat, beats.bar)).map(({ time }) => time) }
+  : {};
 
 export class Dancer {
   constructor(private readonly wire: Wire, private readonly model: ModelInfo) {}
@@ -168,7 +175,7 @@ export class Dancer {
   }
 
   private config(project: Project, before: Motion, whole: boolean): Init<typeof DanceConfigSchema> {
-    const config: Init<typeof DanceConfigSchema> = { ...how(project), musicBeats: project.beats?.list.map(({ time }) => time) };
+    const config: Init<typeof DanceConfigSchema> = { ...how(project), ...beatsMessage(project.beats) };
     if (whole) config.frames = BigInt(this.frames(project));
     if (before.count > 0) {
       config.start = {

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "client/authoring/music.h"
+#include "client/authoring/project_file.h"
 #include "model/audio/format.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +87,18 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
   ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "downbeat: ", [&] { Read("1\n", {.downbeat_s = 500}); });
+}
+
+// The server hears of them as far as the dance goes.
+TEST_F(MusicBeats, AProjectsCountsSayWhichBeatsBeginABar) {
+  const auto file = nlohmann::json::parse(R"({"studio": 1, "keyframes": [{"id": "a"}], "bar": 3,
+    "beats": [[0.5, 6], [1, 1], [1.5, 2], [2, 3], [2.5, 4], [4, 1]]})");
+  const Project project = ParseProject(file, "p.json");
+  EXPECT_THAT(project.downbeats, ElementsAre(1, 2.5, 4));
+  client::DanceConfig config{.music_beats = project.beats, .music_downbeats = project.downbeats};
+  ConfigureMusic({}, 3, &config);
+  EXPECT_THAT(config.music_beats, ElementsAre(0.5, 1, 1.5, 2, 2.5));
+  EXPECT_THAT(config.music_downbeats, ElementsAre(1, 2.5));
 }
 
 }  // namespace choreo::authoring::music_beats_test

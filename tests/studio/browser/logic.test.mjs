@@ -26,6 +26,7 @@ const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withH
 const { fromJson, inOrder, toJson } = await load('project_file');
 const { counted, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
+const { beatsMessage } = await load('dancer');
 const { mostUnlike, unlikeness } = await load('unlike');
 const { only, toQuaternion, toVector, turned, heading } = await load('body');
 
@@ -183,6 +184,8 @@ test('beats are halved, doubled and nudged, and one of them is a 1', () => {
   const late = nudged(beats, 0.01, 4.5);
   assert.deepEqual([late.list[0], late.list.length], [{ time: 1.01, count: 8 }, 7]);
   assert.equal(counts(withOne(beats, 2.1)), '78123456');
+  assert.deepEqual(beatsMessage(withOne(beats, 2.1)).musicDownbeats, [beats.list[2].time, beats.list[6].time]);
+  assert.deepEqual(beatsMessage(null), {});
 });
 
 test('counts later are the beats further on, and go on where there are none', () => {
