@@ -161,8 +161,8 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +
-                                          " s is after the song's end at " + Rounded(start + end) +
-                                          " s");
+                                          " s is after what is heard of the song, its first " +
+                                          Rounded(start + end) + " s");
   }
   // Drops beats after the song's end.
   while (!track.frames.empty() && track.frames.back() > std::ssize(onsets)) {
@@ -172,9 +172,9 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   }
   if (track.frames.empty()) {
     if (options.beats != "auto") {
-      throw InvalidArgument("beats", options.beats +
-                                         " has no beat within the song, which ends at " +
-                                         Rounded(start + end) + " s; beats are in seconds");
+      throw InvalidArgument(
+          "beats", options.beats + " has no beat within what is heard of the song, its first " +
+                       Rounded(start + end) + " s; beats are in seconds");
     }
     return track;
   }

@@ -86,7 +86,9 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
               [&] { Read("0.5\n0.501\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
   ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
-  ExpectError(ErrorCode::kInvalidArgument, "downbeat: ", [&] { Read("1\n", {.downbeat_s = 500}); });
+  ExpectError(ErrorCode::kInvalidArgument,
+              "downbeat: 500 s is after what is heard of the song, its first",
+              [&] { Read("1\n", {.downbeat_s = 500}); });
 }
 
 // The server hears of them as far as the dance goes.
