@@ -1,3 +1,4 @@
+#include <limits>
 #include <memory>
 
 #include "client/authoring/json_fields.h"
@@ -9,6 +10,8 @@
 #include "client/cli/edit_whole.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "client/cli/report.h"
+#include "client/cli/report_keys.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -55,6 +58,17 @@ void CheckReported(const EditOptions& options) {
                                              InFull(kMostStretch) + ", and not 1");
     }
   }
+}
+
+/// The key that is changed first must be in the report: that it is not is told before a server is
+/// asked or started.
+void CheckFirstKey(const EditOptions& options) {
+  const bool removes = !options.removed.empty();
+  if (!removes && options.moves.empty()) return;
+  const auto report = ReadReport(options.report);
+  const ReportKeys keys = KeysOf(report, std::numeric_limits<int64_t>::max(), options.report);
+  FindKey(keys, removes ? options.removed.front() : options.moves.front().first,
+          report["fps"].get<double>(), removes ? "--remove" : "--move");
 }
 
 /// A project is edited for its markers alone: dances are edited where they are danced.
@@ -112,6 +126,7 @@ void CheckOptions(const EditOptions& options) {
   if (!options.new_report.empty() && !options.join.empty() && options.join_report.empty()) {
     throw InvalidArgument("--join-report", "is missing: --new-report names both dances' keys");
   }
+  CheckFirstKey(options);
 }
 
 void Run(const EditOptions& options) {

@@ -60,6 +60,9 @@ TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"nosuch\"; it has \"" +
                                       keys[0]["id"].get<std::string>()));
+  outcome = Choreo("edit " + At("dance.npz") + " --server 127.0.0.1:1 --remove nosuch --report " +
+                   At("report.json") + " -o " + At("other.npz"));
+  EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key")) << "without a server";
   outcome = Edit("--move nosuch 3 -o " + At("other.npz"));
   EXPECT_THAT(outcome.said, HasSubstr("--move: needs --report"));
 }
