@@ -53,9 +53,9 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   AudioFeed feed(kModelSampleRate, 1, 0);
   feed.Push(mono, 0, [] {});
   MusicBeats music(30, {}, std::nullopt, &feed);
-  for (int64_t from = 0; from + kUsualFrames <= feed.ready(); from += kUsualFrames) {
-    music.Begin(music.For(from, from + kUsualFrames), from);
-    for (int64_t frame = from; frame < from + kUsualFrames; ++frame) music.Of(frame);
+  for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
+    music.Begin(music.For(from, from + kTypicalFrames), from);
+    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) music.Of(frame);
   }
   return music.told();
 }

@@ -62,7 +62,7 @@ class Models {
 
 TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   TransitionSpec spec;
-  spec.frames = kUsualFrames;
+  spec.frames = kTypicalFrames;
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
   Pose key = RestPose(model.skeleton);
   key.root_position.x() += 0.5;
@@ -78,12 +78,13 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
     const Eigen::Vector3d from = spec.history.back().root_position;
     const Eigen::Vector3d way = key.root_position - from;
     spec.controls[kRootPath].values =
-        (way * Eigen::RowVectorXd::LinSpaced(kUsualFrames, 1.0 / kUsualFrames, 1)).colwise() + from;
+        (way * Eigen::RowVectorXd::LinSpaced(kTypicalFrames, 1.0 / kTypicalFrames, 1)).colwise() +
+        from;
   }
   return spec;
 }
 
-/// Transitions of kUsualFrames, one after another.
+/// Transitions of kTypicalFrames, one after another.
 void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<double>& beats) {
   TransitionSpec spec = Spec(sampler.model(), 1);
   spec.beats = beats;
@@ -124,11 +125,11 @@ std::vector<BareProducts::Shape> Shapes(const FlowConfig& config, int width) {
   return shapes;
 }
 
-/// The continuous flow's products for one transition of kUsualFrames.
+/// The continuous flow's products for one transition of kTypicalFrames.
 std::vector<BareProducts::Shape> Shapes(const ContinuousFlowConfig& config,
                                         const Skeleton& skeleton) {
   const int dimensions = 3 + 3 * skeleton.joints(), width = config.width;
-  const int tokens = (config.history_frames + kUsualFrames + kFramesAToken - 1) / kFramesAToken;
+  const int tokens = (config.history_frames + kTypicalFrames + kFramesAToken - 1) / kFramesAToken;
   const int token = kFramesAToken * TokenFrameWidth(dimensions, FrameFeatures());
   std::vector<BareProducts::Shape> shapes;
   for (int step = 0; step < config.steps; ++step) {
@@ -202,7 +203,7 @@ void Register(Models* models) {
   for (const bool half : bf16 ? std::vector{false, true} : std::vector{false}) {
     add(std::string("paper/") + (half ? "bare-bf16" : "bare"), [=](benchmark::State& state) {
       BareProducts products(Shapes(FlowConfig::Preset(model), width), 1, half);
-      Bare(state, products, kUsualFrames);
+      Bare(state, products, kTypicalFrames);
     });
   }
   // Wall time: the thread waits for the GPU.

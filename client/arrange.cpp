@@ -70,7 +70,7 @@ FinishedDance BegunAt(const Pose& pose, FinishedDance dance) {
 
 bool BeginsIn(const Skeleton& skeleton, const FinishedDance& dance, const Pose& pose) {
   const PoseError error = ComparePoses(skeleton, dance.motion.frames.front(), pose);
-  return error.position_m <= kMostKeyError_m && error.angle_deg <= kMostKeyError_deg;
+  return error.position_m <= kMaxKeyError_m && error.angle_deg <= kMaxKeyError_deg;
 }
 
 FinishedDance Join(FinishedDance first, const FinishedDance& second) {

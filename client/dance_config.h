@@ -43,7 +43,7 @@ struct KeyPose {
   double time_s = 0;                  ///< rounded to the nearest frame
   Pose pose = {};
   PoseMask mask = {};
-  /// How hard it is hit, 0 (gently) to kMostHit (late and fast), to rest in it. None: it is danced
+  /// How hard it is hit, 0 (gently) to kMaxHit (late and fast), to rest in it. None: it is danced
   /// through.
   std::optional<double> hit = {};
   /// What hands do there; not danced, but kept for characters that have fingers.
@@ -69,7 +69,7 @@ struct DanceConfig {
   std::optional<uint64_t> seed = {};
   std::optional<double> temperature = {};  ///< 0 to 2
   std::string style = {};                  ///< one of the model's; empty: any
-  /// 0 to 1: how closely the dance's energy follows the music's; default: kUsualDynamics
+  /// 0 to 1: how closely the dance's energy follows the music's; default: kDefaultDynamics
   std::optional<double> music_dynamics = {};
   /// Poses right before the dance, at the model's rate, oldest first; empty: the dancer stands at
   /// rest, facing +Z, where a path from frame 0 on begins, or else at the origin.
@@ -91,7 +91,7 @@ struct DanceConfig {
   /// Where the music repeats, and the dance with it; as in the API. Empty: the server finds them in
   /// a kFile.
   std::vector<Passage> music_passages = {};
-  /// 0 to 1: how much a repeated dance differs; default: kUsualVariation
+  /// 0 to 1: how much a repeated dance differs; default: kDefaultVariation
   std::optional<double> variation = {};
   /// For editing keys: as RemoteDance::GenerateUntil before all else; keys then grant no frames.
   std::optional<int64_t> generate_until = {};

@@ -39,7 +39,7 @@ struct FrameBlock {
 };
 
 /// The tolerance within which a dance meets its keys: of any joint, in metres and degrees.
-inline constexpr double kMostKeyError_m = 0.001, kMostKeyError_deg = 0.1;
+inline constexpr double kMaxKeyError_m = 0.001, kMaxKeyError_deg = 0.1;
 
 using choreo::Beat, choreo::KeyReached, choreo::KeyRejected, choreo::Warning;
 

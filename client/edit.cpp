@@ -261,7 +261,7 @@ void SetMusic(const Audio& song, const ModelDescription& model, int64_t first,
   const double start = static_cast<double>(first) / model.fps;
   const double end = start + static_cast<double>(request->frames) / model.fps + kMusicBeyond_s;
   const double most_s =
-      kMostMusicBytes / static_cast<double>(channels * song.format.sample_rate * sizeof(float));
+      kMaxMusicBytes / static_cast<double>(channels * song.format.sample_rate * sizeof(float));
   const double before_s =
       std::clamp(most_s - (end - start), model.audio_lead_s, model.audio_lead_s + kMusicBefore_s);
   // After the song's end there is silence; clamping to the last sample is as good.

@@ -18,7 +18,7 @@ inline constexpr double kMusicBeyond_s = 0.5;
 /// Seconds of music before the first frame that determine its energy, as far as they fit into the
 /// byte limit.
 inline constexpr double kMusicBefore_s = 35;
-inline constexpr double kMostMusicBytes = 12 << 20;
+inline constexpr double kMaxMusicBytes = 12 << 20;
 
 /// A dance whose first frame is at the beginning of the music.
 struct FinishedDance {

@@ -17,8 +17,8 @@
 namespace choreo::client {
 namespace {
 
-constexpr double kLongestBackoff = 2;        // seconds
-constexpr size_t kMostTokenBytes = 4 << 10;  // gRPC's headers have 8 KiB in all
+constexpr double kMaxBackoffSeconds = 2;    // seconds
+constexpr size_t kMaxTokenBytes = 4 << 10;  // gRPC's headers have 8 KiB in all
 
 /// Calls take turns at all addresses of a name. kTurnsAtServing skips those that report that they
 /// do not serve.
@@ -137,7 +137,7 @@ Replicas::Replicas(Options options) : options_(std::move(options)) {
 
 void Replicas::Prepare(grpc::ClientContext* context) const {
   if (options_.token_file.empty()) return;
-  std::string token = ReadSmallFile("token_file", options_.token_file, kMostTokenBytes);
+  std::string token = ReadSmallFile("token_file", options_.token_file, kMaxTokenBytes);
   while (!token.empty() && std::isspace(static_cast<unsigned char>(token.back()))) {
     token.pop_back();
   }
@@ -202,7 +202,7 @@ std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& 
   const bool useful = advice.here || (advice.elsewhere && refusals_ < servers_);
   const std::chrono::duration<double> spent = now - failing_since_;
   if (!useful || spent.count() >= retry_s_) return std::nullopt;
-  const double doubled = std::min(kLongestBackoff, first_backoff_s_ * std::exp2(failures_));
+  const double doubled = std::min(kMaxBackoffSeconds, first_backoff_s_ * std::exp2(failures_));
   ++failures_;
   // Clients that lost the same server should not all come back at once.
   const double spread = std::uniform_real_distribution<double>(0.5, 1.0)(jitter_);

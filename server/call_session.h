@@ -158,7 +158,7 @@ class CallSession : public Call {
     header->set_first_frame(first_frame);
     header->set_latency_frames(DanceStream::LatencyFrames(config, model));
     header->set_exact_resume(exact_resume);
-    header->set_free_transition_frames(kUsualFrames);
+    header->set_free_transition_frames(kTypicalFrames);
     header->set_server_version(CHOREO_VERSION);
     outbox_.Send(std::move(response));
   }

@@ -18,7 +18,7 @@ namespace {
 /// own HTTP server cannot run beside LibTorch, which needs larger thread stacks than that
 /// server's.)
 constexpr int kPatienceMs = 1'000;
-constexpr size_t kMostRequestBytes = 8 << 10;
+constexpr size_t kMaxRequestBytes = 8 << 10;
 
 /// Limits the total time of one connection, so that a slow client delays neither others nor a stop
 /// for longer.
@@ -42,7 +42,7 @@ std::string ReadRequest(int connection) {
   while (request.find("\r\n\r\n") == std::string::npos) {
     pollfd waited{.fd = connection, .events = POLLIN, .revents = 0};
     char bytes[1024];
-    if (request.size() > kMostRequestBytes || poll(&waited, 1, deadline.left_ms()) != 1) return "";
+    if (request.size() > kMaxRequestBytes || poll(&waited, 1, deadline.left_ms()) != 1) return "";
     const ssize_t count = recv(connection, bytes, sizeof bytes, 0);
     if (count <= 0) return "";
     request.append(bytes, static_cast<size_t>(count));

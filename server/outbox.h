@@ -21,13 +21,13 @@ namespace choreo {
 /// after Finish; workers keep this object alive, not the reactor.
 ///
 /// Back-pressure bounds the queue: beyond `max_bytes` the dance pauses, below half of it the dance
-/// resumes. Waiting frames are joined into larger messages. Beyond kMostWaiting times `max_bytes`
+/// resumes. Waiting frames are joined into larger messages. Beyond kMaxWaiting times `max_bytes`
 /// the client's messages are not read until it has taken answers. Thread-safe.
 template <class Response>
 class Outbox {
  public:
   /// Frames alone do not reach this, so a client may send everything before it reads anything.
-  static constexpr size_t kMostWaiting = 4;
+  static constexpr size_t kMaxWaiting = 4;
 
   /// The reactor's operations. Called with the lock held; must not call back.
   class Wire {
@@ -188,7 +188,7 @@ class Outbox {
 
   // Starts the next operations that are due. Requires the lock.
   void Advance() {
-    if (read_wanted_ && state_ == State::kOpen && bytes_ <= kMostWaiting * max_bytes_) {
+    if (read_wanted_ && state_ == State::kOpen && bytes_ <= kMaxWaiting * max_bytes_) {
       read_wanted_ = false;
       wire_->Read();
     }

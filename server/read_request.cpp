@@ -284,9 +284,9 @@ ControlRequest ToControls(const v1::Controls& controls, const std::string& field
 
 std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
                             const std::string& field) {
-  if (static_cast<size_t>(times.size()) > kMostBeats) {
+  if (static_cast<size_t>(times.size()) > kMaxBeats) {
     throw InvalidArgument(
-        field, std::to_string(times.size()) + " beats, the limit is " + std::to_string(kMostBeats));
+        field, std::to_string(times.size()) + " beats, the limit is " + std::to_string(kMaxBeats));
   }
   for (int i = 0; i < times.size(); ++i) {
     CheckBeat(times[i], kMaxAudioSeconds, At(field, i));

@@ -22,7 +22,7 @@ namespace choreo {
 namespace {
 
 // Unread answers per address; each takes tens of kilobytes until it is read.
-constexpr int kMostUnreadInfos = 64;
+constexpr int kMaxUnreadInfos = 64;
 
 void FillLimits(const CallLimits& of_calls, v1::Limits* limits) {
   const auto seconds = [](std::chrono::milliseconds time) {
@@ -53,7 +53,7 @@ class ChoreographyService::InfoReactor final : public grpc::ServerUnaryReactor {
   InfoReactor(ChoreographyService& service, std::string address)
       : service_(service), address_(std::move(address)) {
     const std::lock_guard lock(service_.mutex_);
-    within_ = ++service_.unread_infos_[address_] <= kMostUnreadInfos;
+    within_ = ++service_.unread_infos_[address_] <= kMaxUnreadInfos;
   }
   bool within() const { return within_; }
   void OnDone() override {
@@ -86,7 +86,7 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
   } else if (!reactor->within()) {
     refusal = Refusal::kUnreadInfos;
     status = ToStatus(Refused(
-        *refusal, std::to_string(kMostUnreadInfos) +
+        *refusal, std::to_string(kMaxUnreadInfos) +
                       " answers wait for your address to read them, the most there may be"));
   }
   if (status.ok()) Describe(response);

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kMostMessageBytes = 600;  // of a message
+constexpr size_t kMaxStatusBytes = 600;  // of a message
 
 struct Mapping {
   grpc::StatusCode code;
@@ -59,11 +59,11 @@ std::string OneShortLine(std::string_view text) {
       line += {'\\', 'x', kDigits[(c >> 4) & 15], kDigits[c & 15]};
     }
   }
-  if (line.size() <= kMostMessageBytes) return line;
+  if (line.size() <= kMaxStatusBytes) return line;
   const auto inside = [&line](size_t at) {  // inside a multi-byte character
     return (static_cast<unsigned char>(line[at]) & 0xc0) == 0x80;
   };
-  size_t head = 2 * kMostMessageBytes / 3, tail = line.size() - kMostMessageBytes / 3;
+  size_t head = 2 * kMaxStatusBytes / 3, tail = line.size() - kMaxStatusBytes / 3;
   while (inside(head)) --head;
   while (inside(tail)) ++tail;
   return line.substr(0, head) + "..." + line.substr(tail);

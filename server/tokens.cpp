@@ -15,8 +15,8 @@ namespace choreo {
 namespace {
 
 /// A longer file cannot be a token file.
-constexpr size_t kMostTokensBytes = 1 << 20;
-constexpr size_t kMostOfLines = 60;  // characters of a list of line numbers
+constexpr size_t kMaxTokensBytes = 1 << 20;
+constexpr size_t kMaxLinesLength = 60;  // characters of a list of line numbers
 
 // Schemes ignore case (RFC 7235).
 bool IsBearer(std::string_view scheme) {
@@ -40,7 +40,7 @@ Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
   Replace(std::move(content.holders));
 }
 
-std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMostTokensBytes); }
+std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMaxTokensBytes); }
 
 Tokens::Content Tokens::Parse(const std::string& text) {
   Content content;
@@ -58,7 +58,7 @@ Tokens::Content Tokens::Parse(const std::string& text) {
     }
     if (good && words >> holder.name) {
       content.holders.push_back(std::move(holder));
-    } else if (content.bad_lines.size() < kMostOfLines) {
+    } else if (content.bad_lines.size() < kMaxLinesLength) {
       content.bad_lines += (content.bad_lines.empty() ? "" : ", ") + std::to_string(number);
     }
   }

@@ -14,7 +14,7 @@
 namespace choreo::studio {
 namespace {
 
-constexpr size_t kMostDances = 8;  // simultaneous, per page
+constexpr size_t kMaxDances = 8;  // simultaneous, per page
 
 }  // namespace
 
@@ -101,9 +101,9 @@ void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& 
 }
 
 void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
-  if (dances_.size() >= kMostDances)
+  if (dances_.size() >= kMaxDances)
     throw Error(ErrorCode::kResourceExhausted, "dance",
-                std::to_string(kMostDances) + " are in progress, the most");
+                std::to_string(kMaxDances) + " are in progress, the most");
   client::DanceConfig config = FromProto(request, context_.model().skeleton);
   // A dance to live music does not use the song.
   const bool is_live = config.audio.kind != client::AudioKind::kNone;

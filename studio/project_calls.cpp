@@ -25,7 +25,7 @@ using nlohmann::json;
 
 constexpr const char* kName = "project";  // the name of input in errors
 constexpr int kAtOnce = 2;
-constexpr int kMostAsked = 4;  // requests running or waiting
+constexpr int kMaxAsked = 4;  // requests running or waiting
 
 std::string FromBase64(const std::string& text, const std::string& field) {
   std::string out(text.size(), '\0');
@@ -122,8 +122,8 @@ ProjectCalls::Reply ProjectCalls::Model() const {
 }
 
 void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
-  if (asked_ >= kMostAsked) {
-    return answer(Refuse(503, std::to_string(kMostAsked) +
+  if (asked_ >= kMaxAsked) {
+    return answer(Refuse(503, std::to_string(kMaxAsked) +
                                   " dances are asked for already, the most; ask again later"));
   }
   ++asked_;

@@ -6,7 +6,7 @@ namespace choreo::studio {
 namespace {
 
 namespace beast = boost::beast;
-constexpr size_t kLargestMessage = size_t{256} << 20;  // enough for a song
+constexpr size_t kMaxMessageBytes = size_t{256} << 20;  // enough for a song
 
 }  // namespace
 
@@ -17,7 +17,7 @@ Socket::Socket(beast::tcp_stream stream, const StudioContext& context,
 void Socket::Start(const beast::http::request<beast::http::string_body>& request) {
   beast::get_lowest_layer(stream_).expires_never();
   stream_.set_option(beast::websocket::stream_base::timeout::suggested(beast::role_type::server));
-  stream_.read_message_max(kLargestMessage);
+  stream_.read_message_max(kMaxMessageBytes);
   stream_.binary(true);
   stream_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;

@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kSuggestedEvery = 2.4;  // seconds, approximately
 constexpr double kPeaksPerSecond = 40;
-constexpr int64_t kMostPeaks = 12000;
+constexpr int64_t kMaxPeaks = 12000;
 
 /// Peak amplitudes of equal pieces.
 std::vector<float> Peaks(const DecodedAudio& audio) {
   const int64_t samples = audio.samples();
   const int64_t count = std::clamp<int64_t>(std::llround(audio.seconds() * kPeaksPerSecond), 1,
-                                            std::min(kMostPeaks, samples));
+                                            std::min(kMaxPeaks, samples));
   std::vector<float> peaks(static_cast<size_t>(count));
   for (int64_t i = 0; i < count; ++i) {
     const float* first =
@@ -32,9 +32,9 @@ std::vector<float> Peaks(const DecodedAudio& audio) {
 /// How many keys fit between the beats.
 int64_t Room(const std::vector<double>& beats) {
   int64_t count = 0;
-  double last = -kShortestKeyInterval;
+  double last = -kMinKeyInterval;
   for (const double beat : beats) {
-    if (beat - last < kShortestKeyInterval) continue;
+    if (beat - last < kMinKeyInterval) continue;
     last = beat;
     ++count;
   }

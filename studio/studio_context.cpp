@@ -44,20 +44,20 @@ JointTurn TurnOf(const Skeleton& skeleton, int joint) {
 
 Limits LimitsOf(double song_s) {
   Limits limits;
-  limits.set_dance_s(authoring::kLongestDance);
+  limits.set_dance_s(authoring::kMaxDanceSeconds);
   limits.set_song_s(song_s);
-  limits.set_beats_in_bar(authoring::kMostInBar);
+  limits.set_beats_in_bar(authoring::kMaxBeatsInBar);
   limits.set_velocity_factor(kMaxVelocityFactor);
-  limits.set_hit(kMostHit);
+  limits.set_hit(kMaxHit);
   limits.set_key_distance(kMinKeyDistance);
   limits.set_hold_step_s(authoring::kHoldStep);
-  limits.set_hold_s(authoring::kLongestHold);
+  limits.set_hold_s(authoring::kMaxHoldSeconds);
   limits.set_position_m(kMaxPosition);
-  limits.set_dancers(authoring::kMostDancers);
-  limits.set_stage_m(authoring::kLargestStage);
+  limits.set_dancers(authoring::kMaxDancers);
+  limits.set_stage_m(authoring::kMaxStageRadius);
   limits.set_usual_apart_m(authoring::kUsuallyApart);
-  limits.set_usual_music_dynamics(kUsualDynamics);
-  limits.set_usual_variation(kUsualVariation);
+  limits.set_usual_music_dynamics(kDefaultDynamics);
+  limits.set_usual_variation(kDefaultVariation);
   return limits;
 }
 

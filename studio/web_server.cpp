@@ -22,8 +22,8 @@ using tcp = boost::asio::ip::tcp;
 
 constexpr int kLeaveAtOnce = 4;  // closing pages that are handled concurrently
 constexpr std::chrono::milliseconds kAskEvery{100};
-constexpr std::chrono::seconds kPatience{30};      // for a request
-constexpr size_t kLargestBody = size_t{64} << 20;  // for a project with its song
+constexpr std::chrono::seconds kPatience{30};       // for a request
+constexpr size_t kMaxBodyBytes = size_t{64} << 20;  // for a project with its song
 constexpr const char* kSocketPath = "/studio";
 constexpr std::string_view kPhotoPath = "/photo/";
 // Browsers enforce this, whatever the page loads.
@@ -69,7 +69,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void Read() {
     parser_.emplace();
-    parser_->body_limit(kLargestBody);
+    parser_->body_limit(kMaxBodyBytes);
     stream_.expires_after(kPatience);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](beast::error_code error, size_t) {
@@ -144,8 +144,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void RefuseBody() {
     request_ = {};
     request_.keep_alive(false);
-    Say(ProjectCalls::Refuse(413,
-                             "project: is larger than " + std::to_string(kLargestBody) + " bytes"));
+    Say(ProjectCalls::Refuse(
+        413, "project: is larger than " + std::to_string(kMaxBodyBytes) + " bytes"));
   }
 
   void Say(const ProjectCalls::Reply& reply) {

@@ -16,7 +16,7 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kMostPemBytes = 1 << 20;
+constexpr size_t kMaxPemBytes = 1 << 20;
 
 using Bio = std::unique_ptr<BIO, decltype(&BIO_free)>;
 using X509Pointer = std::unique_ptr<X509, decltype(&X509_free)>;
@@ -116,7 +116,7 @@ std::string ReadSmallFile(const std::string& field, const std::filesystem::path&
 }
 
 std::string ReadCertificates(const std::string& field, const std::filesystem::path& path) {
-  std::string text = ReadSmallFile(field, path, kMostPemBytes);
+  std::string text = ReadSmallFile(field, path, kMaxPemBytes);
   if (text.empty()) throw Unusable(field, path, "is empty");
   const Bio reader = Reader(text);
   int count = 0;
@@ -139,7 +139,7 @@ KeyPair ReadKeyPair(const std::string& certificate_field,
                     const std::filesystem::path& certificate_path, const std::string& key_field,
                     const std::filesystem::path& key_path) {
   KeyPair pair{.certificates = ReadCertificates(certificate_field, certificate_path),
-               .key = ReadSmallFile(key_field, key_path, kMostPemBytes)};
+               .key = ReadSmallFile(key_field, key_path, kMaxPemBytes)};
   const KeyPointer key = ParseKey(key_field, key_path, pair.key);
   const X509Pointer first = FirstOf(pair.certificates);
   if (X509_check_private_key(first.get(), key.get()) != 1) {

@@ -12,7 +12,7 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kLeastPeriod = 1.6;    // seconds, of the count that keys keep
+constexpr double kMinPeriod = 1.6;      // seconds, of the count that keys keep
 constexpr double kPlainInterval = 2.0;  // without beats
 constexpr double kWalkingSpeed = 0.28;  // metres a second, at most
 constexpr double kTurningSpeed = 0.35;  // radians a second, at most
@@ -45,14 +45,14 @@ std::vector<double> KeyTimes(const CompositionRequest& request) {
   while (counts.back() + period < seconds) counts.push_back(counts.back() + period);
 
   size_t stride = 1;
-  while (period * static_cast<double>(stride) < kLeastPeriod) stride *= 2;
+  while (period * static_cast<double>(stride) < kMinPeriod) stride *= 2;
   std::vector<double> times = {0};
   for (size_t i = 0; i < counts.size(); i += stride) {
     // Drops counts that an unsteady tempo brings too close, and those after the last frame.
-    if (counts[i] - times.back() >= kShortestKeyInterval && counts[i] <= seconds - 1 / kModelFps)
+    if (counts[i] - times.back() >= kMinKeyInterval && counts[i] <= seconds - 1 / kModelFps)
       times.push_back(counts[i]);
   }
-  if (end && *end - times.back() >= kShortestKeyInterval) times.push_back(*end);
+  if (end && *end - times.back() >= kMinKeyInterval) times.push_back(*end);
   if (end && times.size() > 1) times.back() = *end;  // if the count came near
   return times;
 }
@@ -107,7 +107,7 @@ class Deck {
       if (time < passage.from || time >= passage.to) continue;
       const double then = time - passage.from + passage.like;
       for (const Drawn& key : drawn_) {
-        if (std::abs(key.time - then) < kShortestKeyInterval / 2) return key.pose;
+        if (std::abs(key.time - then) < kMinKeyInterval / 2) return key.pose;
       }
     }
     return std::nullopt;

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMostApart = 10;  // metres
+constexpr double kMaxApart = 10;   // metres
 constexpr double kFullTurn = 360;  // degrees
 
 double NumberIn(const json& value, const std::string& field, double low, double high) {
@@ -40,8 +40,8 @@ std::string IdOf(const json& value, const std::string& field) {
 Eigen::Vector2d PlaceOf(const json& value, const std::string& field) {
   if (!value.is_array() || value.size() != 2)
     throw InvalidArgument(field, Shown(value) + " is no place: [x, z] in metres");
-  return {NumberIn(value[0], field + "[0]", -kLargestStage, kLargestStage),
-          NumberIn(value[1], field + "[1]", -kLargestStage, kLargestStage)};
+  return {NumberIn(value[0], field + "[0]", -kMaxStageRadius, kMaxStageRadius),
+          NumberIn(value[1], field + "[1]", -kMaxStageRadius, kMaxStageRadius)};
 }
 
 std::vector<std::string> Keyframes(const json& value, const std::string& field,
@@ -103,12 +103,12 @@ Dancers ParseDancers(const std::string& text, const std::string& name,
     CheckFileMembers(file, name, {"dancers", "apart", "about"},
                      "a file of dancers has dancers, and perhaps apart and about");
   }
-  if (list.size() > kMostDancers) {
+  if (list.size() > kMaxDancers) {
     throw InvalidArgument(name + ":dancers", "are " + std::to_string(list.size()) +
-                                                 ", must be up to " + std::to_string(kMostDancers));
+                                                 ", must be up to " + std::to_string(kMaxDancers));
   }
   Dancers read{.dancers = {}, .apart = kUsuallyApart};
-  if (file.contains("apart")) read.apart = NumberIn(file["apart"], name + ":apart", 0, kMostApart);
+  if (file.contains("apart")) read.apart = NumberIn(file["apart"], name + ":apart", 0, kMaxApart);
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string field = name + ":dancers[" + std::to_string(i) + "]";
     const Dancer& dancer = read.dancers.emplace_back(ReadDancer(list[i], field, i + 1, folder));

@@ -11,9 +11,9 @@
 
 namespace choreo::authoring {
 
-inline constexpr int kMostDancers = 64;
-inline constexpr double kLargestStage = 1000;  ///< metres from its middle along x and z
-inline constexpr double kUsuallyApart = 0.2;   ///< metres: dancers do not brush against each other
+inline constexpr int kMaxDancers = 64;
+inline constexpr double kMaxStageRadius = 1000;  ///< metres from its middle along x and z
+inline constexpr double kUsuallyApart = 0.2;  ///< metres: dancers do not brush against each other
 
 /// One of several dancers. Members left open have the common value.
 struct Dancer {

@@ -19,7 +19,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr size_t kLongestShown = 40;  // characters of a value
+constexpr size_t kMaxShownLength = 40;  // characters of a value
 
 /// The position of the parser in a text.
 class Place {
@@ -87,7 +87,7 @@ std::string WordAt(std::string_view text, size_t byte) {
   const auto end = std::find_if(at, text.end(), is_other);
   const auto begin = std::find_if(std::reverse_iterator(at), text.rend(), is_other).base();
   if (at == end) return "";
-  return ", \"" + std::string(begin, end).substr(0, kLongestShown) + '"';
+  return ", \"" + std::string(begin, end).substr(0, kMaxShownLength) + '"';
 }
 
 void RefuseOthers(const json& object, const std::string& prefix,
@@ -102,7 +102,7 @@ void RefuseOthers(const json& object, const std::string& prefix,
 
 std::string Shown(const json& value) {
   std::string text = value.dump();
-  if (text.size() > kLongestShown) text = text.substr(0, kLongestShown - 3) + "...";
+  if (text.size() > kMaxShownLength) text = text.substr(0, kMaxShownLength - 3) + "...";
   return text;
 }
 
@@ -129,9 +129,9 @@ std::string ReadText(const std::filesystem::path& path, const std::string& kind)
   do {
     file.read(piece.data(), piece.size());
     text.append(piece.data(), static_cast<size_t>(file.gcount()));
-    if (text.size() > kMostText) {
+    if (text.size() > kMaxTextBytes) {
       throw InvalidArgument(path.string(),
-                            "is larger than " + std::to_string(kMostText >> 20) + " MiB");
+                            "is larger than " + std::to_string(kMaxTextBytes >> 20) + " MiB");
     }
   } while (file);
   return text;
@@ -203,9 +203,9 @@ Moment ParseMoment(const json& value, const std::string& field) {
 }
 
 void CheckInADance(double seconds, const std::string& field) {
-  if (seconds <= kLongestDance) return;
+  if (seconds <= kMaxDanceSeconds) return;
   std::ostringstream message;
-  message << seconds << " s is beyond " << kLongestDance << " s, the longest dance";
+  message << seconds << " s is beyond " << kMaxDanceSeconds << " s, the longest dance";
   throw InvalidArgument(field, message.str());
 }
 

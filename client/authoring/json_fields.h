@@ -26,7 +26,7 @@ bool IsFrameNumber(const Json& value) {
 /// After the end of any dance, and far below the limits of frame numbers.
 inline constexpr double kMaxSeconds = 1e9;
 /// Seconds of the longest dance.
-inline constexpr double kLongestDance = kMaxDanceFrames / kModelFps;
+inline constexpr double kMaxDanceSeconds = kMaxDanceFrames / kModelFps;
 /// Throws Error(kInvalidArgument) with this field for seconds beyond it.
 void CheckInADance(double seconds, const std::string& field);
 
@@ -38,10 +38,10 @@ double JsonNumber(const nlohmann::json& value, const std::string& field);
 HandPose JsonHands(const nlohmann::json& value, const std::string& field);
 
 /// More bytes than people write.
-inline constexpr size_t kMostText = size_t{64} << 20;
+inline constexpr size_t kMaxTextBytes = size_t{64} << 20;
 
 /// The text of a file. Throws Error(kNotFound) if it cannot be opened; `kind` is the expected one,
-/// "key file". Error(kInvalidArgument) for a folder, and for more than kMostText.
+/// "key file". Error(kInvalidArgument) for a folder, and for more than kMaxTextBytes.
 std::string ReadText(const std::filesystem::path& path, const std::string& kind);
 
 /// Parses JSON. For invalid JSON and duplicate members the field says how far the text was

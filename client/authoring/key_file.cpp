@@ -23,9 +23,9 @@ namespace {
 using client::KeyPose;
 using nlohmann::json;
 
-constexpr double kShortestHold = 0.1;  // seconds
+constexpr double kMinHoldSeconds = 0.1;  // seconds
 constexpr const char* kHold = ".hold";
-constexpr size_t kMostNamed = 8;  // keys named in a message
+constexpr size_t kMaxNamed = 8;  // keys named in a message
 
 /// Whether `joints` gives degrees, not only names.
 bool HasDegrees(const json& value) {
@@ -65,10 +65,10 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
   }
   if (value.contains("hit")) {
     key.hit = JsonNumber(value["hit"], field + ".hit");
-    if (!(*key.hit >= 0 && *key.hit <= kMostHit)) {
+    if (!(*key.hit >= 0 && *key.hit <= kMaxHit)) {
       throw InvalidArgument(field + ".hit", Shown(value["hit"]) +
                                                 " is not a number from 0 (gently) to " +
-                                                InFull(kMostHit) + " (late and fast)");
+                                                InFull(kMaxHit) + " (late and fast)");
     }
   }
   if (value.contains("hands")) key.hands = JsonHands(value["hands"], field + ".hands");
@@ -123,12 +123,12 @@ void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose
   size_t from = 0, named = 0;
   std::string ids;
   for (; from < keys->size() && (IsHeld((*places)[from]) || (*keys)[from].id != id); ++from) {
-    if (IsHeld((*places)[from]) || ++named > kMostNamed) continue;
+    if (IsHeld((*places)[from]) || ++named > kMaxNamed) continue;
     ids += (ids.empty() ? "\"" : ", \"") + (*keys)[from].id + '"';
   }
   if (from == keys->size()) {
     throw InvalidArgument(
-        file, "has no key \"" + id + "\"; it has " + ids + (named > kMostNamed ? " ..." : ""));
+        file, "has no key \"" + id + "\"; it has " + ids + (named > kMaxNamed ? " ..." : ""));
   }
   size_t end = from + 1;
   while (end < keys->size() && IsHeld((*places)[end])) ++end;
@@ -141,9 +141,9 @@ void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose
 }  // namespace
 
 std::vector<KeyPose> Holding(const KeyPose& key, double seconds, const std::string& field) {
-  if (!(seconds >= kShortestHold && seconds <= kLongestHold)) {
+  if (!(seconds >= kMinHoldSeconds && seconds <= kMaxHoldSeconds)) {
     std::ostringstream message;
-    message << seconds << " s, must be " << kShortestHold << " to " << kLongestHold;
+    message << seconds << " s, must be " << kMinHoldSeconds << " to " << kMaxHoldSeconds;
     throw InvalidArgument(field, message.str());
   }
   const int steps = std::max(1, static_cast<int>(std::floor(seconds / kHoldStep + 1e-9)));

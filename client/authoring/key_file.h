@@ -13,7 +13,7 @@ namespace choreo::authoring {
 /// Seconds between the keys that hold a pose, at least: between nearer ones arms and legs tremble,
 /// between farther ones they wander.
 inline constexpr double kHoldStep = 0.2;
-inline constexpr double kLongestHold = 60;  ///< seconds
+inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
 
 /// A key file, JSON, as in docs/poses.md. Ignores unknown members of the outermost object, so that
 /// files may describe themselves; within a key they are errors.

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMostTurn = 360;  // degrees
+constexpr double kMaxTurn = 360;  // degrees
 
 std::vector<double> NumbersOf(const json& value, const std::string& field) {
   if (!value.is_array()) return {JsonNumber(value, field)};
@@ -77,10 +77,9 @@ client::KeyPose ReadNamedPose(const json& value, const std::string& field,
   GroundFrame place;
   if (value.contains("facing")) {
     const double degrees = JsonNumber(value["facing"], field + ".facing");
-    if (!(std::abs(degrees) <= kMostTurn)) {
+    if (!(std::abs(degrees) <= kMaxTurn)) {
       throw InvalidArgument(field + ".facing", Shown(value["facing"]) + " degrees, must be " +
-                                                   Rounded(-kMostTurn) + " to " +
-                                                   Rounded(kMostTurn));
+                                                   Rounded(-kMaxTurn) + " to " + Rounded(kMaxTurn));
     }
     place.heading = degrees / kDegrees;
   }

@@ -16,12 +16,12 @@ namespace choreo::authoring {
 namespace {
 
 constexpr double kTempoSlack = 1.06;  // either way: a semitone
-constexpr double kMostSeconds = 1e6;  // of a song, of which the dance may use only a part
-constexpr std::streamsize kLongestLine = 1000;
+constexpr double kMaxSongSeconds = 1e6;  // of a song, of which the dance may use only a part
+constexpr std::streamsize kMaxLineLength = 1000;
 
 /// Counts from beat `first` on, and backwards before it.
 void CountFrom(int64_t first, BeatTrack* track) {
-  const int bar = track->beats_in_bar > 0 ? track->beats_in_bar : kUsualBar;
+  const int bar = track->beats_in_bar > 0 ? track->beats_in_bar : kDefaultBar;
   track->beats_in_bar = bar;
   track->in_bar.resize(track->frames.size());
   for (size_t i = 0; i < track->frames.size(); ++i) {
@@ -66,14 +66,15 @@ BeatLine ParseBeat(const std::string& line, const std::string& field) {
     return error == std::errc() && at == end;
   };
   if (!rest.empty() || !read(second, &beat.second) || !(beat.second >= 0) ||
-      beat.second > kMostSeconds) {
+      beat.second > kMaxSongSeconds) {
     throw InvalidArgument(field, '"' + Printable(line) +
                                      "\" is no beat: a second of the song, as in 12.5, and, where "
                                      "it is known, its count in the bar");
   }
-  if (!count.empty() && (!read(count, &beat.count) || beat.count < 1 || beat.count > kMostInBar)) {
+  if (!count.empty() &&
+      (!read(count, &beat.count) || beat.count < 1 || beat.count > kMaxBeatsInBar)) {
     throw InvalidArgument(field, '"' + Printable(count) + "\" is no count in a bar, must be 1 to " +
-                                     std::to_string(kMostInBar));
+                                     std::to_string(kMaxBeatsInBar));
   }
   return beat;
 }
@@ -85,8 +86,8 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   BeatTrack track;
   double last = -1;
   bool counted = true;
-  std::string line(kLongestLine, '\0');
-  for (int number = 1; file.getline(line.data(), kLongestLine) || file.gcount() > 0; ++number) {
+  std::string line(kMaxLineLength, '\0');
+  for (int number = 1; file.getline(line.data(), kMaxLineLength) || file.gcount() > 0; ++number) {
     const std::string field = path + ":" + std::to_string(number);
     if (file.fail()) throw InvalidArgument(field, "is no line of a beat: it is too long");
     std::string text = line.c_str();
@@ -99,9 +100,9 @@ BeatTrack ReadBeats(const std::string& path, double start) {
                                        "it, at " + InFull(last) + " s");
     }
     last = beat.second;
-    if (track.frames.size() >= kMostBeats)
-      throw InvalidArgument(field, "is beat " + std::to_string(kMostBeats + 1) + ", the limit is " +
-                                       std::to_string(kMostBeats));
+    if (track.frames.size() >= kMaxBeats)
+      throw InvalidArgument(field, "is beat " + std::to_string(kMaxBeats + 1) + ", the limit is " +
+                                       std::to_string(kMaxBeats));
     if (beat.second < start) continue;
     track.frames.push_back(std::llround((beat.second - start) * kOnsetRate));
     track.in_bar.push_back(beat.count - 1);
@@ -191,9 +192,9 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
 }
 
 void CheckBeats(std::span<const double> beats, const std::string& field) {
-  if (beats.size() > kMostBeats) {
+  if (beats.size() > kMaxBeats) {
     throw InvalidArgument(
-        field, std::to_string(beats.size()) + " beats, the limit is " + std::to_string(kMostBeats));
+        field, std::to_string(beats.size()) + " beats, the limit is " + std::to_string(kMaxBeats));
   }
   for (size_t i = 0; i < beats.size(); ++i) {
     const std::string at = field + "[" + std::to_string(i) + "]";

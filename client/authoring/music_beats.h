@@ -8,8 +8,8 @@
 
 namespace choreo::authoring {
 
-inline constexpr int kMostInBar = 16;  ///< that people count to
-inline constexpr int kUsualBar = 4;    ///< beats, where nobody says how many
+inline constexpr int kMaxBeatsInBar = 16;  ///< that people count to
+inline constexpr int kDefaultBar = 4;      ///< beats, where nobody says how many
 
 /// Options that override the beat tracker.
 struct BeatOptions {

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kFarthest = 10;          // metres from the hips to a landmark
+constexpr double kMaxDistance = 10;       // metres from the hips to a landmark
 constexpr double kNearlyRotation = 0.05;  // of a matrix's rows
 
 double Within(const json& value, const std::string& field, double from, double to) {
@@ -148,7 +148,7 @@ Pose ParseLandmarkPose(std::string_view text, const std::string& name, const Ske
       const std::string member(1, "xyz"[axis]);
       if (!list[i].contains(member)) throw InvalidArgument(field + "." + member, "is missing");
       places(axis, static_cast<Eigen::Index>(i)) =
-          Within(list[i][member], field + "." + member, -kFarthest, kFarthest);
+          Within(list[i][member], field + "." + member, -kMaxDistance, kMaxDistance);
     }
     if (list[i].contains("visibility"))
       visibilities[i] = Within(list[i]["visibility"], field + ".visibility", 0, 1);

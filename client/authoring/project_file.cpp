@@ -33,7 +33,8 @@ std::optional<double> Share(const json& file, const std::string& name, const cha
 }
 
 bool IsCount(const json& value) {
-  return IsFrameNumber(value) && value.get<uint64_t>() >= 1 && value.get<uint64_t>() <= kMostInBar;
+  return IsFrameNumber(value) && value.get<uint64_t>() >= 1 &&
+         value.get<uint64_t>() <= kMaxBeatsInBar;
 }
 
 /// Takes [[0.52, 1], [1.02, 2], ...]: seconds and counts, which go on over several bars.
@@ -44,7 +45,7 @@ void TakeBeats(const json& list, int bar, const std::string& field, Project* pro
     const std::string at = field + "[" + std::to_string(out.size()) + "]";
     if (!beat.is_array() || beat.size() != 2 || !IsCount(beat[1])) {
       throw InvalidArgument(at, Shown(beat) + " is no beat: its second and its count, 1 to " +
-                                    std::to_string(kMostInBar) + ", as in [12.5, 1]");
+                                    std::to_string(kMaxBeatsInBar) + ", as in [12.5, 1]");
     }
     out.push_back(JsonNumber(beat[0], at));
     if ((beat[1].get<int>() - 1) % bar == 0) project->downbeats.push_back(out.back());
@@ -85,10 +86,10 @@ void CheckMarkers(const json& list, const std::string& field) {
       if (!list[i].contains(member)) throw InvalidArgument(at + "." + member, "is missing");
     if (Text(list[i], at, "name").empty()) throw InvalidArgument(at + ".name", "is empty");
     const double time = JsonNumber(list[i]["time"], at + ".time");
-    if (!(time > before && time <= kLongestDance)) {
+    if (!(time > before && time <= kMaxDanceSeconds)) {
       throw InvalidArgument(at + ".time", Shown(list[i]["time"]) +
                                               " is not above the one before it and up to " +
-                                              InFull(kLongestDance));
+                                              InFull(kMaxDanceSeconds));
     }
     before = time;
   }
@@ -120,9 +121,9 @@ Project ParseProject(const json& file, const std::string& name) {
   project.variation = Share(file, name, "variation");
   if (file.contains("seconds")) {
     project.seconds = JsonNumber(file["seconds"], name + ":seconds");
-    if (!(*project.seconds > 0 && *project.seconds <= kLongestDance)) {
+    if (!(*project.seconds > 0 && *project.seconds <= kMaxDanceSeconds)) {
       std::ostringstream message;
-      message << Shown(file["seconds"]) << " is not above 0 and up to " << kLongestDance;
+      message << Shown(file["seconds"]) << " is not above 0 and up to " << kMaxDanceSeconds;
       throw InvalidArgument(name + ":seconds", message.str());
     }
   }
@@ -133,7 +134,7 @@ Project ParseProject(const json& file, const std::string& name) {
   }
   if (file.contains("bar") && !IsCount(file["bar"])) {
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
-                                             std::to_string(kMostInBar));
+                                             std::to_string(kMaxBeatsInBar));
   }
   if (file.contains("beats"))
     TakeBeats(file["beats"], file.value("bar", kUsualBar), name + ":beats", &project);

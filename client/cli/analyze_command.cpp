@@ -104,16 +104,17 @@ void PrintJson(const authoring::Music& music, const std::optional<std::vector<Pr
 /// Prints where the tempo changes, and the confidence of each stretch.
 void PrintStretches(const BeatTrack& track) {
   constexpr double kOther = 0.04;  // share by which another tempo differs
-  constexpr size_t kFewest = 8;    // beats of a stretch
+  constexpr size_t kMinBeats = 8;  // beats of a stretch
   const std::vector<double> beats = track.Seconds();
   std::vector<size_t> begins{0};
-  for (size_t i = kFewest; i + kFewest < beats.size(); ++i) {
+  for (size_t i = kMinBeats; i + kMinBeats < beats.size(); ++i) {
     const auto tempo = [&](size_t from, size_t to) {
       return TempoOf(std::span(beats).subspan(from, to - from));
     };
-    const double before = tempo(std::max(begins.back(), i - kFewest), i + 1);
-    const double after = tempo(i, i + kFewest + 1);
-    if (std::abs(after / before - 1) > kOther && i - begins.back() >= kFewest) begins.push_back(i);
+    const double before = tempo(std::max(begins.back(), i - kMinBeats), i + 1);
+    const double after = tempo(i, i + kMinBeats + 1);
+    if (std::abs(after / before - 1) > kOther && i - begins.back() >= kMinBeats)
+      begins.push_back(i);
   }
   if (beats.size() < 2 || begins.size() < 2) return;
   for (size_t k = 0; k < begins.size(); ++k) {

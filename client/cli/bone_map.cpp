@@ -63,9 +63,8 @@ void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem:
   WriteFile(json_path, map.dump(2) + "\n");
 
   // How many unassigned joints fit beside the assigned ones, which are always drawn.
-  size_t room =
-      kMostChartBones - static_cast<size_t>(std::ranges::count_if(
-                            means, [](const std::string& bone) { return !bone.empty(); }));
+  size_t room = kMaxChartBones - static_cast<size_t>(std::ranges::count_if(
+                                     means, [](const std::string& bone) { return !bone.empty(); }));
   std::vector<ChartBone> chart;
   std::vector<int> index(names.size(), -1);
   for (size_t node = 0; node < names.size(); ++node) {

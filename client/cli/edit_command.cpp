@@ -18,7 +18,7 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kMostStretch = 4;
+constexpr double kMaxStretch = 4;
 
 bool EditsKeys(const EditOptions& options) {
   return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
@@ -52,10 +52,10 @@ void CheckReported(const EditOptions& options) {
   for (const auto& [from_s, until_s, times] : options.stretches) {
     CheckTime("--stretch", from_s);
     CheckTime("--stretch", until_s);
-    if (!(times >= 1 / kMostStretch && times <= kMostStretch) || times == 1) {
+    if (!(times >= 1 / kMaxStretch && times <= kMaxStretch) || times == 1) {
       throw InvalidArgument("--stretch", InFull(times) + " times, must be " +
-                                             InFull(1 / kMostStretch) + " to " +
-                                             InFull(kMostStretch) + ", and not 1");
+                                             InFull(1 / kMaxStretch) + " to " +
+                                             InFull(kMaxStretch) + ", and not 1");
     }
   }
 }

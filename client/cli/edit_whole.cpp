@@ -16,7 +16,7 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kUsualGap = 1;  // seconds
+constexpr double kDefaultGapSeconds = 1;  // seconds
 
 /// The first frame at or after this second.
 int64_t FrameAt(double seconds, double fps) {
@@ -141,7 +141,7 @@ class Whole {
       throw InvalidArgument(path_, "is of the skeleton " + skeleton_.Describe() + ", the model \"" +
                                        how.model.name + "\" of " + how.model.skeleton.Describe());
     }
-    const double gap_s = options_.gap_s.value_or(kUsualGap);
+    const double gap_s = options_.gap_s.value_or(kDefaultGapSeconds);
     const int64_t gap = std::llround(gap_s * how.model.fps);
     const int64_t most = how.model.max_transition_frames;
     if (gap < kMinKeyDistance || gap > most) {

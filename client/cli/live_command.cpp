@@ -203,13 +203,13 @@ void AddLiveCommand(CLI::App& program) {
   command
       ->add_option("--ahead", options->ahead_s,
                    "Seconds from asking for a pose to the first beat that it may stand on.")
-      ->check(NumberFrom(0.2, live::kMostAheadSeconds))
+      ->check(NumberFrom(0.2, live::kMaxAheadSeconds))
       ->capture_default_str();
   command
       ->add_option("--look-ahead", options->look_ahead_s,
                    "Seconds ahead of the music that are settled: poses can't be asked for or taken "
                    "back there.")
-      ->check(NumberFrom(0, live::kMostAheadSeconds))
+      ->check(NumberFrom(0, live::kMaxAheadSeconds))
       ->capture_default_str();
   command->add_option("-s,--seconds", options->seconds, "Of music, at most.")->check(AboveZero());
   AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");

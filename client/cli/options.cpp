@@ -83,7 +83,7 @@ void AddMusicDynamics(CLI::App& command, std::optional<double>& share) {
   command
       .add_option("--music-dynamics", share,
                   "How much the music's energy is that of the dance, 0 (none) to 1; default: " +
-                      Rounded(kUsualDynamics) + ".")
+                      Rounded(kDefaultDynamics) + ".")
       ->check(NumberFrom(0, 1));
 }
 
@@ -92,7 +92,7 @@ void AddVariation(CLI::App& command, std::optional<double>& variation) {
       .add_option("--variation", variation,
                   "How much the dance to a passage of the music that comes back differs from what "
                   "was danced to it before, 0 (hardly) to 1 (altogether); default: " +
-                      Rounded(kUsualVariation) + ".")
+                      Rounded(kDefaultVariation) + ".")
       ->check(NumberFrom(0, 1));
 }
 
@@ -105,10 +105,10 @@ void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
 void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose) {
   command
       .add_option("--hit", hit,
-                  "How hard " + whose + " hit, 0 (gently) to " + Rounded(kMostHit) +
+                  "How hard " + whose + " hit, 0 (gently) to " + Rounded(kMaxHit) +
                       " (late and fast), to rest there. Default: danced through, or as a key file "
                       "says.")
-      ->check(NumberFrom(0, kMostHit));
+      ->check(NumberFrom(0, kMaxHit));
 }
 
 void AddHands(CLI::App& command, std::string& hands, const std::string& what) {

@@ -249,10 +249,10 @@ void AddPlotCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   command->add_option("--title", options->plot.title, "Heading.");
   command->add_option("--width", options->plot.width, "Pixels.")
-      ->check(WholeNumberFrom(kLeastPlotPixels, kMostPlotPixels))
+      ->check(WholeNumberFrom(kMinPlotPixels, kMaxPlotPixels))
       ->capture_default_str();
   command->add_option("--height", options->plot.height, "Pixels.")
-      ->check(WholeNumberFrom(kLeastPlotPixels, kMostPlotPixels))
+      ->check(WholeNumberFrom(kMinPlotPixels, kMaxPlotPixels))
       ->capture_default_str();
   command->callback([options] { Run(*options); });
 }

@@ -182,7 +182,7 @@ void AddPoseCommand(CLI::App& program) {
   command
       ->add_option("--lift", recipe.height_m,
                    "Put it so many metres above the floor, for a jump. Not with --ground.")
-      ->check(NumberFrom(0, kHighestJump))
+      ->check(NumberFrom(0, kMaxJumpHeight))
       ->excludes(ground);
   AddRepeated(*command, "--reach", recipe.reach,
               "JOINT=X,Y,Z: draw a joint to a place, metres, as in right_hand=0.3,1.6,0.2. Feet "

@@ -28,7 +28,7 @@ struct TransitionOptions {
   ServerOptions server;
   std::string from;
   std::string to;
-  int frames = kUsualFrames;
+  int frames = kTypicalFrames;
   std::string song;
   double at_s = 0;
   int candidates = 1;

@@ -67,11 +67,11 @@ void CheckKeys(const WrittenDance& dance) {
       distance = std::max(distance, key.error.position_m);
       angle = std::max(angle, key.error.angle_deg);
     }
-    if (distance <= client::kMostKeyError_m && angle <= client::kMostKeyError_deg) continue;
+    if (distance <= client::kMaxKeyError_m && angle <= client::kMaxKeyError_deg) continue;
     throw Error(ErrorCode::kInternal, key.reached.id,
                 "was missed by " + Rounded(1000 * distance) + " mm and " + Rounded(angle) +
-                    " degrees, more than " + Rounded(1000 * client::kMostKeyError_m) + " mm or " +
-                    Rounded(client::kMostKeyError_deg) + " degrees");
+                    " degrees, more than " + Rounded(1000 * client::kMaxKeyError_m) + " mm or " +
+                    Rounded(client::kMaxKeyError_deg) + " degrees");
   }
 }
 

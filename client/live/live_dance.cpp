@@ -15,12 +15,12 @@
 namespace choreo::live {
 namespace {
 
-constexpr double kSpareSeconds = 0.05;      // for the way to the server and back
-constexpr double kLeastWaySeconds = 0.5;    // between poses
-constexpr double kLeastAheadSeconds = 0.1;  // between a pose and what is already danced
-constexpr double kClockMissedSeconds = 5;   // after which a missing MIDI clock is reported
-constexpr int kMostNotes = 5;               // per second
-constexpr size_t kLongestNote = 300;        // bytes
+constexpr double kSpareSeconds = 0.05;         // for the way to the server and back
+constexpr double kMinTransitionSeconds = 0.5;  // between poses
+constexpr double kMinAheadSeconds = 0.1;       // between a pose and what is already danced
+constexpr double kClockMissedSeconds = 5;      // after which a missing MIDI clock is reported
+constexpr int kMaxNotes = 5;                   // per second
+constexpr size_t kMaxNoteBytes = 300;          // bytes
 
 void Add(const LiveFigures& figures, LiveFigures* all) {
   all->frames += figures.frames;
@@ -125,11 +125,11 @@ void LiveDance::Follow(const Cue& cue, double now) {
   const auto pose = options_.poses.find(cue.pose);
   if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
   const double asked = cue.ahead_s.value_or(options_.ahead_s);
-  if (!(asked >= 0 && asked <= kMostAheadSeconds)) {
+  if (!(asked >= 0 && asked <= kMaxAheadSeconds)) {
     return Note(cue.pose + ": " + std::to_string(asked) + " s ahead is not in [0, " +
-                std::to_string(std::lround(kMostAheadSeconds)) + "]");
+                std::to_string(std::lround(kMaxAheadSeconds)) + "]");
   }
-  const double ahead = std::max(asked, options_.look_ahead_s + kLeastAheadSeconds);
+  const double ahead = std::max(asked, options_.look_ahead_s + kMinAheadSeconds);
   BeatClock clock;
   {
     const std::lock_guard lock(mutex_);
@@ -137,9 +137,9 @@ void LiveDance::Follow(const Cue& cue, double now) {
   }
   double at = clock.AtOrAfter(now + ahead, now);
   while (const std::optional<int64_t> near = KeyNear(FrameAt(at)))
-    at = clock.AtOrAfter(static_cast<double>(*near + 1) / model_.fps + kLeastWaySeconds, now);
-  if (at > now + ahead + kMostAheadSeconds)
-    return Refuse(Rounded(kMostAheadSeconds) + " s of poses wait already");
+    at = clock.AtOrAfter(static_cast<double>(*near + 1) / model_.fps + kMinTransitionSeconds, now);
+  if (at > now + ahead + kMaxAheadSeconds)
+    return Refuse(Rounded(kMaxAheadSeconds) + " s of poses wait already");
   {
     const std::lock_guard lock(mutex_);
     ++since_.keys_taken;
@@ -167,7 +167,7 @@ void LiveDance::Refuse(const std::string& reason) {
 
 // The last key that is too near to another at this frame.
 std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
-  const int64_t least = FrameAt(kLeastWaySeconds);
+  const int64_t least = FrameAt(kMinTransitionSeconds);
   const auto after = keys_.upper_bound(frame + least);
   if (after == keys_.begin() || std::prev(after)->first < frame - least) return std::nullopt;
   return std::prev(after)->first;
@@ -196,8 +196,8 @@ void LiveDance::Tell(double seconds) {
   }
   observer_.figures(since_);
   Add(std::exchange(since_, {}), &all_);
-  if (notes_ > kMostNotes) {
-    observer_.note("and " + std::to_string(notes_ - kMostNotes) + " more, not shown");
+  if (notes_ > kMaxNotes) {
+    observer_.note("and " + std::to_string(notes_ - kMaxNotes) + " more, not shown");
   }
   notes_ = 0;
 }
@@ -255,7 +255,7 @@ void LiveDance::TakeFrames(const client::FrameBlock& block) {
 void LiveDance::Note(const std::string& text) {
   const std::lock_guard lock(mutex_);
   // Anybody who reaches the port can send names.
-  if (++notes_ <= kMostNotes) observer_.note(Printable(text.substr(0, kLongestNote)));
+  if (++notes_ <= kMaxNotes) observer_.note(Printable(text.substr(0, kMaxNoteBytes)));
 }
 
 }  // namespace choreo::live

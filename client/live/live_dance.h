@@ -23,7 +23,7 @@
 
 namespace choreo::live {
 
-inline constexpr double kMostAheadSeconds = 60;  ///< limit of a cue's delay
+inline constexpr double kMaxAheadSeconds = 60;  ///< limit of a cue's delay
 
 /// Options of a live dance.
 struct LiveOptions {

@@ -19,11 +19,11 @@ constexpr uint8_t kTick = 0xF8, kStart = 0xFA, kContinue = 0xFB, kStop = 0xFC;
 constexpr int64_t kBeat = 24;  // ticks
 // Most and least ticks for the tempo: each is late by up to a piece of sound, which is 1 % over
 // four beats.
-constexpr size_t kMost = 8 * kBeat, kLeast = 4 * kBeat;
-constexpr int kAhead = 8;         // beats: about the reach of transitions
-constexpr double kFastest = 0.2;  // seconds a beat; faster ones would exceed the limit of beats
-constexpr size_t kMostBytes = size_t{1} << 17;  // per read: twice what a pipe holds
-constexpr double kPauseSeconds = 0.25;          // between ticks, longer than at the slowest tempo
+constexpr size_t kMaxTicks = 8 * kBeat, kMinTicks = 4 * kBeat;
+constexpr int kAhead = 8;           // beats: about the reach of transitions
+constexpr double kMinPeriod = 0.2;  // seconds a beat; faster ones would exceed the limit of beats
+constexpr size_t kMaxBytes = size_t{1} << 17;  // per read: twice what a pipe holds
+constexpr double kPauseSeconds = 0.25;         // between ticks, longer than at the slowest tempo
 
 }  // namespace
 
@@ -53,9 +53,9 @@ std::vector<double> MidiClock::Take(double now) {
   ssize_t size = 0;
   for (; (size = read(file_, bytes.data(), bytes.size())) > 0;) {
     all += static_cast<size_t>(size);
-    if (all > kMostBytes) {
+    if (all > kMaxBytes) {
       throw InvalidArgument("--midi-clock", "\"" + device_ + "\" is no MIDI device: more than " +
-                                                std::to_string(kMostBytes) + " bytes came at once");
+                                                std::to_string(kMaxBytes) + " bytes came at once");
     }
     for (const uint8_t byte : std::span(bytes).first(static_cast<size_t>(size))) {
       if (byte == kStart) tick_ = -1;
@@ -77,8 +77,8 @@ void MidiClock::Tick(double now, std::vector<double>* beats) {
   ++*tick_;
   if (!times_.empty() && now - times_.back() > kPauseSeconds) times_.clear();
   times_.push_back(now);
-  if (times_.size() > kMost) times_.pop_front();
-  if (*tick_ % (2 * kBeat) == 0 && times_.size() > kLeast) *beats = Ahead();
+  if (times_.size() > kMaxTicks) times_.pop_front();
+  if (*tick_ % (2 * kBeat) == 0 && times_.size() > kMinTicks) *beats = Ahead();
 }
 
 std::vector<double> MidiClock::Ahead() const {
@@ -94,7 +94,7 @@ std::vector<double> MidiClock::Ahead() const {
   const double period = slope / squares * kBeat;
   const double last = mean + slope / squares * 0.5 * (count - 1);
   std::vector<double> beats;
-  if (period < kFastest) return beats;
+  if (period < kMinPeriod) return beats;
   for (int beat = 1; beat <= kAhead; ++beat) beats.push_back(last + beat * period);
   return beats;
 }

@@ -25,12 +25,12 @@ class OscCues final : public Cues {
 
   std::vector<Cue> Take() override {
     // Messages beyond the limit wait for the next call, or are lost.
-    for (int i = 0; i < kMostAtOnce && lo_server_recv_noblock(server_.get(), 0) > 0; ++i) continue;
+    for (int i = 0; i < kMaxAtOnce && lo_server_recv_noblock(server_.get(), 0) > 0; ++i) continue;
     return std::exchange(cues_, {});
   }
 
  private:
-  static constexpr int kMostAtOnce = 64;
+  static constexpr int kMaxAtOnce = 64;
 
   static int Key(const char*, const char* types, lo_arg** values, int, lo_message, void* self) {
     const std::string_view given = types;

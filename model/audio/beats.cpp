@@ -17,16 +17,16 @@ namespace {
 constexpr float kSilentBelowDb = 60, kSilentDb = -90;
 constexpr int64_t kLoudFrames = 12 * kModelSampleRate / kOnsetHop;
 constexpr int64_t kPauseFrames = 2 * kModelSampleRate / kOnsetHop;
-constexpr int64_t kShortestFrames = kModelSampleRate / kOnsetHop;  // of music between pauses
+constexpr int64_t kMinFrames = kModelSampleRate / kOnsetHop;  // of music between pauses
 
 constexpr size_t kConfidenceBeats = 8;  // on either side
-constexpr double kLeastConfidence = 0.25;
+constexpr double kMinConfidence = 0.25;
 constexpr double kSameTempo = 0.06;  // deviation from the median
 
 // If straight beats begin so much more than swung ones, the swung ones are their offbeats.
 constexpr double kLouder = 2;
 // Listeners rarely tap faster than this unless beats are subdivided.
-constexpr double kFastestTappedBpm = 160;
+constexpr double kMaxTappedBpm = 160;
 constexpr double kAlike = 0.9, kAlikeInStretch = 0.7;  // HalfBeats::AreAlike
 
 using Path = std::vector<BarPointer::Step>;
@@ -57,7 +57,7 @@ std::vector<Part> PartsOf(const std::vector<bool>& sounding) {
     if (parts.empty() || f - parts.back().end >= kPauseFrames) parts.push_back({f, f});
     parts.back().end = f + 1;
   }
-  std::erase_if(parts, [](const Part& part) { return part.end - part.begin < kShortestFrames; });
+  std::erase_if(parts, [](const Part& part) { return part.end - part.begin < kMinFrames; });
   return parts;
 }
 
@@ -111,7 +111,7 @@ std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   const size_t last = frames.size() - std::min(frames.size(), kBeats + 1);
   const auto is_clear = [&](size_t first) {
     const auto stretch = std::span(frames).subspan(first, std::min(frames.size(), kBeats + 1));
-    return Excess(sums, stretch, Where::kOnBeatsOrHalfBeats) >= kLeastConfidence;
+    return Excess(sums, stretch, Where::kOnBeatsOrHalfBeats) >= kMinConfidence;
   };
   std::vector<size_t> clear{0};  // before each beat
   for (size_t i = 0; i < frames.size(); ++i) {
@@ -158,7 +158,7 @@ Path PathOf(std::span<const Onset> onsets, Heard heard, const TempoLimits& limit
   const Path path = PathInFour(onsets, heard, limits);
   if (path.empty() || path.back().pattern != 0) return path;
   const HalfBeats halves(onsets, path);
-  const double fastest = std::min(limits.fastest_bpm, kFastestTappedBpm);
+  const double fastest = std::min(limits.fastest_bpm, kMaxTappedBpm);
   if (2 * 60 * kOnsetRate / (path[path.size() / 2].period + 0.5) <= fastest &&
       halves.AreAlike(heard == Heard::kWhole ? kAlike : kAlikeInStretch))
     return Doubled(path);

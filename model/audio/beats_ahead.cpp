@@ -10,11 +10,11 @@ namespace choreo {
 namespace {
 
 constexpr size_t kSureBeats = 8;  // that determine the tempo ahead
-constexpr size_t kFewestBeats = 6;
+constexpr size_t kMinBeats = 6;
 constexpr double kStoppedSeconds = 3;  // without a beat, after which the music pauses
-constexpr double kLeastForesight = 0.75;
-constexpr int kNearest = 2, kFarthest = 6;  // beats ahead, for which foresight is measured
-constexpr int kFewestPredictions = 6;
+constexpr double kMinForesight = 0.75;
+constexpr int kMinAhead = 2, kMaxAhead = 6;  // beats ahead, for which foresight is measured
+constexpr int kMinPredictions = 6;
 
 double PeriodOf(std::span<const double> seconds) { return 60 / TempoOf(seconds); }
 
@@ -46,13 +46,13 @@ double ForesightOf(std::span<const Onset> onsets, const BeatTrack& track) {
     found.Add(sums, at, (seconds[i + 1] - seconds[i]) * kOnsetRate);
     if (i < known) continue;
     const double period = kOnsetRate * PeriodOf(std::span(seconds).subspan(i - known, known + 1));
-    for (int ahead = kNearest; ahead <= kFarthest; ++ahead) {
+    for (int ahead = kMinAhead; ahead <= kMaxAhead; ++ahead) {
       const double beat = at + ahead * period;
       if (beat + period / 2 + OnsetSums::kBeatFrames <= static_cast<double>(sums.frames()))
         predicted.Add(sums, beat, period);
     }
   }
-  if (predicted.count < kFewestPredictions) return 0;
+  if (predicted.count < kMinPredictions) return 0;
   const double even =
       OnsetSums::kBeatFrames * sums.Between(0, sums.frames()) / static_cast<double>(sums.frames());
   const double excess = found.Excess(even);
@@ -61,7 +61,7 @@ double ForesightOf(std::span<const Onset> onsets, const BeatTrack& track) {
 
 }  // namespace
 
-bool HeardBeats::Certain() const { return foresight >= kLeastForesight; }
+bool HeardBeats::Certain() const { return foresight >= kMinForesight; }
 
 HeardBeats HearBeats(std::span<const Onset> onsets, int64_t first) {
   HeardBeats heard{.track = TrackBeats(onsets, {}, Heard::kStretch)};
@@ -77,7 +77,7 @@ void BeatsAhead::Keep(double from, double to) {
 
 BeatsAhead PredictBeats(const BeatTrack& track, double now, double until) {
   const std::vector<double> beats = track.Seconds();
-  if (beats.size() < kFewestBeats || now - beats.back() > kStoppedSeconds) return {};
+  if (beats.size() < kMinBeats || now - beats.back() > kStoppedSeconds) return {};
   const double period = PeriodOf(std::span(beats).last(std::min(kSureBeats + 1, beats.size())));
   BeatsAhead ahead;
   int in_bar = track.in_bar.back();

@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kPieceSamples = 65536;
 
 /// Limit for pipes: ten minutes in the widest accepted format.
-constexpr int64_t kMostPipeBytes = 4 * kMaxFileSamples;
+constexpr int64_t kMaxPipeBytes = 4 * kMaxFileSamples;
 
 /// The name of a format that is not decoded here, or "".
 std::string OtherFormat(const ByteSource& source) {
@@ -149,7 +149,7 @@ bool MendCancelled(std::span<float> interleaved, int channels) {
 
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, double start) {
   const std::filesystem::path file = path == "-" ? "/dev/stdin" : path;
-  LimitedReader reader(FileBytes(file, kMostPipeBytes), path.string());
+  LimitedReader reader(FileBytes(file, kMaxPipeBytes), path.string());
   DecodedAudio audio{.sample_rate = reader.sample_rate(), .channels = reader.channels()};
   const size_t channels = static_cast<size_t>(audio.channels);
   const int64_t skipped = std::llround(start * audio.sample_rate);

@@ -16,8 +16,8 @@ inline constexpr int kMaxSampleRate = 192000;  ///< Hz
 inline constexpr int kMaxChannels = 8;
 inline constexpr int kMaxAudioSeconds = 600;
 /// Beats that a client may send with a song: 20 a second.
-inline constexpr size_t kMostBeats = size_t{20} * kMaxAudioSeconds;
-inline constexpr size_t kMostPassages = 6000;  ///< repeats that a client may send: ten a second
+inline constexpr size_t kMaxBeats = size_t{20} * kMaxAudioSeconds;
+inline constexpr size_t kMaxPassages = 6000;  ///< repeats that a client may send: ten a second
 /// Samples in a file, all channels together: ten minutes at 192 kHz in stereo, or at 48 kHz in 8
 /// channels.
 inline constexpr int64_t kMaxFileSamples = 240'000'000;

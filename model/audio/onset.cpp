@@ -13,7 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr double kRangeDb = 50, kFaintestDb = -80;
-constexpr double kLowestHz = 25, kFirstEdgeHz = 60, kHighestHz = 10500;
+constexpr double kMinHz = 25, kFirstEdgeHz = 60, kMaxHz = 10500;
 constexpr double kBassHz = 160, kMiddleHz = 1600;  // upper edges of the groups
 
 /// The Fourier bins and the group of each band; all bands but the first have equal width in
@@ -33,8 +33,8 @@ struct OnsetTables {
       window_sum += window[i];
     }
     const auto edge = [](size_t i) {
-      return i == 0 ? kLowestHz
-                    : kFirstEdgeHz * std::pow(kHighestHz / kFirstEdgeHz,
+      return i == 0 ? kMinHz
+                    : kFirstEdgeHz * std::pow(kMaxHz / kFirstEdgeHz,
                                               static_cast<double>(i - 1) / (kBands - 1));
     };
     const auto bin = [](double hz) {

@@ -11,12 +11,12 @@
 namespace choreo {
 namespace {
 
-constexpr double kLowestTone_hz = 60, kHighestTone_hz = 4000, kConcertPitch_hz = 440;
-constexpr double kLowestBand_hz = 40, kHighestBand_hz = kModelSampleRate / 2.0;
+constexpr double kMinTone_hz = 60, kMaxTone_hz = 4000, kConcertPitch_hz = 440;
+constexpr double kMinBand_hz = 40, kMaxBand_hz = kModelSampleRate / 2.0;
 constexpr double kSilentPower = 1e-7;  // mean square of a window: -70 dB
 constexpr double kFarFromBeat_s = 0.3;
 constexpr double kMoment_s = 0.5;
-constexpr double kShortest_s = 4;  // seconds of a passage
+constexpr double kMinPassage_s = 4;  // seconds of a passage
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -25,11 +25,11 @@ PassageListener::PassageListener(const PassageOptions& options)
     : options_(options), soonest_(std::lround(options.soonest / kMomentSeconds)) {
   for (int bin = 0; bin <= kWindow / 2; ++bin) {
     const double hz = static_cast<double>(bin) * kModelSampleRate / kWindow;
-    const bool is_tone = hz > kLowestTone_hz && hz < kHighestTone_hz;
+    const bool is_tone = hz > kMinTone_hz && hz < kMaxTone_hz;
     const long tone = is_tone ? std::lround(12 * std::log2(hz / kConcertPitch_hz)) : 0;
     chroma_of_.push_back(is_tone ? static_cast<int>((tone % 12 + 12) % 12) : -1);
-    const double octaves = std::log2(std::max(hz, kLowestBand_hz) / kLowestBand_hz) /
-                           std::log2(kHighestBand_hz / kLowestBand_hz);
+    const double octaves =
+        std::log2(std::max(hz, kMinBand_hz) / kMinBand_hz) / std::log2(kMaxBand_hz / kMinBand_hz);
     band_of_.push_back(std::min(kBands - 1, static_cast<int>(kBands * octaves)));
   }
 }
@@ -176,7 +176,7 @@ std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const d
       if (!passages.empty()) passages.back().to = std::min(passages.back().to, passage.from);
       break;
     }
-    if (passage.to - passage.from >= kShortest_s && passage.like < passage.from)
+    if (passage.to - passage.from >= kMinPassage_s && passage.like < passage.from)
       passages.push_back(passage);
   }
   return passages;

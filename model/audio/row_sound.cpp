@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kLeastPower = 1e-12;  // lower bound of logarithms' arguments
+constexpr double kMinPower = 1e-12;  // lower bound of logarithms' arguments
 
 // One of BS.1770's two K filters, second order, with its printed coefficients at 48 kHz; gives its
 // power gain at a frequency.
@@ -56,6 +56,6 @@ RowSound PowersOf(const MelBandsDb& db) {
   return {.power = static_cast<float>(power), .bass = static_cast<float>(bass)};
 }
 
-double Loudness(double power) { return -0.691 + 10 * std::log10(std::max(power, kLeastPower)); }
+double Loudness(double power) { return -0.691 + 10 * std::log10(std::max(power, kMinPower)); }
 
 }  // namespace choreo

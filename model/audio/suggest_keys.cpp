@@ -41,7 +41,7 @@ int64_t MostKeys(std::span<const double> times) {
   int64_t most = 0;
   double last = kNever;
   for (const double time : times) {
-    if (time - last < kShortestKeyInterval) continue;
+    if (time - last < kMinKeyInterval) continue;
     ++most;
     last = time;
   }
@@ -58,7 +58,7 @@ void CheckCount(std::span<const double> times, int64_t count, const std::string&
   char text[160];
   std::snprintf(text, sizeof text, "%lld keys, must be 1 to %lld: %zu beats, keys %.1f s apart",
                 static_cast<long long>(count), static_cast<long long>(most), times.size(),
-                kShortestKeyInterval);
+                kMinKeyInterval);
   throw InvalidArgument(name, text);
 }
 
@@ -154,7 +154,7 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
     for (size_t i = 0; i < beats; ++i) {
       for (size_t j = i; j-- > 0;) {
         const double gap = times[i] - times[j];
-        if (gap < kShortestKeyInterval) continue;
+        if (gap < kMinKeyInterval) continue;
         const double cost = Squared(gap / even - 1);
         // Wider gaps cost more, so no earlier beat can win.
         if (gap > even && best_until[j] - cost <= next[i]) break;

@@ -13,7 +13,7 @@
 namespace choreo {
 
 /// The shortest time between key poses, in seconds: about as long as a change of pose takes.
-inline constexpr double kShortestKeyInterval = 1.2;
+inline constexpr double kMinKeyInterval = 1.2;
 
 /// What begins at a beat; each value includes those before it. An eight is two bars of four or of
 /// three, counted from the first bar, and restarted at passages and short bars.
@@ -38,7 +38,7 @@ struct SuggestionRequest {
 /// the original. Without bars all are kBeat.
 std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage> passages);
 
-/// Chooses beats for key poses, ascending, at least kShortestKeyInterval apart. Maximises the sum
+/// Chooses beats for key poses, ascending, at least kMinKeyInterval apart. Maximises the sum
 /// of strengths and of what begins (1 for a bar, 2 for an eight, 3 for a passage), less the squared
 /// relative deviation of each interval from an even spread between the first and the last beat.
 /// `onset_strength`: the envelope in which the beats were found. Deterministic. Throws

@@ -103,9 +103,9 @@ int64_t After(const ByteSource& source, int64_t body, int64_t size) {
 
 /// The chunk at `at` as it is, length and all; "" where it is too long for one of a format.
 std::string FormatAt(const ByteSource& source, int64_t at) {
-  constexpr int64_t kLongest = 1024;
+  constexpr int64_t kMaxSize = 1024;
   const int64_t size = source.Word(at + 4);
-  if (size > kLongest) return "";
+  if (size > kMaxSize) return "";
   std::string chunk(static_cast<size_t>(std::min(8 + size, source.size - at)), '\0');
   source.read_at(at, std::as_writable_bytes(std::span(chunk)));
   return chunk;
@@ -124,7 +124,7 @@ ByteSource Plain(const ByteSource& source, const std::string& format, int64_t bo
 /// The files that were joined to one, as by `cat a b`, and each chunk of samples of those that have
 /// several, as a file of its own.
 std::vector<ByteSource> PartsOf(const ByteSource& source, const std::string& name) {
-  constexpr size_t kMost = 1000;
+  constexpr size_t kMaxCount = 1000;
   std::vector<ByteSource> parts;
   std::string format;
   int64_t begin = 0;
@@ -146,8 +146,9 @@ std::vector<ByteSource> PartsOf(const ByteSource& source, const std::string& nam
                                   : PartOf(source, begin, std::min(after, source.size)));
       has_samples = true;
     }
-    if (parts.size() > kMost)
-      throw InvalidArgument(name, "has more than " + std::to_string(kMost) + " chunks of samples");
+    if (parts.size() > kMaxCount)
+      throw InvalidArgument(name,
+                            "has more than " + std::to_string(kMaxCount) + " chunks of samples");
     at = after;
   }
   return parts;
@@ -157,7 +158,7 @@ std::vector<ByteSource> PartsOf(const ByteSource& source, const std::string& nam
 
 std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string& name) {
   constexpr uint32_t kPcm = 1, kMpegLayer3 = 0x55;
-  constexpr int64_t kMost = 0xfffffff0;
+  constexpr int64_t kMaxCount = 0xfffffff0;
   std::vector<std::string> notes;
   const auto as_it_is = [&] { return std::make_unique<WavReader>(source, name, notes); };
   if (source.Has(0, "RIFX")) return as_it_is();  // numbers the other way round
@@ -204,9 +205,9 @@ std::unique_ptr<SoundReader> ReadWav(const ByteSource& source, const std::string
       size = held;
     }
     const bool plain = (is_long || odd || !is_right) && held > 0 && !format_chunk.empty() &&
-                       (!is_right || size <= kMost);
+                       (!is_right || size <= kMaxCount);
     if (!plain) return as_it_is();
-    return std::make_unique<WavReader>(Plain(source, format_chunk, body, std::min(size, kMost)),
+    return std::make_unique<WavReader>(Plain(source, format_chunk, body, std::min(size, kMaxCount)),
                                        name, notes);
   }
   throw InvalidArgument(

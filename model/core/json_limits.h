@@ -34,12 +34,12 @@ inline void CheckJsonDepth(std::string_view json, const std::string& name) {
   }
 }
 
-inline constexpr int kMostJsonLevels = 16;  ///< for skeletons and configurations
+inline constexpr int kMaxJsonLevels = 16;  ///< for skeletons and configurations
 
 /// Refuses numbers that don't fit into an int, which would be truncated or undefined. For JSON
 /// without larger numbers or more levels: skeletons and network configurations.
 inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name,
-                             int levels = kMostJsonLevels) {
+                             int levels = kMaxJsonLevels) {
   constexpr double kLimit = std::numeric_limits<int>::max();
   if (json.is_number()) {
     const auto number = json.get<double>();
@@ -49,7 +49,7 @@ inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name
   if (!json.is_structured()) return;
   if (levels == 0)
     throw InvalidArgument(name,
-                          "is JSON of more than " + std::to_string(kMostJsonLevels) + " levels");
+                          "is JSON of more than " + std::to_string(kMaxJsonLevels) + " levels");
   for (const auto& value : json) CheckJsonNumbers(value, name, levels - 1);
 }
 

@@ -33,11 +33,11 @@ int64_t ElementCount(const std::vector<int64_t>& shape) {
 }
 
 // Halving smaller tensors saves too little.
-constexpr size_t kLeastHalved = 4096;
+constexpr size_t kMinHalved = 4096;
 
 // Whether every value is exact in bfloat16, the upper half of a float.
 bool IsBfloat16(const NamedTensor& tensor) {
-  return tensor.data.size() >= kLeastHalved && std::ranges::all_of(tensor.data, [](float value) {
+  return tensor.data.size() >= kMinHalved && std::ranges::all_of(tensor.data, [](float value) {
            return (std::bit_cast<uint32_t>(value) & 0xFFFFU) == 0;
          });
 }

@@ -39,7 +39,7 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
       request.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, request.frames);
       request.audio_rows.leftCols(heard) = audio->History(rows_end, heard);
     }
-    request.energy = {HearEnergyAt(*audio, start, segment.from - kUsualFrames),
+    request.energy = {HearEnergyAt(*audio, start, segment.from - kTypicalFrames),
                       HearEnergyAt(*audio, start, segment.from)};
   }
   request.seed = start.seed ^ start.music_id;

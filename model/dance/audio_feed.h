@@ -21,7 +21,7 @@ namespace choreo {
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
 
 /// How many past rows keep their sound: as many as a dance needs.
-inline constexpr int kSoundMemory = kDynamicsMemory + kUsualFrames;
+inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 
 /// Turns samples into the model's audio rows. One thread at a time pushes; any thread reads.
 /// Readers never wait for a transform: rows are computed outside the lock and published in short

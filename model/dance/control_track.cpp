@@ -14,7 +14,7 @@ namespace {
 constexpr double kKeyTolerance = 0.05;    // metres that a key may be off the path without a warning
 constexpr double kDancerTolerance = 0.5;  // the same for the dancer where a path begins
 // How far a speed may miss the requested one without a warning: a share, and metres a frame.
-constexpr double kSpeedTolerance = 0.15, kLeastMiss = 0.001;
+constexpr double kSpeedTolerance = 0.15, kMinMiss = 0.001;
 
 bool HasHeights(const PathCurve* curve) { return curve != nullptr && curve->has_heights(); }
 
@@ -180,7 +180,7 @@ std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) c
     };
     const auto [asked, danced] = report.part_speeds[i];
     const double miss = std::abs(danced - asked);
-    if (std::ranges::none_of(velocities_, named) || miss <= kLeastMiss ||
+    if (std::ranges::none_of(velocities_, named) || miss <= kMinMiss ||
         miss <= kSpeedTolerance * asked)
       continue;
     misses += (misses.empty() ? "" : ", ") + std::string(kBodyPartNames[i]) + ' ' +

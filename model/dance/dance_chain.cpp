@@ -11,7 +11,7 @@ namespace choreo {
 namespace {
 
 const std::vector<Passage> kNoPassages;
-constexpr size_t kMostAhead = 1;  // transitions sampled ahead of the one being handed out
+constexpr size_t kMaxAhead = 1;  // transitions sampled ahead of the one being handed out
 
 }  // namespace
 
@@ -285,7 +285,7 @@ bool DanceChain::HandOutNext() {
 }
 
 void DanceChain::AskNext() {
-  if (over() || cancelled_ || failure_ || jobs_.size() > kMostAhead) return;
+  if (over() || cancelled_ || failure_ || jobs_.size() > kMaxAhead) return;
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
   const Segment* segment = timeline_.Planned(jobs_.size());
   const std::optional<int64_t> end = timeline_.End();

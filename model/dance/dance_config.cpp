@@ -38,10 +38,10 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   ValidateShare(music_dynamics, "config.music_dynamics");
   ValidateShare(variation, "config.variation");
   CheckPassages(music_passages, "config.music_passages");
-  if (music_passages.size() > kMostPassages) {
+  if (music_passages.size() > kMaxPassages) {
     throw InvalidArgument("config.music_passages", std::to_string(music_passages.size()) +
                                                        " passages, the limit is " +
-                                                       std::to_string(kMostPassages));
+                                                       std::to_string(kMaxPassages));
   }
   ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.frame_rate");

@@ -25,7 +25,7 @@ struct DanceStart {
   std::optional<float> temperature;  ///< 0..2; none: the model's default
   std::string style;                 ///< one of the model's, or empty: any
   double music_dynamics =
-      kUsualDynamics;  ///< 0..1: how closely the dance's energy follows the music's (HearEnergy)
+      kDefaultDynamics;  ///< 0..1: how closely the dance's energy follows the music's (HearEnergy)
   double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
   /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
@@ -42,7 +42,7 @@ struct DanceStart {
   /// Passages that repeat earlier ones (see CheckPassages). The dance repeats, too, with this much
   /// `variation`; 0: the same noise, 1: no repetition.
   std::vector<Passage> music_passages;
-  double variation = kUsualVariation;
+  double variation = kDefaultVariation;
 
   struct Audio {
     double sample_rate = 0;  ///< 8000..192000

@@ -131,7 +131,7 @@ void DanceStream::Cancel() noexcept { chain_->Cancel(); }
 int DanceStream::LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   double seconds = 0;
   if (config.audio) {
-    if (model.hears_music) seconds += kUsualFrames / model.fps;
+    if (model.hears_music) seconds += kTypicalFrames / model.fps;
     const FeatureStream stream(config.audio->sample_rate, config.audio->channels);
     seconds += static_cast<double>(stream.latency_samples()) / kModelSampleRate;
   }

@@ -91,10 +91,10 @@ void MusicBeats::Find(const std::vector<double>& seconds, std::span<const double
 
 int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field,
                          std::span<const double> downbeats) {
-  if (count_ + seconds.size() > kMostBeats) {
+  if (count_ + seconds.size() > kMaxBeats) {
     throw InvalidArgument(field, "bring the dance's beats to " +
                                      std::to_string(count_ + seconds.size()) + ", the limit is " +
-                                     std::to_string(kMostBeats));
+                                     std::to_string(kMaxBeats));
   }
   count_ += seconds.size();
   const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));

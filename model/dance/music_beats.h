@@ -38,7 +38,7 @@ class MusicBeats {
   /// last they replace beats given or detected. Beats given earlier are dropped if they are after
   /// the last, or less than half a beat before the first. Beats before `from` are late and are
   /// dropped; returns how many. `from` never decreases between calls. Throws
-  /// Error(kInvalidArgument) beyond kMostBeats.
+  /// Error(kInvalidArgument) beyond kMaxBeats.
   int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field,
                std::span<const double> downbeats = {});
 

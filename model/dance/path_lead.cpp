@@ -7,9 +7,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
-constexpr double kLeastDetour = 0.5;  // seconds
-constexpr double kPushOff = 10;       // m/s^2: people push off with little more than their weight
+constexpr double kDetourSpeed = 1.0;       // m/s, at its fastest
+constexpr double kMinDetourSeconds = 0.5;  // seconds
+constexpr double kPushOff = 10;  // m/s^2: people push off with little more than their weight
 
 double Smooth(double s) { return SmoothStep(std::clamp(s, 0.0, 1.0)); }
 
@@ -48,7 +48,7 @@ class Leader {
 
   double DetourFrames(const Eigen::Vector3d& offset, int available) const {
     // A smooth step's peak speed is 1.5 times its average.
-    const double seconds = std::max(1.5 * offset.norm() / kDetourSpeed, kLeastDetour);
+    const double seconds = std::max(1.5 * offset.norm() / kDetourSpeed, kMinDetourSeconds);
     return std::min(seconds * request_.fps, static_cast<double>(available));
   }
 

@@ -10,7 +10,7 @@
 namespace choreo {
 
 void CheckPassages(std::span<const Passage> passages, const std::string& field) {
-  double end = kLeastReturn_s;
+  double end = kMinReturn_s;
   for (size_t i = 0; i < passages.size(); ++i) {
     const Passage& passage = passages[i];
     const std::string at = field + "[" + std::to_string(i) + "]";
@@ -21,7 +21,7 @@ void CheckPassages(std::span<const Passage> passages, const std::string& field) 
     };
     check(".from", passage.from, end, kMaxAudioSeconds);
     check(".to", passage.to, passage.from, kMaxAudioSeconds);
-    check(".like", passage.like, 0, passage.from - kLeastReturn_s);
+    check(".like", passage.like, 0, passage.from - kMinReturn_s);
     end = passage.to;
   }
 }
@@ -32,10 +32,10 @@ Recurrence::Recurrence(double fps, std::span<const Passage> passages)
 }
 
 void Recurrence::Give(std::span<const Passage> passages, int64_t from, const std::string& field) {
-  if (count_ + passages.size() > kMostPassages) {
+  if (count_ + passages.size() > kMaxPassages) {
     throw InvalidArgument(field, std::to_string(count_ + passages.size()) +
                                      " passages in all, the limit is " +
-                                     std::to_string(kMostPassages));
+                                     std::to_string(kMaxPassages));
   }
   count_ += passages.size();
   given_.push_back({from, {passages.begin(), passages.end()}});

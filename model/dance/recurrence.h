@@ -11,10 +11,10 @@
 namespace choreo {
 
 /// A shorter repetition would look like trembling.
-inline constexpr double kLeastReturn_s = 2;
+inline constexpr double kMinReturn_s = 2;
 
 /// Throws Error(kInvalidArgument, "FIELD[3].to") unless passages ascend without overlap, each
-/// repeats one that begins at least kLeastReturn_s earlier, and all lie within the longest music.
+/// repeats one that begins at least kMinReturn_s earlier, and all lie within the longest music.
 void CheckPassages(std::span<const Passage> passages, const std::string& field);
 
 /// Finds which frames of a dance repeat earlier ones, as the music does. They share the earlier
@@ -27,7 +27,7 @@ class Recurrence {
 
   /// From the first of these passages on they replace known ones, for transitions that begin at
   /// `from` or later; `from` never decreases between calls. The passages must be checked. Throws
-  /// Error(kInvalidArgument, field) beyond kMostPassages in total.
+  /// Error(kInvalidArgument, field) beyond kMaxPassages in total.
   void Give(std::span<const Passage> passages, int64_t from, const std::string& field);
 
   /// The next transition starts at this frame; frames never decrease.

@@ -10,7 +10,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kShortestToCut_s = 0.5;
+constexpr double kMinCut_s = 0.5;
 
 std::string Frames(int64_t frames) { return std::to_string(frames); }
 
@@ -29,7 +29,7 @@ std::string PathOf(const KeyMoment& when, const std::string& field) {
 
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest) {
   if (next_key && *next_key + 1 - from <= longest) return *next_key + 1;
-  return from + std::clamp(longest / 2, 1, kUsualFrames);
+  return from + std::clamp(longest / 2, 1, kTypicalFrames);
 }
 
 bool Key::operator==(const Key& other) const {
@@ -218,8 +218,7 @@ Segment Timeline::From(int64_t frame) const {
   int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
-    const auto cut =
-        std::ranges::lower_bound(cuts_, frame + std::lround(kShortestToCut_s * options_.fps));
+    const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
     // The rest is never shorter than half the usual length.
     if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
         *cut - frame <= options_.max_transition_frames)

@@ -52,7 +52,7 @@ struct Segment {
 };
 
 /// Where the transition that begins at `from` ends: just after the next key or, without one within
-/// `longest` frames, after about kUsualFrames, at most half the longest. So the rest before a key
+/// `longest` frames, after about kTypicalFrames, at most half the longest. So the rest before a key
 /// is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 

@@ -24,7 +24,7 @@ namespace choreo {
 struct TransitionRequest : TransitionSpec {
   /// The pose one frame after the key, if the motion that follows exists already.
   std::optional<Pose> after;
-  /// How hard the target is hit, 0 to kMostHit (plan/plan_stages.h), and then rested in unless
+  /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h), and then rested in unless
   /// `after` follows. None: it is passed at the dance's own speed.
   std::optional<double> hit = {};
   // For measuring the model alone, set these to 0 and false.

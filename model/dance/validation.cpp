@@ -72,8 +72,8 @@ void ValidateShare(double share, const std::string& field) {
 }
 
 void ValidateHit(std::optional<double> hit, const std::string& field) {
-  if (hit && !(*hit >= 0 && *hit <= kMostHit))
-    throw InvalidArgument(field, Show(*hit) + " is not in [0, " + Show(kMostHit) + "]");
+  if (hit && !(*hit >= 0 && *hit <= kMaxHit))
+    throw InvalidArgument(field, Show(*hit) + " is not in [0, " + Show(kMaxHit) + "]");
 }
 
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field) {

@@ -42,7 +42,7 @@ void ValidateTemperature(float temperature, const std::string& field);
 /// Empty, or one of the model's styles.
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field);
 void ValidateShare(double share, const std::string& field);
-/// None, or 0 to kMostHit.
+/// None, or 0 to kMaxHit.
 void ValidateHit(std::optional<double> hit, const std::string& field);
 void ValidateOutputFps(double fps, const std::string& field);
 /// tau poses, a frame of a dance, and this model's fingerprint: another one throws

@@ -10,18 +10,18 @@
 namespace choreo {
 namespace {
 
-constexpr int kWidth = 1100, kLeastHeight = 640;
+constexpr int kWidth = 1100, kMinHeight = 640;
 constexpr double kBody = 460;             // pixels in the middle for the body
 constexpr double kLine = 15, kEdge = 24;  // height of a line of text, and margin
 constexpr double kText = 11;
-constexpr size_t kLongestName = 36;  // bytes
+constexpr size_t kMaxShownName = 36;  // bytes
 constexpr Colour kQuiet = Colour::Hex(0x8f887c), kTaken = Colour::Hex(0xb3402e);
 
 // Cuts at the start of a character.
 std::string Shown(const std::string& name) {
   std::string shown = Printable(name);
-  if (shown.size() <= kLongestName) return shown;
-  size_t end = kLongestName;
+  if (shown.size() <= kMaxShownName) return shown;
+  size_t end = kMaxShownName;
   while (end > 0 && (static_cast<unsigned char>(shown[end]) & 0xC0) == 0x80) --end;
   return shown.substr(0, end) + "...";
 }
@@ -29,9 +29,9 @@ std::string Shown(const std::string& name) {
 }  // namespace
 
 void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::path& png) {
-  if (bones.empty() || bones.size() > kMostChartBones) {
+  if (bones.empty() || bones.size() > kMaxChartBones) {
     throw InvalidArgument("bones", std::to_string(bones.size()) + ", a chart shows 1 to " +
-                                       std::to_string(kMostChartBones));
+                                       std::to_string(kMaxChartBones));
   }
   Eigen::AlignedBox3d body;
   for (const ChartBone& bone : bones) body.extend(bone.place);
@@ -48,7 +48,7 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
   }
   const size_t most = std::max(columns[0].size(), columns[1].size());
   const int height =
-      std::max(kLeastHeight, static_cast<int>(kLine * static_cast<double>(most) + 2 * kEdge));
+      std::max(kMinHeight, static_cast<int>(kLine * static_cast<double>(most) + 2 * kEdge));
   const double scale =
       std::min((height - 4 * kEdge) / std::max(1e-9, size.y()), kBody / std::max(1e-9, size.x()));
   const auto x = [&](const ChartBone& bone) {

@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-inline constexpr size_t kMostChartBones = 400;
+inline constexpr size_t kMaxChartBones = 400;
 
 /// A rig's joint in a chart.
 struct ChartBone {
@@ -19,7 +19,7 @@ struct ChartBone {
 
 /// Draws a rig from its front (from +Z, Y up) with its joints' names beside it; joints with an
 /// assigned bone are coloured and named. Throws Error(kInvalidArgument) for no joints and for more
-/// than kMostChartBones, too many for a picture; Error(kInternal) if the file cannot be written.
+/// than kMaxChartBones, too many for a picture; Error(kInternal) if the file cannot be written.
 void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::path& png);
 
 }  // namespace choreo

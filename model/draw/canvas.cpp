@@ -23,10 +23,10 @@ Canvas::Canvas(int width, int height, const Colour& background)
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
                cairo_surface_destroy),
       context_(cairo_create(surface_.get()), cairo_destroy) {
-  if (width < 1 || width > kMostPicturePixels || height < 1 || height > kMostPicturePixels) {
+  if (width < 1 || width > kMaxPicturePixels || height < 1 || height > kMaxPicturePixels) {
     throw InvalidArgument("picture", std::to_string(width) + " x " + std::to_string(height) +
                                          " pixels, each must be 1 to " +
-                                         std::to_string(kMostPicturePixels));
+                                         std::to_string(kMaxPicturePixels));
   }
   if (const cairo_status_t status = cairo_status(cr()); status != CAIRO_STATUS_SUCCESS)
     throw Error(ErrorCode::kInternal, "picture", cairo_status_to_string(status));

@@ -20,7 +20,7 @@ enum class Align { kLeft, kCentre, kRight };
 class Canvas {
  public:
   /// Filled with `background`. Throws Error(kInvalidArgument) for a width or height outside 1 to
-  /// kMostPicturePixels.
+  /// kMaxPicturePixels.
   Canvas(int width, int height, const Colour& background);
 
   cairo_t* cr() const { return context_.get(); }

@@ -15,8 +15,8 @@ using Eigen::Vector3f;
 constexpr float kShadowCell = 0.025f;  // metres
 
 int CellsIn(float length) {
-  constexpr float kMost = 20;  // metres: limits the grid for any pose
-  return static_cast<int>(std::ceil(std::min(length, kMost) / kShadowCell));
+  constexpr float kMaxLength = 20;  // metres: limits the grid for any pose
+  return static_cast<int>(std::ceil(std::min(length, kMaxLength) / kShadowCell));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace choreo {
 
-inline constexpr int kMostPicturePixels = 32767;  ///< per side: cairo's own limit
+inline constexpr int kMaxPicturePixels = 32767;  ///< per side: cairo's own limit
 
 /// An 8-bit sRGB picture.
 struct Picture {

@@ -21,8 +21,8 @@ constexpr Colour kLines[] = {Colour::Hex(0x0072b2), Colour::Hex(0xd55e00), Colou
                              Colour::Hex(0x000000)};
 
 void Check(const Plot& plot) {
-  CheckWithin("plot.width", plot.width, kLeastPlotPixels, kMostPlotPixels);
-  CheckWithin("plot.height", plot.height, kLeastPlotPixels, kMostPlotPixels);
+  CheckWithin("plot.width", plot.width, kMinPlotPixels, kMaxPlotPixels);
+  CheckWithin("plot.height", plot.height, kMinPlotPixels, kMaxPlotPixels);
   for (const PlotSeries& series : plot.series) {
     if (series.x.size() != series.y.size()) {
       throw InvalidArgument("plot.series['" + series.label + "']",

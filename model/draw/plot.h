@@ -15,7 +15,7 @@ struct PlotSeries {
   bool asked = false;
 };
 
-inline constexpr int kLeastPlotPixels = 200, kMostPlotPixels = 8192;  ///< per side
+inline constexpr int kMinPlotPixels = 200, kMaxPlotPixels = 8192;  ///< per side
 
 /// A line chart, or with `x_names` a bar chart. A line that is half covered by an earlier one is
 /// dashed, so that both show.

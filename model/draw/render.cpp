@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kLampSpread = 0.10f;  // radians
-constexpr int kMostSamples = 8;       // per side of a pixel
+constexpr int kMaxSamples = 8;        // per side of a pixel
 constexpr int kAlike = 6;  // of 255: pixels of one part between two so alike are their mean
 
 std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
@@ -175,7 +175,7 @@ class Renderer {
   // pixel of a single part needs only one sample.
   Vector3f Mixed(int x, int y) const {
     const int count = samples_ * samples_;
-    std::array<Seen, kMostSamples * kMostSamples / kLanes> seen;
+    std::array<Seen, kMaxSamples * kMaxSamples / kLanes> seen;
     for (int i = 0; i < count; i += kLanes) {
       const Lanes rays = Rays(MakeLane([&](int lane) { return SampleAt(x, y, i + lane).x(); }),
                               MakeLane([&](int lane) { return SampleAt(x, y, i + lane).y(); }));
@@ -232,7 +232,7 @@ void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
 
 void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
                Picture& picture) {
-  CheckWithin("style.samples", style.samples, 1, kMostSamples);
+  CheckWithin("style.samples", style.samples, 1, kMaxSamples);
   Renderer(figures, view, style, picture).Render();
 }
 

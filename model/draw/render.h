@@ -22,7 +22,7 @@ struct FrameStyle {
 inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 
 /// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
-/// picture whose width and height are set (1 to kMostPicturePixels); resizes `picture.rgb`.
+/// picture whose width and height are set (1 to kMaxPicturePixels); resizes `picture.rgb`.
 /// Deterministic. Throws Error(kInvalidArgument) for sizes, a view or a style outside their limits,
 /// or a pose with another joint count or values that are not finite. Thread-safe.
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,

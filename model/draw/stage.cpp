@@ -7,7 +7,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kWidest = 100;     // metres: the limit of a View
+constexpr double kMaxExtent = 100;  // metres: the limit of a View
 constexpr double kWidening = 1.02;  // ratio of one tried extent to the next
 constexpr float kFreeEdge = 0.02f;
 constexpr int kTriedHeight = 1000;  // pixels: for any picture
@@ -43,7 +43,7 @@ double FitStage(const Stage& stage, const std::vector<FramedStage>& frames, doub
       return std::ranges::all_of(
           figures, [&](const PlacedPart& part) { return IsSeen(part, camera, size); });
     };
-    while (extent * kWidening < kWidest && !fits()) extent *= kWidening;
+    while (extent * kWidening < kMaxExtent && !fits()) extent *= kWidening;
   }
   return extent;
 }

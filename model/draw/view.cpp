@@ -45,8 +45,8 @@ View StandingView(const FramedPose& framed, double azimuth, double extent) {
 }
 
 Camera::Camera(const View& view, int width, int height) : size_(width, height) {
-  CheckWithin("picture.width", width, 1, kMostPicturePixels);
-  CheckWithin("picture.height", height, 1, kMostPicturePixels);
+  CheckWithin("picture.width", width, 1, kMaxPicturePixels);
+  CheckWithin("picture.height", height, 1, kMaxPicturePixels);
   CheckWithin("view.extent", view.extent, 0.1, 100);
   const double slope = std::tan(kFieldOfView / 2);
   const double distance = view.extent / 2 / slope;

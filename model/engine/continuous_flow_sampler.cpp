@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRounds = 3;       // rounds of requesting energy
 constexpr double kAnswer = 0.6;  // share of additional energy that shows up in the motion
-constexpr double kFarthest = 1;  // bound of the logarithm of requested over wanted energy
+constexpr double kMaxLog = 1;    // bound of the logarithm of requested over wanted energy
 
 WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
   WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
@@ -125,7 +125,7 @@ bool PlanSampling::EndRound() {
     if (!Energy().Asks(part)) continue;
     const double missing = EnergyLevel(asked[part], danced[at]);
     most = std::max(most, std::abs(missing));
-    more_[at] = std::clamp(more_[at] + missing / kAnswer, -kFarthest, kFarthest);
+    more_[at] = std::clamp(more_[at] + missing / kAnswer, -kMaxLog, kMaxLog);
     Energy().values.row(part) = std::exp(more_[at]) * wanted_.row(part);
   }
   if (most < least_) {

@@ -13,7 +13,7 @@ namespace {
 /// Decay of the sums per transition: about the last twenty count.
 constexpr double kFades = 0.95;
 /// The weight of the warm-up.
-constexpr double kWarmFrames = 20 * kUsualFrames;
+constexpr double kWarmFrames = 20 * kTypicalFrames;
 
 constexpr double kBeatSeconds = 0.5;
 
@@ -28,7 +28,7 @@ double SecondsOf(const auto& action) {
 void WarmUp(Sampler& sampler) {
   const ModelInfo& model = sampler.model();
   TransitionSpec spec;
-  spec.frames = std::min(kUsualFrames, model.max_transition_frames);
+  spec.frames = std::min(kTypicalFrames, model.max_transition_frames);
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
   // Like music's: a model guided by beats is evaluated twice.
   for (double beat = 0; beat <= spec.frames; beat += kBeatSeconds * model.fps)

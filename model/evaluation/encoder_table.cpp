@@ -11,16 +11,16 @@
 namespace choreo {
 namespace {
 
-constexpr int kBlock = 150;       // frames
-constexpr int kInputs = 8;        // for variability and diversity
-constexpr int kSamples = 15;      // per input, as in the paper
-constexpr int kMostFrames = 300;  // per dance, at most
+constexpr int kBlock = 150;      // frames
+constexpr int kInputs = 8;       // for variability and diversity
+constexpr int kSamples = 15;     // per input, as in the paper
+constexpr int kMaxFrames = 300;  // per dance, at most
 
 // Inputs one after another, with the samples of each together.
 std::vector<LongPlan> Plans(const Evaluation& evaluation, const Method& method) {
   const KeyTimes times = method.keys ? KeyTimes::kEachTwoSeconds : KeyTimes::kNone;
   EvalOptions brief = evaluation.options;
-  brief.long_frames = std::min(brief.long_frames, kMostFrames);
+  brief.long_frames = std::min(brief.long_frames, kMaxFrames);
   std::vector<LongPlan> plans;
   for (const LongPlan& input :
        PlanLongDances(method.sampler->model(), evaluation.set, times, kInputs, brief)) {

@@ -68,7 +68,7 @@ std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, Dance
 
 std::vector<Key> KeysOf(std::span<const Pose> dance) {
   std::vector<Key> keys;
-  for (size_t frame = kUsualFrames; frame < dance.size(); frame += kUsualFrames) {
+  for (size_t frame = kTypicalFrames; frame < dance.size(); frame += kTypicalFrames) {
     Pose pose = dance[frame];
     // A dance's rotations are continuous, a key's at most half a turn.
     for (auto rotation : pose.rotations.colwise())

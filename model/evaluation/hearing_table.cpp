@@ -21,12 +21,12 @@ namespace {
 constexpr int kHeardSeconds = 4;
 constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
 // Frames at the start of a part that don't count: a transition uses the music before its start.
-constexpr size_t kSettles = 2 * kUsualFrames;
+constexpr size_t kSettles = 2 * kTypicalFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 
 struct Setting {
   const char* name;
-  double dynamics = kUsualDynamics, variation = kUsualVariation;
+  double dynamics = kDefaultDynamics, variation = kDefaultVariation;
 };
 constexpr Setting kSettings[] = {{"usual"},
                                  {.name = "music_dynamics 0", .dynamics = 0},

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kSeeds = 3;
 constexpr int kFrechetFrames = 60;
-constexpr double kSlowest = 0.7, kFastest = 1.4;  // relative to real motion's median speed
+constexpr double kMinRatio = 0.7, kMaxRatio = 1.4;  // relative to real motion's median speed
 
 // What a dance is told about its music.
 struct Song {
@@ -104,9 +104,9 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   std::vector<ClipFigure> within;
   for (size_t i = 0; i < danced.size(); ++i) {
     const double ratio = danced[i].median_speed / real[i].median_speed;
-    within.push_back({danced[i].clip, ratio >= kSlowest && ratio <= kFastest ? 100.0 : 0.0});
+    within.push_back({danced[i].clip, ratio >= kMinRatio && ratio <= kMaxRatio ? 100.0 : 0.0});
   }
-  Add("dances at " + Rounded(kSlowest) + " to " + Rounded(kFastest) + " of it %", 100, {},
+  Add("dances at " + Rounded(kMinRatio) + " to " + Rounded(kMaxRatio) + " of it %", 100, {},
       Mean(within), {}, table);
   const auto path = [](const LivelyFigures& one) { return one.limbs.path; };
   const auto chord = [](const LivelyFigures& one) { return one.limbs.chord; };

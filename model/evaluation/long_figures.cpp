@@ -158,8 +158,8 @@ RealDances MeasureReal(const ClipSet& set, const ModelInfo& model) {
   std::vector<JointTrack> tracks;
   for (const PreparedClip& clip : set.clips) {
     std::vector<int> keys;
-    for (int f = kUsualFrames - 1; f < static_cast<int>(clip.motion.frames.size());
-         f += kUsualFrames)
+    for (int f = kTypicalFrames - 1; f < static_cast<int>(clip.motion.frames.size());
+         f += kTypicalFrames)
       keys.push_back(f);
     real.clips.push_back(MeasureLong(model.skeleton, model.fps, clip.motion.frames, keys));
     tracks.push_back(TrackJoints(model.skeleton, clip.motion.frames));

@@ -10,8 +10,8 @@ namespace choreo {
 namespace {
 
 constexpr int kEqualInterval = 100;
-constexpr int kLeastInterval = 15;  // between keys on beats
-constexpr int kFewestSeconds = 20, kMostSpans = 30;
+constexpr int kMinInterval = 15;  // between keys on beats
+constexpr int kMinSeconds = 20, kMaxSpans = 30;
 
 // Frame `at` of a clip traversed forwards, backwards, forwards.
 const Pose& WalkedPose(const PreparedClip& clip, int at) {
@@ -23,7 +23,7 @@ const Pose& WalkedPose(const PreparedClip& clip, int at) {
 std::vector<int> KeyFrames(KeyTimes times, int frames, const std::vector<double>& beats) {
   std::vector<int> keys;
   if (times == KeyTimes::kNone) return keys;
-  const int interval = times == KeyTimes::kEachTwoSeconds ? kUsualFrames : kEqualInterval;
+  const int interval = times == KeyTimes::kEachTwoSeconds ? kTypicalFrames : kEqualInterval;
   for (int equal = interval - 1; equal < frames; equal += interval) {
     int frame = equal;
     if (times == KeyTimes::kOnBeats && !beats.empty()) {
@@ -31,7 +31,7 @@ std::vector<int> KeyFrames(KeyTimes times, int frames, const std::vector<double>
           beats, {}, [equal](double beat) { return std::abs(beat - equal); });
       frame = static_cast<int>(std::lround(*nearest));
     }
-    const int earliest = keys.empty() ? kLeastInterval : keys.back() + kLeastInterval;
+    const int earliest = keys.empty() ? kMinInterval : keys.back() + kMinInterval;
     if (frame >= earliest && frame < frames) keys.push_back(frame);
   }
   return keys;
@@ -79,13 +79,13 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
   std::vector<LongPlan> plans;
   for (size_t clip = 0; clip < set.clips.size(); ++clip) {
     const std::vector<Pose>& poses = set.clips[clip].motion.frames;
-    if (static_cast<double>(poses.size()) < kFewestSeconds * model.fps) continue;
+    if (static_cast<double>(poses.size()) < kMinSeconds * model.fps) continue;
     const int usable = static_cast<int>(poses.size()) - model.history_frames;
-    const int spans = std::min(usable / kUsualFrames, kMostSpans);
+    const int spans = std::min(usable / kTypicalFrames, kMaxSpans);
     LongPlan plan;
     plan.clip = clip;
-    plan.start = model.history_frames + (usable - spans * kUsualFrames) / 2;
-    plan.frames = spans * kUsualFrames;
+    plan.start = model.history_frames + (usable - spans * kTypicalFrames) / 2;
+    plan.frames = spans * kTypicalFrames;
     plan.temperature = temperature;
     plan.history = RealPoses(set, {plan.clip, plan.start}, 0, model.history_frames);
     for (const int key : KeyFrames(KeyTimes::kEachTwoSeconds, plan.frames, {}))

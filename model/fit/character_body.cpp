@@ -11,12 +11,12 @@
 namespace choreo {
 namespace {
 
-constexpr double kHighestAnkle =
+constexpr double kMaxAnkleHeight =
     0.3;  // share of the leg: an ankle above this does not stand on y = 0
-constexpr double kSunkenToes = -0.03;   // share of the leg: nor do toes below this
-constexpr double kToesHeight = 0.025;   // share of the leg: height of SMPL's toes
-constexpr double kAnkleHeight = 0.1;    // share of the leg: height of SMPL's ankles
-constexpr double kShortestBone = 1e-4;  // share of the leg
+constexpr double kSunkenToes = -0.03;    // share of the leg: nor do toes below this
+constexpr double kToesHeight = 0.025;    // share of the leg: height of SMPL's toes
+constexpr double kAnkleHeight = 0.1;     // share of the leg: height of SMPL's ankles
+constexpr double kMinBoneLength = 1e-4;  // share of the leg
 
 class BodyBuilder {
  public:
@@ -56,7 +56,7 @@ class BodyBuilder {
     left -= left.dot(up) * up;
     leg_ = (Place("left_knee") - Place("left_hip")).norm() +
            (Place("left_ankle") - Place("left_knee")).norm();
-    if (!(left.norm() > kShortestBone * leg_) || !(trunk.norm() > kShortestBone * leg_)) {
+    if (!(left.norm() > kMinBoneLength * leg_) || !(trunk.norm() > kMinBoneLength * leg_)) {
       throw InvalidArgument("bones", "hips and shoulders of left and right stand in one place");
     }
     left.normalize();
@@ -74,7 +74,7 @@ class BodyBuilder {
 
   bool HasToes(const std::string& side) const {
     return bones_.Find(side + "foot") >= 0 &&
-           (Place(side + "foot") - Place(side + "ankle")).norm() > kShortestBone * leg_;
+           (Place(side + "foot") - Place(side + "ankle")).norm() > kMinBoneLength * leg_;
   }
 
   int Add(const std::string& joint, int node, int parent, const Eigen::Vector3d& offset,
@@ -106,7 +106,7 @@ class BodyBuilder {
   Eigen::Matrix3d Along(const std::string& from, const std::string& to, const Eigen::Matrix3d& turn,
                         const Eigen::Vector3d& straight) const {
     const Eigen::Vector3d bone = turn * (Place(to) - Place(from));
-    if (!(bone.norm() > kShortestBone * leg_))
+    if (!(bone.norm() > kMinBoneLength * leg_))
       throw InvalidArgument("bones", to + " stands where " + from + " does");
     const auto turning = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       return Eigen::Quaterniond::FromTwoVectors(a, b).toRotationMatrix();
@@ -163,7 +163,7 @@ class BodyBuilder {
   double Floor() const {
     const double ankle = std::min(Height("left_ankle"), Height("right_ankle"));
     double toes = ankle - (kAnkleHeight - kToesHeight) * leg_;
-    bool stands = ankle > 0 && ankle < kHighestAnkle * leg_;
+    bool stands = ankle > 0 && ankle < kMaxAnkleHeight * leg_;
     if (HasToes("left_") && HasToes("right_")) {
       toes = std::min(Height("left_foot"), Height("right_foot"));
       stands = stands && toes > kSunkenToes * leg_;

@@ -13,8 +13,8 @@
 namespace choreo {
 namespace {
 
-constexpr size_t kMostGroups = 16, kMostRigNodes = 5000;  // limits for hostile files
-constexpr size_t kFewestBones = 12, kMostBodies = 8;
+constexpr size_t kMaxGroups = 16, kMaxRigNodes = 5000;  // limits for hostile files
+constexpr size_t kMinBones = 12, kMaxBodies = 8;
 // Bones counted by `Needed`: six on each side, and the head or the neck.
 constexpr int kAllNeeded = 2 * static_cast<int>(std::size(kNeededLimbBones)) + 1;
 
@@ -33,7 +33,7 @@ Group Below(const RigNodes& rig, int top) {
 // The nodes with enough descendants for a body, those near the root first: whole skeletons.
 std::vector<int> TopsOf(const RigNodes& rig) {
   std::vector<int> tops;
-  if (rig.names.size() > kMostRigNodes) return tops;
+  if (rig.names.size() > kMaxRigNodes) return tops;
   std::vector<int> carried(rig.names.size(), 0), depth(rig.names.size(), 0);
   for (size_t node = 0; node < rig.names.size(); ++node) {
     for (int above = static_cast<int>(node); above >= 0; above = rig.parents[above]) {
@@ -42,7 +42,7 @@ std::vector<int> TopsOf(const RigNodes& rig) {
     }
   }
   for (size_t node = 0; node < rig.names.size(); ++node) {
-    if (carried[node] >= static_cast<int>(kFewestBones)) tops.push_back(static_cast<int>(node));
+    if (carried[node] >= static_cast<int>(kMinBones)) tops.push_back(static_cast<int>(node));
   }
   std::ranges::stable_sort(tops, {}, [&](int node) { return depth[node]; });
   return tops;
@@ -149,7 +149,7 @@ HumanBones ByNames(const RigNodes& rig) {
     const bool below =
         std::ranges::any_of(partial, [&](int node) { return IsBelow(top, node, rig.parents); });
     if (below) continue;
-    if (++looked_at > kMostGroups) break;
+    if (++looked_at > kMaxGroups) break;
     HumanBones found = FindHumanBones(NamesOf(rig, Below(rig, top)), rig.moves);
     if (Needed(found) < kAllNeeded) partial.push_back(top);
     if (score(found) > score(best)) best = std::move(found);
@@ -215,9 +215,9 @@ HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen)
 
 std::vector<HumanBones> MovingBodies(const RigNodes& rig, const HumanBones& found) {
   std::vector<HumanBones> bodies = {found};
-  if (rig.names.size() > kMostRigNodes) return bodies;
+  if (rig.names.size() > kMaxRigNodes) return bodies;
   RigNodes rest = rig;
-  while (bodies.size() < kMostBodies && !bodies.back().bones.empty()) {
+  while (bodies.size() < kMaxBodies && !bodies.back().bones.empty()) {
     // Skip the skeleton already found.
     int top = bodies.back().bones.begin()->second;
     for (const auto& [bone, node] : bodies.back().bones) {

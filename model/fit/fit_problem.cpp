@@ -10,7 +10,7 @@ namespace {
 
 // Damping grows with each refused step; beyond the maximum, steps are too short to matter.
 constexpr double kFirstDamping = 1e-4;
-constexpr double kMostDamping = 1e2;
+constexpr double kMaxDamping = 1e2;
 
 // Weight of the parent's rotation relative to landmarks, square metres.
 constexpr double kStays = 1e-4, kTrunkStays = 0.02;
@@ -71,7 +71,7 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& n
   double cost = Cost(targets, neighbours, pose);
   double damping = kFirstDamping;
   bool relinearise = true;
-  for (int taken = 0; taken < iterations && damping < kMostDamping; taken += relinearise ? 1 : 0) {
+  for (int taken = 0; taken < iterations && damping < kMaxDamping; taken += relinearise ? 1 : 0) {
     if (relinearise) Linearise(targets, neighbours, pose);
     damped_ = normal_;
     damped_.diagonal() *= 1.0 + damping;

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kHingePlane =
     0.2;  // radians between a hinge's axis and the normal of the bent limb's plane
-constexpr double kLeastBend = 0.03;  // radians, of knees and elbows
+constexpr double kMinBend = 0.03;  // radians, of knees and elbows
 // Radians: no hinge bends backwards this far.
-constexpr double kMostShortWay = 2;
+constexpr double kMaxShortTurn = 2;
 
 // d log(exp(delta) exp(w)) / d delta at delta = 0.
 Eigen::Matrix3d LogJacobian(const Eigen::Vector3d& w) {
@@ -158,7 +158,7 @@ JointTerm::JointTerm(const Skeleton& skeleton, const FitOptions& options, double
 // A hinge that is bent far and also turned about its limb is turned by more than half a turn; the
 // shorter way round, which would be a backwards bend, is not the way it went.
 Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
-  return w.norm() < kMostShortWay || hinge_axis.dot(w) >= 0 ? w : OtherWayRound(w);
+  return w.norm() < kMaxShortTurn || hinge_axis.dot(w) >= 0 ? w : OtherWayRound(w);
 }
 
 // How far a hinge is below straight (negative) or beyond the largest bend (positive). 0 for other
@@ -166,7 +166,7 @@ Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
 double JointTerm::Prior::Beyond(const Eigen::Vector3d& turn) const {
   if (hinge_axis.isZero()) return 0;
   const double bend = hinge_axis.dot(turn);
-  return std::min(0.0, bend - kLeastBend) + std::max(0.0, bend - kMostHingeBend);
+  return std::min(0.0, bend - kMinBend) + std::max(0.0, bend - kMaxHingeBend);
 }
 
 void JointTerm::AddCost(const Pose& pose, const FitNeighbours& neighbours, double* cost) const {

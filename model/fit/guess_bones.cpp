@@ -16,8 +16,8 @@ namespace {
 // Shares of the body's height.
 constexpr double kBeside = 0.02;      // further than this from the middle, a node belongs to a side
 constexpr double kAboveToes = 0.035;  // ankles are at least this high
-constexpr size_t kFewestNodes = 10, kMostNodes = 5000;  // limits, also for hostile files
-constexpr size_t kFingers = 3;                          // chains that a hand carries at least
+constexpr size_t kMinNodes = 10, kMaxNodes = 5000;  // limits, also for hostile files
+constexpr size_t kFingers = 3;                      // chains that a hand carries at least
 
 class BodyGuess {
  public:
@@ -33,7 +33,7 @@ class BodyGuess {
   }
 
   HumanBones Guess() {
-    if (nodes_.size() < kFewestNodes || parents_.size() > kMostNodes) return {};
+    if (nodes_.size() < kMinNodes || parents_.size() > kMaxNodes) return {};
     Measure();
     const int feet[2] = {Extreme([&](int n) { return Beside(n, 1) ? -Y(n) : kNever; }),
                          Extreme([&](int n) { return Beside(n, -1) ? -Y(n) : kNever; })};

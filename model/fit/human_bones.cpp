@@ -11,8 +11,8 @@
 namespace choreo {
 namespace {
 
-constexpr int kMostSpines = 6, kMostNecks = 3;
-constexpr int kMostEnds = 4;  // "_bind_jnt" has two; a limit for hostile files
+constexpr int kMaxSpines = 6, kMaxNecks = 3;
+constexpr int kMaxEnds = 4;  // "_bind_jnt" has two; a limit for hostile files
 
 std::vector<std::string_view> Split(std::string_view names) {
   std::vector<std::string_view> out;
@@ -102,14 +102,14 @@ bool IsPrefix(std::string_view prefix) {
 // Prefixes under which the left thigh exists. Of Rigify's three sets of bones, DEF- moves the mesh.
 std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names,
                                     Spelling spelling) {
-  constexpr size_t kMost = 8;  // a limit for hostile files
+  constexpr size_t kMaxPrefixes = 8;  // a limit for hostile files
   const bool plain = spelling == Spelling::kPlain;
   std::vector<std::string> prefixes = {"", plain ? "def" : "DEF-"};
   for (const std::string_view candidate : Split(rig.limbs[0])) {
     std::string thigh = OnSide(candidate, rig, true);
     if (plain) thigh = Plain(thigh);
     for (const std::string& name : names) {
-      if (!name.ends_with(thigh) || prefixes.size() == kMost) continue;
+      if (!name.ends_with(thigh) || prefixes.size() == kMaxPrefixes) continue;
       std::string prefix = name.substr(0, name.size() - thigh.size());
       if ((plain || IsPrefix(prefix)) && std::ranges::find(prefixes, prefix) == prefixes.end())
         prefixes.push_back(std::move(prefix));
@@ -125,7 +125,7 @@ std::vector<std::string> WithoutCommonEnd(std::vector<std::string> names) {
     const size_t at = name.find_last_of("_.-:| ");
     return at == std::string::npos || at == 0 ? std::string() : name.substr(at);
   };
-  for (int ends = 0; ends < kMostEnds; ++ends) {
+  for (int ends = 0; ends < kMaxEnds; ++ends) {
     std::map<std::string, size_t> times;
     for (const std::string& name : names) {
       if (const std::string end = end_of(name); !end.empty()) ++times[end];
@@ -212,8 +212,8 @@ HumanBones FindHumanBones(const std::vector<std::string>& names, const std::vect
 const std::vector<std::string>& AllHumanBones() {
   static const std::vector<std::string> bones = [] {
     std::vector<std::string> all = {"pelvis"};
-    for (int number = 1; number <= kMostSpines; ++number) all.push_back(SpineName(number));
-    for (int number = 1; number <= kMostNecks; ++number) all.push_back(NeckName(number));
+    for (int number = 1; number <= kMaxSpines; ++number) all.push_back(SpineName(number));
+    for (int number = 1; number <= kMaxNecks; ++number) all.push_back(NeckName(number));
     all.emplace_back("head");
     for (const char* side : {"left_", "right_"}) {
       for (const std::string_view bone : kLimbBones) all.push_back(side + std::string(bone));
@@ -235,7 +235,7 @@ std::string NameInRig(std::string_view rig_name, const std::string& bone) {
     const std::vector<std::string_view> split = Split(names);
     return number > std::ssize(split) ? std::string() : std::string(split[number - 1]);
   };
-  for (int number = 1; number <= kMostSpines; ++number) {
+  for (int number = 1; number <= kMaxSpines; ++number) {
     if (bone == SpineName(number)) return nth(rig.trunk.spine, number);
     if (bone == NeckName(number)) return nth(rig.trunk.neck, number);
   }

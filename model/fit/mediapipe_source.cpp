@@ -9,13 +9,13 @@ namespace choreo {
 namespace {
 
 constexpr double kPhotoAccuracy = 0.03;  // metres: error of landmarks from photos
-constexpr double kLeastWeight = 0.001;
+constexpr double kMinWeight = 0.001;
 
 // How MediaPipe's landmarks locate our joints.
 SourceMapping MediaPipeSource(std::span<const double> visibilities) {
   const auto seen = [&](const std::string& name) {
     const double visibility = visibilities[IndexOf(MediaPipeJointNames(), name)];
-    return std::clamp(visibility * visibility, kLeastWeight, 1.0);
+    return std::clamp(visibility * visibility, kMinWeight, 1.0);
   };
   using B = MappingBuilder;
   B builder("mediapipe", kPhotoAccuracy);

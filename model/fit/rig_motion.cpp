@@ -221,7 +221,7 @@ RigFit FitRig(const RigMotion& rig, double scale) {
   std::optional<RigFit> as_it_is;
   if (as_named.Stands()) {
     as_it_is = named();
-    if (ShareBent(as_it_is->motion) <= kMostFrames) return *std::move(as_it_is);
+    if (ShareBent(as_it_is->motion) <= kRuleShare) return *std::move(as_it_is);
   }
   for (const std::string of : {"body", "arms", "legs"}) {
     RigMotion other = rig;
@@ -229,7 +229,7 @@ RigFit FitRig(const RigMotion& rig, double scale) {
     const RigReading as_placed(other);
     if (!as_placed.Stands()) continue;
     RigFit fit = RigFitter(as_placed, scale).Fit();
-    if (as_it_is && ShareBent(fit.motion) > 1 - kMostFrames) continue;
+    if (as_it_is && ShareBent(fit.motion) > 1 - kRuleShare) continue;
     fit.exchanged = of;
     return fit;
   }

@@ -22,7 +22,7 @@ constexpr double kTrunkAside = 35 / kDegrees;
 // A bone that carries the next one keeps it in the same place, within these radians and bone
 // lengths.
 constexpr double kLooseBone = 15 / kDegrees;
-constexpr int kMostLoose = 2;
+constexpr int kMaxLoose = 2;
 
 const Skeleton& OurBody() { return Skeleton::Smpl24(); }
 
@@ -153,7 +153,7 @@ bool RigReading::Point(const std::function<Eigen::Vector3d(const LimbSegment&)>&
       angles.push_back(AngleBetween(Inside(sample, segment), there));
     loose += Quantile(std::move(angles), share) > kLooseBone ? 1 : 0;
   }
-  return loose <= kMostLoose;
+  return loose <= kMaxLoose;
 }
 
 bool RigReading::TurnsCarry() const {
@@ -163,7 +163,7 @@ bool RigReading::TurnsCarry() const {
         for (const RigPlacement& sample : samples_) mean += Inside(sample, segment);
         return mean;
       },
-      kMostFrames);
+      kRuleShare);
 }
 
 // Whether the rest pose belongs to the bones that move.

@@ -13,7 +13,7 @@
 namespace choreo {
 
 /// The share of frames that makes a rule.
-inline constexpr double kMostFrames = 0.9;
+inline constexpr double kRuleShare = 0.9;
 
 /// The bones whose direction is that to their end: by SMPL's names, which HumanBones uses, too.
 struct LimbSegment {

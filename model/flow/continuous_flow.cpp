@@ -35,7 +35,7 @@ class FlowBlockImpl : public torch::nn::Module {
     torch::nn::init::zeros_(modulation_->weight);
     torch::nn::init::zeros_(modulation_->bias);
     distance_bias_ =
-        register_parameter("distance_bias", torch::zeros({kMostTokensApart * 2 + 1, heads}));
+        register_parameter("distance_bias", torch::zeros({kMaxTokensApart * 2 + 1, heads}));
   }
 
   Tensor forward(const Tensor& x, const Tensor& condition, const Tensor& distance) {
@@ -211,7 +211,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const Tensor condition = torch::silu(
       condition_out_(torch::silu(condition_in_(torch::cat({whole, EmbedTime(t)}, -1)))));
   x = embed_(x.reshape({batch, tokens, -1})) + inject_(condition).unsqueeze(1);
-  const Tensor distance = TimeDistances(tokens, z.device(), kMostTokensApart);
+  const Tensor distance = TimeDistances(tokens, z.device(), kMaxTokensApart);
   {
     const Bfloat16Products fast(is_training() && MultipliesBfloat16());
     for (const auto& block : *blocks_) x = block->as<FlowBlock>()->forward(x, condition, distance);
@@ -337,7 +337,7 @@ ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const s
                             NamedTensor{{2, kBodyParts}, std::vector<float>(2 * kBodyParts)});
   if (const auto powers = whole.tensors.find(kPowers);
       powers != whole.tensors.end() && powers->second.data.size() == kPowerNumbers - 1) {
-    powers->second.data.push_back(VariancePowers::kUsualLeastScale);
+    powers->second.data.push_back(VariancePowers::kDefaultMinScale);
     powers->second.shape = {kPowerNumbers};
   }
   auto checkpoint =

@@ -6,10 +6,10 @@
 namespace choreo {
 
 void ContinuousFlowConfig::Validate(const std::string& field) const {
-  constexpr int kMostSteps = 64;
-  if (steps < 1 || steps > kMostSteps)
+  constexpr int kMaxSteps = 64;
+  if (steps < 1 || steps > kMaxSteps)
     throw InvalidArgument(field + ".steps", std::to_string(steps) + " is not in [1, " +
-                                                std::to_string(kMostSteps) + "]");
+                                                std::to_string(kMaxSteps) + "]");
   plan.Validate(field + ".plan");
 }
 

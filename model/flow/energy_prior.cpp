@@ -30,7 +30,7 @@ EnergyPrior::Inputs EnergyPrior::Describe(const Known& known) const {
   if (known.key)
     inputs.segment<kHalf - 1>(1) << std::log(std::max(known.surprise, 1e-6)), known.history,
         known.way.value_or(usual_way), known.way_in_world.value_or(usual_way_in_world);
-  inputs.tail<kHalf>() = std::log2(known.frames / double{kUsualFrames}) * inputs.head<kHalf>();
+  inputs.tail<kHalf>() = std::log2(known.frames / double{kTypicalFrames}) * inputs.head<kHalf>();
   return inputs;
 }
 

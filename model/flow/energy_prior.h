@@ -28,7 +28,7 @@ class EnergyPrior {
     /// the root, with the root's own as the trunk's; and of all joints in the world. None if the
     /// key leaves them open.
     std::optional<Levels> way = {}, way_in_world = {};
-    int frames = kUsualFrames;
+    int frames = kTypicalFrames;
     int style = -1;  ///< requested style, or -1
   };
   /// One, the logarithm of the surprise, the history's levels and those of both ways; then the same

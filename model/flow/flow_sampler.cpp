@@ -292,7 +292,7 @@ class WindowSampler::Way {
     const Eigen::MatrixXd& f = field_->f();
     const double step = field_->Angle(1);
     w_ += step * (step_ == 0 ? f : Eigen::MatrixXd(1.5 * f - 0.5 * before_));
-    w_ = w_.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
+    w_ = w_.cwiseMax(-MotionPrior::kMaxWhite).cwiseMin(MotionPrior::kMaxWhite);
     before_ = f;
     ++step_;
   }

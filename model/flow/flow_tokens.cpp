@@ -5,11 +5,12 @@
 namespace choreo {
 
 void EmbedFlowTime(float t, std::span<float> embedding) {
-  constexpr float kScale = 100;      // so that the embedding resolves small steps
-  constexpr double kSlowest = 1000;  // ratio of the fastest to the slowest
+  constexpr float kScale = 100;             // so that the embedding resolves small steps
+  constexpr double kMaxPeriodRatio = 1000;  // ratio of the fastest to the slowest
   const size_t half = embedding.size() / 2;
   for (size_t i = 0; i < half; ++i) {
-    const double rate = std::pow(kSlowest, -static_cast<double>(i) / static_cast<double>(half));
+    const double rate =
+        std::pow(kMaxPeriodRatio, -static_cast<double>(i) / static_cast<double>(half));
     const float phase = kScale * t * static_cast<float>(rate);
     embedding[i] = std::sin(phase);
     embedding[half + i] = std::cos(phase);

@@ -7,10 +7,10 @@
 namespace choreo {
 
 inline constexpr int kFramesAToken = 2;
-inline constexpr int kMostTokensApart = 64;  ///< larger offsets look alike
-inline constexpr int kMlpRatio = 3;          ///< a block's hidden width over its width
-inline constexpr int kFlowTimeWidth = 32;    ///< of the flow's embedded time
-inline constexpr float kBodyReach = 0.3F;    ///< metres: the spread of joints about the body
+inline constexpr int kMaxTokensApart = 64;  ///< larger offsets look alike
+inline constexpr int kMlpRatio = 3;         ///< a block's hidden width over its width
+inline constexpr int kFlowTimeWidth = 32;   ///< of the flow's embedded time
+inline constexpr float kBodyReach = 0.3F;   ///< metres: the spread of joints about the body
 
 /// Sines and cosines of the flow's time `t` in [0, 1]; `embedding` [kFlowTimeWidth].
 void EmbedFlowTime(float t, std::span<float> embedding);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
 // Radians that a dancer turns of herself in a window without a key: networks have seen little
 // beyond a whole turn, which the way on to her audience may complete.
-constexpr double kMostFreeTurn = std::numbers::pi;
+constexpr double kMaxFreeTurn = std::numbers::pi;
 // Frames for which a dancer keeps turning.
 constexpr double kTurnHorizon = 12;
 
@@ -36,7 +36,7 @@ Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& 
   const Eigen::Index tau = history.cols();
   for (int p = 0; p < MotionPrior::kPast && p + 1 < tau; ++p)
     velocity.col(p) = history.col(tau - 1 - p) - history.col(tau - 2 - p);
-  const Eigen::ArrayXd fastest = MotionPrior::kFastest * prior.VelocitySpread().array();
+  const Eigen::ArrayXd fastest = MotionPrior::kMaxSpeed * prior.VelocitySpread().array();
   for (auto&& one : velocity.colwise()) one = one.array().min(fastest).max(-fastest);
   return velocity;
 }
@@ -90,7 +90,7 @@ double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double n
   const Eigen::RowVectorXd turning =
       UpOf(poses.back()).transpose() * LastVelocities(prior, history).middleRows<3>(3);
   return std::clamp(free.past.row(end).dot(turning) + normal * free.spread.row(end).norm(),
-                    -kMostFreeTurn, kMostFreeTurn);
+                    -kMaxFreeTurn, kMaxFreeTurn);
 }
 
 Eigen::MatrixXd LevelCurves(const WindowRequest& request,

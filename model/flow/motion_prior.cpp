@@ -16,8 +16,8 @@ namespace {
 // jitter that keeps covariances invertible.
 constexpr double kHistoryDoubt = 0.01, kJitter = 1e-6;
 constexpr double kStillness = 2e-4;  // per frame; slower dimensions don't move
-constexpr double kLeastScale = 0.5, kMostAsked = 4;
-constexpr double kLeastEnergy = 1e-3;      // metres a frame
+constexpr double kMinScale = 0.5, kMaxAsked = 4;
+constexpr double kMinEnergy = 1e-3;        // metres a frame
 constexpr int kStaged = -1, kFacing = -2;  // stand for "no key, staged" in cache keys
 constexpr size_t kKept = 96;               // cached bridges; one of 96 frames takes 3 MB
 
@@ -48,11 +48,11 @@ MotionPrior::MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers, Usua
 }
 
 double EnergyLevel(double factor, double median) {
-  return std::log((factor + kLeastEnergy) / (median + kLeastEnergy));
+  return std::log((factor + kMinEnergy) / (median + kMinEnergy));
 }
 
 double EnergyFactor(double level, double median) {
-  return std::max(0.0, std::exp(level) * (median + kLeastEnergy) - kLeastEnergy);
+  return std::max(0.0, std::exp(level) * (median + kMinEnergy) - kMinEnergy);
 }
 
 Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still) {
@@ -78,14 +78,14 @@ Eigen::MatrixXd MotionPrior::Scales(double surprise, const Eigen::MatrixXd& leve
     return std::clamp(std::exp(0.5 * log_variance), least, most);
   };
   Eigen::MatrixXd scales = Eigen::MatrixXd::Constant(
-      dimensions(), levels.cols(), scale(by.surprise * log_surprise, kLeastScale, 1 / kLeastScale));
+      dimensions(), levels.cols(), scale(by.surprise * log_surprise, kMinScale, 1 / kMinScale));
   for (size_t d = 0; d < by.parts.size(); ++d) {
     for (Eigen::Index i = 0; by.parts[d] >= 0 && i < levels.cols(); ++i) {
       const double level = levels(by.parts[d], i);
       if (std::isnan(level)) continue;
       scales(static_cast<Eigen::Index>(d), i) =
           scale(by.offset + by.known_surprise * log_surprise + by.level * level, by.least_scale,
-                kMostAsked);
+                kMaxAsked);
     }
   }
   return scales;

@@ -16,7 +16,7 @@ namespace choreo {
 /// How far dancers deviate from the prior's mean: the variance as powers, measured in training, of
 /// what is known.
 struct VariancePowers {
-  static constexpr double kUsualLeastScale = 0.25;
+  static constexpr double kDefaultMinScale = 0.25;
 
   double surprise = 0;  ///< of FlowWindow::surprise
   /// The range in training, to which values are clipped.
@@ -24,7 +24,7 @@ struct VariancePowers {
   /// For a body part with known energy the variance is e to `offset`, times the surprise to a
   /// power, times e to `level` times its EnergyLevel.
   double offset = 0, known_surprise = 0, level = 0;
-  double least_scale = kUsualLeastScale;        ///< the least factor of its spread
+  double least_scale = kDefaultMinScale;        ///< the least factor of its spread
   std::vector<int> parts = {};                  ///< by dimension: its body part, or -1
   std::array<double, kBodyParts> medians = {};  ///< of their velocity factors, metres a frame
 };
@@ -63,10 +63,10 @@ class MotionPrior {
   static constexpr int kPast = 3;    ///< velocities of the history that are known
   static constexpr int kTurn = 4;    ///< the dimension of the root's turn about the vertical
   /// Bound of white coordinates, in deviations from the mean: recordings beyond it are faulty.
-  static constexpr double kMostWhite = 5;
+  static constexpr double kMaxWhite = 5;
   /// Bound of the history's velocities, times their spread: faster ones were forced by keys and
   /// floor, do not continue so, and lead networks far out of the range they know.
-  static constexpr double kFastest = 8;
+  static constexpr double kMaxSpeed = 8;
 
   /// What is known of one degree of freedom's displacements f_1..f_w from the last history frame.
   /// `past` [w, kPast] and `key` [w] are the weights in their mean of the last velocities (latest

@@ -16,9 +16,9 @@ constexpr double kUpright =
     0.95;  // cosine of the largest angle between a turn's axis and the vertical
 // Units and bounds of the inputs.
 constexpr double kAheadFrames = 15;                // for which a dancer is expected to keep turning
-constexpr double kFarthest = 3;                    // metres in two seconds
-constexpr double kUsualSpeed = 0.02;               // mean joint speed, metres a frame
-constexpr double kSlowest = 0.05;                  // as a share of that
+constexpr double kMaxDistance = 3;                 // metres in two seconds
+constexpr double kTypicalSpeed = 0.02;             // mean joint speed, metres a frame
+constexpr double kMinSpeed = 0.05;                 // as a share of that
 constexpr size_t kTurnFrames = 2, kWayFrames = 5;  // frames of the history
 
 // The chest's turn relative to the hips about the vertical, radians; 0 for a skeleton without these
@@ -42,7 +42,7 @@ double LivelinessOf(const Skeleton& skeleton, const std::vector<Pose>& history) 
                .mean();
   }
   const auto steps = static_cast<double>(std::max<size_t>(2, history.size()) - 1);
-  return std::log(std::max(kSlowest, sum / steps / kUsualSpeed));
+  return std::log(std::max(kMinSpeed, sum / steps / kTypicalSpeed));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
   const Eigen::Vector3d up = UpOf(last);
   // About other axes the longer way would be a somersault.
   if (std::abs(shorter.dot(up)) < kUpright * shorter.norm()) return std::nullopt;
-  const double longer = std::log2(request.to_key / double{kUsualFrames});
+  const double longer = std::log2(request.to_key / double{kTypicalFrames});
   const auto before = [&](size_t frames) -> const Pose& {
     return history[history.size() - 1 - std::min(frames, history.size() - 1)];
   };
@@ -72,16 +72,16 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
   const double goes = last.root_position.x() - before(kWayFrames).root_position.x();
   const Eigen::Vector3d way = request.mask.root_position
                                   ? Eigen::Vector3d((key.root_position - last.root_position) *
-                                                    kUsualFrames / request.to_key)
+                                                    kTypicalFrames / request.to_key)
                                   : Eigen::Vector3d::Zero();
-  const double metres = std::min(kFarthest, std::hypot(way.x(), way.z()));
+  const double metres = std::min(kMaxDistance, std::hypot(way.x(), way.z()));
   const double twist = request.mask.joints.empty() ? TwistOf(skeleton, key) : 0;
   const double lively = LivelinessOf(skeleton, history);
   const auto describe = [&](const Eigen::Vector3d& turn) {
     const double far = turn.norm() / std::numbers::pi, about = turn.dot(up) / std::numbers::pi;
     Inputs inputs;
     inputs << far, far * longer, far * metres, far * lively, about * ahead, about * ahead * longer,
-        about * goes, about * std::clamp(way.x(), -kFarthest, kFarthest), about * twist;
+        about * goes, about * std::clamp(way.x(), -kMaxDistance, kMaxDistance), about * twist;
     return inputs;
   };
   return describe(other) - describe(shorter);

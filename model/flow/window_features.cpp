@@ -11,8 +11,8 @@ namespace choreo {
 namespace {
 
 constexpr int kTimeWidth = 16;       // per embedded frame count
-constexpr double kLongestBeat = 27;  // frames: slower beats are halved, as dancers do
-constexpr double kUsualBeat = 15;    // frames
+constexpr double kMaxBeat = 27;      // frames: slower beats are halved, as dancers do
+constexpr double kTypicalBeat = 15;  // frames
 constexpr double kPathScale = 0.3;   // metres
 constexpr int kBeatFeatures = 6;
 
@@ -65,7 +65,7 @@ std::optional<BeatPhase> PhaseAt(std::span<const double> beats, double at) {
   double period = *next - *(next - 1);
   if (!(period > 0)) return std::nullopt;
   double since = (at - *(next - 1)) / period;
-  if (period > kLongestBeat) {
+  if (period > kMaxBeat) {
     since *= 2;
     period /= 2;
   }
@@ -103,7 +103,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
       at.segment<kBeatFeatures>(kBeat) << 1, static_cast<float>(std::sin(angle)),
           static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(2 * angle)),
           static_cast<float>(std::cos(2 * angle)),
-          static_cast<float>(2 * std::log(beat->period / kUsualBeat));
+          static_cast<float>(2 * std::log(beat->period / kTypicalBeat));
     }
     EmbedCount(i, place(since));
     if (request.key) EmbedCount(request.to_key - 1 - i, place(left));
@@ -131,7 +131,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   put(last.root_position.y() - skeleton.pelvis_height);
   for (int d = 0; d < dimensions; ++d) {
     const double before = tau > 1 ? window.history()(d, tau - 2) : 0;
-    put(std::clamp(-before / spread[d], -MotionPrior::kFastest, MotionPrior::kFastest));
+    put(std::clamp(-before / spread[d], -MotionPrior::kMaxSpeed, MotionPrior::kMaxSpeed));
   }
   for (int d = 0; d < dimensions; ++d) put(window.displacement()[d]);
   for (int d = 0; d < dimensions; ++d) put(window.keyed()[static_cast<size_t>(d)] ? 1 : 0);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kSparseRate = 20;  // keys a second; fewer are not frames
 constexpr double kMaxFrames = 1e6;
-constexpr size_t kMostAnimations = 64;  // limit for hostile files
-constexpr size_t kMostNamed = 8;
+constexpr size_t kMaxAnimations = 64;  // limit for hostile files
+constexpr size_t kMaxNamed = 8;
 
 std::string AnimationName(size_t animation) { return GltfItem("animations", animation); }
 
@@ -37,9 +37,9 @@ std::string Label(const tinygltf::Model& model, size_t animation) {
 
 std::string Labels(const tinygltf::Model& model, std::optional<size_t> but = {}) {
   std::string labels;
-  for (size_t i = 0; i < std::min(model.animations.size(), kMostNamed); ++i)
+  for (size_t i = 0; i < std::min(model.animations.size(), kMaxNamed); ++i)
     if (i != but) labels += (labels.empty() ? "" : ", ") + Label(model, i);
-  return labels + (model.animations.size() > kMostNamed ? " ..." : "");
+  return labels + (model.animations.size() > kMaxNamed ? " ..." : "");
 }
 
 // The animation with this name or number.
@@ -113,7 +113,7 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
   if (TakeParts(model, reading, scene)) return 0;
   size_t chosen = 0;
   int most = -1;
-  for (size_t i = 0; i < std::min(model.animations.size(), kMostAnimations); ++i) {
+  for (size_t i = 0; i < std::min(model.animations.size(), kMaxAnimations); ++i) {
     std::vector<GltfChannel> channels = ReadGltfChannels(model, i);
     RigNodes rig = scene->rig;
     rig.moves = MovedBy(channels, nodes);

@@ -21,7 +21,7 @@ namespace {
 
 // A body stands if its trunk is within 45 degrees of the vertical (cosine).
 constexpr double kStands = 0.7;
-constexpr double kMostly = 0.9;  // share of frames that make a rule
+constexpr double kRuleShare = 0.9;  // share of frames that make a rule
 // In fewer frames a body may be lying on purpose: a pose, a fall.
 constexpr size_t kFewFrames = 10;
 // Metres. A higher pelvis means another unit.
@@ -117,12 +117,12 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
                  ", as its rest pose stands so; --up " + UpName(file.up) + " lets it lie");
     return *file.rest_up;
   }
-  if (trunks.empty() || ShareStanding(trunks, file.up) > 1 - kMostly) return file.up;
+  if (trunks.empty() || ShareStanding(trunks, file.up) > 1 - kRuleShare) return file.up;
   for (const auto& axis :
        {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1),
         Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0)}) {
     const double share = ShareStanding(trunks, axis);
-    if (share < kMostly) continue;
+    if (share < kRuleShare) continue;
     const auto beside = axis == -file.up ? FloorBeside(file, axis) : std::nullopt;
     if (beside && trunks.size() >= kFewFrames) {
       reading.Note("taken as " + UpName(*beside) + " up, not " + UpName(file.up) +
@@ -187,7 +187,7 @@ void NoteStillness(const Motion& motion, const MotionReading& reading) {
 void NoteBends(const FileMotion& file, const Motion& motion, const MotionReading& reading) {
   std::string example;
   const double share = ShareOfFaults(file.skeleton, motion, &example);
-  if (share > 1 - kMostly) {
+  if (share > 1 - kRuleShare) {
     reading.Note("in " + Share(share) + " of its frames a joint is bent as no body can, as in: " +
                  example + "; are its bones taken for what they are?" +
                  (file.has_angles ? " --angles says the unit of its angles" : ""));
@@ -214,7 +214,7 @@ void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* 
 void FindFloor(const FileMotion& file, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights;
   for (const Pose& pose : motion->frames) heights.push_back(HeightAboveFloor(file.skeleton, pose));
-  const double floor = Quantile(heights, kFloorShare), highest_low = Quantile(heights, kMostly);
+  const double floor = Quantile(heights, kFloorShare), highest_low = Quantile(heights, kRuleShare);
   const double lowest = *std::ranges::min_element(heights);
   const double seconds = static_cast<double>(heights.size()) / motion->fps;
   std::string why;

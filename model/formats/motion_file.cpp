@@ -131,9 +131,9 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
 // Converts radians to degrees if they may be radians: none exceeds a turn, but of one root that
 // spins on slowly, and some exceed 1.
 std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
-  constexpr Eigen::Index kFewest = 10;  // fewer frames prove nothing
+  constexpr Eigen::Index kMinFrames = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
-  if (reading.angles == "degrees" || (reading.angles.empty() && file.frames() < kFewest))
+  if (reading.angles == "degrees" || (reading.angles.empty() && file.frames() < kMinFrames))
     return std::nullopt;
   BvhFile turned = file;
   double farthest = 0, fastest = 0;

@@ -61,11 +61,11 @@ size_t ChooseBody(const std::string& body, const std::vector<std::string>& names
 }
 
 std::string ListBodies(const std::vector<std::string>& names) {
-  constexpr size_t kMost = 8;
+  constexpr size_t kMaxNames = 8;
   std::string text;
-  for (size_t i = 0; i < std::min(names.size(), kMost); ++i)
+  for (size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
     text += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + Printable(names[i]) + '"';
-  return text + (names.size() > kMost ? " ..." : "");
+  return text + (names.size() > kMaxNames ? " ..." : "");
 }
 
 }  // namespace choreo

@@ -67,8 +67,8 @@ void Tell(const RigFit& fit, const MotionReading& reading) {
 
 // Notes a mix of units: some files have bones in centimetres and the root's positions in metres.
 void NoteUnits(const RigMotion& rig, const RigFit& fit, const MotionReading& reading) {
-  constexpr double kLowest = 0.5,
-                   kHighest = 2;  // height of the pelvis, in leg lengths
+  constexpr double kMinHeight = 0.5,
+                   kMaxHeight = 2;  // height of the pelvis, in leg lengths
   const Eigen::Vector3d up = fit.up.value_or(Eigen::Vector3d::UnitY());
   const auto place = [&](const RigPlacement& at, const char* bone) -> Eigen::Vector3d {
     return at.places.col(rig.bones.Find(bone));
@@ -81,7 +81,7 @@ void NoteUnits(const RigMotion& rig, const RigFit& fit, const MotionReading& rea
                      (place(first, "left_knee") - place(first, "left_ankle")).norm();
   const double height = Median(std::move(heights)) / leg;
   for (const double unit : {100.0, 0.01}) {
-    if (height * unit < kLowest || height * unit > kHighest) continue;
+    if (height * unit < kMinHeight || height * unit > kMaxHeight) continue;
     reading.Note("its pelvis stands at " + Rounded(height) +
                  " lengths of its legs: are its root's " +
                  "places in another unit than its bones? Then its ways are " + Rounded(1 / unit) +

@@ -26,8 +26,8 @@ int FindRoot(const std::vector<std::string>& names, const std::vector<int>& pare
 // Whether it rests like our skeletons: y up, facing +Z, of a person's size. Other programs' rigs
 // with our joint names may not.
 bool StandsAsOurs(const Skeleton& skeleton) {
-  constexpr double kUpright = 0.8;                            // cosine
-  constexpr double kShortestLegs = 0.45, kLongestLegs = 1.4;  // metres
+  constexpr double kUpright = 0.8;                   // cosine
+  constexpr double kMinLegs = 0.45, kMaxLegs = 1.4;  // metres
   const Eigen::Matrix3Xd at = JointPositions(skeleton, RestPose(skeleton));
   const Eigen::Vector3d across = at.col(skeleton.left_hip) - at.col(skeleton.right_hip);
   const Eigen::Vector3d trunk = at.col(skeleton.left_shoulder) + at.col(skeleton.right_shoulder) -
@@ -39,7 +39,7 @@ bool StandsAsOurs(const Skeleton& skeleton) {
             2;
   }
   return across.x() > kUpright * across.norm() && trunk.y() > kUpright * trunk.norm() &&
-         legs > kShortestLegs && legs < kLongestLegs;
+         legs > kMinLegs && legs < kMaxLegs;
 }
 
 }  // namespace

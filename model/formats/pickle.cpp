@@ -22,7 +22,7 @@ namespace choreo {
 namespace {
 
 /// A dict of arrays takes some 40 an array. Bounds time, memory and the depth of what is built.
-constexpr int kMostOperations = 4096;
+constexpr int kMaxOperations = 4096;
 
 /// What NumPy calls values that are objects, without their order of bytes.
 constexpr const char* kObjects = "<O8";
@@ -78,7 +78,7 @@ class Unpickler {
     if (opcode_ == 0x80) Take(1);
     if (opcode_ == 0x80 ? Byte() > 5 : !kOperations.contains(opcode_))
       Refuse("no pickle of protocol 0 to 5");
-    for (int operation = 0; operation < kMostOperations; ++operation) {
+    for (int operation = 0; operation < kMaxOperations; ++operation) {
       start_ = at_;
       opcode_ = Byte();
       if (opcode_ == '.') return Expect(TakeOnly(Pop()), kind);
@@ -86,7 +86,7 @@ class Unpickler {
       if (known == kOperations.end()) Refuse("is not read");
       known->second(*this);
     }
-    Refuse("more than " + std::to_string(kMostOperations) + " operations");
+    Refuse("more than " + std::to_string(kMaxOperations) + " operations");
   }
 
  private:

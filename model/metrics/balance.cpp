@@ -10,7 +10,7 @@ namespace choreo {
 namespace {
 
 constexpr double kFloorShare = 0.05;
-constexpr double kLeastHover = 0.15;         // m, of the lowest joint
+constexpr double kMinHover = 0.15;           // m, of the lowest joint
 constexpr double kCentreOutside = 0.10;      // m
 constexpr double kZeroMomentOutside = 0.15;  // m
 
@@ -87,7 +87,7 @@ WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTra
   for (const Balance& frame : balance)
     if (hovers(frame)) falls.push_back(frame.acceleration.y());
   figures.hover_acceleration = falls.empty() ? NAN : Median(std::move(falls));
-  figures.longest_hover_s = LongestHover(track, balance, floor + kLeastHover) / fps;
+  figures.longest_hover_s = LongestHover(track, balance, floor + kMinHover) / fps;
   figures.zmp_outside = share(
       [](const Balance& frame) { return frame.zmp_outside.value_or(0) > kZeroMomentOutside; });
   figures.centre_outside =

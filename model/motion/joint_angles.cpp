@@ -18,8 +18,8 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 constexpr struct {
   std::string_view part;
   double most;
-} kMostTurn[] = {{"collar", 60}, {"wrist", 90}, {"ankle", 80}, {"foot", 60},
-                 {"toe", 60},    {"spine", 60}, {"neck", 80},  {"head", 80}};
+} kMaxTurn[] = {{"collar", 60}, {"wrist", 90}, {"ankle", 80}, {"foot", 60},
+                {"toe", 60},    {"spine", 60}, {"neck", 80},  {"head", 80}};
 
 std::optional<Hinge> HingeAt(const Skeleton& skeleton, int joint) {
   for (const Hinge& hinge : Hinges(skeleton)) {
@@ -33,7 +33,7 @@ std::optional<Hinge> HingeAt(const Skeleton& skeleton, int joint) {
 AngleRange RangeOf(const Skeleton& skeleton, int joint) {
   if (HingeAt(skeleton, joint)) return {0, kFolded};
   const std::string& name = skeleton.joint_names[static_cast<size_t>(joint)];
-  for (const auto& [part, most] : kMostTurn) {
+  for (const auto& [part, most] : kMaxTurn) {
     if (name.find(part) != std::string::npos) return {-most, most};
   }
   return {-180, 180};

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kRounding = 0.01;  // degrees, for files that state the limit itself
 
-constexpr double kUnderFloor = 0.05;  // metres of tolerance for rounded poses
-constexpr double kInAir = 0.15;       // metres; less may be tiptoe
-constexpr double kLongestJump = 1.0;  // seconds
-constexpr double kLimbSpeed = 7;      // m/s, about the body
+constexpr double kUnderFloor = 0.05;     // metres of tolerance for rounded poses
+constexpr double kInAir = 0.15;          // metres; less may be tiptoe
+constexpr double kMaxJumpSeconds = 1.0;  // seconds
+constexpr double kLimbSpeed = 7;         // m/s, about the body
 
 bool AsksForAll(const PoseMask& mask) {
   return mask.root_position && std::ranges::find(mask.joints, false) == mask.joints.end();
@@ -32,9 +32,9 @@ std::string FloorFault(const Skeleton& skeleton, const Pose& pose, const PoseMas
     return skeleton.joint_names[static_cast<size_t>(deepest)] + " is " +
            Rounded(100 * depth[deepest]) + " cm under the floor";
   }
-  if (!AsksForAll(mask) || -depth.maxCoeff() <= kHighestJump) return "";
+  if (!AsksForAll(mask) || -depth.maxCoeff() <= kMaxJumpHeight) return "";
   return "the body hangs " + Rounded(-depth.maxCoeff()) + " m above the floor; nobody jumps " +
-         Rounded(kHighestJump) + " m";
+         Rounded(kMaxJumpHeight) + " m";
 }
 
 /// The joint that moves fastest relative to the root on the straight way between two poses.
@@ -98,10 +98,10 @@ std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<
     in_air = AsksForAll(one.mask) && HeightAboveFloor(skeleton, one.pose) > kInAir ? in_air + 1 : 0;
     if (in_air < 2) continue;
     const TimedPose& left = poses[i + 1 - in_air];
-    if (one.seconds - left.seconds <= kLongestJump) continue;
+    if (one.seconds - left.seconds <= kMaxJumpSeconds) continue;
     faults.push_back({i, "the body would be in the air for " + Rounded(one.seconds - left.seconds) +
                              " s, since \"" + left.name + "\"; a jump takes " +
-                             Rounded(kLongestJump)});
+                             Rounded(kMaxJumpSeconds)});
     in_air = 0;  // report once
   }
   return faults;

@@ -10,7 +10,7 @@
 /// Error(kInvalidArgument) for a pose or mask of another joint count.
 namespace choreo {
 
-inline constexpr double kHighestJump = 1.2;  ///< metres from the floor to the feet
+inline constexpr double kMaxJumpHeight = 1.2;  ///< metres from the floor to the feet
 
 /// The faults of one pose within `mask`: "left_foot is 12 cm under the floor", "the body hangs 1.5
 /// m above the floor", "right_knee bends 40 degrees backwards, further than 15".

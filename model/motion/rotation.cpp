@@ -80,9 +80,9 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
 }
 
 Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn) {
-  constexpr double kLeastTurn = 1e-3;  // radians
+  constexpr double kMinTurn = 1e-3;  // radians
   const double angle = turn.norm();
-  return angle < kLeastTurn ? turn : turn * (1 - 2 * std::numbers::pi / angle);
+  return angle < kMinTurn ? turn : turn * (1 - 2 * std::numbers::pi / angle);
 }
 
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected) {

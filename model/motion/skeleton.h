@@ -74,7 +74,7 @@ struct Hinge {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length
 };
 
-inline constexpr double kMostHingeBend = 2.7;   ///< radians: the largest bend in plans and fits
+inline constexpr double kMaxHingeBend = 2.7;    ///< radians: the largest bend in plans and fits
 inline constexpr double kFolded = 165;          ///< degrees: the largest bend of any body
 inline constexpr double kBrokenBackwards = 15;  ///< degrees: beyond what limbs, and recordings, do
 

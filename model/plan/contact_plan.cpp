@@ -8,10 +8,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kNever = 1e6;       // square metres: the cost of the forbidden
-constexpr int kTurns = 2;            // rounds in which each foot adapts to the other
-constexpr int kAttempts = 3;         // to shorten flights
-constexpr int kLongestStance = 150;  // frames; after that a foot steps on the spot
+constexpr double kNever = 1e6;   // square metres: the cost of the forbidden
+constexpr int kTurns = 2;        // rounds in which each foot adapts to the other
+constexpr int kAttempts = 3;     // to shorten flights
+constexpr int kMaxStance = 150;  // frames; after that a foot steps on the spot
 
 using Standing = std::vector<bool>;  // per frame
 
@@ -67,7 +67,7 @@ class FootPlanner {
     down_.assign(frames + 1, {kNever * frames_, 0});
     up_ = down_;
     for (int end = 1; end <= frames_; ++end) {
-      for (int from = std::max(0, end - kLongestStance); from < end; ++from) {
+      for (int from = std::max(0, end - kMaxStance); from < end; ++from) {
         Improve(&down_, end, from, StanceCost(from, end - 1) + CostBeforeStance(from));
         Improve(&up_, end, from, AirCost(from, end - 1) + CostBeforeAir(from));
       }

@@ -40,7 +40,7 @@ struct FootTrack {
 /// from the plan (squares, along the floor and down to it) and balance the body best; each step has
 /// a cost, too (FootworkOptions). One foot supports the body while the other is in the air, except
 /// in flights. Optimises each foot given the other (dynamic programming over frames), in turn.
-/// Deterministic. A plan of F frames takes F * kLongestStance steps.
+/// Deterministic. A plan of F frames takes F * kMaxStance steps.
 std::array<std::vector<Stance>, 2> PlanContacts(const std::array<FootTrack, 2>& feet, double fps,
                                                 const FootworkOptions& options);
 

@@ -26,7 +26,7 @@ void LimitHinges(const PlanContext& context, std::vector<Pose>* plan) {
       range = NextBend(bend_in(context.history.back()), 1 / context.fps);
     for (Pose& pose : *plan) {
       const double bend = bend_in(pose), opened = SoftBend(bend, softness),
-                   possible = kMostHingeBend - SoftBend(kMostHingeBend - opened, softness),
+                   possible = kMaxHingeBend - SoftBend(kMaxHingeBend - opened, softness),
                    limited = std::clamp(possible, range.least, range.most);
       pose.rotations.col(hinge.joint) += (limited - bend) * hinge.axis;
       range = NextBend(limited, 1 / context.fps);

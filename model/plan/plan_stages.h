@@ -51,7 +51,7 @@ double BeatTime(const PlanContext& context, int frames, double t);
 /// 0.4.
 inline constexpr double kHitSeconds = 0.8;
 
-/// Times the frames before a plan's key, the last one, by how hard it is hit, 0 to kMostHit: the
+/// Times the frames before a plan's key, the last one, by how hard it is hit, 0 to kMaxHit: the
 /// last kHitSeconds, or all if it is shorter, run at their usual speed first and at `hit` times
 /// that at the key (HitTime). 1 changes nothing. A root path keeps its positions and heights.
 void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan);

@@ -8,7 +8,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kArc = 0.03, kArcPerMetre = 0.15, kHighestArc = 0.10;  // of steps, metres
+constexpr double kArc = 0.03, kArcPerMetre = 0.15, kMaxArc = 0.10;  // of steps, metres
 
 // From 0 to 1, with zero speed and acceleration at both ends.
 double Smootherstep(double u) { return u * u * u * (10 + u * (6 * u - 15)); }
@@ -68,7 +68,7 @@ class PathMaker {
     const Eigen::Vector3d start = from > 0 ? path_.back() : foot_.before;
     const Eigen::Vector3d goal = next != nullptr ? Standing(*next, after) : Planned(to);
     const Eigen::Vector3d far = goal - start;
-    const double arc = std::min(kHighestArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
+    const double arc = std::min(kMaxArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
     // Beside the straight way the plan is free, except near a standing end.
     const auto free = [&](double u) {
       return SmoothStep(std::min({1.0, 3 * u, u * (after - before) / settle_}));

@@ -48,13 +48,13 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   };
 }
 
-constexpr uintmax_t kMostBytes = uintmax_t{1} << 30;  // of a checkpoint
+constexpr uintmax_t kMaxBytes = uintmax_t{1} << 30;  // of a checkpoint
 
 void CheckName(const std::string& name, const std::filesystem::path& path) {
-  if (!name.empty() && name.size() <= kMostNameBytes && Printable(name) == name) return;
+  if (!name.empty() && name.size() <= kMaxNameBytes && Printable(name) == name) return;
   throw InvalidArgument(
-      path.string(), "the model's name, \"" + Printable(name.substr(0, kMostNameBytes)) +
-                         "\", is not 1 to " + std::to_string(kMostNameBytes) + " printable bytes");
+      path.string(), "the model's name, \"" + Printable(name.substr(0, kMaxNameBytes)) +
+                         "\", is not 1 to " + std::to_string(kMaxNameBytes) + " printable bytes");
 }
 
 // Every error names the file.
@@ -66,9 +66,9 @@ SamplerFactory Load(const std::filesystem::path& path, const EngineRequest& requ
   at::globalContext().setDeterministicCuDNN(true);
   // Whoever may put a file there must not exhaust the server's memory.
   std::error_code none;
-  if (const auto bytes = std::filesystem::file_size(path, none); !none && bytes > kMostBytes) {
-    throw InvalidArgument(path.string(), std::to_string(bytes) + " bytes, the limit is " +
-                                             std::to_string(kMostBytes));
+  if (const auto bytes = std::filesystem::file_size(path, none); !none && bytes > kMaxBytes) {
+    throw InvalidArgument(
+        path.string(), std::to_string(bytes) + " bytes, the limit is " + std::to_string(kMaxBytes));
   }
   const Safetensors content = ReadSafetensors(path);
   return HoldsContinuousFlow(content) ? LoadContinuousFlow(content, path.string(), request)

@@ -13,7 +13,7 @@ namespace choreo {
 namespace {
 
 constexpr double kCovarianceSigma = 30;  // frames of the taper that keeps covariances definite
-constexpr double kLeastSpeed = 1e-4;     // radians a frame
+constexpr double kMinSpeed = 1e-4;       // radians a frame
 
 Eigen::VectorXd Velocity(const Pose& before, const Pose& now) {
   Eigen::VectorXd velocity(3 + now.rotations.size());
@@ -70,7 +70,7 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
         0.5 * (sum.middleRows<3>(3 + 3 * j) + sum.middleRows<3>(3 + 3 * pairs[j]));
   }
   // Joints that recordings lack never move.
-  covariance.col(0) = covariance.col(0).cwiseMax(kLeastSpeed * kLeastSpeed);
+  covariance.col(0) = covariance.col(0).cwiseMax(kMinSpeed * kMinSpeed);
   return covariance;
 }
 

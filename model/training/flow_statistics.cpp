@@ -14,12 +14,12 @@ using torch::Tensor;
 
 namespace {
 
-constexpr double kShrinkage = 0.02;     // shrinkage of correlations between dimensions towards zero
-constexpr double kRare = 0.025;         // share of windows at either end that are clipped as rare
-constexpr size_t kLeastWindows = 16;    // needed to learn how energy counts
-constexpr double kUsualStyle = 20;      // windows without difference that each style starts with
-constexpr size_t kLeastEnergies = 100;  // windows needed to learn the energy of the next
-constexpr size_t kLeastTurns = 100;     // windows needed to learn which way round dancers turn
+constexpr double kShrinkage = 0.02;  // shrinkage of correlations between dimensions towards zero
+constexpr double kRare = 0.025;      // share of windows at either end that are clipped as rare
+constexpr size_t kMinWindows = 16;   // needed to learn how energy counts
+constexpr double kPriorStyleWindows = 20;  // windows without difference that each style starts with
+constexpr size_t kMinEnergyWindows = 100;  // windows needed to learn the energy of the next
+constexpr size_t kMinTurnWindows = 100;    // windows needed to learn which way round dancers turn
 constexpr int kNewtonRounds = 12;
 constexpr double kStill = 1e-3;  // metres or radians: less spread means absent from the recordings
 
@@ -124,7 +124,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   const auto rank = static_cast<size_t>(kRare * whole.size());
   measured.least = std::exp(whole[rank][0]);
   measured.most = std::exp(whole[whole.size() - 1 - rank][0]);
-  if (frames.size() < kLeastWindows) return measured;
+  if (frames.size() < kMinWindows) return measured;
   const Eigen::Vector3d powers = FitLogVariance(frames);
   measured.offset = powers[0];
   measured.known_surprise = powers[1];
@@ -188,10 +188,10 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
 
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests) {
   EnergyPrior measured(model.config.styles.size());
-  std::vector<double> of_style(model.config.styles.size(), kUsualStyle);
+  std::vector<double> of_style(model.config.styles.size(), kPriorStyleWindows);
   for (const bool keyed : {true, false}) {
     std::vector<LivelyWindow> windows = GatherLively(model, requests, keyed);
-    if (windows.size() < kLeastEnergies) continue;
+    if (windows.size() < kMinEnergyWindows) continue;
     const auto count = static_cast<double>(windows.size());
     for (const LivelyWindow& window : windows) {
       if (!keyed) break;
@@ -236,7 +236,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
 EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
                                const std::vector<WindowRequest>& requests) {
   EnergyResponse response;
-  if (requests.size() < kLeastEnergies) return response;
+  if (requests.size() < kMinEnergyWindows) return response;
   using Row = Eigen::Array<double, kBodyParts, 1>;
   Row told = Row::Zero(), danced = told, squares = told, products = told;
   const auto count = static_cast<double>(requests.size());
@@ -249,7 +249,8 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
     for (int part = 0; part < kBodyParts; ++part) {
       const auto at = static_cast<size_t>(part);
       const double median = model.config.median_factors[at];
-      wanted[part] = EnergyLevel(request.controls[kVelocityFactors].values.row(part).mean(), median);
+      wanted[part] =
+          EnergyLevel(request.controls[kVelocityFactors].values.row(part).mean(), median);
       came[part] = EnergyLevel(factors[at], median);
     }
     told += wanted / count;
@@ -277,7 +278,7 @@ TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest
   }
   // Logistic regression by Newton's method, with slight shrinkage towards zero.
   TurnPrior prior;
-  for (int round = 0; round < kNewtonRounds && turns.size() >= kLeastTurns; ++round) {
+  for (int round = 0; round < kNewtonRounds && turns.size() >= kMinTurnWindows; ++round) {
     Square curvature = Square::Identity();
     TurnPrior::Inputs slope = -prior.weights;
     for (const Turn& turn : turns) {

@@ -13,10 +13,10 @@ namespace choreo {
 namespace {
 
 constexpr double kSpeed = 11;    // m/s of a joint between frames
-constexpr int kLongest = 3;      // consecutive steps that may be that fast; more is a real swing
+constexpr int kMaxSteps = 3;     // consecutive steps that may be that fast; more is a real swing
 constexpr double kContrast = 2;  // a jolt is this many times faster than the steps around it
 constexpr double kBridge = 0.1;  // s interpolated before and after a jolt
-constexpr double kLongestBridge = 0.8;  // s; denser jolts are left alone
+constexpr double kMaxBridgeSeconds = 0.8;  // s; denser jolts are left alone
 
 using Span = std::pair<int, int>;  // first, last frame to interpolate
 
@@ -49,7 +49,7 @@ std::vector<Span> FindJolts(const std::vector<double>& speeds) {
     while (last + 1 < count && speeds[last + 1] > kSpeed) top = std::max(top, speeds[++last]);
     const double before = first > 1 ? speeds[first - 1] : 0;
     const double after = last + 1 < count ? speeds[last + 1] : 0;
-    if (last - first < kLongest && top > kContrast * std::min(before, after)) {
+    if (last - first < kMaxSteps && top > kContrast * std::min(before, after)) {
       jolts.emplace_back(first, last);
     }
     first = last;
@@ -144,7 +144,7 @@ LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion) {
   const Jolts jolts = FindAllJolts(skeleton, motion);
   for (int limb = 1; limb < skeleton.joints(); ++limb) {
     for (const auto& [first, last] : MergeWithMargin(jolts.of_limb[limb], Margin(motion))) {
-      if (first < 1 || last + 1 >= frames || (last - first + 1) / motion.fps > kLongestBridge) {
+      if (first < 1 || last + 1 >= frames || (last - first + 1) / motion.fps > kMaxBridgeSeconds) {
         ++result.left;
         continue;
       }

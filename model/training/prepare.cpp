@@ -29,9 +29,9 @@ namespace {
 using nlohmann::json;
 
 constexpr double kTopSpeed = 15;  // m/s of any joint; faster means a defective recording
-constexpr int kShortestFrames = 60;
-constexpr int kLongestCalibration = 6;  // frames
-constexpr double kMusicSlack = 0.5;     // s by which music may be shorter than its dance
+constexpr int kMinFrames = 60;
+constexpr int kMaxCalibrationFrames = 6;  // frames
+constexpr double kMusicSlack = 0.5;       // s by which music may be shorter than its dance
 
 // The frames, except the first, to which a joint jumps from the one before.
 std::vector<int> FindJumps(const PositionClip& clip) {
@@ -60,7 +60,7 @@ std::pair<int, int> LongestRun(std::vector<int> ends, int frames) {
 int SkipCalibration(const PositionClip& clip) {
   int begin = 0;
   for (const int jump : FindJumps(clip)) {
-    if (jump <= kLongestCalibration) begin = jump;
+    if (jump <= kMaxCalibrationFrames) begin = jump;
   }
   return begin;
 }
@@ -152,10 +152,10 @@ std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
     report["spikes_repaired"] = replaced;
     report["frames_cut"] = cut;
   }
-  if (motion.frames.size() < kShortestFrames) {
+  if (motion.frames.size() < kMinFrames) {
     throw InvalidArgument(source.name, std::to_string(motion.frames.size()) +
                                            " usable frames, but at least " +
-                                           std::to_string(kShortestFrames) + " are needed");
+                                           std::to_string(kMinFrames) + " are needed");
   }
   report["frames"] = motion.frames.size();
   report["time_scale"] = recording.time_scale;

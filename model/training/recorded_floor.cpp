@@ -10,8 +10,8 @@ namespace choreo {
 namespace {
 
 constexpr double kFloorQuantile = 0.05;
-constexpr double kMaximalSlope = 0.15;
-constexpr double kLeastExtent = 1.0;
+constexpr double kMaxSlope = 0.15;
+constexpr double kMinExtent = 1.0;
 constexpr double kDriftKnotSeconds = 15.0;
 constexpr double kDriftWindowSeconds = 8;
 
@@ -39,7 +39,7 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
   const std::vector<double> heights(feet.row(1).begin(), feet.row(1).end());
   FloorPlane plane;
   plane.height = Quantile(heights, kFloorQuantile);
-  if (Extent(feet.row(0)) < kLeastExtent || Extent(feet.row(2)) < kLeastExtent) return plane;
+  if (Extent(feet.row(0)) < kMinExtent || Extent(feet.row(2)) < kMinExtent) return plane;
   // Quantile regression by iteratively reweighted least squares. The height may drift in time,
   // piecewise linearly between knots: otherwise a dancer who crosses a drifting floor once would
   // seem to climb a slope.
@@ -75,7 +75,7 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
     solution = normal.ldlt().solve(right);
   }
   Eigen::Vector2d slope = solution.tail<2>();
-  if (slope.norm() > kMaximalSlope) slope *= kMaximalSlope / slope.norm();
+  if (slope.norm() > kMaxSlope) slope *= kMaxSlope / slope.norm();
   plane.slope_x = slope.x();
   plane.slope_z = slope.y();
   plane.height = solution.head(knots).mean() - slope.x() * centre.x() - slope.y() * centre.z();

@@ -16,7 +16,7 @@ constexpr double kMetresPerUnit = 0.01;
 constexpr double kCutoffHz = 8;        // removes interpolated frames and jitter, keeps dance steps
 constexpr double kTimeScale = 1.0125;  // with this, waltz and rumba lock to their music
 // Cha-chas, rumbas and waltzes have 0.04 to 0.34 of the power at the beat, tangos less than 0.01.
-constexpr double kLeastBeatPower = 0.02;
+constexpr double kMinBeatPower = 0.02;
 
 struct Metre {
   double beat_frames;
@@ -116,7 +116,7 @@ Recording ReadTang61(const fs::path& path, const PrepareOptions& options) {
       InMetres(Tang61JointNames(), ReadRows(path, static_cast<int>(Tang61JointNames().size())));
   recording.music = MusicOf(path);
   const Metre& metre = IsWaltz(name) ? kWaltz : kFourFour;
-  if (SpeedPowerAt(recording.positions, metre.pulse_frames / kFps) >= kLeastBeatPower) {
+  if (SpeedPowerAt(recording.positions, metre.pulse_frames / kFps) >= kMinBeatPower) {
     recording.beats = {.period_s = metre.beat_frames / kFps * recording.time_scale,
                        .per_bar = metre.per_bar};
   }

@@ -26,8 +26,8 @@ std::string TrainOptions::Fixed() const {
 }
 
 void TrainOptions::Validate() const {
-  Require(name.size() <= kMostNameBytes, "--name", name,
-          "at most " + std::to_string(kMostNameBytes) + " bytes");
+  Require(name.size() <= kMaxNameBytes, "--name", name,
+          "at most " + std::to_string(kMaxNameBytes) + " bytes");
   Require(!data.empty(), "--data", "nothing", "at least one folder of prepared clips");
   Require(steps >= 1, "--steps", std::to_string(steps), "at least 1");
   Require(batch >= 4 && batch <= 4096, "--batch", std::to_string(batch), "4 to 4096");

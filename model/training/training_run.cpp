@@ -58,7 +58,7 @@ bool IsSameRun(const std::string& before, const std::string& now) {
 }  // namespace
 
 int WindowsOf(int batch, int frames) {
-  return std::max(8, batch * kUsualFrames / std::max(frames, kUsualFrames / 3));
+  return std::max(8, batch * kTypicalFrames / std::max(frames, kTypicalFrames / 3));
 }
 
 TrainingRun::TrainingRun(const TrainOptions& options, const TrainingClips& clips)

@@ -74,7 +74,7 @@ std::optional<WindowBatch> MakeWindow(const FlowModelParts& model, WindowRequest
   Eigen::MatrixXd white(x->rows(), x->cols());
   for (int d = 0; d < white.rows(); ++d)
     white.row(d) = window.Whiten(d, x->row(d).transpose()).transpose();
-  white = white.cwiseMax(-MotionPrior::kMostWhite).cwiseMin(MotionPrior::kMostWhite);
+  white = white.cwiseMax(-MotionPrior::kMaxWhite).cwiseMin(MotionPrior::kMaxWhite);
   Eigen::MatrixXd lines(x->rows(), tau + frames);
   lines << window.history(), window.mean();
   const WindowFeatures described =

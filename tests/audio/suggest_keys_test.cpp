@@ -53,7 +53,7 @@ TEST(SuggestKeysTest, GivesTheRequestedNumberOnSeparateBeats) {
       EXPECT_EQ(keys[i].time_s, times.at(keys[i].beat));
       EXPECT_EQ(keys[i].strength, keys[i].beat % 4 == 0 ? 1.0 : 0.5);
       if (i > 0) {
-        EXPECT_GE(keys[i].time_s - keys[i - 1].time_s, kShortestKeyInterval);
+        EXPECT_GE(keys[i].time_s - keys[i - 1].time_s, kMinKeyInterval);
       }
     }
   }
@@ -92,7 +92,7 @@ double BestByTryingAll(const Song& song, size_t first, int64_t left, double last
     return std::max(score, top);
   }
   for (size_t i = first; i < times.size(); ++i) {
-    if (!chosen->empty() && times[i] - last < kShortestKeyInterval) continue;
+    if (!chosen->empty() && times[i] - last < kMinKeyInterval) continue;
     const double cost =
         chosen->empty() ? off((times[i] - times[0]) / (even / 2)) : off((times[i] - last) / even);
     const double strength = song.envelope[static_cast<size_t>(song.track.frames[i])] / 4.0;

@@ -238,7 +238,7 @@ TEST_F(DanceContract, LatencyIncludesTheModelsLookAhead) {
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);  // 1024 / 735 frames
   config.output_fps = 120;
   EXPECT_EQ(DanceStream::LatencyFrames(config, model), 10);  // (1024 / 735 + 1) * 4
-  EXPECT_EQ(DanceStream::LatencyFrames(config, HearingSampler().model()), 10 + 4 * kUsualFrames);
+  EXPECT_EQ(DanceStream::LatencyFrames(config, HearingSampler().model()), 10 + 4 * kTypicalFrames);
 }
 
 // One that is not trained for more.

@@ -81,12 +81,12 @@ TEST(DanceStream, ModelWithMusicInputWaitsForItsMusic) {
   DanceStream stream(*queue, config, sink);
   stream.KeysComplete();
   const std::vector<float> samples = Song(22050, 3);
-  const size_t enough = 735 * (kUsualFrames - 1) + 1024;
+  const size_t enough = 735 * (kTypicalFrames - 1) + 1024;
   stream.PushAudio(std::span(samples).first(enough - 1), 0);
   EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
   EXPECT_EQ(sink->Snapshot().poses.size(), 0U);
   stream.PushAudio(std::span(samples).subspan(enough - 1, 1), enough - 1);
-  EXPECT_EQ(sink->WaitForFrames(kUsualFrames).poses.size(), static_cast<size_t>(kUsualFrames));
+  EXPECT_EQ(sink->WaitForFrames(kTypicalFrames).poses.size(), static_cast<size_t>(kTypicalFrames));
 }
 
 TEST(DanceStream, EndsWithTheMusic) {

@@ -165,7 +165,7 @@ TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
   const auto queue = FakeQueue();
   DanceStream stream(*queue, LiveDance(46, 1).config, std::make_shared<Recorder>());
   std::vector<double> many;
-  for (size_t i = 0; i < kMostBeats; ++i) many.push_back(0.05 * static_cast<double>(i));
+  for (size_t i = 0; i < kMaxBeats; ++i) many.push_back(0.05 * static_cast<double>(i));
   stream.GiveBeats(many);
   ExpectError(ErrorCode::kInvalidArgument, "music_beats[1].times", [&] { stream.GiveBeats({1}); });
   stream.KeysComplete();

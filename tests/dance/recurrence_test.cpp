@@ -49,7 +49,7 @@ TEST(Recurrence, LaterPassagesApplyAfterTheFrozenFrames) {
 TEST(Recurrence, TakesAsManyAsAStreamMayGive) {
   Recurrence recurrence(30, {});
   const std::vector<Passage> one{{10, 20, 0}};
-  for (size_t i = 0; i < kMostPassages; ++i) recurrence.Give(one, 0, "p");
+  for (size_t i = 0; i < kMaxPassages; ++i) recurrence.Give(one, 0, "p");
   ExpectError(ErrorCode::kInvalidArgument, "p: 6001 passages in all, the limit is 6000",
               [&] { recurrence.Give(one, 0, "p"); });
 }

@@ -203,7 +203,7 @@ TEST(TransitionGroup, StreamIsCandidateZeroOfTheChain) {
       request.music_beats = dance.config.music_beats;
       const int64_t from = continuation ? continuation->frame : 0;
       const bool has_key = key < dance.keys.size() && dance.keys[key].frame + 1 == end.frame;
-      request.frames = has_key ? static_cast<int>(end.frame - from) : kUsualFrames;
+      request.frames = has_key ? static_cast<int>(end.frame - from) : kTypicalFrames;
       if (has_key) {
         request.target = Target{dance.keys[key].pose, dance.keys[key].mask};
         ++key;

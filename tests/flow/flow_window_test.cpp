@@ -224,7 +224,7 @@ TEST(DescribeWindow, BoundsTheHistorysVelocities) {
   const FlowWindow window(parts.prior, request);
   const Eigen::VectorXf whole =
       DescribeWindow(parts.skeleton, parts.config, parts.prior, request, window).whole;
-  EXPECT_FLOAT_EQ(whole.cwiseAbs().maxCoeff(), MotionPrior::kFastest);
+  EXPECT_FLOAT_EQ(whole.cwiseAbs().maxCoeff(), MotionPrior::kMaxSpeed);
 }
 
 }  // namespace choreo::flow_window_test

@@ -19,7 +19,7 @@ namespace choreo::fuzz {
 namespace {
 
 constexpr unsigned kHangs = 60;  // seconds for one input: more is a hang
-constexpr size_t kLongest = 16'384;
+constexpr size_t kMaxBytes = 16'384;
 constexpr rlim_t kMemory = 1U << 30U;
 
 using Bytes = std::vector<uint8_t>;
@@ -44,7 +44,7 @@ class Mutator {
   Bytes Next() {
     Bytes bytes = Any(seeds_);
     for (size_t changes = 1 + Below(4); changes > 0; --changes) Change(&bytes);
-    if (bytes.size() > kLongest) bytes.resize(kLongest);
+    if (bytes.size() > kMaxBytes) bytes.resize(kMaxBytes);
     return bytes;
   }
 

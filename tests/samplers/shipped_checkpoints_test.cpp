@@ -14,7 +14,7 @@
 // The properties of every checkpoint in model/checkpoints, with any network.
 namespace choreo::shipped_checkpoints_test {
 
-constexpr std::uintmax_t kLargest = 16'000'000;  // bytes
+constexpr std::uintmax_t kMaxBytes = 16'000'000;  // bytes
 
 std::map<std::string, std::filesystem::path> Shipped() {
   std::map<std::string, std::filesystem::path> files;
@@ -30,7 +30,7 @@ TEST(ShippedCheckpoints, AreSmallBearTheirNamesAndCardsAndDance) {
   ASSERT_TRUE(files.contains("default") && files.contains("free"));
   for (const auto& [name, path] : files) {
     SCOPED_TRACE(name);
-    EXPECT_LE(std::filesystem::file_size(path), kLargest);
+    EXPECT_LE(std::filesystem::file_size(path), kMaxBytes);
     const auto sampler = MakeSampler(path, {});
     EXPECT_EQ(sampler->model().name, name);
     const auto card = nlohmann::json::parse(sampler->model().card);

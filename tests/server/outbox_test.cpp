@@ -104,8 +104,8 @@ TEST_F(OutboxTest, StopsReadingFromASlowReader) {
     ASSERT_LT(++asked, 1000);
   }
   const size_t waiting = static_cast<size_t>(asked) * refusal.ByteSizeLong();
-  EXPECT_GT(waiting, outbox.kMostWaiting * kMaxBytes);
-  EXPECT_LE(waiting, outbox.kMostWaiting * kMaxBytes + refusal.ByteSizeLong());
+  EXPECT_GT(waiting, outbox.kMaxWaiting * kMaxBytes);
+  EXPECT_LE(waiting, outbox.kMaxWaiting * kMaxBytes + refusal.ByteSizeLong());
   outbox.OnWriteDone(true);  // room for one
   EXPECT_EQ(wire.reads, asked + 1);
   outbox.OnWriteDone(true);

@@ -63,11 +63,11 @@ PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const Continuou
                 .down = linear(products, name + "down", kMlpRatio * width_, width_),
                 .modulation = linear(products, name + "modulation", condition, 6 * width_),
                 .bias = {}};
-    const auto bias = tensors.Get(name + "distance_bias", 2 * kMostTokensApart + 1, heads_);
+    const auto bias = tensors.Get(name + "distance_bias", 2 * kMaxTokensApart + 1, heads_);
     block.bias.resize(heads_, 2 * most_tokens_ + kernels.panel);
     for (long at = 0; at < block.bias.cols(); ++at) {
-      const long ahead = std::clamp<long>(at - most_tokens_, -kMostTokensApart, kMostTokensApart);
-      block.bias.col(at) = bias.row(ahead + kMostTokensApart).transpose();
+      const long ahead = std::clamp<long>(at - most_tokens_, -kMaxTokensApart, kMaxTokensApart);
+      block.bias.col(at) = bias.row(ahead + kMaxTokensApart).transpose();
     }
     blocks_.push_back(std::move(block));
   }

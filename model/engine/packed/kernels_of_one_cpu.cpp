@@ -3,7 +3,7 @@
 //   CHOREO_KERNELS        variable to define
 //   CHOREO_KERNELS_NAME   what it is called
 //   CHOREO_VECTOR_BYTES   of one register
-//   CHOREO_MOST_ROWS      of which two registers each are summed at once
+//   CHOREO_MAX_ROWS      of which two registers each are summed at once
 //   CHOREO_BF16           1: products of pairs of bfloat16, AVX512-BF16's
 //   CHOREO_TILES          1: the same, AMX's
 #if CHOREO_BF16
@@ -43,7 +43,7 @@ constexpr void (*Pair)(const float*, long, float*) = nullptr;
 #if CHOREO_TILES
 #include "model/engine/packed/tiles_of_one_cpu.h"
 #else
-constexpr int kMostRows = CHOREO_MOST_ROWS;
+constexpr int kMaxRows = CHOREO_MAX_ROWS;
 constexpr long kAhead = 512;  // floats to prefetch
 
 #if CHOREO_BF16
@@ -108,7 +108,7 @@ void Multiply(const PackedProduct& p) {
   // With few rows, registers are free for several panels, which keeps sums from waiting for each
   // other.
   const long together = p.rows <= 2 ? 4 : p.rows <= 4 ? 2 : 1;
-  const long blocks = (p.rows + kMostRows - 1) / kMostRows;
+  const long blocks = (p.rows + kMaxRows - 1) / kMaxRows;
   for (long panel = 0; panel < p.panels;) {
     if (together == 4 && p.panels - panel >= 4) {
       p.rows == 1 ? Block<1, 4>(p, 0, panel) : Block<2, 4>(p, 0, panel);
@@ -124,7 +124,7 @@ void Multiply(const PackedProduct& p) {
       long row = 0;
       for (long left = blocks; left > 0; --left) {
         const long rows = (p.rows - row + left - 1) / left;
-        OnePanel<kMostRows>(p, row, rows, panel);
+        OnePanel<kMaxRows>(p, row, rows, panel);
         row += rows;
       }
       ++panel;

@@ -3,7 +3,7 @@
 
 constexpr int kTileRows = 16;          // at most, of a and of sums; exactly, of b
 constexpr long kTileElements = 16;     // of the depth in a tile of a or b: one row of 64 bytes
-constexpr int kMostTall = 3;           // stacked tiles of sums
+constexpr int kMaxStackedTiles = 3;    // stacked tiles of sums
 constexpr int kTileA = 6, kTileB = 7;  // the ones before hold sums
 
 // The layout that LDTILECFG reads.
@@ -94,8 +94,8 @@ void TileBlock(const PackedProduct& p, long row, long rows, long height, long pa
 
 void Multiply(const PackedProduct& p) {
   TileShapes shapes;
-  constexpr long kMost = kMostTall * kTileRows;
-  const long blocks = (p.rows + kMost - 1) / kMost;
+  constexpr long kMaxRowsAtOnce = kMaxStackedTiles * kTileRows;
+  const long blocks = (p.rows + kMaxRowsAtOnce - 1) / kMaxRowsAtOnce;
   long row = 0;
   for (long left = blocks; left > 0; --left) {
     const long rows = (p.rows - row + left - 1) / left;

@@ -11,7 +11,7 @@ namespace {
 
 using torch::Tensor;
 
-constexpr double kMostScore = 40;
+constexpr double kMaxScore = 40;
 
 // Multi-head attention of short windows. [M, window, width] each.
 class AttentionImpl : public torch::nn::Module {
@@ -30,7 +30,7 @@ class AttentionImpl : public torch::nn::Module {
         torch::matmul(query, key_value[0].transpose(-1, -2)) / std::sqrt(static_cast<double>(deep));
     // A softmax by hand: LibTorch's does not vectorise rows as short as a window. Normalised inputs
     // keep scores small; the bound is for safety.
-    const Tensor power = score.clamp(-kMostScore, kMostScore).exp();
+    const Tensor power = score.clamp(-kMaxScore, kMaxScore).exp();
     const Tensor mixed = torch::matmul(power / power.sum(-1, true), key_value[1]);
     return out_(mixed.transpose(1, 2).reshape({rows, window, width}));
   }

@@ -17,7 +17,7 @@ namespace choreo {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kMostMethods = 8;
+constexpr int kMaxMethods = 8;
 
 /// Films of a folder by clip.
 std::map<std::string, std::filesystem::path> FilmsOf(const StudyMethod& method) {
@@ -90,9 +90,9 @@ void CheckStudyFolder(const std::filesystem::path& folder) {
 
 void WriteStudy(std::span<const StudyMethod> methods, const std::string& question, uint64_t seed,
                 const std::filesystem::path& folder) {
-  if (methods.size() < 2 || methods.size() > kMostMethods)
+  if (methods.size() < 2 || methods.size() > kMaxMethods)
     throw InvalidArgument("--method", "is given " + std::to_string(methods.size()) +
-                                          " times, must be 2 to " + std::to_string(kMostMethods));
+                                          " times, must be 2 to " + std::to_string(kMaxMethods));
   std::vector<std::map<std::string, std::filesystem::path>> films;
   std::set<std::string> names;
   for (const StudyMethod& method : methods) {

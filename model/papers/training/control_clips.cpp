@@ -20,7 +20,7 @@ using torch::Tensor;
 
 constexpr double kControlTempi[] = {1.0, 0.75, 1.33};
 constexpr double kHandSmoothness = 9;  // frames: the smoothness of a drawn path
-constexpr double kLeastScale = 0.5, kMostScale = 1.5;
+constexpr double kMinScale = 0.5, kMaxScale = 1.5;
 constexpr float kScaledWeight = 0.15F;  // weight of real motion if factors were changed
 
 // Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, normalised at the
@@ -169,7 +169,7 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
       for (size_t part = 0; part < scales.size(); ++part) {
         scales[part] = alike && part > 0
                            ? scales[0]
-                           : static_cast<float>(random->Uniform(kLeastScale, kMostScale));
+                           : static_cast<float>(random->Uniform(kMinScale, kMaxScale));
       }
       control = control * torch::tensor(scales);
       real = real * torch::tensor(scales);

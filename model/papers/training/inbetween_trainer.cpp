@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kInbetweenValidationWindows = 64;
 constexpr int kSpreadBatches = 8;
-constexpr double kLeastSpread = 0.02;  // metres, radians: for joints that hardly move
+constexpr double kMinSpread = 0.02;  // metres, radians: for joints that hardly move
 // Weights of rotations and contacts relative to positions in decimetres.
 constexpr double kTurnWeight = 1, kContactWeight = 0.1;
 
@@ -48,7 +48,7 @@ class InbetweenRun : public PaperRun {
       seen.push_back(Draw(&random, options().longest).features.flatten(0, 1));
     }
     const torch::Tensor all = torch::cat(seen);
-    model_->SetNormalisation(all.mean(0), all.std(0).clamp_min(kLeastSpread));
+    model_->SetNormalisation(all.mean(0), all.std(0).clamp_min(kMinSpread));
   }
 
   // L1 of joint positions, rotations and contacts over a roll-out.

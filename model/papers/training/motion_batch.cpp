@@ -16,7 +16,7 @@
 namespace choreo {
 namespace {
 
-const double kMostTempo = std::log(4.0 / 3);  // faster or slower
+const double kMaxTempoChange = std::log(4.0 / 3);  // faster or slower
 
 }  // namespace
 
@@ -55,7 +55,7 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
     int64_t start = drawn;
     double rate = 1;  // frames of the clip per frame
     if (random->Uniform() < variation.tempo) {
-      const double other = std::exp(random->Uniform(-kMostTempo, kMostTempo));
+      const double other = std::exp(random->Uniform(-kMaxTempoChange, kMaxTempoChange));
       const auto taken = static_cast<int64_t>(std::ceil(window * other)) + 1;
       if (const int64_t spare = of_clips[index] - taken; spare > 0) {
         rate = other;
