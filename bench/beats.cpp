@@ -54,10 +54,10 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   feed.Push(mono, 0, [] {});
   MusicBeats music(30, {}, std::nullopt, &feed);
   for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
-    music.Begin(music.For(from, from + kTypicalFrames), from);
-    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) music.Of(frame);
+    music.StartReporting(music.BeatsFor(from, from + kTypicalFrames), from);
+    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) music.TakeBeatsAt(frame);
   }
-  return music.told();
+  return music.reported();
 }
 
 /// The beats that `choreo live` sends to its server, as soon as they are found.

@@ -100,7 +100,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);
     dance_->SendSamples(piece);
-    if (now >= told + 1) Tell(told = std::floor(now));
+    if (now >= told + 1) ShowFigures(told = std::floor(now));
   }
   since_.seconds = now;
   // The dance ends with the music; later poses are not danced.
@@ -185,7 +185,7 @@ void LiveDance::TakeBack() {
   Note("no pose can be taken back");
 }
 
-void LiveDance::Tell(double seconds) {
+void LiveDance::ShowFigures(double seconds) {
   const std::lock_guard lock(mutex_);
   since_.seconds = seconds;
   since_.confidence = 0;

@@ -81,7 +81,7 @@ class LiveDance {
   void SendKey(const client::KeyPose& key, int64_t frame);
   std::optional<int64_t> KeyNear(int64_t frame) const;
   int64_t FrameAt(double seconds) const;
-  void Tell(double seconds);
+  void ShowFigures(double seconds);
 
   // On the reading thread.
   void Read();

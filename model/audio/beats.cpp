@@ -127,10 +127,10 @@ std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   return have;
 }
 
-Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> patterns, Heard heard,
-              const TempoLimits& limits) {
+Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> patterns,
+              MusicExtent extent, const TempoLimits& limits) {
   BarPointer pointer(patterns, {limits.slowest_bpm, limits.fastest_bpm});
-  if (heard == Heard::kStretch) pointer.Settle(onsets);
+  if (extent == MusicExtent::kPart) pointer.Settle(onsets);
   for (const Onset& onset : onsets) pointer.Add(onset);
   return pointer.Path();
 }
@@ -143,29 +143,29 @@ double Sounds(const OnsetSums& sums, const Path& path) {
 }
 
 /// The best path in four: of beats that are divided by two or, where those sound no less, by three.
-Path PathInFour(std::span<const Onset> onsets, Heard heard, const TempoLimits& limits) {
+Path PathInFour(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits& limits) {
   const auto patterns = BarPatterns();
-  Path path = BestPath(onsets, patterns.first(2), heard, limits);
+  Path path = BestPath(onsets, patterns.first(2), extent, limits);
   if (path.empty() || path.back().pattern == 0) return path;
-  Path straight = BestPath(onsets, patterns.first(1), heard, limits);
+  Path straight = BestPath(onsets, patterns.first(1), extent, limits);
   const OnsetSums sums(onsets);
   return Sounds(sums, straight) > kLouder * Sounds(sums, path) ? straight : path;
 }
 
 /// The best path in the metre of the music.
-Path PathOf(std::span<const Onset> onsets, Heard heard, const TempoLimits& limits) {
+Path PathOf(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits& limits) {
   const auto patterns = BarPatterns();
-  const Path path = PathInFour(onsets, heard, limits);
+  const Path path = PathInFour(onsets, extent, limits);
   if (path.empty() || path.back().pattern != 0) return path;
   const HalfBeats halves(onsets, path);
   const double fastest = std::min(limits.fastest_bpm, kMaxTappedBpm);
   if (2 * 60 * kOnsetRate / (path[path.size() / 2].period + 0.5) <= fastest &&
-      halves.AreAlike(heard == Heard::kWhole ? kAlike : kAlikeInStretch))
+      halves.AreAlike(extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch))
     return Doubled(path);
   const Meter meter = halves.MeterOf();
   if (meter == Meter::kFour) return path;
   const Path other =
-      BestPath(onsets, patterns.subspan(meter == Meter::kThree ? 2 : 3, 1), heard, limits);
+      BestPath(onsets, patterns.subspan(meter == Meter::kThree ? 2 : 3, 1), extent, limits);
   return other.empty() ? path : other;
 }
 
@@ -207,7 +207,7 @@ double TempoOf(std::span<const double> seconds) {
   return 60 * count / sum;
 }
 
-BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, Heard heard) {
+BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, MusicExtent extent) {
   BeatTrack track;
   std::vector<int> bars;
   const std::vector<bool> sounding = Sounding(onsets);
@@ -218,7 +218,7 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, H
       return std::ranges::any_of(onset.rise, [](float rise) { return rise > 0; });
     };
     if (std::ranges::none_of(part_onsets, begins)) continue;
-    Path path = PathOf(part_onsets, heard, limits);
+    Path path = PathOf(part_onsets, extent, limits);
     std::erase_if(path, [&](const BarPointer::Step& step) {
       return IsInPause(sounding, part.begin + step.frame, step.period);
     });

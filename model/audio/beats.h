@@ -33,7 +33,7 @@ struct TempoLimits {
 
 /// Whether onsets are those of a whole song or the last seconds of one, which has played before and
 /// in which few beats tell whether their halves are alike.
-enum class Heard { kWhole, kStretch };
+enum class MusicExtent { kWhole, kPart };
 
 /// Finds a song's beats with the bar pointer model (BarPointer): the tempo, beats and bars that
 /// best explain all onsets. Tempo may drift or jump. Silence has no beats, except one a period
@@ -41,7 +41,7 @@ enum class Heard { kWhole, kStretch };
 /// no more distinct than those found in noise are dropped. Without onsets: no
 /// beats, tempo 0.
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {},
-                     Heard heard = Heard::kWhole);
+                     MusicExtent extent = MusicExtent::kWhole);
 
 /// The beats of mono samples at 22 050 Hz. Errors as FindOnsets.
 BeatTrack FindBeats(std::span<const float> mono);

@@ -64,7 +64,7 @@ double ForesightOf(std::span<const Onset> onsets, const BeatTrack& track) {
 bool HeardBeats::Certain() const { return foresight >= kMinForesight; }
 
 HeardBeats HearBeats(std::span<const Onset> onsets, int64_t first) {
-  HeardBeats heard{.track = TrackBeats(onsets, {}, Heard::kStretch)};
+  HeardBeats heard{.track = TrackBeats(onsets, {}, MusicExtent::kPart)};
   heard.foresight = ForesightOf(onsets, heard.track);
   for (int64_t& frame : heard.track.frames) frame += first;
   return heard;

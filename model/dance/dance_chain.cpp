@@ -156,7 +156,7 @@ void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::vector
                            const std::string& field) {
   Change([&](Timeline& timeline) {
     const int64_t from = timeline.Frontier(field);
-    if (const int64_t late = beats_.Give(seconds, from, field, downbeats); late > 0)
+    if (const int64_t late = beats_.AddGiven(seconds, from, field, downbeats); late > 0)
       Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
   });
 }
@@ -172,7 +172,7 @@ void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<do
                           const std::vector<Passage>& passages, uint64_t music_id) {
   std::lock_guard lock(mutex_);
   if (config_.music_id == 0) config_.music_id = music_id;
-  if (config_.music_beats.empty()) beats_.Find(beats, downbeats);
+  if (config_.music_beats.empty()) beats_.ReplaceAll(beats, downbeats);
   if (!recurrence_.empty() || passages.empty() || config_.variation >= 1) return;
   recurrence_ = Recurrence(model_.fps, passages);
   timeline_.SetCuts(CutsOf(passages, model_.fps));
@@ -308,8 +308,8 @@ void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
         AskTransition(config_, model_, controls_, recurrence_, audio(), segment, rows_end,
                       before == nullptr ? history_ : before->HistoryBefore(segment.from));
     asked.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
-    std::vector<Beat> beats = beats_.For(segment.from, segment.to);
-    asked.request.beats = beats_.Around(beats, segment.from, segment.to);
+    std::vector<Beat> beats = beats_.BeatsFor(segment.from, segment.to);
+    asked.request.beats = beats_.BeatTimes(beats, segment.from, segment.to);
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(asked), std::move(beats));
     queue_.Submit(job);
@@ -325,7 +325,7 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
   if (next_frame_ == segment.from) {
     for (const Warning& warning : job.warnings()) Post(warning);
     history_ = job.before();
-    beats_.Begin(job.beats(), segment.from);
+    beats_.StartReporting(job.beats(), segment.from);
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(segment.from - model_.history_frames);
   }
@@ -339,7 +339,7 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
       sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
     });
   }
-  for (const Beat& beat : beats_.Of(emitted)) Post(beat);
+  for (const Beat& beat : beats_.TakeBeatsAt(emitted)) Post(beat);
   if (next_frame_ == segment.to && run.arrival()) {
     KeyReached reached = *run.arrival();
     reached.id = segment.key->id;
@@ -367,7 +367,7 @@ void DanceChain::PostContinuation() {
     continuation.audio_from_sample =
         ResumeSample(config_, next_frame_, model_, config_.music_beats.empty());
   }
-  continuation.last_beat = beats_.last();
+  continuation.last_beat = beats_.last_reported();
   continuation.stage = stage_;
   continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
@@ -377,7 +377,7 @@ void DanceChain::PostContinuation() {
 
 void DanceChain::Summarise() {
   if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
-  const QualityReport report = meter_.Report(beats_.told());
+  const QualityReport report = meter_.Report(beats_.reported());
   if (const auto warning = controls_.SpeedsMissed(report)) Post(*warning);
   mailbox_.PostLast([report](DanceSink& sink) { sink.OnSummary(report); });
 }

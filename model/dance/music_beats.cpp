@@ -83,14 +83,14 @@ void MusicBeats::Replace(double begin, std::span<const double> seconds,
   spans_.push_back({first, seconds.back()});
 }
 
-void MusicBeats::Find(const std::vector<double>& seconds, std::span<const double> downbeats) {
+void MusicBeats::ReplaceAll(const std::vector<double>& seconds, std::span<const double> downbeats) {
   hears_ = false;
   known_.clear();
   if (!seconds.empty()) Replace(seconds.front(), seconds, downbeats, Beat::Source::kFound);
 }
 
-int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const std::string& field,
-                         std::span<const double> downbeats) {
+int64_t MusicBeats::AddGiven(std::span<const double> seconds, int64_t from,
+                             const std::string& field, std::span<const double> downbeats) {
   if (count_ + seconds.size() > kMaxBeats) {
     throw InvalidArgument(field, "bring the dance's beats to " +
                                      std::to_string(count_ + seconds.size()) + ", the limit is " +
@@ -105,7 +105,7 @@ int64_t MusicBeats::Give(std::span<const double> seconds, int64_t from, const st
   return ahead - seconds.begin();
 }
 
-std::vector<Beat> MusicBeats::For(int64_t from, int64_t to) {
+std::vector<Beat> MusicBeats::BeatsFor(int64_t from, int64_t to) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front()) {
     const Given& given = given_.front();
     Replace(given.begin, given.seconds, given.downbeats, Beat::Source::kGiven);
@@ -115,12 +115,12 @@ std::vector<Beat> MusicBeats::For(int64_t from, int64_t to) {
   return beats;
 }
 
-std::vector<double> MusicBeats::Around(std::span<const Beat> beats, int64_t from,
-                                       int64_t to) const {
+std::vector<double> MusicBeats::BeatTimes(std::span<const Beat> beats, int64_t from,
+                                          int64_t to) const {
   return BeatsAround(SecondsOf(beats), fps_, from, static_cast<int>(to - from));
 }
 
-void MusicBeats::Begin(std::span<const Beat> beats, int64_t from) {
+void MusicBeats::StartReporting(std::span<const Beat> beats, int64_t from) {
   const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;
@@ -163,14 +163,14 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) {
   std::ranges::stable_sort(*beats, {}, &Beat::time_s);
 }
 
-std::vector<Beat> MusicBeats::Of(int64_t frame) {
+std::vector<Beat> MusicBeats::TakeBeatsAt(int64_t frame) {
   std::vector<Beat> beats;
   for (; !ahead_.empty() && ahead_.front().time_s < Seconds(frame + 1); ahead_.pop_front()) {
     Beat& beat = beats.emplace_back(ahead_.front());
     if (beat.source == Beat::Source::kPredicted && HasOnset(*audio_, frame))
       beat.source = Beat::Source::kHeard;
     beat.frame = std::min<int64_t>(frame, std::llround(beat.time_s * fps_));
-    told_.push_back(beat.time_s);
+    reported_.push_back(beat.time_s);
     last_ = beat.time_s;
   }
   return beats;

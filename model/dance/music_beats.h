@@ -21,50 +21,50 @@ inline constexpr int kBeatMemory = 13 * static_cast<int>(kModelFps);
 /// The beats of a dance's music. They are given by the client or found in the whole music. A dance
 /// that starts without any detects them: when a transition begins, the beats of the 12 s before the
 /// last whole second (HearBeats) predict its own. So beats are a function of the
-/// ordered messages and the samples before the transition; only last() carries over from earlier
-/// transitions. Not thread-safe.
+/// ordered messages and the samples before the transition; only last_reported() carries over from
+/// earlier transitions. Not thread-safe.
 class MusicBeats {
  public:
-  /// `audio`: the dance's, or null to detect no beats. `last`: for a resumed dance, last() at its
-  /// first frame.
+  /// `audio`: the dance's, or null to detect no beats. `last`: for a resumed dance, last_reported()
+  /// at its first frame.
   MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
              const AudioFeed* audio, std::span<const double> downbeats = {});
 
   /// Replaces all beats by those found in the whole music, and stops detection. Downbeats are
   /// always a subset of the beats.
-  void Find(const std::vector<double>& seconds, std::span<const double> downbeats = {});
+  void ReplaceAll(const std::vector<double>& seconds, std::span<const double> downbeats = {});
 
   /// Gives beats, ascending, for transitions that begin at `from` or later. From the first to the
   /// last they replace beats given or detected. Beats given earlier are dropped if they are after
   /// the last, or less than half a beat before the first. Beats before `from` are late and are
   /// dropped; returns how many. `from` never decreases between calls. Throws
   /// Error(kInvalidArgument) beyond kMaxBeats.
-  int64_t Give(std::span<const double> seconds, int64_t from, const std::string& field,
-               std::span<const double> downbeats = {});
+  int64_t AddGiven(std::span<const double> seconds, int64_t from, const std::string& field,
+                   std::span<const double> downbeats = {});
 
   /// The known beats for a transition of the frames [from, to), ascending. Call once per
   /// transition, in order of time. Rows before `from` must be ready.
-  std::vector<Beat> For(int64_t from, int64_t to);
+  std::vector<Beat> BeatsFor(int64_t from, int64_t to);
   /// The subset that the transition is timed to, as TransitionRequest::beats.
-  std::vector<double> Around(std::span<const Beat> beats, int64_t from, int64_t to) const;
+  std::vector<double> BeatTimes(std::span<const Beat> beats, int64_t from, int64_t to) const;
 
   /// Starts handing out the transition that begins at `from` and has these beats.
-  void Begin(std::span<const Beat> beats, int64_t from);
+  void StartReporting(std::span<const Beat> beats, int64_t from);
 
   /// The beats to report with a frame of that transition. Call once per frame, in order; its row
   /// must be ready. Every beat is reported once, even if two transitions place it on different
   /// sides of their boundary; a beat that each leaves to the other comes with the first frame after
   /// it.
-  std::vector<Beat> Of(int64_t frame);
+  std::vector<Beat> TakeBeatsAt(int64_t frame);
 
   /// The last beat reported, in seconds: all the state that resuming a dance here needs.
-  const std::optional<double>& last() const { return last_; }
+  const std::optional<double>& last_reported() const { return last_; }
 
   /// All beats reported, seconds, ascending.
-  const std::vector<double>& told() const { return told_; }
+  const std::vector<double>& reported() const { return reported_; }
 
  private:
-  // The beats of one Give.
+  // The beats of one AddGiven.
   struct Given {
     int64_t from;
     double begin;                 // its first beat, late or not
@@ -92,7 +92,7 @@ class MusicBeats {
   size_t count_ = 0;         // given in all
   std::deque<Beat> ahead_;   // of the transition, not yet reported
   std::optional<double> last_;
-  std::vector<double> told_;
+  std::vector<double> reported_;
 };
 
 }  // namespace choreo

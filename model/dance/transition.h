@@ -48,7 +48,7 @@ struct Continuation {
   std::string fingerprint;  ///< of the model and build that danced
   /// The first sample that the resumed dance needs; none: unknown.
   std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};   ///< MusicBeats::last at this frame
+  std::optional<double> last_beat = {};   ///< MusicBeats::last_reported at this frame
   std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage, its height unread
   std::vector<KeyReached> reached = {};   ///< before `frame`, ascending, without accelerations
 };

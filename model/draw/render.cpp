@@ -74,7 +74,7 @@ class Renderer {
     picture_.rgb.resize(size_t{3} * picture_.width * picture_.height);
     for (int y = 0; y < picture_.height; ++y) floor_.DrawRow(y, PixelAt(0, y));
     const Eigen::Vector2i from = box_.min(), to = box_.max();
-    for (int y = from.y(); y < to.y(); ++y) Cast(y, &rows_.emplace_back());
+    for (int y = from.y(); y < to.y(); ++y) CastRow(y, &rows_.emplace_back());
     // Every second pixel of every second row first; light changes slowly between most of them.
     for (int y = from.y(); y < to.y(); y += 2) {
       for (int x = from.x(); x < to.x(); x += 2) Draw(x, y);
@@ -154,7 +154,7 @@ class Renderer {
   }
 
   // Casts the last sample of each pixel of a row, from the box's left on.
-  void Cast(int y, SeenRow* row) {
+  void CastRow(int y, SeenRow* row) {
     row->assign(1 + box_.sizes().x() / kLanes, {});
     const int left = box_.min().x();
     const Lane columns = MakeLane([&](int lane) { return Last(left + lane, y).x(); });

@@ -16,28 +16,28 @@ namespace {
 constexpr int kWindowsPerClip = 4;
 constexpr double kLyingHeight = 0.12;  // of the root, m
 
-enum class Way { kReal, kNoKey, kLying, kAlmostTheSame };
+enum class KeyKind { kReal, kNoKey, kLying, kAlmostTheSame };
 
 struct Case {
   const char* name;
   int frames;
-  Way way;
+  KeyKind kind;
   double shift_m = 0;  // metres that the key's root moves forwards
 };
 
 constexpr Case kCases[] = {
-    {"real motion", 3, Way::kReal},
-    {"real motion", 10, Way::kReal},
-    {"real motion", 30, Way::kReal},
-    {"real motion", 90, Way::kReal},
-    {"no key", 30, Way::kNoKey},
-    {"no key", 90, Way::kNoKey},
-    {"standing to lying", 30, Way::kLying},
-    {"standing to lying", 10, Way::kLying},
-    {"standing to lying", 3, Way::kLying},
-    {"standing to lying 6 m away", 30, Way::kLying, 6},
-    {"almost the same pose", 30, Way::kAlmostTheSame, 0.02},
-    {"almost the same pose", 90, Way::kAlmostTheSame, 0.02},
+    {"real motion", 3, KeyKind::kReal},
+    {"real motion", 10, KeyKind::kReal},
+    {"real motion", 30, KeyKind::kReal},
+    {"real motion", 90, KeyKind::kReal},
+    {"no key", 30, KeyKind::kNoKey},
+    {"no key", 90, KeyKind::kNoKey},
+    {"standing to lying", 30, KeyKind::kLying},
+    {"standing to lying", 10, KeyKind::kLying},
+    {"standing to lying", 3, KeyKind::kLying},
+    {"standing to lying 6 m away", 30, KeyKind::kLying, 6},
+    {"almost the same pose", 30, KeyKind::kAlmostTheSame, 0.02},
+    {"almost the same pose", 90, KeyKind::kAlmostTheSame, 0.02},
 };
 
 // On her back where she stood, with her head where she came from.
@@ -55,10 +55,10 @@ Pose Lying(const Skeleton& skeleton, const Pose& standing) {
 // A case's key, derived from the real one; none if it has none.
 std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
                             const TransitionRequest& request) {
-  if (one.way == Way::kReal) return request.target;
-  if (one.way == Way::kNoKey) return std::nullopt;
+  if (one.kind == KeyKind::kReal) return request.target;
+  if (one.kind == KeyKind::kNoKey) return std::nullopt;
   const Pose& from = request.history.back();
-  Pose key = one.way == Way::kLying ? Lying(skeleton, from) : from;
+  Pose key = one.kind == KeyKind::kLying ? Lying(skeleton, from) : from;
   const double heading = Heading(ExpMap(from.rotations.col(0)));
   key.root_position += HeadingRotation(heading) * Eigen::Vector3d(0, 0, one.shift_m);
   return Target{key, {}};
@@ -85,7 +85,7 @@ std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
                    request.target,
                    TransitionRun(model, request).required_speed()});
   }
-  if (one.way == Way::kReal) return all;
+  if (one.kind == KeyKind::kReal) return all;
   const auto dances = evaluation.runner.Dance(*evaluation.judged().sampler, requests);
   for (size_t i = 0; i < dances.size(); ++i)
     std::ranges::copy(dances[i], all[i].motion.frames.begin() + kFramesBefore);
@@ -98,7 +98,7 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   const RealRange range = MeasureReal(evaluation.set, model).range;
   Table table =
-      evaluation.NewTable("stress", "Keys that ask for too much or too little", {"way", "frames"});
+      evaluation.NewTable("stress", "Keys that ask for too much or too little", {"kind", "frames"});
   char note[256];
   std::snprintf(note, sizeof(note),
                 "Frozen: slower than a quarter of real motion's median (%.2f m/s). Warned: the "

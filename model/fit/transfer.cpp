@@ -83,18 +83,18 @@ class Takes {
   std::vector<Take> takes_;
 };
 
-using HandWays = Eigen::Matrix<double, 3, 2>;  // left, right
+using HandShifts = Eigen::Matrix<double, 3, 2>;  // left, right
 
 // Smoothed over neighbouring frames by a Gaussian.
-std::vector<HandWays> Smooth(const std::vector<HandWays>& ways, double fps) {
+std::vector<HandShifts> Smooth(const std::vector<HandShifts>& ways, double fps) {
   const double sigma = kDraws * fps;
   const int reach = static_cast<int>(3 * sigma);
   const int frames = static_cast<int>(ways.size());
-  std::vector<HandWays> smooth;
+  std::vector<HandShifts> smooth;
   for (int frame = 0; frame < frames; ++frame) {
-    smooth.push_back(GaussianMean<HandWays>(
+    smooth.push_back(GaussianMean<HandShifts>(
         std::max(0, frame - reach), std::min(frames - 1, frame + reach), frame,
-        std::max(sigma, 1e-9), HandWays::Zero(), [&](int64_t at) { return ways[at]; }));
+        std::max(sigma, 1e-9), HandShifts::Zero(), [&](int64_t at) { return ways[at]; }));
   }
   return smooth;
 }
@@ -119,11 +119,11 @@ class Hands {
   }
 
   /// How far each hand must move from `now`.
-  HandWays Ways(const Eigen::Matrix3Xd& smpl, const Eigen::Matrix3Xd& now) const {
-    return (HandWays() << Way(0, smpl, now), Way(1, smpl, now)).finished();
+  HandShifts Shifts(const Eigen::Matrix3Xd& smpl, const Eigen::Matrix3Xd& now) const {
+    return (HandShifts() << HandShift(0, smpl, now), HandShift(1, smpl, now)).finished();
   }
 
-  void Move(const HandWays& ways, const JointPlacement& placement, Pose* pose) const {
+  void Move(const HandShifts& ways, const JointPlacement& placement, Pose* pose) const {
     for (size_t side = 0; side < 2; ++side) {
       const Limb& arm = arms_[side];
       const Eigen::Vector3d way = ways.col(side);
@@ -145,8 +145,8 @@ class Hands {
     return SmoothStep(std::clamp((kFree - distance) / (kFree - kTouches), 0.0, 1.0));
   }
 
-  Eigen::Vector3d Way(size_t side, const Eigen::Matrix3Xd& smpl,
-                      const Eigen::Matrix3Xd& now) const {
+  Eigen::Vector3d HandShift(size_t side, const Eigen::Matrix3Xd& smpl,
+                            const Eigen::Matrix3Xd& now) const {
     const Eigen::Vector3d our_hand = Col(smpl, ours_[side]), hand = Col(now, arms_[side].end);
     Eigen::Vector3d way = Eigen::Vector3d::Zero();
     double weights = 0;
@@ -211,7 +211,7 @@ Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied) 
   const std::array<Leg, 2> our_legs = Leg::Of(Smpl()), legs = Leg::Of(character);
   const Hands hands(character, size);
   JointPlacement placement;
-  std::vector<HandWays> ways;
+  std::vector<HandShifts> ways;
   for (size_t frame = 0; frame < copied.frames.size(); ++frame) {
     const Eigen::Matrix3Xd ours = JointPositions(Smpl(), smpl.frames[frame]);
     Pose& pose = copied.frames[frame];
@@ -222,7 +222,7 @@ Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied) 
       PlaceToes(legs[side], character, placement, toes, &pose);
     }
     // Hands on knees follow the knees' present place.
-    ways.push_back(hands.Ways(ours, JointPositions(character, pose)));
+    ways.push_back(hands.Shifts(ours, JointPositions(character, pose)));
   }
   ways = Smooth(ways, smpl.fps);
   for (size_t frame = 0; frame < copied.frames.size(); ++frame) {

@@ -33,7 +33,7 @@ void ImportTensors(const Safetensors& content, const std::string& prefix,
 /// The checkpoint `file`, whose tensors are in `content`. Throws Error(kInvalidArgument) naming a
 /// tensor that does not fit the configuration.
 template <typename Model, typename Config>
-CheckpointOf<Model> TakeUp(const CheckpointFile& file, const Safetensors& content) {
+CheckpointOf<Model> BuildCheckpoint(const CheckpointFile& file, const Safetensors& content) {
   CheckpointOf<Model> checkpoint{.model = Model(file.Get<Config>("config"), file.skeleton()),
                                  .card = file.card(),
                                  .hash = file.hash()};

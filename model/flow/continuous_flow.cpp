@@ -340,8 +340,8 @@ ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const s
     powers->second.data.push_back(VariancePowers::kDefaultMinScale);
     powers->second.shape = {kPowerNumbers};
   }
-  auto checkpoint =
-      TakeUp<ContinuousFlow, ContinuousFlowConfig>(CheckpointFile(content, name, kFormat), whole);
+  auto checkpoint = BuildCheckpoint<ContinuousFlow, ContinuousFlowConfig>(
+      CheckpointFile(content, name, kFormat), whole);
   checkpoint.model->config().Validate(name + ": config");
   if (!checkpoint.model->Parts().curve.IsValid())
     throw InvalidArgument(name + ": " + kCurve, "is no correlation: it leaves [-1, 1]");

@@ -73,9 +73,9 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   }
 }
 
-// Turns wanted levels into those to give to the network. The mean way is not lively and needs no
+// Turns wanted levels into those to give to the network. The mean motion is not lively and needs no
 // correction.
-void Tell(const FlowModelParts& model, double temperature, WindowRequest* request) {
+void CorrectLevels(const FlowModelParts& model, double temperature, WindowRequest* request) {
   if (!model.response.known()) return;
   Eigen::MatrixXd& factors = request->controls[kVelocityFactors].values;
   for (int part = 0; part < kBodyParts; ++part) {
@@ -233,14 +233,14 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
 }
 
 /// One pass through the window, from one side of the mirror.
-class WindowSampler::Way {
+class WindowSampler::Pass {
  public:
-  Way(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
-      const FlowNoise& noise)
+  Pass(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
+       const FlowNoise& noise)
       : window_(model.prior, request),
         temperature_(std::min(noise.temperature, kMaxFlowTemperature)) {
     FillInEnergy(model, noise, window_, &request);
-    Tell(model, std::min(noise.temperature, 1.0), &request);
+    CorrectLevels(model, std::min(noise.temperature, 1.0), &request);
     window_.SetEnergy(model.prior, request);
     known_.emplace(request, window_);
     const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window_.frames());
@@ -254,14 +254,14 @@ class WindowSampler::Way {
       BeginStep();
     }
   }
-  Way(const Way&) = delete;
-  Way& operator=(const Way&) = delete;
+  Pass(const Pass&) = delete;
+  Pass& operator=(const Pass&) = delete;
 
   /// As WindowSampler's.
   bool Continue() {
     if (field_->Look()) return true;
     if (std::exchange(needs_mean_, false)) {
-      mean_way_ = field_->f();
+      mean_ = field_->f();
       if (temperature_ == 0) return false;
       BeginStep();
       return true;
@@ -274,7 +274,7 @@ class WindowSampler::Way {
 
   std::vector<Pose> Poses() const {
     Eigen::MatrixXd w = w_;
-    if (temperature_ != 1) w = mean_way_ + temperature_ * (w - mean_way_);
+    if (temperature_ != 1) w = mean_ + temperature_ * (w - mean_);
     Eigen::MatrixXd x = window_.Colour(w);
     for (const int axis : known_->axes) x.row(axis) = known_->x.row(axis);
     return window_.Decode(x);
@@ -300,7 +300,7 @@ class WindowSampler::Way {
   FlowWindow window_;
   const double temperature_;
   std::optional<KnownPath> known_;
-  Eigen::MatrixXd start_, w_, before_, mean_way_;
+  Eigen::MatrixXd start_, w_, before_, mean_;
   std::optional<Field> field_;
   bool needs_mean_ = false;
   int step_ = 0;
@@ -314,17 +314,17 @@ WindowSampler::WindowSampler(WindowSampler&&) noexcept = default;
 WindowSampler& WindowSampler::operator=(WindowSampler&&) noexcept = default;
 
 bool WindowSampler::Continue() {
-  // The mean way is the mirror image of the mirrored request's. The network is not fully symmetric,
-  // and the average of both answers is nearer to the truth than either.
+  // The mean motion is the mirror image of the mirrored request's. The network is not fully
+  // symmetric, and the average of both answers is nearer to the truth than either.
   const bool is_mirrored = noise_.temperature <= 0 && mirrored_.empty();
-  if (!way_) {
-    way_ = std::make_unique<Way>(
+  if (!pass_) {
+    pass_ = std::make_unique<Pass>(
         *model_, *network_,
         is_mirrored ? Mirror(MirrorPairs(model_->skeleton), request_) : request_, noise_);
   }
-  if (way_->Continue()) return true;
-  (is_mirrored ? mirrored_ : sampled_) = way_->Poses();
-  way_.reset();
+  if (pass_->Continue()) return true;
+  (is_mirrored ? mirrored_ : sampled_) = pass_->Poses();
+  pass_.reset();
   return is_mirrored;
 }
 

@@ -58,8 +58,9 @@ struct FlowNoise {
   /// `variation` (FillNormalLike). Empty: all have their own.
   std::vector<int64_t> like = {};
   double variation = 0;
-  /// Interpolates from the mean way (0, in one step) to a sampled one (1) and slightly beyond, at
-  /// most kMaxFlowTemperature. Noise itself is never scaled: the network would see a calm dancer.
+  /// Interpolates from the mean motion (0, in one step) to a sampled one (1) and slightly beyond,
+  /// at most kMaxFlowTemperature. Noise itself is never scaled: the network would see a calm
+  /// dancer.
   double temperature = 0;
 
   /// The numbers of a frame, counted from the first.
@@ -94,12 +95,12 @@ class WindowSampler {
   std::vector<Pose> TakePoses();
 
  private:
-  class Way;
+  class Pass;
   const FlowModelParts* model_;
   const FlowNetwork* network_;
   FlowNoise noise_;
   WindowRequest request_;
-  std::unique_ptr<Way> way_;              // running; null: not begun
+  std::unique_ptr<Pass> pass_;            // running; null: not begun
   std::vector<Pose> mirrored_, sampled_;  // results
 };
 

@@ -20,9 +20,9 @@ constexpr double kMaxFreeTurn = std::numbers::pi;
 // Frames for which a dancer keeps turning.
 constexpr double kTurnHorizon = 12;
 
-// The way between two poses, [dimensions]: of the root, and of each joint in the first one's
-// tangent space.
-Eigen::VectorXd Way(const Pose& from, const Pose& to) {
+// The displacement from one pose to another, [dimensions]: of the root, and of each joint in the
+// first one's tangent space.
+Eigen::VectorXd Displacement(const Pose& from, const Pose& to) {
   Eigen::VectorXd way(3 + 3 * from.rotations.cols());
   way.head<3>() = to.root_position - from.root_position;
   for (Eigen::Index j = 0; j < from.rotations.cols(); ++j)
@@ -84,7 +84,8 @@ double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double n
   const size_t known = std::min<size_t>(poses.size(), MotionPrior::kPast + 1);
   Eigen::MatrixXd history(prior.dimensions(), known);
   for (size_t i = 0; i < known; ++i)
-    history.col(static_cast<Eigen::Index>(i)) = Way(poses.back(), poses[poses.size() - known + i]);
+    history.col(static_cast<Eigen::Index>(i)) =
+        Displacement(poses.back(), poses[poses.size() - known + i]);
   const MotionPrior::Bridge& free = (*prior.Bridges(request.frames, 0))[MotionPrior::kTurn];
   const int end = request.frames - 1;
   const Eigen::RowVectorXd turning =
@@ -124,13 +125,13 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   displacement_ = Eigen::VectorXd::Zero(dimensions);
   history_ = Eigen::MatrixXd::Zero(dimensions, tau);
   for (int i = 0; i < tau; ++i)
-    history_.col(i) = Way(last, request.history[static_cast<size_t>(i)]);
+    history_.col(i) = Displacement(last, request.history[static_cast<size_t>(i)]);
   const Eigen::MatrixXd velocity = LastVelocities(prior, history_);
   if (request.key) {
     const PoseMask& mask = request.mask;
     keyed_[0] = keyed_[2] = mask.root_position;
     keyed_[1] = mask.root_position || request.height;
-    displacement_ = Way(last, *request.key);
+    displacement_ = Displacement(last, *request.key);
     const Eigen::Vector3d ahead =
         std::min<double>(kTurnHorizon, request.to_key) * velocity.col(0).segment<3>(3);
     displacement_.segment<3>(3) =
@@ -151,7 +152,7 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
       home.root_position.x() += request.stage->origin.x();
       home.root_position.z() += request.stage->origin.z();
     }
-    const Eigen::VectorXd back = Way(last, home);
+    const Eigen::VectorXd back = Displacement(last, home);
     for (int d = 0; d < dimensions; ++d) {
       if (!keyed_[static_cast<size_t>(d)]) way[d] = back[d];
     }
@@ -217,7 +218,7 @@ void FlowWindow::SetEnergy(const MotionPrior& prior, const WindowRequest& reques
 std::optional<Eigen::MatrixXd> FlowWindow::Encode(std::span<const Pose> poses) const {
   Eigen::MatrixXd x(mean_.rows(), mean_.cols());
   for (int i = 0; i < frames(); ++i) {
-    x.col(i) = Way(base_[static_cast<size_t>(i)], poses[static_cast<size_t>(i)]);
+    x.col(i) = Displacement(base_[static_cast<size_t>(i)], poses[static_cast<size_t>(i)]);
     for (Eigen::Index j = 0; 3 + 3 * j < x.rows(); ++j) {
       Eigen::Vector3d turn = x.col(i).segment<3>(3 + 3 * j);
       if (i > 0) turn = NearestBranch(turn, x.col(i - 1).segment<3>(3 + 3 * j));

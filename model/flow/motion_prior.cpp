@@ -55,7 +55,7 @@ double EnergyFactor(double level, double median) {
   return std::max(0.0, std::exp(level) * (median + kMinEnergy) - kMinEnergy);
 }
 
-Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still) {
+Eigen::VectorXd FillUnusedSpread(Eigen::VectorXd spread, double still) {
   const auto turns = spread.tail(spread.size() - 3).array();
   const auto moves = (turns > still).cast<double>().eval();
   const double mean = (turns * moves).sum() / std::max(1.0, moves.sum());
@@ -64,7 +64,7 @@ Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still) {
 }
 
 Eigen::VectorXd MotionPrior::VelocitySpread() const {
-  return AsTheOthers(covariance_.col(0).cwiseSqrt(), kStillness);
+  return FillUnusedSpread(covariance_.col(0).cwiseSqrt(), kStillness);
 }
 
 bool MotionPrior::Moves(int dimension) const {

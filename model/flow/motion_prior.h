@@ -39,7 +39,7 @@ double EnergyFactor(double level, double median);
 /// from the recordings but may be moved by keys; a unit near zero would make those inputs
 /// unbounded, so they get the mean of the others. Leaves the first three, the root's position,
 /// unchanged.
-Eigen::VectorXd AsTheOthers(Eigen::VectorXd spread, double still);
+Eigen::VectorXd FillUnusedSpread(Eigen::VectorXd spread, double still);
 
 /// The pose that dancers return to when nothing is requested. Empty: unknown.
 struct UsualPose {

@@ -25,14 +25,15 @@ GltfChannel ReadGltfChannel(const tinygltf::Model& model, size_t animation,
   added.path = rotates  ? GltfChannel::Path::kRotation
                : scales ? GltfChannel::Path::kScale
                         : GltfChannel::Path::kTranslation;
-  added.way = sampler.interpolation == "STEP"          ? GltfChannel::Way::kStep
-              : sampler.interpolation == "CUBICSPLINE" ? GltfChannel::Way::kCubic
-                                                       : GltfChannel::Way::kLinear;
+  added.interpolation = sampler.interpolation == "STEP" ? GltfChannel::Interpolation::kStep
+                        : sampler.interpolation == "CUBICSPLINE"
+                            ? GltfChannel::Interpolation::kCubic
+                            : GltfChannel::Interpolation::kLinear;
   added.times = ReadGltfAccessor(model, sampler.input, TINYGLTF_TYPE_SCALAR);
   added.values =
       ReadGltfAccessor(model, sampler.output, rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
   const Eigen::Index keys = added.times.size();
-  const Eigen::Index a_key = added.way == GltfChannel::Way::kCubic ? 3 : 1;
+  const Eigen::Index a_key = added.interpolation == GltfChannel::Interpolation::kCubic ? 3 : 1;
   if (added.values.cols() != a_key * keys) {
     throw InvalidArgument(name, std::to_string(added.values.cols()) + " values for " +
                                     std::to_string(keys) + " times" +
@@ -82,15 +83,16 @@ void GltfChannel::Drive(double time, GltfPlacement& placement) const {
   const Eigen::Index a = std::max<Eigen::Index>(0, after - 1);
   const Eigen::Index b = std::min<Eigen::Index>(times.size() - 1, after);
   const double gap = times[b] - times[a];
-  const double t =
-      way == Way::kStep || gap <= 0 ? 0 : std::clamp((time - times[a]) / gap, 0.0, 1.0);
+  const double t = interpolation == Interpolation::kStep || gap <= 0
+                       ? 0
+                       : std::clamp((time - times[a]) / gap, 0.0, 1.0);
   Eigen::VectorXd value = values.col(a) + t * (values.col(b) - values.col(a));
-  if (way == Way::kCubic) {  // Hermite, glTF 2.0, appendix C
+  if (interpolation == Interpolation::kCubic) {  // Hermite, glTF 2.0, appendix C
     const double t2 = t * t, t3 = t2 * t;
     value = (2 * t3 - 3 * t2 + 1) * values.col(a) + gap * (t3 - 2 * t2 + t) * leaves.col(a) +
             (3 * t2 - 2 * t3) * values.col(b) + gap * (t3 - t2) * arrives.col(b);
   }
-  if (path == Path::kRotation && way == Way::kCubic) {
+  if (path == Path::kRotation && interpolation == Interpolation::kCubic) {
     if (value.norm() > 1e-9)
       placement.rotation = Eigen::Quaterniond(Eigen::Vector4d(value.normalized()));
   } else if (path == Path::kRotation) {
@@ -103,7 +105,7 @@ void GltfChannel::Drive(double time, GltfPlacement& placement) const {
 
 bool GltfChannel::Moves() const {
   return ((values.colwise() - values.col(0).eval()).cwiseAbs().maxCoeff() > kSameKey) ||
-         (way == Way::kCubic &&
+         (interpolation == Interpolation::kCubic &&
           std::max(arrives.cwiseAbs().maxCoeff(), leaves.cwiseAbs().maxCoeff()) > kSameKey);
 }
 

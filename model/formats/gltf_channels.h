@@ -15,10 +15,10 @@ namespace choreo {
 /// One channel of an animation.
 struct GltfChannel {
   enum class Path { kTranslation, kRotation, kScale };
-  enum class Way { kLinear, kStep, kCubic };
+  enum class Interpolation { kLinear, kStep, kCubic };
   size_t node = 0;
   Path path = Path::kTranslation;
-  Way way = Way::kLinear;
+  Interpolation interpolation = Interpolation::kLinear;
   Eigen::RowVectorXd times;  ///< [keys] ascending, seconds
   Eigen::MatrixXd values;    ///< [3 or 4, keys]
   /// [3 or 4, keys] per second, for kCubic: the tangents before and after each key

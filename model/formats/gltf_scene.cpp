@@ -199,7 +199,8 @@ void CorrectTimes(const MotionReading& reading, GltfScene* scene) {
   if (most_keys < kFewKeys || !(apart >= kFarApart)) return;
   for (GltfChannel& channel : scene->channels) {
     channel.times /= 1000;
-    if (channel.way == GltfChannel::Way::kCubic) channel.arrives *= 1000, channel.leaves *= 1000;
+    if (channel.interpolation == GltfChannel::Interpolation::kCubic)
+      channel.arrives *= 1000, channel.leaves *= 1000;
   }
   reading.Note("its keys stand " + Rounded(apart) +
                " s apart; their times are taken as milliseconds");

@@ -46,7 +46,7 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
-void Tell(const RigFit& fit, const MotionReading& reading) {
+void NoteFit(const RigFit& fit, const MotionReading& reading) {
   if (!fit.exchanged.empty()) {
     reading.Note((fit.exchanged == "body" ? "its" : "its " + fit.exchanged + "'") +
                  " left and right are exchanged, as in a mirror: limbs are taken by where they "
@@ -140,7 +140,7 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
   rig.frame = [&](int64_t frame) { return Keep(motion.frame(frame), kept); };
   RigFit fit = FitRig(rig, reading.scale);
   CheckMotionLimits(fit.motion);
-  Tell(fit, reading);
+  NoteFit(fit, reading);
   NoteUnits(rig, fit, reading);
   return Settle({.skeleton = Skeleton::Smpl24(),
                  .motion = std::move(fit.motion),

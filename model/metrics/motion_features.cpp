@@ -74,25 +74,25 @@ class Statements {
   Statements(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now, double fps)
       : now_(now), velocity_((now - before) * fps) {}
 
-  Vector3d Way(int from, int to) const { return now_.col(to) - now_.col(from); }
+  Vector3d Between(int from, int to) const { return now_.col(to) - now_.col(from); }
   // Above the lowest joint.
   double Height(int joint) const { return now_(1, joint) - now_.row(1).minCoeff(); }
 
   // `joint` is further than `limit` in front of the plane through three joints.
   bool BeyondPlane(int a, int b, int c, int joint, double limit) const {
-    return Unit(Way(a, b).cross(Way(a, c))).dot(Way(a, joint)) > limit;
+    return Unit(Between(a, b).cross(Between(a, c))).dot(Between(a, joint)) > limit;
   }
   // The same for the plane through joint `point` with a normal from `a` to `b`.
   bool Beyond(int a, int b, int point, int joint, double limit) const {
-    return Unit(Way(a, b)).dot(Way(point, joint)) > limit;
+    return Unit(Between(a, b)).dot(Between(point, joint)) > limit;
   }
   // `joint` moves faster than `limit`, relative to joint `from`, in the direction from a to b.
   bool Moves(int a, int b, int from, int joint, double limit) const {
-    return Unit(Way(a, b)).dot(Relative(joint, from)) > limit;
+    return Unit(Between(a, b)).dot(Relative(joint, from)) > limit;
   }
   // The same in the direction of the normal of the plane through three joints.
   bool MovesFromPlane(int a, int b, int c, int joint, double limit) const {
-    return Unit(Way(a, b).cross(Way(a, c))).dot(Relative(joint, a)) > limit;
+    return Unit(Between(a, b).cross(Between(a, c))).dot(Relative(joint, a)) > limit;
   }
   bool Fast(int joint, double limit) const { return velocity_.col(joint).norm() > limit; }
   // The angle between two directions lies between the limits, degrees.
@@ -105,7 +105,7 @@ class Statements {
   }
   // The same for the angle between a-b and c-d.
   bool Angle(int a, int b, int c, int d, double low, double high) const {
-    return Angle(Way(a, b), Way(c, d), low, high);
+    return Angle(Between(a, b), Between(c, d), low, high);
   }
 
  private:
@@ -157,7 +157,7 @@ std::array<bool, kGeometricFeatures> Judge(const Body& b, const Statements& s) {
       s.Angle(b.neck, b.root, b.right_hip, b.right_knee, 50, 180),
       s.Angle(b.neck, b.root, b.left_hip, b.left_knee, 50, 180),
       s.BeyondPlane(b.right_ankle, b.neck, b.left_ankle, b.root, 0.5 * arm),
-      Statements::Angle(s.Way(b.neck, b.root), Vector3d::UnitY(), 70, 110),
+      Statements::Angle(s.Between(b.neck, b.root), Vector3d::UnitY(), 70, 110),
       s.Height(b.right_wrist) < 1.2 * arm,
       s.Height(b.left_wrist) < 1.2 * arm,
       s.Fast(b.root, 2.3 * arm),

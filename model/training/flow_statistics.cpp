@@ -311,7 +311,7 @@ WindowStatistics MeasureWindows(const std::vector<WindowBatch>& batches) {
   correlation *= 1 - kShrinkage;
   correlation.diagonal().setOnes();
   const Eigen::VectorXd spread = (squares / poses).cwiseSqrt();
-  return {Eigen::MatrixXd(correlation.llt().matrixL()), AsTheOthers(spread, kStill)};
+  return {Eigen::MatrixXd(correlation.llt().matrixL()), FillUnusedSpread(spread, kStill)};
 }
 
 }  // namespace choreo

@@ -25,7 +25,7 @@ class DyingSampler final : public ControlledSampler {
   int left_;
 };
 
-Controls Way() {
+Controls PathControls() {
   Controls controls;
   controls.root_path = {
       .frames = {0, 100, 250}, .points = {{0, 0}, {1, 0.5}, {0, 1}}, .heights = {0.9, 0.7, 0.95}};
@@ -40,7 +40,7 @@ double Asked(const Pose& pose, BodyPart part) {
 TEST(ControlsTest, OfTheConfigApplyFromTheFirstFrame) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
-  const DanceResult dance = client.Dance({.frames = 250, .controls = Way()}, {}, {});
+  const DanceResult dance = client.Dance({.frames = 250, .controls = PathControls()}, {}, {});
   ASSERT_EQ(dance.motion.frames.size(), 250U);
   const Pose& pose = dance.motion.frames[100];
   EXPECT_LT((pose.root_position - Eigen::Vector3d(1, 0.7, 0.5)).norm(), 1e-4);
@@ -75,7 +75,7 @@ TEST(ControlsTest, BothCallsTakeAStyle) {
 TEST(ControlsTest, ChangeDuringTheDance) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
-  const auto dance = client.StartDance({.frames = 120, .controls = Way()});
+  const auto dance = client.StartDance({.frames = 120, .controls = PathControls()});
   dance->GenerateUntil(60);
   Controls still;
   still.velocity_factors = {.speeds = {0}};
@@ -97,7 +97,7 @@ TEST(ControlsTest, SurviveTheLossOfAServer) {
   const TestServer first(std::make_unique<DyingSampler>(150));
   const auto perform = [](const Client& client) {
     DanceResult result;
-    const auto dance = client.StartDance({.seed = 5, .frames = 250, .controls = Way()});
+    const auto dance = client.StartDance({.seed = 5, .frames = 250, .controls = PathControls()});
     dance->GenerateUntil(70);
     Controls lively;
     lively.velocity_factors = {.frames = {100, 200}, .parts = {"right_leg"}, .factors = {1, 3}};
@@ -138,7 +138,7 @@ TEST(ControlsTest, OfATransitionAndOfAnEdit) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
   TransitionRequest request;
-  request.config.controls = Way();
+  request.config.controls = PathControls();
   request.frames = 101;
   const TransitionResult result = client.GenerateTransition(request);
   ASSERT_EQ(result.candidates.size(), 1U);

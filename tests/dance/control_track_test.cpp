@@ -15,8 +15,8 @@ using testing::HasSubstr;
 
 class ControlTrackTest : public testing::Test {
  protected:
-  static ControlRequest Way(std::vector<int64_t> frames, const std::vector<double>& x,
-                            const std::vector<double>& heights = {}) {
+  static ControlRequest PathRequest(std::vector<int64_t> frames, const std::vector<double>& x,
+                                    const std::vector<double>& heights = {}) {
     RootPath path{.frames = std::move(frames), .heights = heights};
     for (const double one : x) path.points.emplace_back(one, 0);
     return {path, {}};
@@ -55,7 +55,7 @@ class ControlTrackTest : public testing::Test {
 
 TEST_F(ControlTrackTest, GivesNothingOutsideThePath) {
   EXPECT_EQ(For(0, 60).controls[kRootPath].values.cols(), 0);
-  track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
+  track_.Set(PathRequest({100, 200}, {0, 1}), 0, "controls");
   EXPECT_EQ(For(0, 100).controls[kRootPath].values.cols(), 0);
   EXPECT_EQ(For(201, 60).controls[kRootPath].values.cols(), 0);
   EXPECT_EQ(For(100, 60).controls[kRootPath].values.cols(), 60);
@@ -63,15 +63,15 @@ TEST_F(ControlTrackTest, GivesNothingOutsideThePath) {
 }
 
 TEST_F(ControlTrackTest, LaterPathsApplyToLaterTransitions) {
-  track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
-  track_.Set(Way({0, 300}, {1, 1}), 60, "controls");
+  track_.Set(PathRequest({0, 300}, {0, 3}), 0, "controls");
+  track_.Set(PathRequest({0, 300}, {1, 1}), 60, "controls");
   EXPECT_NEAR(For(0, 120).controls[kRootPath].values(0, 119), 1.19, 1e-9);
   EXPECT_NEAR(For(60, 60).controls[kRootPath].values(0, 59), 1, 1e-9);
 }
 
 TEST_F(ControlTrackTest, APathMayComeInPieces) {
-  track_.Set(Way({0, 99}, {0, 0.99}), 0, "controls");
-  track_.Set(Way({100, 199}, {1, 1.99}), 0, "controls");
+  track_.Set(PathRequest({0, 99}, {0, 0.99}), 0, "controls");
+  track_.Set(PathRequest({100, 199}, {1, 1.99}), 0, "controls");
   const Eigen::Matrix3Xd path = For(0, 200).controls[kRootPath].values;
   for (const int frame : {0, 50, 99, 100, 150, 199})
     EXPECT_NEAR(path(0, frame), 0.01 * frame, 0.02) << frame;
@@ -79,16 +79,16 @@ TEST_F(ControlTrackTest, APathMayComeInPieces) {
 }
 
 TEST_F(ControlTrackTest, PathsOutsideTheDanceChangeNothing) {
-  track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
-  track_.Set(Way({0, 50}, {9, 9}), 60, "controls");     // over before it counts
-  track_.Set(Way({400, 500}, {9, 9}), 60, "controls");  // after all that is danced
+  track_.Set(PathRequest({0, 300}, {0, 3}), 0, "controls");
+  track_.Set(PathRequest({0, 50}, {9, 9}), 60, "controls");     // over before it counts
+  track_.Set(PathRequest({400, 500}, {9, 9}), 60, "controls");  // after all that is danced
   EXPECT_NEAR(For(60, 140).controls[kRootPath].values(0, 139), 1.99, 1e-9);
 }
 
 TEST_F(ControlTrackTest, WarnsOfADistantPathStart) {
-  track_.Set(Way({0, 300}, {0.4, 3}), 0, "controls");
+  track_.Set(PathRequest({0, 300}, {0.4, 3}), 0, "controls");
   EXPECT_TRUE(For(0, 60).warnings.empty()) << "a step aside";
-  track_.Set(Way({30, 300}, {5, 7}), 0, "controls");
+  track_.Set(PathRequest({30, 300}, {5, 7}), 0, "controls");
   const std::vector<Warning> warnings = For(0, 200).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].code, Warning::Code::kPathAway);
@@ -124,19 +124,19 @@ TEST_F(ControlTrackTest, NamesPartsThatMissedTheirSpeed) {
 
 TEST_F(ControlTrackTest, HeightsComeFromPathOrDancer) {
   here_.root_position.y() = 0.5;
-  track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
+  track_.Set(PathRequest({0, 100}, {0, 1}), 0, "controls");
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), standing_, 1e-9);
   AimAt(0.89);
   target_->pose.root_position.y() = 0.7;
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), 0.7, 1e-9);
   EXPECT_TRUE(For(0, 90).warnings.empty());
-  track_.Set(Way({0, 50, 100}, {0, 0.5, 1}, {0.5, 1.3, 0.6}), 0, "controls");
+  track_.Set(PathRequest({0, 50, 100}, {0, 0.5, 1}, {0.5, 1.3, 0.6}), 0, "controls");
   target_.reset();
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 50), 1.3, 1e-9);
 }
 
 TEST_F(ControlTrackTest, UnplacedKeyStandsUnlessThePathHasHeights) {
-  track_.Set(Way({0, 100}, {0, 1}), 0, "controls");
+  track_.Set(PathRequest({0, 100}, {0, 1}), 0, "controls");
   AimAt(0);
   target_->mask.root_position = false;
   const Skeleton& skeleton = sampler_.model().skeleton;
@@ -153,7 +153,7 @@ TEST_F(ControlTrackTest, UnplacedKeyStandsUnlessThePathHasHeights) {
   target_->mask.joints[static_cast<size_t>(skeleton.left_elbow)] = true;
   EXPECT_NEAR(For(0, 90).controls[kRootPath].values(1, 89), standing_, 1e-9) << "legs are open";
   target_->mask.joints.clear();
-  track_.Set(Way({0, 100}, {0, 1}, {standing_, 1.4}), 0, "controls");
+  track_.Set(PathRequest({0, 100}, {0, 1}, {standing_, 1.4}), 0, "controls");
   EXPECT_GT(For(0, 90).controls[kRootPath].values(1, 89), standing_ + 0.2);
 }
 
@@ -161,7 +161,7 @@ TEST_F(ControlTrackTest, WarnsOfAKeyOffThePathsHeight) {
   AimAt(0);
   target_->mask.root_position = false;
   const auto told = [&](double height) {
-    track_.Set(Way({0, 100}, {0, 1}, {height, height}), 0, "controls");
+    track_.Set(PathRequest({0, 100}, {0, 1}, {height, height}), 0, "controls");
     return For(0, 90).warnings;
   };
   EXPECT_TRUE(told(standing_ + 0.04).empty());
@@ -186,7 +186,7 @@ TEST_F(ControlTrackTest, WarnsOfAKeyOffThePathsHeight) {
 
 TEST_F(ControlTrackTest, WithoutHistoryStartsOnThePath) {
   EXPECT_EQ(track_.Stance(0, {}).root_position, RestPose(sampler_.model().skeleton).root_position);
-  track_.Set(Way({30, 90}, {4, 5}, {0.5, 0.5}), 0, "controls");
+  track_.Set(PathRequest({30, 90}, {4, 5}, {0.5, 0.5}), 0, "controls");
   EXPECT_EQ(track_.Stance(0, {}).root_position.x(), 0);
   EXPECT_NEAR(track_.Stance(30, {}).root_position.x(), 4 - 1.0 / 60, 1e-9);
   EXPECT_NEAR(track_.Stance(30, {}).root_position.y(), standing_, 1e-9) << "at rest, not crouched";
@@ -202,19 +202,19 @@ TEST_F(ControlTrackTest, WithoutHistoryStartsOnThePath) {
 
 TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
   EXPECT_FALSE(track_.BehindEnd(60));
-  track_.Set(Way({100, 200}, {0, 1}), 0, "controls");
+  track_.Set(PathRequest({100, 200}, {0, 1}), 0, "controls");
   EXPECT_FALSE(track_.BehindEnd(101));
   const auto warning = track_.BehindEnd(100);
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->code, Warning::Code::kPathBehindEnd);
   EXPECT_EQ(warning->message,
             "the root path begins at frame 100, and the last frame is 99: nothing comes of it");
-  track_.Set(Way({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
+  track_.Set(PathRequest({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
   EXPECT_FALSE(track_.BehindEnd(100));
 }
 
 TEST_F(ControlTrackTest, KeyOverridesThePathWithAWarning) {
-  track_.Set(Way({0, 300}, {0, 3}), 0, "controls");
+  track_.Set(PathRequest({0, 300}, {0, 3}), 0, "controls");
   AimAt(1.09);
   const Asked asked = For(0, 90);
   EXPECT_NEAR(asked.controls[kRootPath].values(0, 89), 1.09, 1e-9);
@@ -233,7 +233,7 @@ TEST_F(ControlTrackTest, KeyOverridesThePathWithAWarning) {
 }
 
 TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
-  track_.Set(Way({0, 88}, {0, 2}), 0, "controls");
+  track_.Set(PathRequest({0, 88}, {0, 2}), 0, "controls");
   AimAt(2.5);
   for (const int frames : {90, 91}) {
     const Asked asked = For(0, frames);
@@ -245,7 +245,7 @@ TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
       EXPECT_LT(30 * (path.col(frame) - path.col(frame - 1)).norm(), 2) << frame;
   }
   // Without a key, and without time to stand up, the height does not jump.
-  track_.Set(Way({0, 88}, {0, 2}, {0.5, 0.5}), 0, "controls");
+  track_.Set(PathRequest({0, 88}, {0, 2}, {0.5, 0.5}), 0, "controls");
   target_->mask.root_position = false;
   ASSERT_EQ(For(0, 90).warnings.size(), 1u);
   EXPECT_EQ(For(0, 90).warnings[0].code, Warning::Code::kKeyOffHeight);
@@ -255,9 +255,9 @@ TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
 }
 
 TEST_F(ControlTrackTest, WarnsOfATooFastPath) {
-  track_.Set(Way({0, 30}, {0, 4.5}), 0, "controls");
+  track_.Set(PathRequest({0, 30}, {0, 4.5}), 0, "controls");
   EXPECT_TRUE(For(0, 31).warnings.empty());
-  track_.Set(Way({0, 30}, {0, 6}), 0, "controls");
+  track_.Set(PathRequest({0, 30}, {0, 6}), 0, "controls");
   const Asked asked = For(0, 31);
   ASSERT_EQ(asked.warnings.size(), 1u);
   EXPECT_EQ(asked.warnings[0].code, Warning::Code::kPathTooFast);
@@ -350,7 +350,8 @@ TEST_F(ControlTrackTest, RefusesUnsupportedControls) {
     ExpectError(ErrorCode::kInvalidArgument, message,
                 [&] { ValidateControls(request, plain.model(), "controls"); });
   };
-  refused(Way({0, 9}, {0, 1}), "controls.root_path: the model \"fake\" does not have this control");
+  refused(PathRequest({0, 9}, {0, 1}),
+          "controls.root_path: the model \"fake\" does not have this control");
   VelocityRequest request;
   request.factors = {1};
   refused(Velocity(request),
@@ -358,9 +359,9 @@ TEST_F(ControlTrackTest, RefusesUnsupportedControls) {
 }
 
 TEST_F(ControlTrackTest, KeepsNoMoreThanItsLimits) {
-  for (size_t i = 0; i < kMaxControls; ++i) track_.Set(Way({0, 1}, {0, 0}), 0, "controls");
+  for (size_t i = 0; i < kMaxControls; ++i) track_.Set(PathRequest({0, 1}, {0, 0}), 0, "controls");
   ExpectError(ErrorCode::kInvalidArgument, "controls[7]: is one more than the limit of 1000", [&] {
-    track_.Set(Way({0, 1}, {0, 0}), 0, "controls[7]");
+    track_.Set(PathRequest({0, 1}, {0, 0}), 0, "controls[7]");
   });
   ControlTrack other(sampler_.model());
   VelocityRequest huge;

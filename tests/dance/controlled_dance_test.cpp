@@ -10,7 +10,7 @@ namespace choreo::controlled_dance_test {
 using testing::HasSubstr;
 
 /// Over the floor from x0 to x1, metres, at an angle of 45 degrees.
-ControlRequest Way(int64_t from, int64_t to, double x0, double x1) {
+ControlRequest PathRequest(int64_t from, int64_t to, double x0, double x1) {
   ControlRequest request;
   request.root_path.emplace().frames = {from, to};
   request.root_path->points = {{x0, x0}, {x1, x1}};
@@ -52,7 +52,7 @@ class ControlledDanceTest : public testing::Test {
 };
 
 TEST_F(ControlledDanceTest, FollowsAPathOverManyTransitions) {
-  const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(0, 299, 0, 2)); });
+  const Recording dance = Perform([](DanceStream& s) { s.SetControls(PathRequest(0, 299, 0, 2)); });
   ASSERT_TRUE(dance.summary) << dance.error->what();
   EXPECT_GE(dance.continuations.size(), 5u);
   for (int frame = 20; frame < 300; ++frame) {
@@ -65,7 +65,7 @@ TEST_F(ControlledDanceTest, FollowsAPathOverManyTransitions) {
 TEST_F(ControlledDanceTest, StartsAtTheStartOfThePath) {
   for (const bool key : {false, true}) {
     const Recording dance = Perform([key](DanceStream& s) {
-      s.SetControls(Way(0, 299, -5, -4));
+      s.SetControls(PathRequest(0, 299, -5, -4));
       if (!key) return;
       s.SetKey("first", AtFrame{0}, KeyAt(0, 0), {.root_position = false, .joints = {}});
     });
@@ -77,7 +77,8 @@ TEST_F(ControlledDanceTest, StartsAtTheStartOfThePath) {
 }
 
 TEST_F(ControlledDanceTest, WarnsOfAPathAfterTheEnd) {
-  const Recording dance = Perform([](DanceStream& s) { s.SetControls(Way(120, 240, 0, 1)); }, 120);
+  const Recording dance =
+      Perform([](DanceStream& s) { s.SetControls(PathRequest(120, 240, 0, 1)); }, 120);
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.warnings.size(), 1u);
   EXPECT_EQ(dance.warnings[0].code, Warning::Code::kPathBehindEnd);
@@ -112,7 +113,7 @@ TEST_F(ControlledDanceTest, WithoutGenerateUntilControlsApplyAfterTheLastKey) {
 
 TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   const Recording dance = Perform([](DanceStream& s) {
-    s.SetControls(Way(0, 299, 0, 2));
+    s.SetControls(PathRequest(0, 299, 0, 2));
     s.SetKey("beside", AtFrame{150}, KeyAt(1.5, 1));
     s.SetKey("on", AtFrame{240}, KeyAt(2.0 * 240 / 299, 2.0 * 240 / 299));
   });
@@ -145,7 +146,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
   for (const int64_t first : {0, 40}) {  // the first one may stand where the dance begins
     for (const bool path : {true, false}) {
       const Recording dance = Perform([&](DanceStream& s) {
-        if (path) s.SetControls(Way(0, 299, 0, 2));
+        if (path) s.SetControls(PathRequest(0, 299, 0, 2));
         s.SetKey("crouch", AtFrame{first}, crouch, nowhere);
         s.SetKey("up", AtFrame{100}, RestPose(skeleton), nowhere);
         s.SetKey("again", AtFrame{160}, crouch, nowhere);
@@ -159,7 +160,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
     }
   }
   // A path with heights wins.
-  ControlRequest jump = Way(0, 299, 0, 2);
+  ControlRequest jump = PathRequest(0, 299, 0, 2);
   jump.root_path->heights = {1.2, 1.2};
   const Recording high = Perform([&](DanceStream& s) {
     s.SetControls(jump);
@@ -178,7 +179,7 @@ TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
   for (const int knee : {skeleton.left_knee, skeleton.right_knee}) soft.rotations(0, knee) = 0.5;
   for (const int ankle : {skeleton.feet[0], skeleton.feet[2]}) soft.rotations(0, ankle) = -0.25;
   const Recording dance = Perform([&](DanceStream& s) {
-    s.SetControls(Way(0, 299, 0, 5));  // 0.7 m/s
+    s.SetControls(PathRequest(0, 299, 0, 5));  // 0.7 m/s
     for (const int64_t frame : {59, 119, 179, 239, 299})
       s.SetKey("at " + std::to_string(frame), AtFrame{frame}, soft,
                {.root_position = false, .joints = {}});
@@ -191,11 +192,11 @@ TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
 
 TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
   const auto messages = [](DanceStream& s, const std::function<void()>& between) {
-    s.SetControls(Way(0, 200, 0, 1));
+    s.SetControls(PathRequest(0, 200, 0, 1));
     between();
     s.GenerateUntil(70);
     between();
-    s.SetControls(Way(50, 250, 0.5, -1));
+    s.SetControls(PathRequest(50, 250, 0.5, -1));
     between();
     s.SetControls(Factor(BodyPart::kTrunk, 0.5F));
     s.GenerateUntil(200);
@@ -212,14 +213,14 @@ TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
 
 TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
   const auto messages = [](DanceStream& s) {
-    s.SetControls(Way(20, 200, 0, 1));
+    s.SetControls(PathRequest(20, 200, 0, 1));
     s.SetControls(Factor(BodyPart::kLeftArm, 1.5F));
     s.GenerateUntil(70);
-    s.SetControls(Way(50, 250, 0.5, -1));
+    s.SetControls(PathRequest(50, 250, 0.5, -1));
     s.SetKey("a", AtFrame{130}, KeyAt(0.2, 0));
     s.GenerateUntil(140);
     s.SetControls(Factor(BodyPart::kLeftLeg, 0));
-    s.SetControls(Way(10, 60, 0, 0));  // too late
+    s.SetControls(PathRequest(10, 60, 0, 0));  // too late
     s.GenerateUntil(200);
   };
   const Recording whole = Perform(messages);
@@ -246,7 +247,7 @@ TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
 TEST_F(ControlledDanceTest, WarnsOfAPathThatComesTooLate) {
   const Recording dance = Perform([](DanceStream& s) {
     s.GenerateUntil(100);
-    s.SetControls(Way(10, 90, 0, 1));
+    s.SetControls(PathRequest(10, 90, 0, 1));
   });
   ASSERT_EQ(dance.warnings.size(), 1u);
   EXPECT_EQ(dance.warnings[0].code, Warning::Code::kControlsTooLate);
@@ -273,7 +274,7 @@ TEST_F(ControlledDanceTest, MovingTheSceneMovesTheDance) {
   const Eigen::Vector3d shift(4, 0, -3);
   std::mt19937 random(4);
   const std::vector<Pose> history = MotionTo(RandomPose(random), 10, random);
-  ControlRequest path = Way(10, 250, 0, 2);
+  ControlRequest path = PathRequest(10, 250, 0, 2);
   const auto messages = [&](DanceStream& s) { s.SetControls(path); };
   config_.history = history;
   const Recording here = Perform(messages);
@@ -331,7 +332,7 @@ TEST_F(ControlledDanceTest, SingleTransitionWarnsOfAPathOutsideIt) {
     GroupRequest request;
     request.first_frame = 100;
     request.frames = 60;
-    request.controls = Way(from, from + 99, 0, 1);
+    request.controls = PathRequest(from, from + 99, 0, 1);
     auto sink = std::make_shared<GroupRecorder>();
     const TransitionGroup group(*queue_, request, sink);
     const Recording transition = sink->Wait();
@@ -341,7 +342,7 @@ TEST_F(ControlledDanceTest, SingleTransitionWarnsOfAPathOutsideIt) {
 }
 
 TEST_F(ControlledDanceTest, SingleTransitionEqualsTheStreams) {
-  const ControlRequest path = Way(0, 200, 3, 4);
+  const ControlRequest path = PathRequest(0, 200, 3, 4);
   const Pose key = KeyAt(3.9, 3.2);
   const Recording dance = Perform(
       [&](DanceStream& s) {

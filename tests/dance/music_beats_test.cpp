@@ -13,9 +13,9 @@ namespace choreo::music_beats_test {
 
 // A transition begins.
 std::vector<double> Begin(MusicBeats* music, int64_t from, int64_t to) {
-  const std::vector<Beat> beats = music->For(from, to);
-  music->Begin(beats, from);
-  return music->Around(beats, from, to);
+  const std::vector<Beat> beats = music->BeatsFor(from, to);
+  music->StartReporting(beats, from);
+  return music->BeatTimes(beats, from, to);
 }
 
 // Of a song that beats every half second.
@@ -187,9 +187,9 @@ TEST(MusicBeats, AreReportedOnce) {
         const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
         to = from + (cut ? 1 + static_cast<int64_t>(random()) % frames : frames);
         Begin(&music, from, from + frames);
-        for (int64_t frame = from; frame < to; ++frame) music.Of(frame);
+        for (int64_t frame = from; frame < to; ++frame) music.TakeBeatsAt(frame);
       }
-      std::vector<double> told = music.told();
+      std::vector<double> told = music.reported();
       std::erase_if(told, [](double second) { return second < 8; });
       ASSERT_GT(told.size(), 16U);
       for (size_t i = 1; i < told.size(); ++i)
@@ -213,10 +213,10 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
       for (int beat = 1; beat < 40; ++beat) {
         if (0.5 * beat > static_cast<double>(from) / 30) grid.push_back(0.5 * beat + off);
       }
-      if (!grid.empty()) beats.Give(grid, from + lead, "music_beats");
+      if (!grid.empty()) beats.AddGiven(grid, from + lead, "music_beats");
       Begin(&beats, from, from + 9);
       for (int64_t frame = from; frame < from + 9; ++frame) {
-        for (const Beat& beat : beats.Of(frame)) {
+        for (const Beat& beat : beats.TakeBeatsAt(frame)) {
           told.push_back(beat);
           EXPECT_LE(beat.frame, frame) << "it has been danced";
           EXPECT_NEAR(static_cast<double>(beat.frame), 30 * beat.time_s, 1);
@@ -234,13 +234,13 @@ TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   feed.Push(Song(22050, 20), 0, [] {});
   feed.Finish();
   MusicBeats music(30, {}, std::nullopt, &feed);
-  EXPECT_EQ(music.Give(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
-  EXPECT_EQ(music.Give(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
+  EXPECT_EQ(music.AddGiven(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
+  EXPECT_EQ(music.AddGiven(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
   std::vector<Beat> beats;
   for (int64_t from = 224; from < 524; from += 60) {
     Begin(&music, from, from + 60);
     for (int64_t frame = from; frame < from + 60; ++frame)
-      for (const Beat& beat : music.Of(frame)) beats.push_back(beat);
+      for (const Beat& beat : music.TakeBeatsAt(frame)) beats.push_back(beat);
   }
   std::vector<double> given;
   for (size_t i = 0; i < beats.size(); ++i) {

@@ -19,7 +19,7 @@ bool HoldsControllers(const Safetensors& content) {
 
 ControllersCheckpoint ParseControllers(const Safetensors& content, const std::string& name) {
   const CheckpointFile file(content, name, kFormat);
-  return {TakeUp<ControllersModel, ControllersConfig>(file, content),
+  return {BuildCheckpoint<ControllersModel, ControllersConfig>(file, content),
           file.Get<std::array<double, kBodyParts>>("median_factors")};
 }
 

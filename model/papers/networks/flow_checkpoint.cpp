@@ -37,7 +37,7 @@ std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model,
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name) {
   const CheckpointFile file(content, name, kFlowFormat);
   file.Get<NoFormerFlow>("config");
-  return TakeUp<FlowModel, FlowConfig>(file, content);
+  return BuildCheckpoint<FlowModel, FlowConfig>(file, content);
 }
 
 }  // namespace choreo

@@ -135,8 +135,8 @@ bool HoldsInbetweener(const Safetensors& content) {
 }
 
 InbetweenerCheckpoint ParseInbetweener(const Safetensors& content, const std::string& name) {
-  return TakeUp<Inbetweener, FlowConfig>(CheckpointFile(content, name, kInbetweenerFormat),
-                                         content);
+  return BuildCheckpoint<Inbetweener, FlowConfig>(CheckpointFile(content, name, kInbetweenerFormat),
+                                                  content);
 }
 
 std::string SaveInbetweener(const std::filesystem::path& path, Inbetweener& model,
