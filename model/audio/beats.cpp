@@ -23,7 +23,8 @@ constexpr size_t kConfidenceBeats = 8;  // on either side
 constexpr double kMinConfidence = 0.25;
 constexpr double kSameTempo = 0.06;  // deviation from the median
 
-// If straight beats begin so much more than swung ones, the swung ones are their offbeats.
+// If onsets on straight beats are stronger than on swung ones by this factor, the swung beats are
+// offbeats of the straight ones.
 constexpr double kLouder = 2;
 // Listeners rarely tap faster than this unless beats are subdivided.
 constexpr double kMaxTappedBpm = 160;
@@ -74,8 +75,9 @@ bool IsInPause(const std::vector<bool>& sounding, int64_t frame, int period) {
 
 enum class Where { kOnBeats, kOnBeatsOrHalfBeats };
 
-/// How much more begins there than on average, from the first of some beats until the last: 0 to 1.
-double Excess(const OnsetSums& sums, std::span<const int64_t> frames, Where where) {
+/// How much more of the music begins on these beats (or half beats) than elsewhere between the
+/// first and the last: 0 to 1.
+double ExcessOf(const OnsetSums& sums, std::span<const int64_t> frames, Where where) {
   if (frames.size() < 2) return 0;
   double on = 0, halfway = 0;
   for (size_t k = 0; k + 1 < frames.size(); ++k) {
@@ -86,23 +88,23 @@ double Excess(const OnsetSums& sums, std::span<const int64_t> frames, Where wher
   const double even = sums.Between(frames.front(), frames.back()) *
                       static_cast<double>((std::ssize(frames) - 1) * OnsetSums::kBeatFrames) /
                       static_cast<double>(frames.back() - frames.front());
-  return on > even ? 1 - even / on : 0;
+  return Excess(on, even);
 }
 
-/// Of the beats around each.
+/// BeatTrack::confidence of each beat, from the beats around it.
 std::vector<double> Confidences(std::span<const Onset> onsets, std::span<const int64_t> frames) {
   const OnsetSums sums(onsets);
   std::vector<double> confidences;
   for (size_t i = 0; i < frames.size(); ++i) {
     const size_t first = i - std::min(i, kConfidenceBeats);
     const size_t last = std::min(frames.size() - 1, i + kConfidenceBeats);
-    confidences.push_back(Excess(sums, frames.subspan(first, last - first + 1), Where::kOnBeats));
+    confidences.push_back(ExcessOf(sums, frames.subspan(first, last - first + 1), Where::kOnBeats));
   }
   return confidences;
 }
 
-/// Of each beat: whether most around it have a pulse, on either side. Noise and held notes have
-/// none.
+/// Whether each beat belongs to a pulse: most beats around it stand out on both sides. In noise and
+/// held notes none do.
 std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   const OnsetSums sums(onsets);
   std::vector<int64_t> frames;
@@ -111,7 +113,7 @@ std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   const size_t last = frames.size() - std::min(frames.size(), kBeats + 1);
   const auto is_clear = [&](size_t first) {
     const auto stretch = std::span(frames).subspan(first, std::min(frames.size(), kBeats + 1));
-    return Excess(sums, stretch, Where::kOnBeatsOrHalfBeats) >= kMinConfidence;
+    return ExcessOf(sums, stretch, Where::kOnBeatsOrHalfBeats) >= kMinConfidence;
   };
   std::vector<size_t> clear{0};  // before each beat
   for (size_t i = 0; i < frames.size(); ++i) {
@@ -135,14 +137,15 @@ Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> pattern
   return pointer.Path();
 }
 
-/// How much begins on the beats of a path, on average.
+/// The mean strength of the onsets on a path's beats.
 double Sounds(const OnsetSums& sums, const Path& path) {
   double sum = 0;
   for (const BarPointer::Step& step : path) sum += sums.OnBeat(step.frame);
   return path.empty() ? 0 : sum / static_cast<double>(path.size());
 }
 
-/// The best path in four: of beats that are divided by two or, where those sound no less, by three.
+/// The best path in four-four time. Beats may be divided by two or by three; by three only if the
+/// music on those beats is about as loud.
 Path PathInFour(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits& limits) {
   const auto patterns = BarPatterns();
   Path path = BestPath(onsets, patterns.first(2), extent, limits);

@@ -18,8 +18,7 @@ constexpr int kMinPredictions = 6;
 
 double PeriodOf(std::span<const double> seconds) { return 60 / TempoOf(seconds); }
 
-/// What begins at beats and half way to the next ones, whichever is more: loud off-beats are a
-/// pulse, too.
+/// Sums onsets on beats, and halfway to the next beats, because loud offbeats are a pulse, too.
 struct Met {
   double on = 0, halfway = 0;
   int count = 0;
@@ -30,10 +29,7 @@ struct Met {
     ++count;
   }
   /// How much more that is than `even`, the mean: 0 to 1.
-  double Excess(double even) const {
-    const double met = std::max(on, halfway) / count;
-    return met > even ? 1 - even / met : 0;
-  }
+  double ExcessOver(double even) const { return Excess(std::max(on, halfway) / count, even); }
 };
 
 double ForesightOf(std::span<const Onset> onsets, const BeatTrack& track) {
@@ -55,8 +51,8 @@ double ForesightOf(std::span<const Onset> onsets, const BeatTrack& track) {
   if (predicted.count < kMinPredictions) return 0;
   const double even =
       OnsetSums::kBeatFrames * sums.Between(0, sums.frames()) / static_cast<double>(sums.frames());
-  const double excess = found.Excess(even);
-  return excess > 0 ? predicted.Excess(even) / excess : 0;
+  const double excess = found.ExcessOver(even);
+  return excess > 0 ? predicted.ExcessOver(even) / excess : 0;
 }
 
 }  // namespace

@@ -9,6 +9,10 @@
 
 namespace choreo {
 
+/// How much of `on`, what begins on beats, exceeds `even`, the same of evenly spread onsets: 0
+/// to 1.
+inline double Excess(double on, double even) { return on > even ? 1 - even / on : 0; }
+
 /// Sums onsets over frames and around beats.
 class OnsetSums {
  public:

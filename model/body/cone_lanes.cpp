@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/core/smooth_step.h"
+
 namespace choreo {
 namespace {
 
@@ -90,7 +92,7 @@ Lane ShadowOf(const ConeLanes& cones, const Lanes& points, const Eigen::Vector3f
   const Lane radius = cones.radius_a + s * (cones.radius_b - cones.radius_a);
   const Lane gap = Sqrt(Dot(beside, beside)) - radius;
   const Lane cover = Within01(0.5f - 0.5f * gap / Max(distance * spread, 0.012f));
-  return distance > 0 ? cover * cover * (3 - 2 * cover) : AllLanes(0);
+  return distance > 0 ? SmoothStep(cover) : AllLanes(0);
 }
 
 Lane HiddenSky(const ConeLanes& cones, const Lanes& points, const Lanes& normals) {

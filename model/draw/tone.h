@@ -8,6 +8,7 @@
 
 #include "model/body/colour.h"
 #include "model/body/lanes.h"
+#include "model/core/smooth_step.h"
 
 namespace choreo {
 
@@ -18,7 +19,7 @@ inline Eigen::Vector3f Linear(const Colour& colour) {
 
 inline float SmoothStep(float from, float to, float value) {
   const float t = std::clamp((value - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
+  return SmoothStep(t);
 }
 
 /// Converts linear light to sRGB bytes.

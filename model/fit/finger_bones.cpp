@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "model/core/smooth_step.h"
 #include "model/motion/skeleton.h"
 
 namespace choreo {
@@ -179,7 +180,7 @@ std::vector<CurledBone> CurlFingers(const RigNodes& rig, const HumanBones& bones
         continue;
       }
       const double t = (time - keys[before].time_s) / (next->time_s - keys[before].time_s);
-      angles.push_back(from + t * t * (3 - 2 * t) * (bone.angles[after] - from));
+      angles.push_back(from + SmoothStep(t) * (bone.angles[after] - from));
     }
     bone.angles = std::move(angles);
     moved.push_back(std::move(bone));

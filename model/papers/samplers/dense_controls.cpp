@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/smooth_step.h"
+
 namespace choreo {
 namespace {
 
@@ -38,7 +40,7 @@ Eigen::Matrix3Xd SmoothPath(const TransitionSpec& spec) {
     const double u = (t + 1) / frames, v = 1 - u;
     const Eigen::Vector3d mean = end - from;
     const Eigen::Vector3d way =
-        u * u * (3 - 2 * u) * mean + u * v * v * frames * velocity - u * u * v * mean;
+        SmoothStep(u) * mean + u * v * v * frames * velocity - u * u * v * mean;
     path.col(t) = from.array() + ends.select(way.array(), coast.array());
   }
   return path;
