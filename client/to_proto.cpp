@@ -18,7 +18,7 @@ v1::Keyframe ToProto(const KeyPose& key) {
   *out.mutable_pose() = ToProto(key.pose, key.mask);
   if (!key.mask.joints.empty()) *out.mutable_mask() = ToProto(key.mask);
   if (key.hit) out.set_hit(*key.hit);
-  if (key.hands) out.set_hands(static_cast<v1::HandPose>(v1::HAND_POSE_REST + int(*key.hands)));
+  if (key.hands) out.set_hands(ToProto(*key.hands));
   return out;
 }
 

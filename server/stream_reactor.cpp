@@ -27,7 +27,7 @@ namespace {
 using DanceRequest = v1::StreamDanceRequest;
 using DanceResponse = v1::StreamDanceResponse;
 
-/// Longer pieces of music are not processed on gRPC's threads.
+/// A longer piece of music is processed on the task pool, so that no thread of gRPC waits for it.
 constexpr size_t kLongAudioBytes = 64 << 10;
 
 /// The session of a StreamDance. Messages are handled one at a time.
@@ -44,7 +44,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     return outbox().open();
   }
 
-  /// The pool for a message (null: the half-close) that takes long; null: handle it on this thread.
+  /// The pool that should handle this message because it takes long; null if the caller's thread
+  /// can. A null `request` is the half-close.
   TaskPool* PoolFor(const DanceRequest* request) const {
     const bool ends_music = request == nullptr || request->has_end_of_audio();
     if (ends_music && !file_.empty()) return &serving_.decoding;
@@ -80,17 +81,15 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void OnEvent(const DanceEvent& event) override {
-    if (const auto* key = std::get_if<KeyReached>(&event)) {
+    DanceEvent told = event;
+    if (auto* key = std::get_if<KeyReached>(&told)) {
       serving_.tally.key_error_m.Add(key->raw_error_m);
+      const std::lock_guard lock(hands_mutex_);
+      const auto hands = hands_.find(key->id);
+      if (hands != hands_.end()) key->hands = hands->second;
     }
     DanceResponse response;
-    *response.mutable_event() = wire::ToProto(event, queue_->model().fps);
-    if (response.event().has_keyframe_reached()) {
-      v1::KeyframeReached& reached = *response.mutable_event()->mutable_keyframe_reached();
-      const std::lock_guard lock(hands_mutex_);
-      const auto hands = hands_.find(reached.id());
-      if (hands != hands_.end()) reached.set_hands(hands->second);
-    }
+    *response.mutable_event() = wire::ToProto(told, queue_->model().fps);
     outbox().Send(std::move(response));
   }
 
@@ -145,7 +144,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
         return stream->EndOfAudio();
       case DanceRequest::kConfig:
       case DanceRequest::REQUEST_NOT_SET:
-        return;  // see above
+        return;  // handled before the switch
     }
   }
 
@@ -208,14 +207,15 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       throw InvalidArgument(field + ".hands", std::to_string(keyframe.hands()) + ", must be 0 to " +
                                                   std::to_string(v1::HandPose_MAX));
     }
-    // Known before the key can be reached; a key that comes too late leaves those of the former
-    // one.
-    const v1::HandPose former = ExchangeHands(keyframe.id(), keyframe.hands());
+    // Sets the hands first: SetKey may let the key be reached at once. A key that comes too late
+    // changes nothing, so the former key's hands return.
+    const std::optional<HandPose> former =
+        ExchangeHands(keyframe.id(), wire::FromProto(keyframe.hands()));
     if (!stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit))
       ExchangeHands(keyframe.id(), former);
   }
 
-  v1::HandPose ExchangeHands(const std::string& id, v1::HandPose hands) {
+  std::optional<HandPose> ExchangeHands(const std::string& id, std::optional<HandPose> hands) {
     const std::lock_guard lock(hands_mutex_);
     return std::exchange(hands_[id], hands);
   }
@@ -234,7 +234,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   // From the configuration; written before the stream exists.
-  Models::Use queue_;  // the dance keeps its model, whatever is served meanwhile
+  Models::Use queue_;  // keeps the model, even if the server stops serving it
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;
@@ -245,7 +245,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   bool file_decoded_ = false;
 
   std::mutex hands_mutex_;
-  std::map<std::string, v1::HandPose> hands_;  // of keys, for the events that tell of them
+  std::map<std::string, std::optional<HandPose>> hands_;  // of keys, for KeyReached
 };
 
 class StreamReactor final

@@ -50,15 +50,13 @@ ModelDescription DescribeModel(const ModelInfo& model) {
       .fps = model.fps,
       .history_frames = model.history_frames,
       .default_temperature = model.default_temperature,
+      .controls = model.controls,
+      .velocity_references = model.velocity_references,
       .styles = model.styles,
       .takes_music = TakesMusic(model),
       .likelihood = model.likelihood,
       .deterministic = model.deterministic,
       .max_transition_frames = std::min(model.max_transition_frames, kMaxTransitionFrames)};
-  out.controls = model.controls;
-  for (const VelocityReference& reference : model.velocity_references)
-    out.velocity_references.push_back(
-        {reference.name, {reference.speeds.begin(), reference.speeds.end()}});
   if (!out.takes_music) return out;
   // The lowest rate has the longest filter. Any frame far from the start shows the lead.
   constexpr int64_t kSomeFrame = 3'000;

@@ -52,8 +52,7 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
   if (key.has_hit()) out.hit = key.hit();
   if (!v1::HandPose_IsValid(key.hands()))
     throw InvalidArgument("keyframe.hands", std::to_string(key.hands()) + " is no hand pose");
-  if (key.hands() != v1::HAND_POSE_UNSPECIFIED)
-    out.hands = static_cast<HandPose>(key.hands() - v1::HAND_POSE_REST);
+  out.hands = wire::FromProto(key.hands());
   return out;
 }
 

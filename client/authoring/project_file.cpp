@@ -137,7 +137,7 @@ Project ParseProject(const json& file, const std::string& name) {
                                              std::to_string(kMaxBeatsInBar));
   }
   if (file.contains("beats"))
-    TakeBeats(file["beats"], file.value("bar", kUsualBar), name + ":beats", &project);
+    TakeBeats(file["beats"], file.value("bar", kDefaultBar), name + ":beats", &project);
   if (file.contains("lively")) {
     project.controls.velocity_name = name + ":lively";
     project.controls.velocities = Velocities(file["lively"], project.controls.velocity_name);

@@ -22,7 +22,7 @@ struct InfoOptions {
 };
 
 /// {"name": "median", "trunk": 0.012, ...}: metres a frame.
-nlohmann::ordered_json ToJson(const client::ModelDescription::VelocityReference& reference) {
+nlohmann::ordered_json ToJson(const VelocityReference& reference) {
   nlohmann::ordered_json out;
   out["name"] = reference.name;
   for (size_t part = 0; part < reference.speeds.size(); ++part)

@@ -22,12 +22,6 @@
 /// Describes models and requests for transitions.
 namespace choreo {
 
-/// A model's usual speeds, to which multipliers of velocity factors refer.
-struct VelocityReference {
-  std::string name;
-  std::array<float, kBodyParts> speeds = {};  ///< by BodyPart, metres a frame at the model's rate
-};
-
 /// Describes a loaded model. Constant for the life of a sampler.
 struct ModelInfo {
   std::string name;         ///< "default", "paper-f", ...

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
+
+#include "model/core/hand_pose.h"
 
 /// What a dance reports while it runs; shared by server and client. Frames are absolute, at the
 /// model's rate.
@@ -22,6 +25,8 @@ struct KeyReached {
   /// In reports only: the largest acceleration of any joint, m/s^2, at most two frames from the
   /// key's.
   double max_acceleration = 0;
+  /// In events only: what hands do there, if the key says so.
+  std::optional<HandPose> hands = {};
 };
 
 /// A message about a key came too late: the frames that it would change are frozen. It changed
@@ -54,7 +59,8 @@ struct Beat {
   int64_t frame = 0;  ///< once reported: the nearest danced frame
   double time_s = 0;  ///< exact
   Source source = Source::kUnknown;
-  double confidence = 1;  ///< how much more begins on the beats that predicted it, 0 to 1; 1 if not predicted
+  double confidence =
+      1;  ///< how much more begins on the beats that predicted it, 0 to 1; 1 if not predicted
   bool downbeat = false;  ///< begins a bar, as far as known
 };
 

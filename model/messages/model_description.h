@@ -5,6 +5,7 @@
 
 #include "model/core/grid.h"
 #include "model/motion/skeleton.h"
+#include "model/motion/velocity_factors.h"
 
 namespace choreo {
 
@@ -19,14 +20,9 @@ struct ModelDescription {
   int history_frames = 0;  ///< past frames that it conditions on
   double default_temperature = 0;
   std::vector<std::string> controls = {};  ///< of the names in kControls (motion/controls.h)
-  /// The usual speeds of its dancers, which multipliers refer to; the first is the default.
-  struct VelocityReference {
-    std::string name = {};
-    std::vector<double> speeds = {};  ///< metres a frame, in the order of kBodyPartNames
-  };
-  std::vector<VelocityReference> velocity_references = {};
-  std::vector<std::string> styles = {};  ///< that a request may name
-  bool takes_music = true;               ///< false: it refuses audio
+  std::vector<VelocityReference> velocity_references = {};  ///< the first is the default
+  std::vector<std::string> styles = {};                     ///< that a request may name
+  bool takes_music = true;                                  ///< false: it refuses audio
   bool likelihood = false;     ///< reports include one, and candidates can be ranked by it
   bool deterministic = false;  ///< seed and temperature have no effect; it rests without a next key
   double audio_lead_s = 0;     ///< music that a transition needs before its first frame

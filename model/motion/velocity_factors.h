@@ -26,6 +26,12 @@ std::string BodyPartNames();
 /// The part with that name, or none.
 std::optional<BodyPart> FindBodyPart(std::string_view name);
 
+/// A model's usual speeds, to which multipliers of velocity factors refer.
+struct VelocityReference {
+  std::string name = {};
+  std::array<float, kBodyParts> speeds = {};  ///< by BodyPart, metres a frame at the model's rate
+};
+
 /// Limits of the velocity factors in a request.
 inline constexpr float kMaxVelocityFactor = 10;  ///< as a multiple of a reference
 inline constexpr float kMaxVelocity = 0.5F;      ///< metres a frame

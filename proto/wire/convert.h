@@ -6,6 +6,7 @@
 #include "choreo/v1/choreography.pb.h"
 #include "choreo/v1/motion.pb.h"
 #include "model/core/error.h"
+#include "model/core/hand_pose.h"
 #include "model/core/passage.h"
 #include "model/messages/dance_event.h"
 #include "model/messages/model_description.h"
@@ -23,6 +24,7 @@ v1::Pose ToProto(const Pose& pose);
 v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
 v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);
+v1::HandPose ToProto(HandPose hands);
 v1::ModelInfo ToProto(const ModelDescription& model);
 v1::QualityReport ToProto(const QualityReport& report);
 /// `fps`: the model's, at which frames are counted.
@@ -33,6 +35,8 @@ v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
                    v1::RotationEncoding encoding = v1::ROTATION_ENCODING_AXIS_ANGLE);
 
 Skeleton FromProto(const v1::Skeleton& skeleton);
+/// None if unspecified, or one that this version does not know.
+std::optional<HandPose> FromProto(v1::HandPose hands);
 ModelDescription FromProto(const v1::ModelInfo& model);
 QualityReport FromProto(const v1::QualityReport& report);
 /// None for a kind of event that this version does not know yet.

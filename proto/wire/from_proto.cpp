@@ -50,6 +50,12 @@ Skeleton FromProto(const v1::Skeleton& skeleton) {
   return out;
 }
 
+std::optional<HandPose> FromProto(v1::HandPose hands) {
+  const int pose = hands - v1::HAND_POSE_REST;
+  if (pose < 0 || pose >= std::ssize(kHandPoseNames)) return std::nullopt;
+  return static_cast<HandPose>(pose);
+}
+
 ModelDescription FromProto(const v1::ModelInfo& model) {
   ModelDescription out;
   out.name = model.name();
@@ -67,8 +73,9 @@ ModelDescription FromProto(const v1::ModelInfo& model) {
   }
   for (const v1::VelocityReference& reference : model.velocity_references()) {
     if (reference.speeds_size() != kBodyParts) throw Broken("a velocity reference of odd length");
-    out.velocity_references.push_back(
-        {reference.name(), {reference.speeds().begin(), reference.speeds().end()}});
+    VelocityReference& added = out.velocity_references.emplace_back();
+    added.name = reference.name();
+    std::ranges::copy(reference.speeds(), added.speeds.begin());
   }
   out.styles = {model.styles().begin(), model.styles().end()};
   out.takes_music = !model.takes_no_music();
@@ -108,8 +115,12 @@ QualityReport FromProto(const v1::QualityReport& report) {
 std::optional<DanceEvent> FromProto(const v1::Event& event) {
   const int64_t frame = event.frame();
   switch (event.event_case()) {
-    case v1::Event::kKeyframeReached:
-      return ToKeyReached(event.keyframe_reached().id(), frame, event.keyframe_reached().errors());
+    case v1::Event::kKeyframeReached: {
+      const v1::KeyframeReached& key = event.keyframe_reached();
+      KeyReached reached = ToKeyReached(key.id(), frame, key.errors());
+      reached.hands = FromProto(key.hands());
+      return reached;
+    }
     case v1::Event::kKeyframeRejected: {
       const v1::KeyframeRejected& key = event.keyframe_rejected();
       return KeyRejected{key.id(), frame, key.earliest_frame(), key.reason(),

@@ -25,6 +25,7 @@ void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {
 void Fill(const KeyReached& key, v1::Event* out) {
   out->mutable_keyframe_reached()->set_id(key.id);
   FillErrors(key, out->mutable_keyframe_reached()->mutable_errors());
+  if (key.hands) out->mutable_keyframe_reached()->set_hands(ToProto(*key.hands));
 }
 
 void Fill(const KeyRejected& key, v1::Event* out) {
@@ -93,6 +94,10 @@ v1::MusicPassage ToProto(const Passage& passage) {
   return out;
 }
 
+v1::HandPose ToProto(HandPose hands) {
+  return static_cast<v1::HandPose>(v1::HAND_POSE_REST + static_cast<int>(hands));
+}
+
 v1::ModelInfo ToProto(const ModelDescription& model) {
   v1::ModelInfo out;
   out.set_name(model.name);
@@ -111,7 +116,7 @@ v1::ModelInfo ToProto(const ModelDescription& model) {
   for (const auto& [name, speeds] : model.velocity_references) {
     v1::VelocityReference* added = out.add_velocity_references();
     added->set_name(name);
-    for (const double speed : speeds) added->add_speeds(static_cast<float>(speed));
+    added->mutable_speeds()->Add(speeds.begin(), speeds.end());
   }
   out.set_takes_no_music(!model.takes_music);
   out.set_deterministic(model.deterministic);

@@ -10,13 +10,17 @@ namespace choreo::wire_test {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-/// Whether each field that the API has is written, those of the messages inside too.
+/// Whether each field that the API has is written, also in the messages inside. Of a oneof, the
+/// member that is set counts.
 void ExpectFull(const Message& message) {
   const auto& type = *message.GetDescriptor();
   const auto& reflection = *message.GetReflection();
   for (int i = 0; i < type.field_count(); ++i) {
     const FieldDescriptor* field = type.field(i);
-    if (field->real_containing_oneof()) continue;
+    if (const auto* oneof = field->real_containing_oneof()) {
+      EXPECT_TRUE(reflection.HasOneof(message, oneof)) << oneof->full_name();
+      if (!reflection.HasField(message, field)) continue;
+    }
     EXPECT_TRUE(field->is_repeated() ? reflection.FieldSize(message, field) > 0
                                      : reflection.HasField(message, field))
         << field->full_name();
@@ -38,6 +42,12 @@ void ExpectBackAgain(const Proto& message) {
 }
 
 KeyReached SomeKey() { return {"a", 30, 0.25, 0.5, 0.75, 1, 1.25}; }
+
+KeyReached KeyWithHands() {
+  KeyReached key = SomeKey();
+  key.hands = HandPose::kFist;
+  return key;
+}
 
 TEST(Wire, ReportsRoundTrip) {
   QualityReport report{.frames = 90,
@@ -77,7 +87,7 @@ TEST(Wire, ModelsRoundTrip) {
 
 TEST(Wire, EventsRoundTrip) {
   for (const DanceEvent& event : std::vector<DanceEvent>{
-           SomeKey(), KeyRejected{"a", 30, 33, "late", KeyRejected::Code::kTooLate},
+           KeyWithHands(), KeyRejected{"a", 30, 33, "late", KeyRejected::Code::kTooLate},
            Beat{30, 1.25, Beat::Source::kHeard, 0.5, true},
            Warning{30, "fast", Warning::Code::kTemperatureTooHigh}}) {
     const v1::Event message = wire::ToProto(event, 30);
@@ -88,6 +98,16 @@ TEST(Wire, EventsRoundTrip) {
     EXPECT_EQ(wire::ToProto(*back, 30).SerializeAsString(), message.SerializeAsString());
   }
   EXPECT_FALSE(wire::FromProto(v1::Event())) << "of a later version";
+}
+
+TEST(Wire, HandsRoundTrip) {
+  for (size_t i = 0; i < kHandPoseNames.size(); ++i) {
+    const auto hands = static_cast<HandPose>(i);
+    EXPECT_EQ(wire::FromProto(wire::ToProto(hands)), hands) << kHandPoseNames[i];
+    EXPECT_TRUE(v1::HandPose_IsValid(wire::ToProto(hands))) << kHandPoseNames[i];
+  }
+  EXPECT_EQ(wire::FromProto(v1::HAND_POSE_UNSPECIFIED), std::nullopt);
+  EXPECT_EQ(wire::FromProto(static_cast<v1::HandPose>(v1::HandPose_MAX + 1)), std::nullopt);
 }
 
 TEST(Wire, CodesOfLaterVersionsAreUnknown) {
