@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/core/smooth_step.h"
+
 namespace choreo {
 namespace {
 
@@ -87,7 +89,7 @@ Lanes Floor::Light(const Row& row, Lane from_middle) const {
   const Lane right = x - middle_.x(), near = z - middle_.y();
   const Lane away = Sqrt(right * right + near * near);
   const Lane t = Within01((away - kFadeFrom * reach_) / ((1 - kFadeFrom) * reach_));
-  const Lane fade = t * t * (3 - 2 * t);
+  const Lane fade = SmoothStep(t);
   return ((1 - fade) * shade) * Lanes::All(floor_) + fade * Lanes::All(background_);
 }
 
@@ -98,7 +100,7 @@ Eigen::Vector3f Floor::At(const Eigen::Array2f& pixel, float size) const {
   return {light.x[0], light.y[0], light.z[0]};
 }
 
-void Floor::DrawRow(int y, uint8_t* rgb) const {
+int Floor::DrawRow(int y, uint8_t* rgb) const {
   const Row row = RowAt(static_cast<float>(y) + 0.5f, 1);
   // Columns [from, to) in which the floor is within reach.
   int from = width_, to = width_;
@@ -117,11 +119,13 @@ void Floor::DrawRow(int y, uint8_t* rgb) const {
   };
   const Lane columns = MakeLane([](int lane) { return static_cast<float>(lane) + 0.5f; });
   put(background_row_, 0, from);
+  int copied = 0;
   for (int begin = from, end; begin < to; begin = end) {
     end = std::min(begin + kStretch, to);
     if (IsPlain(row, static_cast<float>(begin) - half_width_,
                 static_cast<float>(end) - half_width_)) {
       put(plain_row_, begin, end);
+      copied += end - begin;
       continue;
     }
     for (int x = begin; x < end; x += kLanes) {
@@ -132,6 +136,7 @@ void Floor::DrawRow(int y, uint8_t* rgb) const {
     }
   }
   put(background_row_, to, width_);
+  return copied;
 }
 
 }  // namespace choreo

@@ -19,8 +19,9 @@ class Floor {
   Floor(const View& view, const Camera& camera, const FloorLight& light, int width, int height,
         const Eigen::Vector3f& floor, const Eigen::Vector3f& background);
 
-  /// Draws a row of the picture as `width` rgb bytes.
-  void DrawRow(int y, uint8_t* rgb) const;
+  /// Draws a row of the picture as `width` rgb pixels. Returns how many of them show nothing but
+  /// the floor's own colour and so were copied, which is faster than computing each.
+  int DrawRow(int y, uint8_t* rgb) const;
   /// The linear colour at a point of the picture, averaged over `size` pixels around it.
   Eigen::Vector3f At(const Eigen::Array2f& pixel, float size) const;
 

@@ -16,9 +16,9 @@ TEST(Floor, RowsShowWhatEachPixelShows) {
     const Camera camera(view, kWidth, kHeight);
     const Floor drawn(view, camera, light, kWidth, kHeight, floor, background);
     std::vector<uint8_t> row(3 * kWidth);
-    int plain = 0;
+    int plain = 0, copied = 0;
     for (int y = 0; y < kHeight; ++y) {
-      drawn.DrawRow(y, row.data());
+      copied += drawn.DrawRow(y, row.data());
       for (int x = 0; x < kWidth; ++x) {
         const Eigen::Array2f centre = Eigen::Array2i(x, y).cast<float>() + 0.5f;
         uint8_t bytes[3];
@@ -29,6 +29,7 @@ TEST(Floor, RowsShowWhatEachPixelShows) {
       }
     }
     EXPECT_GT(plain, kWidth * kHeight / 10);
+    EXPECT_GT(copied, kWidth) << "a picture so small has few stretches without lines, but some";
   }
 }
 
