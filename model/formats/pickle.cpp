@@ -1,10 +1,7 @@
 #include "model/formats/pickle.h"
 
 #include <algorithm>
-#include <bit>
-#include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,15 +13,16 @@
 
 #include "model/core/error.h"
 #include "model/core/npy.h"
+#include "model/formats/pickle_input.h"
 #include "model/formats/pickled_text.h"
 
 namespace choreo {
 namespace {
 
-/// A dict of arrays takes some 40 an array. Bounds time, memory and the depth of what is built.
+/// Limits time, memory and nesting. A dict of arrays needs about 40 operations an array.
 constexpr int kMaxOperations = 4096;
 
-/// What NumPy calls values that are objects, without their order of bytes.
+/// NumPy's dtype of Python objects, with the byte order that this file gives every dtype.
 constexpr const char* kObjects = "<O8";
 
 enum Kind { kNone, kNumber, kText, kTuple, kList, kDict, kGlobal, kDtype, kArray };
@@ -53,12 +51,12 @@ const std::set<std::string> kKnownGlobals = {"numpy.ndarray",
                                              "collections.defaultdict",
                                              "collections.OrderedDict"};
 
-/// The machine that pickles are written for, as far as dicts of arrays need it.
-class Unpickler {
+/// Runs a pickle's operations on a stack, as Python does, for the few that dicts of arrays need.
+class Unpickler : PickleInput {
  public:
-  Unpickler(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
+  using PickleInput::PickleInput;
 
-  /// What the pickle is of, which must be this.
+  /// Runs all operations and returns the pickled object, which must be of this kind.
   Ref Run(Kind kind) {
     if (bytes_.starts_with("\x1f\x8b")) throw InvalidArgument(name_, "is compressed: gunzip it");
     if (bytes_.starts_with('x') || bytes_.starts_with("BZh") ||
@@ -79,8 +77,7 @@ class Unpickler {
     if (opcode_ == 0x80 ? Byte() > 5 : !kOperations.contains(opcode_))
       Refuse("no pickle of protocol 0 to 5");
     for (int operation = 0; operation < kMaxOperations; ++operation) {
-      start_ = at_;
-      opcode_ = Byte();
+      NextOpcode();
       if (opcode_ == '.') return Expect(TakeOnly(Pop()), kind);
       const auto known = kOperations.find(opcode_);
       if (known == kOperations.end()) Refuse("is not read");
@@ -91,43 +88,6 @@ class Unpickler {
 
  private:
   static const std::map<int, void (*)(Unpickler&)> kOperations;
-
-  [[noreturn]] void Refuse(const std::string& why) const {
-    char where[48];
-    std::snprintf(where, sizeof where, "opcode 0x%02x at byte %zu: ", opcode_, start_);
-    throw InvalidArgument(name_, where + why +
-                                     "; only dicts of arrays and numbers are read, numpy.savez "
-                                     "writes any arrays");
-  }
-
-  // What follows an opcode.
-  std::string_view Take(uint64_t count) {
-    if (count > bytes_.size() - at_) Refuse("the file ends within it");
-    at_ += count;
-    return bytes_.substr(at_ - count, count);
-  }
-  int Byte() { return static_cast<unsigned char>(Take(1)[0]); }
-  uint64_t Unsigned(size_t size) {
-    uint64_t value = 0;
-    const std::string_view bytes = Take(size);
-    for (size_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
-    return value;
-  }
-  double BigEndianDouble() { return std::bit_cast<double>(__builtin_bswap64(Unsigned(8))); }
-  std::string_view Line() {
-    const std::string_view line = Take(std::min(bytes_.find('\n', at_), bytes_.size()) - at_);
-    Take(1);
-    return line;
-  }
-  template <typename T>
-  std::optional<T> NumberIn(std::string_view line) const {
-    T number{};
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-    if (error == std::errc::result_out_of_range) return std::nullopt;
-    if (error != std::errc() || end != line.data() + line.size()) Refuse("no number follows");
-    return number;
-  }
-  uint64_t Index() { return NumberIn<uint64_t>(Line()).value_or(UINT64_MAX); }
 
   // The stack; a null pointer is a mark.
   void Push(Ref object) { stack_.push_back(std::move(object)); }
@@ -155,8 +115,8 @@ class Unpickler {
     if (object->kind != kind) Refuse(std::string("expected a ") + kKindNames[kind]);
     return object;
   }
-  // What stands alone in a list, or in an array of objects, as numpy.save makes one of a dict. Of
-  // several dicts, as of several bodies, a dict by their numbers.
+  // Unwraps a list, or an array of objects, that has one item: numpy.save wraps a dict so. Several
+  // dicts, such as one for each body, become one dict whose keys are their numbers.
   static Ref TakeOnly(const Ref& object) {
     const bool holds = object->kind == kList || (object->kind == kArray && !object->array);
     if (!holds || object->items.empty()) return object;
@@ -178,7 +138,7 @@ class Unpickler {
     Push(Object{.kind = kNumber, .array = NpyArray{{}, std::move(value)}});
   }
   void PushInteger(int64_t value) { PushNumber(std::vector{value}); }
-  // A number beyond int64 says nothing of a motion.
+  // No motion needs a number beyond int64: it counts as None.
   void PushInteger(std::string_view line) {
     if (line.ends_with('L')) line.remove_suffix(1);
     const std::optional<int64_t> value = NumberIn<int64_t>(line);
@@ -211,7 +171,7 @@ class Unpickler {
     Push(Object{.kind = kGlobal, .text = name});
   }
 
-  /// What the call of a global would give.
+  /// Replaces the call of a global by its result, without calling anything.
   void Reduce() {
     const Ref given = Pop(kTuple);
     const std::string callee = Pop(kGlobal)->text;
@@ -238,7 +198,7 @@ class Unpickler {
     }
   }
 
-  /// State for the dtype or array below it.
+  /// Gives the dtype or array below it on the stack its state.
   void Build() {
     const Ref state = Pop(kTuple);
     const Ref object = Pop();
@@ -258,7 +218,7 @@ class Unpickler {
   }
 
   void Fill(const Ref& array, const Ref& shape, const Ref& dtype, bool fortran, const Ref& values) {
-    // However often the same bytes are used.
+    // A pickle may use the same bytes for many arrays: each use counts.
     if ((filled_ += values->text.size()) > bytes_.size()) Refuse("more values than the file has");
     NpyParts parts{dtype->text, fortran, {}, values->text};
     for (const Ref& extent : shape->items) {
@@ -287,13 +247,13 @@ class Unpickler {
   void SetItems(const std::vector<Ref>& items) {
     const Ref dict = Pop(kDict);
     for (size_t i = 0; i + 1 < items.size(); i += 2) {
-      // A track's number names it, too.
+      // A key may be a number: people's tracks are numbered.
       const std::string key = items[i]->kind == kNumber ? std::to_string(Integer(items[i]))
                                                         : Expect(items[i], kText)->text;
       const auto holds = [](const Ref& item) { return item->array.has_value(); };
       if (items[i + 1]->kind == kList && std::ranges::count_if(items[i + 1]->items, holds) > 1)
         Refuse("'" + key + "' is a list of several arrays, as of several bodies");
-      // What else stands there, such as a gender, says nothing of the motion.
+      // Ignores values of other kinds, such as a gender: the motion does not need them.
       const Ref value = TakeOnly(items[i + 1]);
       if (value->array) dict->dict.SetArray(key, *value->array);
       if (value->kind == kDict) dict->dict.SetNested(key, value->dict);
@@ -305,24 +265,21 @@ class Unpickler {
     try {
       dict.SetText(key, text);
     } catch (const Error&) {
-      // Bytes that are no text.
+      // Ignores bytes that are not text.
     }
   }
 
   void Append(const std::vector<Ref>& items) {
     const Ref list = Pop(kList);
     for (const Ref& item : items) {
-      // What holds others could hold this list.
+      // Drops containers: one of them might contain this list, a cycle.
       const bool plain = item->array || item->kind == kText || item->kind == kDict;
       list->items.push_back(plain ? item : std::make_shared<Object>(Object{.kind = kNone}));
     }
     Push(list);
   }
 
-  std::string name_;
-  std::string_view bytes_;
-  size_t at_ = 0, start_ = 0, filled_ = 0;
-  int opcode_ = 0;
+  size_t filled_ = 0;  // bytes of values, in all arrays
   std::vector<Ref> stack_;
   std::map<uint64_t, Ref> memo_;
 };

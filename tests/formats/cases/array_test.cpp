@@ -1,62 +1,15 @@
 #include <zip.h>
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "model/formats/amass_npz.h"
 #include "model/motion/floor_clearance.h"
-#include "tests/formats/cases/cases.h"
+#include "tests/formats/cases/smpl_arrays.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/pickles.h"
 
 namespace choreo::cases_test {
-
-/// A body that steps, in SMPL's terms, by 20 frames; Z up as AMASS has it.
-struct SmplArrays {
-  Motion motion;  ///< ours
-  std::vector<double> root, body, trans;
-
-  explicit SmplArrays(int frames = 20) {
-    motion.fps = 30;
-    for (int frame = 0; frame < frames; ++frame) {
-      Pose pose = RestPose(kSmpl);
-      pose.root_position.x() = 0.05 * frame;
-      pose.rotations.col(kSmpl.left_hip) << -0.02 * frame, 0, 0;
-      pose.rotations.col(kSmpl.left_knee) << 0.03 * frame, 0, 0.1;
-      pose.rotations.col(kSmpl.Find("head")) << 0, 0.5, 0.2;
-      motion.frames.push_back(pose);
-      const Pose amass = ToAmass(pose);
-      root.insert(root.end(), amass.rotations.data(), amass.rotations.data() + 3);
-      body.insert(body.end(), amass.rotations.data() + 3, amass.rotations.data() + 66);
-      trans.insert(trans.end(), amass.root_position.begin(), amass.root_position.end());
-    }
-  }
-  int64_t frames() const { return std::ssize(motion.frames); }
-  NpyArray Root() const { return {{frames(), 3}, root}; }
-  NpyArray Body() const { return {{frames(), 63}, body}; }
-  NpyArray Trans() const { return {{frames(), 3}, trans}; }
-  // All 22 joints, `width` values each, as `state` has a rotation vector.
-  std::vector<double> All(const std::function<std::vector<double>(Eigen::Vector3d)>& state,
-                          int joints) const {
-    std::vector<double> all;
-    for (int64_t frame = 0; frame < frames(); ++frame) {
-      for (int joint = 0; joint < joints; ++joint) {
-        Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-        if (joint == 0)
-          turn = Eigen::Map<const Eigen::Vector3d>(&root[3 * static_cast<size_t>(frame)]);
-        if (joint > 0 && joint < 22) {
-          turn = Eigen::Map<const Eigen::Vector3d>(
-              &body[static_cast<size_t>(63 * frame + 3 * (joint - 1))]);
-        }
-        const std::vector<double> values = state(turn);
-        all.insert(all.end(), values.begin(), values.end());
-      }
-    }
-    return all;
-  }
-};
 
 // Another member: an array of objects, which is this pickle.
 void AddObject(const std::filesystem::path& path, const std::string& key,
@@ -70,21 +23,6 @@ void AddObject(const std::filesystem::path& path, const std::string& key,
             0);
   ASSERT_EQ(zip_close(archive), 0);
 }
-
-std::vector<double> AsMatrix(const Eigen::Vector3d& turn) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> m = ExpMap(turn);
-  return {m.data(), m.data() + 9};
-}
-std::vector<double> AsRows(const Eigen::Vector3d& turn) {
-  std::vector<double> m = AsMatrix(turn);
-  m.resize(6);
-  return m;
-}
-std::vector<double> AsColumns(const Eigen::Vector3d& turn) {
-  const auto six = SixDFromMatrix(ExpMap(turn));
-  return {six.begin(), six.end()};
-}
-std::vector<double> AsVector(const Eigen::Vector3d& turn) { return {turn.begin(), turn.end()}; }
 
 TEST_F(CasesTest, ArraysOfEveryKind) {
   const SmplArrays smpl;
@@ -180,113 +118,6 @@ TEST_F(CasesTest, ArraysOfOtherAxesOrUnits) {
   EXPECT_TRUE(centimetres.Says("taken as centimetres")) << Said(centimetres);
   EXPECT_LT(WorstJoint(smpl.motion, centimetres.motion), 1e-6);
   EXPECT_LT(WorstJoint(smpl.motion, ReadNpz(file(false, 0.5), {.scale = 0.5}).motion), 1e-6);
-}
-
-// Rows as networks and data sets of dance write them: what a turn is stated as, how many are there,
-// what stands before the place and after the turns.
-TEST_F(CasesTest, ReadsCommonRowLayouts) {
-  const SmplArrays smpl;
-  struct Row {
-    const char* says;
-    int before, joints;
-    std::vector<double> (*state)(const Eigen::Vector3d&);
-    Eigen::Vector3d rest = SmplXRestPelvis();
-    bool y_up = true;
-  };
-  for (const Row& row : std::vector<Row>{
-           {"LODGE's 135 numbers a frame, at 30", 0, 22, AsRows},
-           {"LODGE's 139 numbers", 4, 22, AsRows},
-           {"LODGE's 139 numbers", 4, 22, AsColumns},
-           {"EDGE's 151 numbers a frame, at 30", 4, 24, AsRows, {0, 0, 0}, false},
-           {"FineDance's 315 numbers", 0, 52, AsRows},
-           {"FineDance's 319 numbers", 4, 52, AsRows},
-           {"AIST++'s 219 numbers a frame, at 60", 0, 24, AsMatrix, SmplRestPelvis()},
-           {"AIST++'s 225 numbers", 6, 24, AsMatrix, SmplRestPelvis()},
-       }) {
-    SCOPED_TRACE(row.says);
-    std::vector<double> rows;
-    for (const Pose& pose : smpl.motion.frames) {
-      Pose stated = row.y_up ? pose : ToAmass(pose);
-      if (!row.y_up) stated.root_position += SmplRestPelvis();
-      rows.insert(rows.end(), static_cast<size_t>(row.before), 0.25);
-      for (const double value : Eigen::Vector3d(stated.root_position - row.rest))
-        rows.push_back(value);
-      for (int joint = 0; joint < row.joints; ++joint) {
-        Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-        if (joint < 22) turn = stated.rotations.col(joint);
-        const std::vector<double> values = row.state(turn);
-        rows.insert(rows.end(), values.begin(), values.end());
-      }
-    }
-    const int64_t width = std::ssize(rows) / smpl.frames();
-    const Read read = ReadBytes("a.npy", SerializeNpy({{smpl.frames(), width}, rows}));
-    EXPECT_LT(WorstJoint(smpl.motion, read.motion), 1e-6);
-    EXPECT_EQ(read.notes.size(), 1U) << Said(read);
-    EXPECT_TRUE(read.Says(std::string("taken as ") + row.says)) << Said(read);
-    const Read batch =
-        ReadBytes("a.npy", SerializeNpy({{1, smpl.frames(), width}, rows}), {.fps = 25});
-    EXPECT_EQ(batch.motion.fps, 25);
-    EXPECT_LT(WorstJoint(smpl.motion, batch.motion), 1e-6);
-    // As a network sees them: no rotations, nor read as some.
-    for (size_t i = 0; i < rows.size(); ++i) rows[i] = (rows[i] - 0.1) * 3;
-    ExpectError(ErrorCode::kInvalidArgument, "a.npy: [:, ", [&] {
-      ReadBytes("a.npy", SerializeNpy({{smpl.frames(), width}, rows}));
-    });
-  }
-}
-
-TEST_F(CasesTest, MotionXsRows) {
-  const SmplArrays smpl;
-  std::vector<double> rows;
-  for (const Pose& pose : smpl.motion.frames) {
-    rows.insert(rows.end(), pose.rotations.data(), pose.rotations.data() + 66);
-    rows.insert(rows.end(), 309 - 66, 0.2);
-    for (const double value : Eigen::Vector3d(pose.root_position - SmplXRestPelvis()))
-      rows.push_back(value);
-    rows.insert(rows.end(), 10, 0.0);
-  }
-  const Read read = ReadBytes("a.npy", SerializeNpy({{smpl.frames(), 322}, rows}));
-  EXPECT_LT(WorstJoint(smpl.motion, read.motion), 1e-6);
-  EXPECT_TRUE(read.Says("taken as Motion-X's 322 numbers a frame, at 30")) << Said(read);
-  for (size_t i = 312; i < rows.size(); i += 322) rows[i] = 2, rows[i - 2] -= 0.1;
-  EXPECT_TRUE(ReadBytes("a.npy", SerializeNpy({{smpl.frames(), 322}, rows}))
-                  .Says("its betas are another body's"));
-}
-
-TEST_F(CasesTest, HumanMl3dsRows) {
-  const SmplArrays smpl;
-  const auto yaw = [](int64_t frame) -> Eigen::Matrix3d { return About(0, 1, 0, 7.0 * frame); };
-  const auto root = [&](int64_t frame) -> Eigen::Vector3d {
-    return smpl.motion.frames[static_cast<size_t>(frame)].root_position;
-  };
-  std::vector<double> rows;
-  for (int64_t frame = 0; frame + 1 < smpl.frames(); ++frame) {
-    const Eigen::Vector3d way = yaw(frame + 1) * (root(frame + 1) - root(frame));
-    const Eigen::Matrix3Xd joints =
-        JointPositions(kSmpl, smpl.motion.frames[static_cast<size_t>(frame)]);
-    rows.insert(rows.end(), {3.5 / kDegrees, way.x(), way.z(), root(frame).y()});
-    for (Eigen::Index joint = 1; joint < 22; ++joint) {
-      const Eigen::Vector3d seen =
-          yaw(frame) * (joints.col(joint) - Eigen::Vector3d(root(frame).x(), 0, root(frame).z()));
-      rows.insert(rows.end(), seen.begin(), seen.end());
-    }
-    rows.insert(rows.end(), 263 - 4 - 63, 0.1);
-  }
-  const NpyArray array{{smpl.frames() - 1, 263}, rows};
-  const Read read = ReadBytes("a.npy", SerializeNpy(array));
-  EXPECT_EQ(read.motion.fps, 20);
-  EXPECT_TRUE(read.Says("taken as HumanML3D's 263 numbers a frame, at 20")) << Said(read);
-  EXPECT_TRUE(read.Says("joints alone do not say"));
-  for (const size_t frame : {0U, 9U, 18U}) {
-    const Eigen::Matrix3Xd off = JointPositions(kSmpl, read.motion.frames[frame]) -
-                                 JointPositions(kSmpl, smpl.motion.frames[frame]);
-    EXPECT_LT(off.leftCols(22).colwise().norm().maxCoeff(), 0.03) << frame;
-  }
-  for (double& value : rows) value *= 3;
-  for (size_t i = 0; i < rows.size(); ++i) rows[i] += static_cast<double>(i * i % 7);
-  ExpectError(ErrorCode::kInvalidArgument, "are they normalised?", [&] {
-    ReadBytes("a.npy", SerializeNpy({array.shape, rows}));
-  });
 }
 
 // {"pos", "q", "scale"}, and Bailando's places, which are flat.

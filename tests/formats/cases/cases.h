@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -112,6 +113,19 @@ inline Wrong Compare(const Motion& motion, const RigTurn& turn, int step = 1) {
     }
   }
   return wrong;
+}
+
+/// What these options of `choreo convert` ask for.
+inline MotionReading Options(const std::string& words) {
+  MotionReading reading;
+  std::istringstream stream(words);
+  for (std::string option, value; stream >> option >> value;) {
+    if (option == "--up") reading.up = value;
+    if (option == "--fps") reading.fps = std::stod(value);
+    if (option == "--animation") reading.animation = value;
+    if (option == "--angles") reading.angles = value;
+  }
+  return reading;
 }
 
 // What rest poses leave open: SMPL's forearms do not point straight out to the sides.
