@@ -26,7 +26,7 @@ void CheckBeat(double beat, double most, const std::string& field) {
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
   const std::string field = "config.history.poses";
   if (history.poses_size() == 0) throw InvalidArgument(field, "empty; at least 1 pose is needed");
-  // Only the last poses are used, but all are checked.
+  // The model needs only the last poses, but a bad one among the others is an error, too.
   std::vector<Pose> poses;
   for (int i = 0; i < history.poses_size(); ++i) {
     poses.push_back(wire::ToPose(history.poses(i), model.skeleton, At(field, i)));
@@ -92,7 +92,7 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   return continuation;
 }
 
-// Reads what both RPCs share.
+// Reads the part of the configuration that both RPCs have.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
   wire::NumbersPerJoint(config.encoding(), "config.encoding");
@@ -189,7 +189,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     const v1::AudioFormat& format = message.audio_format();
     CheckMusic(format);
     config.audio = format.encoding() == v1::AUDIO_ENCODING_FILE
-                       // The file's own format is not known before it has arrived.
+                       // DecodeMono converts files to this format, whatever their own is.
                        ? DanceConfig::Audio{kModelSampleRate, 1, 0}
                        : SamplesOf(format);
   }

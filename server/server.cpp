@@ -40,12 +40,12 @@ constexpr auto kClientPingMs = static_cast<int>(1000 * kMinSilence / 4);
 /// The last share of the drain time, in which streams end at their next transition so that other
 /// servers resume them without dancing anything twice.
 constexpr double kMovingShare = 0.25;
-/// Time for aborted calls to end.
+/// How long a drained server waits for aborted calls to end.
 constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
-/// How often limits and engines are checked.
+/// The interval at which limits and engines are checked.
 constexpr milliseconds kWatchInterval{100};
-/// How soon a removed token is refused.
+/// The interval at which the tokens' file is read: a removed token works that long at most.
 constexpr milliseconds kTokenInterval{500};
 /// An engine is broken after this many failures in a row.
 constexpr int kBroken = 3;
@@ -69,7 +69,7 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
-// A caller's share of time equals its share of calls.
+// One caller may have the same share of the engines' time as of the calls.
 FrameShares SharesOf(const ServerConfig& config) {
   const double of_peer = std::min(1.0, double(config.MaxStreamsOfPeer()) / config.max_streams);
   return {.of_all = config.max_load, .of_peer = of_peer * config.max_load};
@@ -168,8 +168,8 @@ struct Server::Impl {
     });
   }
 
-  // Each model and the server as a whole are SERVING, unless the server drains or an engine is
-  // broken. A removed model is NOT_SERVING.
+  // Reports the health of each model and of the server as a whole: SERVING, unless the server
+  // drains or an engine is broken. A removed model is NOT_SERVING.
   void UpdateHealth() {
     const std::lock_guard lock(health_mutex);
     const std::string name = v1::Choreography::service_full_name();
@@ -213,7 +213,7 @@ struct Server::Impl {
   std::atomic<bool> drained = false;
   std::mutex health_mutex;
   std::map<std::string, bool> health;  // last status reported, by name. Lock: health_mutex
-  // Last: they use all of the above.
+  // Declared last, so that their threads end before the members that they use.
   std::optional<Watch> watch;
   std::optional<Watch> token_watch;
   std::optional<MetricsEndpoint> metrics;

@@ -30,11 +30,11 @@ class DanceChain::Job : public SampleJob {
     warnings_ = std::move(asked.warnings);
   }
 
-  /// Once sampled, it hands out frames, also in slices.
+  /// Samples the transition slice by slice; once it is sampled, each slice hands out frames.
   bool Continue(Sampler& sampler) override {
-    if (is_sampled_) return chain_->HandOut(kFramesASlice);
+    if (worker_has_sampled_) return chain_->HandOut(kFramesASlice);
     if (run_.Continue(sampler)) return true;
-    is_sampled_ = true;
+    worker_has_sampled_ = true;
     std::lock_guard lock(chain_->mutex_);
     sampled_ = true;
     chain_->AskNext();
@@ -50,7 +50,7 @@ class DanceChain::Job : public SampleJob {
   int frames() const override { return run_.spec().frames; }
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
 
-  /// Marks it as no longer needed.
+  /// The chain no longer needs this transition: the queue drops it.
   void Retire() { retired_ = true; }
   void Fail(const Error& failure) { failure_ = failure; }
 
@@ -85,8 +85,8 @@ class DanceChain::Job : public SampleJob {
   const std::vector<Pose> before_;
   const std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
-  bool is_sampled_ = false;  // used by the worker's thread
-  bool sampled_ = false;
+  bool worker_has_sampled_ = false;  // read and written without a lock by the worker alone
+  bool sampled_ = false;             // the same for all other threads; guarded by the chain's mutex
   std::optional<Error> failure_;
   std::atomic<bool> retired_ = false;
 };
@@ -125,7 +125,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
 
 void DanceChain::Begin() {
   for (const Warning& warning : config_.Warnings(model_, first_frame_)) Post(warning);
-  Change([](Timeline&) {});  // the config may have granted frames
+  Change([](Timeline&) {});  // starts frames that the config has granted
 }
 
 void DanceChain::Change(const std::function<void(Timeline&)>& change) {
@@ -147,7 +147,7 @@ void DanceChain::SetControls(const ControlRequest& request, const std::string& f
     if (!request.root_path) return;
     const int64_t last = request.root_path->frames.back();
     timeline.Disturb(request.root_path->frames.front(), last);
-    // Frames before the first were danced before a resume.
+    // A path that lies before the first frame was danced before the resume: it is not late.
     if (last < from && last >= first_frame_) Post(ControlsTooLate(last, from));
   });
 }
@@ -205,7 +205,7 @@ void DanceChain::Act(const std::function<void()>& act) noexcept {
   }
 }
 
-// Breaks the cycle: jobs keep the chain alive.
+// Jobs keep the chain alive, and the chain its jobs: this breaks the cycle.
 void DanceChain::DropJobs() {
   for (const std::shared_ptr<Job>& job : jobs_) job->Retire();
   jobs_.clear();
@@ -235,7 +235,7 @@ void DanceChain::Fail(Job& job, const Error& failure) {
   if (!job.sampled()) {
     job.Fail(failure);  // reported once all frames before it are handed out
   } else if (failure.code() != ErrorCode::kUnavailable) {
-    // Thrown by the sink; a closing queue does not take back sampled frames.
+    // The sink threw it. A closing queue (kUnavailable) does not take back sampled frames.
     mailbox_.PostError(failure);
   }
 }
@@ -264,11 +264,11 @@ bool DanceChain::HandOutNext() {
   }
   Job& job = *jobs_.front();
   if (IsOver(*timeline_.Planned())) {
-    if (!job.sampled()) job.Retire();  // a sampled one may be handing out frames
+    if (!job.sampled()) job.Retire();  // a sampled job may be handing out frames right now
     timeline_.Finish();
     if (next_frame_ > job.segment().from) PostContinuation();
     jobs_.pop_front();
-    // After the end nothing is danced.
+    // No frame follows the end, so no transition is needed any more.
     if (const std::optional<int64_t> end = timeline_.End(); end && next_frame_ >= *end) DropJobs();
     queue_.CheckCancelled();
     AskNext();
@@ -293,13 +293,14 @@ void DanceChain::AskNext() {
     return;
   int64_t rows_end = segment->from;
   if (model_.hears_music) rows_end = std::min(segment->to, config_.end_frame.value_or(segment->to));
-  // Whoever finds the beats of the whole music does so before its first row is ready.
+  // Beats of the whole music are set before its first row is ready, so a transition that waits for
+  // one row knows them.
   if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1)) Ask(*segment, rows_end);
 }
 
 void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
-  // A dance that waited for its own messages is due from now on: it must not overtake others for
-  // that.
+  // A dance that waited for its client's messages is due from now on. Its old start time would let
+  // it overtake dances that waited for nobody.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   recurrence_.Begin(segment.from);
   try {
@@ -313,7 +314,7 @@ void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(asked), std::move(beats));
     queue_.Submit(job);
-    jobs_.push_back(std::move(job));  // it waits for mutex_ before it reports anything
+    jobs_.push_back(std::move(job));  // its reports wait for mutex_
   } catch (const Error& error) {
     failure_ = error;
   }

@@ -19,7 +19,7 @@ double FiniteSeconds(double seconds, const std::string& field) {
   return seconds;
 }
 
-/// The field that gives a key's moment, as its sender names it.
+/// The field of a keyframe message that gives its moment, for errors.
 std::string PathOf(const KeyMoment& when, const std::string& field) {
   static constexpr const char* kMembers[] = {".frame", ".time", ".interval_after_previous"};
   return field + kMembers[when.index()];
@@ -88,7 +88,7 @@ KeyRejected Timeline::Reject(const std::string& id, int64_t frame, KeyRejected::
   return {id, frame, EarliestFrame(), std::move(reason), code};
 }
 
-// A hint for clients that edit keys without GenerateUntil.
+// Explains to clients that edit keys without GenerateUntil why frames are frozen.
 std::string Timeline::WhyFrozen() const {
   return explicit_grants_ ? "" : ": without generate_until each key freezes what lies before it";
 }
@@ -219,7 +219,7 @@ Segment Timeline::From(int64_t frame) const {
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
     const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
-    // The rest is never shorter than half the usual length.
+    // What remains before the key is then at least half the typical length.
     if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
         *cut - frame <= options_.max_transition_frames)
       to = *cut;
@@ -252,7 +252,7 @@ void Timeline::Grant(int64_t frame) {
 }
 
 const Segment* Timeline::Planned(size_t ahead) {
-  // Once all is granted nothing can change, so it does not matter when to plan.
+  // Once all is granted nothing can change, so the plan need not exist before it is asked for.
   if (planned_.size() == ahead && complete_) PlanTo(planned_to_ + 1);
   return planned_.size() <= ahead ? nullptr : &planned_[ahead];
 }

@@ -13,8 +13,8 @@
 namespace choreo {
 namespace {
 
-// Uses the shortest vectors for the last pose and continues backwards from there, as in training
-// data, however many turns the dance has made.
+// Rotation vectors grow with each whole turn of a dance. This shortens those of the last pose, and
+// keeps the earlier ones continuous with it, as training data are.
 std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<Pose>& world) {
   std::vector<Pose> local(world.size());
   Pose near{{}, Eigen::Matrix3Xd::Zero(3, world.back().rotations.cols())};
@@ -37,7 +37,8 @@ bool IsHeld(const Target& target, const Pose& now) {
   return true;
 }
 
-// Takes the position that a key leaves open from the path. Who holds a pose stays where she is.
+// A key without a position gets it from the path, if there is one. A dancer who holds her pose
+// stays where she is.
 std::optional<Target> Placed(std::optional<Target> target, const Controls& controls,
                              const Pose& now) {
   if (!target || target->mask.root_position) return target;
@@ -53,10 +54,10 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   return target;
 }
 
-constexpr int kFootworkFrames = 300;  // per run of footwork
+constexpr int kFootworkFrames = 300;  // that footwork processes in one slice
 
-// GCC 12's SLP vectoriser folds double -> float -> double of neighbours into nothing (as in Eigen's
-// cast<float>().cast<double>() of a Vector3d at -O3); it can't see through a volatile.
+// The volatile keeps the rounding: GCC 12's SLP vectoriser at -O3 drops double -> float -> double
+// of neighbouring numbers, as in Eigen's cast<float>().cast<double>() of a Vector3d.
 double ToFloat(double value) {
   volatile float rounded = static_cast<float>(value);
   return static_cast<double>(rounded);
@@ -195,8 +196,8 @@ void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const 
                   whose + ", is not a finite pose");
 }
 
-// Handles the next frames only: a long plan is put on its feet piece by piece, so that no other
-// dance waits for all of it.
+// Processes the next kFootworkFrames frames only, so that other dances need not wait for the
+// footwork of a long plan.
 void TransitionRun::PutOnFeet() {
   const auto from = plan_.begin() + std::ssize(frames_);
   const bool ends = std::distance(from, plan_.end()) <= kFootworkFrames;
@@ -266,7 +267,7 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
   const Target& target = *spec_.target;
   const double seconds = spec_.frames / model_->fps;
   RequiredSpeed speed;
-  // A position from the path is reported with the path, not the key.
+  // The key did not ask for a position that came from the path, so its error does not count here.
   if (target.mask.root_position && !spec_.controls[kRootPath].IsGiven()) {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }

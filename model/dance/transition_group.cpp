@@ -51,22 +51,22 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   const SampleQueue::Reservation room_;
   const ModelInfo& model_;
   const int64_t first_frame_;
-  GroupRequest request_;  // without its samples once they have been heard
+  GroupRequest request_;  // its samples are freed once their features are known
   std::unique_ptr<AudioFeed> audio_;
   ControlTrack controls_;
   Mailbox<GroupSink> mailbox_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
 
-  std::mutex mutex_;                        // of what follows
+  std::mutex mutex_;                        // guards the members below
   std::vector<std::shared_ptr<Job>> jobs_;  // until all are done or cancelled
   std::vector<CandidateReport> reports_;
 };
 
 class TransitionGroup::Impl::Job : public SampleJob {
  public:
-  /// `run`: the first candidate's, which has checked the common request. The others make theirs
-  /// when their turn comes: they are many, and may be cancelled first.
+  /// `run`: of the first candidate only, made to check the common request. The others make theirs
+  /// when a worker begins them, as many may be cancelled before.
   Job(std::shared_ptr<Impl> group, const TransitionRequest& request,
       std::optional<TransitionRun> run)
       : group_(std::move(group)),
@@ -153,7 +153,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   std::optional<TransitionRun> run_;  // the worker's until it is sampled
   std::atomic<bool> is_sampled_ = false;
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   int handed_out_ = 0;
   std::vector<Pose> history_;
   QualityMeter meter_;
@@ -163,7 +163,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
 TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
                             std::shared_ptr<GroupSink> sink)
     : queue_(queue),
-      room_(queue.ReserveBulk(request.candidates)),  // first, so that a refusal costs nothing else
+      room_(queue.ReserveBulk(request.candidates)),  // before all work, which a refusal would waste
       model_(queue.model()),
       first_frame_(request.FirstFrame()),
       request_(std::move(request)),

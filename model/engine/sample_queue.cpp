@@ -35,7 +35,7 @@ Error CurrentError() {
   }
 }
 
-// The reserved bulk; reservations may outlive the queue.
+// How much bulk is reserved. Shared with reservations, which may outlive the queue.
 struct Bulk {
   std::mutex mutex;
   int reserved = 0;  ///< Lock: mutex
@@ -52,7 +52,7 @@ struct SampleQueue::Impl {
     uint64_t order;    ///< of submission; breaks ties of deadlines
     double deadline;   ///< seconds
     double submitted;  ///< seconds
-    double taken = 0;  ///< seconds, in its slices
+    double taken = 0;  ///< seconds that its slices have taken so far
   };
   using Entries = std::vector<std::unique_ptr<Entry>>;
 
@@ -65,7 +65,7 @@ struct SampleQueue::Impl {
     SamplingCost cost;
     std::thread thread;
     Entries begun;       ///< Lock: mutex
-    bool looks = false;  ///< to look for cancelled jobs. Lock: mutex
+    bool looks = false;  ///< it must look for cancelled jobs next. Lock: mutex
     std::atomic<int> failures_in_a_row = 0;
   };
 
@@ -74,8 +74,8 @@ struct SampleQueue::Impl {
   const std::shared_ptr<Bulk> bulk = std::make_shared<Bulk>();
 
   mutable std::mutex mutex;
-  std::condition_variable work;          ///< Run has something to see
-  mutable std::condition_variable idle;  ///< `live` became 0
+  std::condition_variable work;          ///< wakes workers
+  mutable std::condition_variable idle;  ///< signalled when `live` becomes 0
   Entries waiting;                       ///< Lock: mutex
   size_t live = 0;                       ///< waiting, begun, and inside OnDone. Lock: mutex
   uint64_t submitted = 0;                ///< Lock: mutex
@@ -152,10 +152,10 @@ SampleQueue::Impl::Entries SampleQueue::Impl::TakeCancelled(Worker* worker) {
   return cancelled;
 }
 
-// The job that is due first, of those the worker has begun and those waiting, which it then begins.
-// Null: none.
+// The job that is due first among those that the worker has begun and those that wait. The worker
+// begins it if it waited. Null: there is none.
 SampleQueue::Impl::Entry* SampleQueue::Impl::Next(Worker* worker) {
-  // Nobody waits for bulk in real time, so it is due when the real-time window ends.
+  // Bulk has no listener, so it is due after all dances that need something within bulk_yields.
   const double real_time_end = Seconds(Clock::now()) + Seconds(options.bulk_yields);
   const auto due = [=](const std::unique_ptr<Entry>& entry) {
     const double at = entry->is_bulk ? std::max(entry->deadline, real_time_end) : entry->deadline;
@@ -182,7 +182,7 @@ void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
       more = entry->job->Continue(*worker->sampler);
     } catch (...) {
       failure = CurrentError();
-      // A refused job is at fault itself; any other failure is the sampler's.
+      // kInternal is the sampler's failure; with any other code the job itself was at fault.
       if (failure->code() == ErrorCode::kInternal) worker->failures_in_a_row.fetch_add(1);
     }
     const double took = Seconds(Clock::now() - begin);

@@ -20,7 +20,8 @@ namespace {
 
 constexpr int kHeardSeconds = 4;
 constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
-// Frames at the start of a part that don't count: a transition uses the music before its start.
+// Frames at the start of a part that are not judged: their transition began with the music of the
+// part before.
 constexpr size_t kSettles = 2 * kTypicalFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 

@@ -32,7 +32,7 @@ struct Song {
 constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true},
                            {60, 0}, {75, 0},  {150, 0}, {180, 0}};
 
-// All dances through keys, and the real ones.
+// All dances through keys, and the recorded ones that they are compared with.
 struct KeyedDances {
   LivelyDances real, locked;
   std::vector<LivelyDances> seeds = std::vector<LivelyDances>(kSeeds);
@@ -234,7 +234,7 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDan
   AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }), table);
   AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }), table);
   AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }), table);
-  // Real dancers' audience is where they face on average.
+  // Recordings do not say where the audience is: dancers face it on average.
   double real_away = 0, away = 0;
   for (const PreparedClip& clip : evaluation.set.clips) {
     const std::vector<Pose>& poses = clip.motion.frames;

@@ -81,7 +81,7 @@ int Count(const HumanBones& found, const std::vector<bool>& nodes) {
       std::ranges::count_if(found.bones, [&](const auto& bone) { return nodes[bone.second]; }));
 }
 
-// How many bones hang where a body's do.
+// How many bones are below the bone that carries them in a body, such as knees below hips.
 int Connected(const RigNodes& rig, const HumanBones& found) {
   int connected = 0;
   const auto add = [&](const std::string& bone, const std::string& above) {
@@ -135,8 +135,8 @@ void FindChest(const RigNodes& rig, HumanBones* found) {
     found->bones[next] = chest;
 }
 
-// Tries all nodes together and the descendants of each: of several bodies, whatever their names,
-// takes the one that moves.
+// Tries all nodes together, then the descendants of each node: a file may have several bodies,
+// whose names may be equal, and the one that moves counts.
 HumanBones ByNames(const RigNodes& rig) {
   const auto score = [&](const HumanBones& found) {
     return std::tuple(Needed(found), Count(found, rig.moves), Count(found, rig.joints),
@@ -197,7 +197,7 @@ HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen)
   HumanBones found = rig.table;
   if (!MissingBone(found).empty()) {
     found = ByNames(rig);
-    // A table without some bones still names the others better.
+    // A table that lacks some bones still identifies the others better than a guess does.
     for (const auto& [bone, node] : rig.table.bones) {
       std::erase_if(found.bones, [n = node](const auto& other) { return other.second == n; });
       found.bones[bone] = node;

@@ -23,7 +23,7 @@ Eigen::Matrix3d Turning(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
   return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
 }
 
-// Left is right, and right is left: of the "body", its "arms" or its "legs".
+// Exchanges the left and right bones of the "body", its "arms" or its "legs".
 HumanBones Exchanged(const HumanBones& bones, const std::string& of) {
   HumanBones exchanged{.rig = bones.rig, .bones = {}};
   for (const auto& [bone, index] : bones.bones) {
@@ -35,7 +35,7 @@ HumanBones Exchanged(const HumanBones& bones, const std::string& of) {
   return exchanged;
 }
 
-// How many of its frames bend joints as no body can.
+// The share of frames in which a joint bends as no body can.
 double ShareBent(const Motion& motion) {
   const auto bent = std::ranges::count_if(
       motion.frames, [](const Pose& pose) { return !BendFaults(SmplBody(), pose).empty(); });

@@ -154,7 +154,7 @@ class Hands {
       way += weight * (goal - hand);
       weights += weight;
     };
-    // The other hand gives way as much.
+    // Hands that touch meet in their middle: each moves half of the way.
     const Eigen::Vector3d apart = our_hand - Col(smpl, ours_[1 - side]);
     const Eigen::Vector3d middle = (hand + Col(now, arms_[1 - side].end)) / 2;
     draw(middle + size_ * apart / 2, Nearness(apart.norm()));

@@ -197,7 +197,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
   const int64_t batch = z.size(0), window = z.size(1), dimensions = z.size(2);
   const Eigen::VectorXf spread = RowOf(spread_.unsqueeze(0), 0),
                         velocity = RowOf(velocity_.unsqueeze(0), 0);
-  // These are data: no gradient flows through them.
+  // The network's inputs are data, so no gradient needs to flow through FlowTokens.
   const Tensor here[] = {z.cpu(), poses.cpu(), joints.cpu(), mean.cpu(), frames.cpu()};
   std::vector<Tensor> windows;
   for (int64_t row = 0; row < batch; ++row) {
@@ -222,7 +222,7 @@ Tensor ContinuousFlowImpl::forward(const Tensor& z, const Tensor& poses, const T
                                     .reshape({batch, tokens * kFramesAToken, 2 * dimensions})
                                     .narrow(1, tokens * kFramesAToken - window, window)
                                     .chunk(2, -1);
-  // Calm or lively windows mainly differ by a factor of z.
+  // The second half scales z: a calm window is mainly a smaller z than an energetic one.
   return f[0] + f[1] * z;
 }
 
@@ -326,7 +326,7 @@ bool HoldsContinuousFlow(const Safetensors& content) {
 }
 
 ContinuousFlowCheckpoint ParseContinuousFlow(const Safetensors& content, const std::string& name) {
-  // Older checkpoints don't know how dancers turn, nor how they linger.
+  // Checkpoints from before these tensors existed get zeros, which mean "unknown".
   Safetensors whole = content;
   whole.tensors.try_emplace(
       kTurns, NamedTensor{{TurnPrior::kInputs}, std::vector<float>(TurnPrior::kInputs)});

@@ -26,7 +26,7 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
   return model.mixing.triangularView<Eigen::Lower>() * z;
 }
 
-// Samples the energy of parts without velocity factors.
+// Gives body parts without velocity factors an energy, sampled from the prior.
 void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
                   WindowRequest* request) {
   ControlCurve& asked = request->controls[kVelocityFactors];
@@ -34,8 +34,8 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
     asked.values = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
     asked.asked.assign(kBodyParts, false);
   }
-  // Uses random numbers beyond those of frames: the window's level from the first frame's, the
-  // curve from all.
+  // Takes random numbers that follow those of the frames' noise: the first frame's for the window's
+  // level, every frame's for the curve.
   const double temperature = std::min(noise.temperature, 1.0);
   const auto first = static_cast<size_t>(model.prior.dimensions());
   std::vector<float> normal(first + 2 * kBodyParts);
@@ -65,7 +65,7 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
     const double median = model.config.median_factors[static_cast<size_t>(part)];
     auto energy = asked.values.row(part);
     for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(ways(part, i), median);
-    // The window's level is that of its mean.
+    // Scales the curve so that its mean has the window's level.
     if (const double mean = energy.mean(); lingers && mean > 0)
       energy *= EnergyFactor(levels[part], median) / mean;
     energy = energy.cwiseMin(EnergyFactor(most[part], median));
@@ -73,8 +73,8 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   }
 }
 
-// Turns wanted levels into those to give to the network. The mean motion is not lively and needs no
-// correction.
+// Replaces requested levels by those that make the network dance them (EnergyResponse). The mean
+// motion, at temperature 0, needs no correction.
 void CorrectLevels(const FlowModelParts& model, double temperature, WindowRequest* request) {
   if (!model.response.known()) return;
   Eigen::MatrixXd& factors = request->controls[kVelocityFactors].values;
@@ -84,14 +84,15 @@ void CorrectLevels(const FlowModelParts& model, double temperature, WindowReques
     if (wanted <= 0) continue;
     const double level = EnergyLevel(wanted, median);
     const double told = level + temperature * (model.response.Told(part, level) - level);
-    // Not beyond training's range, unless requested.
+    // Stays within the range of training, unless the request itself leaves it.
     const double most = EnergyFactor(model.energy.MostLively()[part], median);
     for (double& energy : factors.row(part))
       energy = std::min(energy * (EnergyFactor(told, median) / wanted), std::max(energy, most));
   }
 }
 
-// Where controls fix the root: the axes, [3, w] as residuals x, and as white coordinates.
+// The root path of the controls: which axes it fixes, and where, as residuals x and as white
+// coordinates z, both [3, w].
 struct KnownPath {
   KnownPath(const WindowRequest& request, const FlowWindow& window) {
     const ControlCurve& path = request.controls[kRootPath];
@@ -147,7 +148,7 @@ class Field {
     seen_ = 0;
     f_ = Eigen::MatrixXd::Zero(z_.rows(), z_.cols());
   }
-  // Evaluates F for the next view; true while more views are left.
+  // Evaluates the network for the next view; true while more views are left.
   bool Look() {
     const View& view = views_[seen_];
     f_ += view.weight * network_
@@ -232,7 +233,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   return known;
 }
 
-/// One pass through the window, from one side of the mirror.
+/// One pass from noise to motion, for the request or for its mirror image.
 class WindowSampler::Pass {
  public:
   Pass(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
@@ -257,7 +258,7 @@ class WindowSampler::Pass {
   Pass(const Pass&) = delete;
   Pass& operator=(const Pass&) = delete;
 
-  /// As WindowSampler's.
+  /// Makes the next evaluation; true while more are left.
   bool Continue() {
     if (field_->Look()) return true;
     if (std::exchange(needs_mean_, false)) {
@@ -281,7 +282,7 @@ class WindowSampler::Pass {
   }
 
  private:
-  // From noise to motion; known coordinates fade out of their noise.
+  // Moves coordinates that a path fixes from their noise to their known values, step by step.
   void BeginStep() {
     const double angle = field_->Angle(step_);
     for (const int axis : known_->axes)

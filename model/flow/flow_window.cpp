@@ -11,13 +11,14 @@
 namespace choreo {
 namespace {
 
-// Radians that coordinates may be from the mean: with a key less than half a turn, where the other
-// way round becomes nearer; without one less than a whole turn, where they are singular.
+// How far, in radians, a coordinate may be from the mean. With a key: less than half a turn, beyond
+// which the other way round is nearer. Without one: less than a whole turn, where rotation vectors
+// are singular.
 constexpr double kKeyedReach = 2.8, kFreeReach = 5.5;
-// Radians that a dancer turns of herself in a window without a key: networks have seen little
-// beyond a whole turn, which the way on to her audience may complete.
+// The most, in radians, that a dancer turns in a window without a key. Facing the audience may add
+// as much, and networks have seen few turns beyond a whole one.
 constexpr double kMaxFreeTurn = std::numbers::pi;
-// Frames for which a dancer keeps turning.
+// How long, in frames, a turn of the history continues.
 constexpr double kTurnHorizon = 12;
 
 // The displacement from one pose to another, [dimensions]: of the root, and of each joint in the
@@ -51,7 +52,7 @@ WindowRequest WindowRequest::Part(int from, int count, std::span<const Pose> pos
   for (const Pose& pose : poses) part.history.push_back(ground.ToLocal(pose));
   if (key) part.key = ground.ToLocal(*key);
   part.to_key = to_key - from;
-  if (from > 0) {  // what precedes it was made with it
+  if (from > 0) {  // frames before this part already follow the request
     part.turning.reset();
     part.energy_shift.before = energy_shift.now;
   }
@@ -179,8 +180,8 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   }
   if (known > 0) surprise_ = squares / known;
   if (request.FrontCounts() && prior.usual().facing > 0) {
-    // About the vertical: about her own axis, who bends forwards would bend backwards half a turn
-    // later.
+    // Turns about the vertical. About the body's own axis, a dancer who bends forwards would bend
+    // backwards half a turn later.
     facing_ = prior.FacingBridge(request.frames);
     const Eigen::Vector3d up = UpOf(last);
     const double turn = request.turn ? *request.turn : FreeTurn(prior, request, 0);
@@ -261,7 +262,7 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   const Eigen::MatrixXf by_time = scales_.cwiseProduct(z).cast<float>().transpose();
   Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
   for (int d = 0; d < z.rows(); ++d) {
-    // By columns this takes half as long as Eigen's triangular product.
+    // Loops over columns: half the time of Eigen's triangular product.
     const Eigen::MatrixXf& spread = At(d).spread;
     for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
       x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);

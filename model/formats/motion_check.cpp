@@ -35,7 +35,7 @@ constexpr double kSunken = 0.05;
 constexpr double kHangs = 0.15, kHangsFor = 2;
 constexpr double kStill = 1e-4;      // metres and radians
 constexpr double kFloorShare = 0.1;  // quantile of the lowest points that is the floor
-constexpr double kSlack = 0.02;      // metres tolerated for other bodies
+constexpr double kSlack = 0.02;      // metres by which other bodies may differ
 
 std::string Share(double share) {
   return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
@@ -108,8 +108,8 @@ std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
   const std::vector<Eigen::Vector3d> trunks = Trunks(file);
-  // The rest pose is better evidence than a body that bends or lies for long, and the floor better
-  // than both.
+  // A body may bend or lie for long, so its rest pose is better evidence of what is up. The floor
+  // is better than both.
   if (file.rest_up && *file.rest_up != file.up &&
       (ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up) ||
        (IsOnFloor(file, *file.rest_up) && !IsOnFloor(file, file.up)))) {
@@ -194,8 +194,9 @@ void NoteBends(const FileMotion& file, const Motion& motion, const MotionReading
   }
 }
 
-// Puts a rig on the floor as a whole, so that a dancer on a stage or lifted by another stays up.
-// Keeps the file's floor if the body comes down to it.
+// Moves a rig down or up as a whole, so that its lowest poses stand on the floor and a dancer who
+// is on a stage, or lifted, stays up. If the body comes down to the file's floor, only poses near
+// that floor count.
 void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights, hips;
   for (const Pose& pose : motion->frames) {

@@ -34,7 +34,7 @@ SkeletonMotion ReadPickled(std::string_view pickle, const std::filesystem::path&
   return {Skeleton::Smpl24(), ReadSmplMotion(ParsePickledArrays(pickle, path.string()), reading)};
 }
 
-// Objects among arrays: numbers, dicts, or things unrelated to the motion.
+// Python objects among the arrays: numbers, dicts, or things that the motion does not need.
 void TakePickled(const std::string& key, const std::string& pickle, NpzArchive* npz) {
   try {
     npz->SetArray(key, ParsePickledArray(pickle, key));
@@ -68,7 +68,7 @@ SkeletonMotion ReadPickle(const std::filesystem::path& path, const Skeleton*,
   return ReadPickled(ReadFile(path), path, reading);
 }
 
-// A dict written by numpy.save, or joint positions.
+// A .npy file: a dict that numpy.save wrote, or an array of joint positions.
 SkeletonMotion ReadObjects(const std::filesystem::path& path, const Skeleton*,
                            const MotionReading& reading) {
   const std::string bytes = ReadFile(path);
@@ -100,7 +100,8 @@ void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const
   npz.Write(path);
 }
 
-// The joints that move: those with differing values or, if none differ, with channels.
+// The joints that move: those whose values differ between frames; if none do, those that have
+// channels.
 std::vector<bool> MovedJoints(const BvhFile& file) {
   std::vector<bool> moves, has;
   Eigen::Index row = 0;
@@ -128,8 +129,8 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
   return FitNodes(std::move(nodes), motion, reading);
 }
 
-// Converts radians to degrees if they may be radians: none exceeds a turn, but of one root that
-// spins on slowly, and some exceed 1.
+// Converts angles that look like radians to degrees: some exceed 1, and none exceeds a whole turn,
+// except those of a root that keeps turning slowly.
 std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
   constexpr Eigen::Index kMinFrames = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;

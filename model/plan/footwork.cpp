@@ -21,7 +21,7 @@ namespace {
 constexpr double kHalfToes =
     0.75;  // share of a foot's length: the height of its ankle on half toes
 constexpr double kStillSpeed = 0.3;    // m/s: a low foot slower than this stands
-constexpr int kPasses = 2;             // moved legs move the centre of mass, too
+constexpr int kPasses = 2;             // the second one, as moved legs move the centre of mass
 constexpr double kSmoothFrames = 1.5;  // smoothing of the centre of mass
 constexpr int kSmoothReach = 4;
 
@@ -75,7 +75,7 @@ class PlanStander {
   bool Stands(size_t side, int frame) const { return StanceAt(stances_[side], frame) != nullptr; }
   bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
 
-  // The smoothed centre of mass, from the frame before the first on, as the plan is now.
+  // The smoothed centre of mass of the plan as it is now; index 0 is the frame before the first.
   std::vector<Eigen::Vector3d> Centres() const {
     std::vector<Eigen::Vector3d> exact, smooth;
     const auto add = [&](const Pose& pose) {
@@ -152,8 +152,8 @@ class PlanStander {
     return -WayToHull(point, std::move(hull), context_.options.sole);
   }
 
-  // On a path the pelvis cannot sway to the feet, so the feet go to the body: each stance, but
-  // those of history and key, moves by the mean of these ways.
+  // On a path the pelvis cannot sway over the feet, so the feet move under the body: each stance
+  // moves by its mean distance from there. Stances of the history and of a key stay.
   void StepUnder() {
     for (size_t side = 0; side < 2; ++side) {
       for (Stance& stance : stances_[side]) {
@@ -179,9 +179,9 @@ class PlanStander {
     return SmoothStep(std::clamp(std::min(since, until) / settle, 0.0, 1.0));
   }
 
-  // Feet rest on the floor: an ankle lower than at rest is lifted about the toes, and an ankle of a
-  // supporting foot is at most as high as on half toes. Fades in from the previous state and out
-  // towards the key's within kSettleSeconds.
+  // Limits ankles: none is lower than in a flat foot, and that of a supporting foot is at most as
+  // high as on half toes. The foot turns about its toes for that. The correction fades in from the
+  // previous state, and out towards the key's, within kSettleSeconds.
   void LayDown(size_t side) {
     const Leg& leg = legs_[side];
     const double settle = kSettleSeconds * context_.fps;

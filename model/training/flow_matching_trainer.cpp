@@ -52,8 +52,8 @@ struct Liveness {
   }
 };
 
-// Adapts another model's weights to the styles of `model`: styles known by name keep theirs, new
-// ones begin at zero.
+// Adapts another model's weights to the styles of `model`: a style that both have keeps its
+// weights, a new one begins at zero.
 void KeepStyles(const std::vector<std::string>& before, const ContinuousFlowImpl& model,
                 Safetensors* weights) {
   const std::vector<std::string>& styles = model.config().styles;
@@ -109,7 +109,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
  protected:
-  // A resumed run has this in its state.
+  // A resumed run restores this from its state.
   void Prepare() override {
     if (!options().keep_statistics) Measure();
     const FlowModelParts parts = model_->Parts();
@@ -123,7 +123,7 @@ class FlowMatchingRun : public TrainingRun {
   }
 
   void TrainStep() override {
-    // Results do not depend on how many are drawn ahead: each has its own random numbers.
+    // Each batch has its own random numbers, so it does not matter how many are drawn ahead.
     const size_t ahead = std::max(2U, std::thread::hardware_concurrency()) - 1;
     while (drawn_.size() < ahead) {
       const int64_t at = step() + std::ssize(drawn_);
@@ -225,7 +225,7 @@ class FlowMatchingRun : public TrainingRun {
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
-      // Half the bytes for the same figures. The prior stays exact.
+      // Stores weights as half floats: half the bytes, the same figures. The prior stays exact.
       if (name.ends_with(".weight")) RoundToBfloat16(&tensor);
     }
     return SaveContinuousFlow(path, average_, weights, card);
@@ -292,7 +292,7 @@ class FlowMatchingRun : public TrainingRun {
     return MeasureResponse(parts, *MakeTorchFlowNetwork(average_, device_), requests);
   }
 
-  // Many windows, as few dancers turn far.
+  // Uses many windows, because dancers seldom turn far.
   std::vector<WindowRequest> KeyedRequests() const {
     std::vector<WindowRequest> requests;
     for (uint32_t i = 0; i < kTurnBatches; ++i) {
