@@ -92,11 +92,11 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
     std::vector<Server::Samplers> fresh;
     for (const auto& file : listed) {
       if (stopped()) return;
-      if (std::optional<Server::Samplers> engines = Look(file, &files, &faults)) {
+      if (std::optional<Server::Samplers> engines = Inspect(file, &files, &faults)) {
         fresh.push_back(std::move(*engines));
       }
     }
-    GoOn(faults, &files);
+    KeepServing(faults, &files);
     std::vector<std::string> names;
     for (const auto& file : listed) {
       // Uses the file that has taken over its model, if any.
@@ -117,8 +117,8 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
   }
 }
 
-std::optional<Server::Samplers> ModelFolder::Look(const std::filesystem::path& file, Files* files,
-                                                  Faults* faults) const {
+std::optional<Server::Samplers> ModelFolder::Inspect(const std::filesystem::path& file,
+                                                     Files* files, Faults* faults) const {
   try {
     const auto before = served_.find(file);
     if (before != served_.end() && StampOf(file) == before->second.stamp &&
@@ -141,7 +141,7 @@ std::optional<Server::Samplers> ModelFolder::Look(const std::filesystem::path& f
   }
 }
 
-void ModelFolder::GoOn(const Faults& faults, Files* files) const {
+void ModelFolder::KeepServing(const Faults& faults, Files* files) const {
   for (const auto& [file, fault] : faults) {
     const auto before = served_.find(file);
     const bool goes_on = before != served_.end() && !Has(*files, before->second.model);

@@ -60,10 +60,10 @@ class ModelFolder {
   Server::Samplers LoadFile(const std::filesystem::path& file, Files* files) const;
   /// Records the file in `files`, or its problem in `faults`; returns engines unless they are
   /// already served.
-  std::optional<Server::Samplers> Look(const std::filesystem::path& file, Files* files,
-                                       Faults* faults) const;
+  std::optional<Server::Samplers> Inspect(const std::filesystem::path& file, Files* files,
+                                          Faults* faults) const;
   /// Keeps serving the previous models of faulty files, after all others, which have precedence.
-  void GoOn(const Faults& faults, Files* files) const;
+  void KeepServing(const Faults& faults, Files* files) const;
 
   const std::filesystem::path folder_;
   const Loader load_;

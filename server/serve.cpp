@@ -71,7 +71,7 @@ class Reloader {
           }
         }) {}
 
-  void Ask() {
+  void Request() {
     const std::lock_guard lock(mutex_);
     asked_ = true;
     wake_.notify_one();
@@ -140,7 +140,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
   int signal = 0;
-  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP && has_folder) reloader.Ask();
+  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP && has_folder) reloader.Request();
   spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
                config.drain_seconds);
   reloader.Stop();

@@ -22,11 +22,11 @@
 #include "server/connection_limits.h"
 #include "server/listener.h"
 #include "server/metrics.h"
+#include "server/periodic_thread.h"
 #include "server/reset_guard.h"
 #include "server/service.h"
 #include "server/serving.h"
 #include "server/tls.h"
-#include "server/watch.h"
 
 namespace choreo {
 namespace {
@@ -214,8 +214,8 @@ struct Server::Impl {
   std::mutex health_mutex;
   std::map<std::string, bool> health;  // last status reported, by name. Lock: health_mutex
   // Declared last, so that their threads end before the members that they use.
-  std::optional<Watch> watch;
-  std::optional<Watch> token_watch;
+  std::optional<PeriodicThread> watch;
+  std::optional<PeriodicThread> token_watch;
   std::optional<MetricsEndpoint> metrics;
 };
 

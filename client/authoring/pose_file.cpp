@@ -44,7 +44,8 @@ std::string PoseFileText(const DescribedPose& pose, const Skeleton& skeleton) {
   if (!key.mask.joints.empty()) {
     json names = json::array();
     for (int joint = 0; joint < skeleton.joints(); ++joint) {
-      if (key.mask.Asks(joint)) names.push_back(skeleton.joint_names[static_cast<size_t>(joint)]);
+      if (key.mask.Constrains(joint))
+        names.push_back(skeleton.joint_names[static_cast<size_t>(joint)]);
     }
     text << "    \"joints\": " << names.dump() << ",\n";
   }

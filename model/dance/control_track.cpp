@@ -83,8 +83,8 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_
   return stance;
 }
 
-void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request,
-                           std::vector<Warning>* warnings) const {
+void ControlTrack::FillPath(const std::string& key_id, TransitionRequest* request,
+                            std::vector<Warning>* warnings) const {
   const int frames = request->frames;
   const int64_t first_frame = request->first_frame;
   const std::vector<Pose>& history = request->history;
@@ -103,7 +103,7 @@ void ControlTrack::AskPath(const std::string& key_id, TransitionRequest* request
   const Lead floor = LeadPath(way);
 
   ControlCurve& control = request->controls[kRootPath];
-  control.asked[kPathHeight] = std::ranges::any_of(way.curves, HasHeights);
+  control.requested[kPathHeight] = std::ranges::any_of(way.curves, HasHeights);
   way.axes = {0, 1, 0};
   for (const PathCurve*& curve : way.curves) {
     if (!HasHeights(curve)) curve = nullptr;
@@ -146,7 +146,7 @@ void ControlTrack::WarnOfDistance(const LeadRequest& request,
   }
 }
 
-void ControlTrack::AskVelocities(TransitionRequest* request) const {
+void ControlTrack::FillVelocities(TransitionRequest* request) const {
   const int64_t first_frame = request->first_frame;
   if (velocities_.empty() || velocities_.front().from > first_frame) return;
   ControlCurve& factors = request->controls[kVelocityFactors];
@@ -159,7 +159,7 @@ void ControlTrack::AskVelocities(TransitionRequest* request) const {
       return one.from <= first_frame && Names(one.control, body_part);
     });
     const bool is_asked = said != velocities_.rend();
-    factors.asked[static_cast<size_t>(part)] = is_asked;
+    factors.requested[static_cast<size_t>(part)] = is_asked;
     const VelocityRequest& asked = is_asked ? said->control : usual;
     for (int frame = 0; frame < request->frames; ++frame)
       factors.values(part, frame) = SpeedAt(asked, first_frame + frame, body_part, *model_);
@@ -190,10 +190,10 @@ std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) c
   return VelocityNotMet(report.measured_from + report.frames - 1, misses);
 }
 
-void ControlTrack::Ask(const std::string& key_id, TransitionRequest* request,
-                       std::vector<Warning>* warnings) const {
-  AskPath(key_id, request, warnings);
-  AskVelocities(request);
+void ControlTrack::FillControls(const std::string& key_id, TransitionRequest* request,
+                                std::vector<Warning>* warnings) const {
+  FillPath(key_id, request, warnings);
+  FillVelocities(request);
 }
 
 }  // namespace choreo

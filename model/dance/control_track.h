@@ -49,8 +49,8 @@ class ControlTrack {
   /// Fills in the request's controls from its first frame, length, history (at least one pose) and
   /// target, which warnings call `key_id`. Appends `warnings` where controls and keys contradict
   /// each other.
-  void Ask(const std::string& key_id, TransitionRequest* request,
-           std::vector<Warning>* warnings) const;
+  void FillControls(const std::string& key_id, TransitionRequest* request,
+                    std::vector<Warning>* warnings) const;
 
   /// A warning if the last path set begins at `end` or later.
   std::optional<Warning> BehindEnd(int64_t end) const;
@@ -67,9 +67,9 @@ class ControlTrack {
 
   const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
   void WarnOfDistance(const LeadRequest& request, std::vector<Warning>* warnings) const;
-  void AskPath(const std::string& key_id, TransitionRequest* request,
-               std::vector<Warning>* warnings) const;
-  void AskVelocities(TransitionRequest* request) const;
+  void FillPath(const std::string& key_id, TransitionRequest* request,
+                std::vector<Warning>* warnings) const;
+  void FillVelocities(TransitionRequest* request) const;
 
   const ModelInfo* model_;
   std::vector<Since<PathCurve>> paths_;

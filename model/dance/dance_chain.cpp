@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/dance/asked_transition.h"
+#include "model/dance/prepared_transition.h"
 
 namespace choreo {
 namespace {
@@ -18,16 +18,16 @@ constexpr size_t kMaxAhead = 1;  // transitions sampled ahead of the one being h
 /// One transition of the chain, from its submission until its last frame is handed out.
 class DanceChain::Job : public SampleJob {
  public:
-  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, AskedTransition asked,
+  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, PreparedTransition prepared,
       std::vector<Beat> beats)
       : chain_(std::move(chain)),
         segment_(segment),
         deadline_(chain_->start_time_ + chain_->Seconds(segment.from - chain_->first_frame_)),
-        run_(chain_->model_, asked.request),
-        before_(asked.request.history),
+        run_(chain_->model_, prepared.request),
+        before_(prepared.request.history),
         beats_(std::move(beats)) {
-    WarnOfSpeed(chain_->model_, run_, &asked);
-    warnings_ = std::move(asked.warnings);
+    WarnOfSpeed(chain_->model_, run_, &prepared);
+    warnings_ = std::move(prepared.warnings);
   }
 
   /// Samples the transition slice by slice; once it is sampled, each slice hands out frames.
@@ -37,7 +37,7 @@ class DanceChain::Job : public SampleJob {
     worker_has_sampled_ = true;
     std::lock_guard lock(chain_->mutex_);
     sampled_ = true;
-    chain_->AskNext();
+    chain_->SubmitNext();
     return true;
   }
 
@@ -133,7 +133,7 @@ void DanceChain::Change(const std::function<void(Timeline&)>& change) {
     std::lock_guard lock(mutex_);
     if (over()) return;
     change(timeline_);
-    AskNext();
+    SubmitNext();
   }
   while (HandOut(kFramesASlice)) {
   }
@@ -194,7 +194,7 @@ void DanceChain::Act(const std::function<void()>& act) noexcept {
     {
       std::lock_guard lock(mutex_);
       act();
-      AskNext();
+      SubmitNext();
     }
     while (HandOut(kFramesASlice)) {
     }
@@ -271,7 +271,7 @@ bool DanceChain::HandOutNext() {
     // No frame follows the end, so no transition is needed any more.
     if (const std::optional<int64_t> end = timeline_.End(); end && next_frame_ >= *end) DropJobs();
     queue_.CheckCancelled();
-    AskNext();
+    SubmitNext();
     return true;
   }
   if (job.failure()) {
@@ -284,7 +284,7 @@ bool DanceChain::HandOutNext() {
   return true;
 }
 
-void DanceChain::AskNext() {
+void DanceChain::SubmitNext() {
   if (over() || cancelled_ || failure_ || jobs_.size() > kMaxAhead) return;
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
   const Segment* segment = timeline_.Planned(jobs_.size());
@@ -295,24 +295,25 @@ void DanceChain::AskNext() {
   if (model_.hears_music) rows_end = std::min(segment->to, config_.end_frame.value_or(segment->to));
   // Beats of the whole music are set before its first row is ready, so a transition that waits for
   // one row knows them.
-  if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1)) Ask(*segment, rows_end);
+  if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1))
+    Submit(*segment, rows_end);
 }
 
-void DanceChain::Ask(const Segment& segment, int64_t rows_end) {
+void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
   // A dance that waited for its client's messages is due from now on. Its old start time would let
   // it overtake dances that waited for nobody.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   recurrence_.Begin(segment.from);
   try {
     const Job* before = jobs_.empty() ? nullptr : jobs_.back().get();
-    AskedTransition asked =
-        AskTransition(config_, model_, controls_, recurrence_, audio(), segment, rows_end,
-                      before == nullptr ? history_ : before->HistoryBefore(segment.from));
-    asked.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
+    PreparedTransition prepared =
+        PrepareTransition(config_, model_, controls_, recurrence_, audio(), segment, rows_end,
+                          before == nullptr ? history_ : before->HistoryBefore(segment.from));
+    prepared.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
     std::vector<Beat> beats = beats_.BeatsFor(segment.from, segment.to);
-    asked.request.beats = beats_.BeatTimes(beats, segment.from, segment.to);
+    prepared.request.beats = beats_.BeatTimes(beats, segment.from, segment.to);
     auto job =
-        std::make_shared<Job>(shared_from_this(), segment, std::move(asked), std::move(beats));
+        std::make_shared<Job>(shared_from_this(), segment, std::move(prepared), std::move(beats));
     queue_.Submit(job);
     jobs_.push_back(std::move(job));  // its reports wait for mutex_
   } catch (const Error& error) {

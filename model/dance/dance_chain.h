@@ -84,8 +84,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   // The functions below require mutex_. Hands out a frame, or the end of a transition or of the
   // dance; false if nothing may go out now.
   bool HandOutNext();
-  void AskNext();
-  void Ask(const Segment& segment, int64_t rows_end);
+  void SubmitNext();
+  void Submit(const Segment& segment, int64_t rows_end);
   bool IsOver(const Segment& segment) const;
   void Fail(Job& job, const Error& failure);
   void DropJobs();

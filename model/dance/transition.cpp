@@ -29,7 +29,7 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
 bool IsHeld(const Target& target, const Pose& now) {
   constexpr double kSame = 1e-3;  // radians
   for (Eigen::Index joint = 0; joint < now.rotations.cols(); ++joint) {
-    if (!target.mask.Asks(joint) ||
+    if (!target.mask.Constrains(joint) ||
         RotationDifference(now.rotations.col(joint), target.pose.rotations.col(joint)).norm() >
             kSame)
       return false;
@@ -161,7 +161,7 @@ void TransitionRun::Steer() {
     HitKey({.skeleton = model_->skeleton,
             .history = spec_.history,
             .has_path = path.IsGiven(),
-            .has_heights = path.asked[kPathHeight],
+            .has_heights = path.requested[kPathHeight],
             .fps = model_->fps},
            *hit_, &drawn_.poses);
   }
@@ -272,7 +272,7 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }
   for (int joint = 0; joint < from.rotations.cols(); ++joint) {
-    if (!target.mask.Asks(joint)) continue;
+    if (!target.mask.Constrains(joint)) continue;
     const double angle =
         RotationDifference(from.rotations.col(joint), target.pose.rotations.col(joint)).norm();
     if (angle / seconds > speed.joint_rad_per_s) {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "model/core/error.h"
-#include "model/dance/asked_transition.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
+#include "model/dance/prepared_transition.h"
 
 namespace choreo {
 
@@ -195,23 +195,23 @@ void TransitionGroup::Impl::Begin() {
   Segment segment{first_frame_, end, std::nullopt};
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
-  AskedTransition asked =
-      AskTransition(request_, model_, controls_, Recurrence(model_.fps, request_.music_passages),
-                    audio_.get(), segment, end, request_.Before());
-  TransitionRequest& transition = asked.request;
+  PreparedTransition prepared = PrepareTransition(request_, model_, controls_,
+                                                  Recurrence(model_.fps, request_.music_passages),
+                                                  audio_.get(), segment, end, request_.Before());
+  TransitionRequest& transition = prepared.request;
   transition.after = request_.after;
   transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
   if (request_.continuation) transition.stage = request_.continuation->stage;
-  if (const auto warning = controls_.BehindEnd(end)) asked.warnings.push_back(*warning);
+  if (const auto warning = controls_.BehindEnd(end)) prepared.warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)
-    asked.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
+    prepared.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
 
   // All candidates have the same request, so the first one checks it and warns.
   std::optional<TransitionRun> run(std::in_place, model_, transition);
-  WarnOfSpeed(model_, *run, &asked);
+  WarnOfSpeed(model_, *run, &prepared);
   for (const Warning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
-  for (const Warning& warning : asked.warnings) Warn(warning);
+  for (const Warning& warning : prepared.warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
     transition.candidate = static_cast<uint32_t>(candidate);

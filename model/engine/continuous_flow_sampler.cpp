@@ -80,7 +80,7 @@ PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
       beats_(spec.beats),
       keyed_(Keyed(spec)),
       has_path_(spec.controls[kRootPath].IsGiven()),
-      has_heights_(spec.controls[kRootPath].asked[kPathHeight]),
+      has_heights_(spec.controls[kRootPath].requested[kPathHeight]),
       request_(ToWindowRequest(spec, model.styles)),
       noise_{.seed = spec.seed,
              .candidate = spec.candidate,
@@ -91,7 +91,7 @@ PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
       sampler_(std::in_place, parts, network, request_, noise_),
       // The mean way's energy cannot be changed.
       in_rounds_(noise_.temperature > 0 && Energy().IsGiven() &&
-                 std::ranges::count(Energy().asked, true) > 0),
+                 std::ranges::count(Energy().requested, true) > 0),
       wanted_(Energy().values),
       least_(std::numeric_limits<double>::infinity()) {}
 
@@ -122,7 +122,7 @@ bool PlanSampling::EndRound() {
   double most = 0;
   for (int part = 0; part < asked.size(); ++part) {
     const auto at = static_cast<size_t>(part);
-    if (!Energy().Asks(part)) continue;
+    if (!Energy().IsRequested(part)) continue;
     const double missing = EnergyLevel(asked[part], danced[at]);
     most = std::max(most, std::abs(missing));
     more_[at] = std::clamp(more_[at] + missing / kAnswer, -kMaxLog, kMaxLog);

@@ -74,7 +74,7 @@ void ControlCourse::Redraw(const Draw& draw) {
     track.Set(asked, 0, "path");
     TransitionRequest request = RequestFor(i);
     std::vector<Warning> warnings;
-    track.Ask("key", &request, &warnings);
+    track.FillControls("key", &request, &warnings);
     windows_[i].path = request.controls[kRootPath].values;
     windows_[i].factors.resize(kBodyParts, 0);
   }

@@ -10,12 +10,12 @@ namespace choreo {
 struct EnergyResponse {
   using Levels = EnergyPrior::Levels;
 
-  /// For each part's EnergyLevel: danced = offset + slope told. All zero: unknown.
+  /// For each part's EnergyLevel: danced = offset + slope * input. All zero: unknown.
   Levels offset = Levels::Zero(), slope = Levels::Zero();
 
   bool known() const { return slope.minCoeff() > 0; }
   /// The level to give to the network for a wanted one.
-  double Told(int part, double wanted) const { return (wanted - offset[part]) / slope[part]; }
+  double InputFor(int part, double wanted) const { return (wanted - offset[part]) / slope[part]; }
 };
 
 }  // namespace choreo

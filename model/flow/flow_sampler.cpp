@@ -29,10 +29,10 @@ Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int f
 // Gives body parts without velocity factors an energy, sampled from the prior.
 void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
                   WindowRequest* request) {
-  ControlCurve& asked = request->controls[kVelocityFactors];
-  if (!asked.IsGiven()) {
-    asked.values = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
-    asked.asked.assign(kBodyParts, false);
+  ControlCurve& energy_control = request->controls[kVelocityFactors];
+  if (!energy_control.IsGiven()) {
+    energy_control.values = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
+    energy_control.requested.assign(kBodyParts, false);
   }
   // Takes random numbers that follow those of the frames' noise: the first frame's for the window's
   // level, every frame's for the curve.
@@ -61,15 +61,15 @@ void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const Flo
   const EnergyPrior::Levels most = model.energy.MostLively();
   levels = levels.cwiseMin(most);
   for (int part = 0; part < kBodyParts; ++part) {
-    if (asked.Asks(part)) continue;
+    if (energy_control.IsRequested(part)) continue;
     const double median = model.config.median_factors[static_cast<size_t>(part)];
-    auto energy = asked.values.row(part);
+    auto energy = energy_control.values.row(part);
     for (int i = 0; i < request->frames; ++i) energy[i] = EnergyFactor(ways(part, i), median);
     // Scales the curve so that its mean has the window's level.
     if (const double mean = energy.mean(); lingers && mean > 0)
       energy *= EnergyFactor(levels[part], median) / mean;
     energy = energy.cwiseMin(EnergyFactor(most[part], median));
-    asked.asked[static_cast<size_t>(part)] = true;
+    energy_control.requested[static_cast<size_t>(part)] = true;
   }
 }
 
@@ -83,11 +83,11 @@ void CorrectLevels(const FlowModelParts& model, double temperature, WindowReques
     const double wanted = factors.row(part).mean();
     if (wanted <= 0) continue;
     const double level = EnergyLevel(wanted, median);
-    const double told = level + temperature * (model.response.Told(part, level) - level);
+    const double input = level + temperature * (model.response.InputFor(part, level) - level);
     // Stays within the range of training, unless the request itself leaves it.
     const double most = EnergyFactor(model.energy.MostLively()[part], median);
     for (double& energy : factors.row(part))
-      energy = std::min(energy * (EnergyFactor(told, median) / wanted), std::max(energy, most));
+      energy = std::min(energy * (EnergyFactor(input, median) / wanted), std::max(energy, most));
   }
 }
 
@@ -98,7 +98,7 @@ struct KnownPath {
     const ControlCurve& path = request.controls[kRootPath];
     if (!path.IsGiven()) return;
     axes = {0, 2};
-    if (path.Asks(kPathHeight)) axes.push_back(kPathHeight);
+    if (path.IsRequested(kPathHeight)) axes.push_back(kPathHeight);
     x = path.values.colwise() - request.history.back().root_position;
     x -= window.mean().topRows<3>();
     z.resize(3, x.cols());
@@ -139,7 +139,7 @@ class Field {
   double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
 
   // Moves the flow to w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
-  void Stand(const Eigen::MatrixXd& w, int step) {
+  void MoveTo(const Eigen::MatrixXd& w, int step) {
     z_ = SizeAt(step) * w;
     const Eigen::MatrixXd x = window_.Colour(z_);
     poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
@@ -149,7 +149,7 @@ class Field {
     f_ = Eigen::MatrixXd::Zero(z_.rows(), z_.cols());
   }
   // Evaluates the network for the next view; true while more views are left.
-  bool Look() {
+  bool EvaluateNext() {
     const View& view = views_[seen_];
     f_ += view.weight * network_
                             .Evaluate(z_.cast<float>(), poses_, joints_, mean_, view.frames,
@@ -188,7 +188,7 @@ bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
   std::vector<int> carried(static_cast<size_t>(skeleton.joints()));
   for (int joint = skeleton.joints() - 1; joint >= 0; --joint) {
     const auto at = static_cast<size_t>(joint);
-    if (carried[at] > 1 && !mask.Asks(joint)) return false;
+    if (carried[at] > 1 && !mask.Constrains(joint)) return false;
     if (joint > 0) carried[static_cast<size_t>(skeleton.parents[at])] += carried[at] + 1;
   }
   return true;
@@ -250,7 +250,7 @@ class WindowSampler::Pass {
     field_.emplace(model, network, std::move(request), window_);
     needs_mean_ = temperature_ != 1;
     if (needs_mean_) {
-      field_->Stand(still, 0);
+      field_->MoveTo(still, 0);
     } else {
       BeginStep();
     }
@@ -260,7 +260,7 @@ class WindowSampler::Pass {
 
   /// Makes the next evaluation; true while more are left.
   bool Continue() {
-    if (field_->Look()) return true;
+    if (field_->EvaluateNext()) return true;
     if (std::exchange(needs_mean_, false)) {
       mean_ = field_->f();
       if (temperature_ == 0) return false;
@@ -287,7 +287,7 @@ class WindowSampler::Pass {
     const double angle = field_->Angle(step_);
     for (const int axis : known_->axes)
       w_.row(axis) = std::cos(angle) * start_.row(axis) + std::sin(angle) * known_->z.row(axis);
-    field_->Stand(w_, step_);
+    field_->MoveTo(w_, step_);
   }
   void EndStep() {
     const Eigen::MatrixXd& f = field_->f();

@@ -100,7 +100,7 @@ Eigen::MatrixXd LevelCurves(const WindowRequest& request,
   const ControlCurve& energy = request.controls[kVelocityFactors];
   Eigen::MatrixXd levels = Eigen::MatrixXd::Constant(kBodyParts, request.frames, NAN);
   for (int part = 0; part < kBodyParts; ++part) {
-    if (!energy.Asks(part)) continue;
+    if (!energy.IsRequested(part)) continue;
     for (int i = 0; i < request.frames; ++i)
       levels(part, i) = EnergyLevel(energy.values(part, i), medians[static_cast<size_t>(part)]);
   }
@@ -113,7 +113,8 @@ std::array<std::optional<double>, kBodyParts> LevelsOf(
   std::array<std::optional<double>, kBodyParts> levels;
   for (int part = 0; part < kBodyParts; ++part) {
     const auto at = static_cast<size_t>(part);
-    if (energy.Asks(part)) levels[at] = EnergyLevel(energy.values.row(part).mean(), medians[at]);
+    if (energy.IsRequested(part))
+      levels[at] = EnergyLevel(energy.values.row(part).mean(), medians[at]);
   }
   return levels;
 }
@@ -137,7 +138,8 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
         std::min<double>(kTurnHorizon, request.to_key) * velocity.col(0).segment<3>(3);
     displacement_.segment<3>(3) =
         NearerWayRound(displacement_.segment<3>(3), request.turning.value_or(ahead));
-    for (int d = 3; d < dimensions; ++d) keyed_[static_cast<size_t>(d)] = mask.Asks(d / 3 - 1);
+    for (int d = 3; d < dimensions; ++d)
+      keyed_[static_cast<size_t>(d)] = mask.Constrains(d / 3 - 1);
     for (int d = 0; d < dimensions; ++d) {
       if (!keyed_[static_cast<size_t>(d)]) displacement_[d] = 0;
     }

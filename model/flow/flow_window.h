@@ -51,7 +51,7 @@ struct WindowRequest {
     return stage && !controls[kRootPath].IsGiven() && !(key && mask.root_position);
   }
   bool FrontCounts() const {
-    return stage && !controls[kRootPath].IsGiven() && !(key && mask.Asks(0));
+    return stage && !controls[kRootPath].IsGiven() && !(key && mask.Constrains(0));
   }
 };
 

@@ -53,7 +53,7 @@ Eigen::Vector3d TurnPrior::ShorterTurn(const WindowRequest& request) {
 
 std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
                                                      const WindowRequest& request) {
-  if (!request.key || !request.mask.Asks(0) || request.to_key < 1) return std::nullopt;
+  if (!request.key || !request.mask.Constrains(0) || request.to_key < 1) return std::nullopt;
   const Eigen::Vector3d shorter = ShorterTurn(request), other = OtherWayRound(shorter);
   if (shorter == other) return std::nullopt;  // almost no turn
   const std::vector<Pose>& history = request.history;

@@ -36,9 +36,9 @@ void DescribeOff(const ControlCurve& curve, int frame, const Eigen::Vector3d& ro
                  const Eigen::Vector3d& mean, std::span<float> features) {
   Eigen::Vector3d off = curve.values.col(frame) - root;
   off -= mean;
-  if (!curve.Asks(kPathHeight)) off.y() = 0;
+  if (!curve.IsRequested(kPathHeight)) off.y() = 0;
   features[0] = 1;
-  features[1] = curve.Asks(kPathHeight) ? 1 : 0;
+  features[1] = curve.IsRequested(kPathHeight) ? 1 : 0;
   for (int axis = 0; axis < 3; ++axis)
     features[2 + static_cast<size_t>(axis)] = static_cast<float>(off[axis] / kPathScale);
 }
@@ -48,7 +48,7 @@ void DescribeChannels(const ControlRow& row, const ControlCurve& curve, int fram
   const auto channels = static_cast<size_t>(row.channels);
   for (size_t channel = 0; channel < channels; ++channel) {
     const auto at = static_cast<int>(channel);
-    if (!curve.Asks(at)) continue;
+    if (!curve.IsRequested(at)) continue;
     const double value = curve.values(at, frame);
     features[channel] = static_cast<float>(
         row.features == ControlFeatures::kLevel ? EnergyLevel(value, medians[channel]) : value);

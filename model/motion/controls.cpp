@@ -44,7 +44,7 @@ std::vector<std::string> ControlNames() {
 
 Controls::Controls(std::span<const ControlRow> rows) : rows_(rows), curves_(rows.size()) {
   for (size_t i = 0; i < rows.size(); ++i)
-    curves_[i].asked.assign(static_cast<size_t>(rows[i].channels), true);
+    curves_[i].requested.assign(static_cast<size_t>(rows[i].channels), true);
 }
 
 void Controls::Check(std::span<const std::string> taken, const std::string& model,
@@ -80,7 +80,7 @@ void Controls::Mirror() {
     if (rows_[i].space != ControlSpace::kPerPart) continue;
     for (const auto& [left, right] : kSides) {
       const auto l = static_cast<size_t>(left), r = static_cast<size_t>(right);
-      std::vector<bool>::swap(curve.asked[l], curve.asked[r]);
+      std::vector<bool>::swap(curve.requested[l], curve.requested[r]);
       if (curve.IsGiven())
         curve.values.row(static_cast<Eigen::Index>(l))
             .swap(curve.values.row(static_cast<Eigen::Index>(r)));

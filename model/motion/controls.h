@@ -60,11 +60,13 @@ std::vector<std::string> ControlNames();
 
 /// One control over frames.
 struct ControlCurve {
-  Eigen::MatrixXd values = {};   ///< [channels, frames], or empty: nothing is requested
-  std::vector<bool> asked = {};  ///< by channel: whether requested; otherwise a guess
+  Eigen::MatrixXd values = {};       ///< [channels, frames], or empty: nothing is requested
+  std::vector<bool> requested = {};  ///< by channel: whether requested; otherwise a guess
 
   bool IsGiven() const { return values.cols() > 0; }
-  bool Asks(int channel) const { return IsGiven() && asked[static_cast<size_t>(channel)]; }
+  bool IsRequested(int channel) const {
+    return IsGiven() && requested[static_cast<size_t>(channel)];
+  }
 };
 
 /// One curve per row of a table. The root path: where the root should be in each frame, from the

@@ -82,7 +82,7 @@ PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
     error.position_m = difference.col(0).norm();
   }
   for (int joint = 0; joint < joints; ++joint) {
-    if (!mask.Asks(joint)) continue;
+    if (!mask.Constrains(joint)) continue;
     const double angle = RotationDifference(a.rotations.col(joint), b.rotations.col(joint)).norm();
     error.angle_deg = std::max(error.angle_deg, angle * kDegrees);
   }
@@ -93,7 +93,7 @@ std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask) {
   std::vector<bool> known(static_cast<size_t>(skeleton.joints()), true);
   for (size_t joint = 1; joint < known.size(); ++joint) {
     const int parent = skeleton.parents[joint];
-    known[joint] = known[static_cast<size_t>(parent)] && mask.Asks(parent);
+    known[joint] = known[static_cast<size_t>(parent)] && mask.Constrains(parent);
   }
   return known;
 }

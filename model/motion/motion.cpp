@@ -42,7 +42,7 @@ Pose KeepSigns(Pose pose, const Pose& previous) {
 Pose Masked(const Pose& key, const PoseMask& mask, Pose open) {
   if (mask.root_position) open.root_position = key.root_position;
   for (Eigen::Index joint = 0; joint < open.rotations.cols(); ++joint) {
-    if (mask.Asks(joint)) open.rotations.col(joint) = key.rotations.col(joint);
+    if (mask.Constrains(joint)) open.rotations.col(joint) = key.rotations.col(joint);
   }
   return open;
 }

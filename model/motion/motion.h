@@ -46,7 +46,7 @@ struct PoseMask {
   std::vector<bool> joints;  ///< [joints] or empty
 
   /// Whether it includes this joint's rotation.
-  bool Asks(Eigen::Index joint) const {
+  bool Constrains(Eigen::Index joint) const {
     return joints.empty() || joints[static_cast<size_t>(joint)];
   }
 };

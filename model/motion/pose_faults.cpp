@@ -63,7 +63,7 @@ std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask) {
   std::vector<std::string> faults;
   for (const Hinge& hinge : Hinges(skeleton)) {
-    if (!mask.Asks(hinge.joint)) continue;
+    if (!mask.Constrains(hinge.joint)) continue;
     const double bend = kDegrees * hinge.axis.dot(pose.rotations.col(hinge.joint));
     const bool backwards = bend < 0;
     const double limit = backwards ? kBrokenBackwards : kFolded;

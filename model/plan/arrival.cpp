@@ -86,7 +86,7 @@ Pose Arrival::Steered(const Pose& raw) {
     at = left_ == 1 ? place[axis] : at + w * (path_there[axis] - at);
   }
   for (int joint = 0; joint < raw.rotations.cols(); ++joint) {
-    if (!target_.mask.Asks(joint)) continue;
+    if (!target_.mask.Constrains(joint)) continue;
     const Eigen::Vector3d from = previous_.rotations.col(joint);
     const Eigen::Vector3d model = raw.rotations.col(joint);
     Eigen::Vector3d way = RotationDifference(from, target_.pose.rotations.col(joint));

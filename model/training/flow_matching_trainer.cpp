@@ -284,7 +284,7 @@ class FlowMatchingRun : public TrainingRun {
           validation_.Draw(parts, kStatisticsWindows, frames, frames,
                            {.no_key = i % 2 == 0 ? 0.0 : 1.0, .energy = 1}, &random);
       for (WindowRequest& request : batch.requests) {
-        request.controls[kVelocityFactors].asked.assign(kBodyParts, true);
+        request.controls[kVelocityFactors].requested.assign(kBodyParts, true);
         requests.push_back(std::move(request));
       }
     }

@@ -60,9 +60,9 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
 
 // The request for a window of `frames` frames, the track's from `first` on. `history`, `way`, which
 // ends in the key, and `stage` are in the canonical frame.
-WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
-                  const GroundFrame& stage, const ClipTrack& track, int64_t first,
-                  const WindowClips::Variation& variation, int frames, Random* random) {
+WindowRequest MakeRequest(std::span<const Pose> history, std::span<const Pose> way,
+                          const GroundFrame& stage, const ClipTrack& track, int64_t first,
+                          const WindowClips::Variation& variation, int frames, Random* random) {
   WindowRequest request{.frames = frames, .to_key = static_cast<int>(way.size())};
   request.history.assign(history.begin(), history.end());
   if (!(random->Uniform() < variation.no_key)) request.key = way.back();
@@ -83,14 +83,14 @@ WindowRequest Ask(std::span<const Pose> history, std::span<const Pose> way,
       energy.values = constant.replicate(1, frames);
     }
     const double known = random->Uniform() < 0.7 ? 1 : random->Uniform();
-    for (auto&& asked : energy.asked) asked = random->Uniform() < known;
+    for (auto&& requested : energy.requested) requested = random->Uniform() < known;
   }
   if (random->Uniform() < variation.path) {
     ControlCurve& path = request.controls[kRootPath];
     path.values.resize(3, frames);
     for (int i = 0; i < frames; ++i) path.values.col(i) = way[i].root_position;
     if (random->Uniform() < 0.4) path.values = SmoothRows(path.values, kDrawnSigma);
-    path.asked[kPathHeight] = random->Uniform() < 0.3;
+    path.requested[kPathHeight] = random->Uniform() < 0.3;
   }
   if (random->Uniform() >= variation.stage) return request;
   request.stage = stage;
@@ -159,8 +159,9 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
     const GroundFrame ground = GroundFrame::Of(poses[tau - 1]);
     for (Pose& pose : poses) pose = ground.ToLocal(pose);
     const auto way = std::span<const Pose>(poses).subspan(tau);
-    WindowRequest request = Ask(std::span(poses).first(tau), way, ground.ToLocal(track.stage),
-                                track, from + tau, variation, frames, random);
+    WindowRequest request =
+        MakeRequest(std::span(poses).first(tau), way, ground.ToLocal(track.stage), track,
+                    from + tau, variation, frames, random);
     request.turning = turning;
     if (styled) request.style = track.style;
     if (mirrored) {

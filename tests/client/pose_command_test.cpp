@@ -148,8 +148,8 @@ TEST_F(PoseCommandTest, MirrorsTheMaskToo) {
   recipe.from = (folder_ / "arm.json").string();
   recipe.mirror = true;
   const client::KeyPose key = MakePose(recipe, Body());
-  EXPECT_TRUE(key.mask.Asks(Body().right_elbow));
-  EXPECT_FALSE(key.mask.Asks(Body().left_elbow));
+  EXPECT_TRUE(key.mask.Constrains(Body().right_elbow));
+  EXPECT_FALSE(key.mask.Constrains(Body().left_elbow));
   EXPECT_NEAR(key.pose.rotations(1, Body().right_elbow), 1, 1e-12);
 }
 

@@ -34,7 +34,7 @@ class ControlTrackTest : public testing::Test {
     request.history = {here_};
     request.target = target_;
     std::vector<Warning> warnings;
-    track_.Ask("landing", &request, &warnings);
+    track_.FillControls("landing", &request, &warnings);
     return {request.controls, warnings};
   }
   void AimAt(double x) {

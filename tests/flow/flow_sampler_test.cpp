@@ -121,7 +121,7 @@ TEST(FlowSampler, SamplesOnlyEnergyThatIsNotRequested) {
   EXPECT_EQ((differ.array() != 0).count(), kBodyParts);
   WindowRequest arm = scene.request;
   arm.controls[kVelocityFactors].values = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
-  arm.controls[kVelocityFactors].asked = {false, true, false, false, false};
+  arm.controls[kVelocityFactors].requested = {false, true, false, false, false};
   const Eigen::VectorXf of_others = told(arm, 1) - told(arm, 2);
   EXPECT_EQ((of_others.array() != 0).count(), kBodyParts - 1);
   EXPECT_EQ(((told(arm, 1) - told(scene.request, 1)).array() != 0).count(), 1);
@@ -190,7 +190,7 @@ TEST(FlowSampler, MusicShiftsOnlySampledEnergyAndOnce) {
   };
   WindowRequest arm = scene.request;
   arm.controls[kVelocityFactors].values = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
-  arm.controls[kVelocityFactors].asked = {false, true, false, false, false};
+  arm.controls[kVelocityFactors].requested = {false, true, false, false, false};
   const Eigen::VectorXf calm = told(arm);
   arm.energy_shift.now = 0.5;
   const Eigen::VectorXf shifted = told(arm) - calm;
@@ -298,7 +298,7 @@ TEST(FlowSampler, FollowsAPathExactlyAndItsHeightsIfGiven) {
   const FlowModelParts parts = Parts();
   const Silent network;
   for (const bool heights : {false, true}) {
-    scene.request.controls[kRootPath].asked[1] = heights;
+    scene.request.controls[kRootPath].requested[1] = heights;
     const auto poses = SampleWindow(parts, network, scene.request, {.seed = 3, .temperature = 1});
     for (size_t i = 0; i < poses.size(); ++i) {
       const Eigen::Vector3d miss = poses[i].root_position - scene.truth[i].root_position;

@@ -184,7 +184,7 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
   request.turning = Eigen::Vector3d(0.1, 2, -0.3);
   request.controls[kRootPath].values = Eigen::Matrix3Xd::Random(3, 30);
   request.controls[kVelocityFactors].values = Eigen::MatrixXd::Random(kBodyParts, 30).cwiseAbs();
-  request.controls[kVelocityFactors].asked = {true, true, false, false, true};
+  request.controls[kVelocityFactors].requested = {true, true, false, false, true};
   request.stage = GroundFrame{{1, 0, 2}, 0.5};
   request.turn = 2;
   const std::vector<int> pairs = MirrorPairs(Skeleton::Smpl24());
@@ -195,7 +195,8 @@ TEST(WindowRequest, MirroredTwiceIsItself) {
   EXPECT_EQ(other.controls[kRootPath].values.row(0), -request.controls[kRootPath].values.row(0));
   EXPECT_EQ(other.controls[kVelocityFactors].values.row(1),
             request.controls[kVelocityFactors].values.row(2));
-  EXPECT_EQ(other.controls[kVelocityFactors].asked, (std::vector{true, false, true, true, false}));
+  EXPECT_EQ(other.controls[kVelocityFactors].requested,
+            (std::vector{true, false, true, true, false}));
   EXPECT_EQ(back.mask.joints, request.mask.joints);
   EXPECT_EQ(back.controls[kVelocityFactors].values, request.controls[kVelocityFactors].values);
   EXPECT_EQ(back.controls[kRootPath].values, request.controls[kRootPath].values);

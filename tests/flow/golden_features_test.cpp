@@ -23,7 +23,7 @@ WindowRequest Asked() {
     for (int part = 0; part < kBodyParts; ++part)
       energy.values(part, i) = 0.01 * (part + 1) + 0.001 * i;
   }
-  energy.asked = {true, true, false, true, true};
+  energy.requested = {true, true, false, true, true};
   request.style = 1;
   return request;
 }

@@ -58,7 +58,7 @@ TEST(ToyControl, BecomesFeaturesAfterTheOthers) {
   const FlowModelParts parts = Parts();
   WindowRequest request = Toy();
   request.controls[kRootPath].values = Eigen::Matrix3Xd::Ones(3, 30);
-  request.controls[kWeight].asked[0] = false;
+  request.controls[kWeight].requested[0] = false;
   WindowRequest without = request;
   without.controls = Controls();
   without.controls[kRootPath] = request.controls[kRootPath];

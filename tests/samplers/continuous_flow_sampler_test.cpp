@@ -177,7 +177,7 @@ TEST_F(ContinuousFlowSamplerTest, RequestedBeatsAndLimbSpeedsChangeIt) {
   const auto lively = Dance(other);
   EXPECT_GT(LargestDifference(plain, lively), 1e-4);
   // Parts without a request are unknown, whatever their value.
-  other.controls[kVelocityFactors].asked.assign(kBodyParts, false);
+  other.controls[kVelocityFactors].requested.assign(kBodyParts, false);
   ExpectSameBits(plain, Dance(other));
 }
 
@@ -195,7 +195,7 @@ TEST_F(ContinuousFlowSamplerTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) 
   spec.controls[kRootPath].values.resize(3, spec.frames);
   for (int i = 0; i < spec.frames; ++i)
     spec.controls[kRootPath].values.col(i) << 0.01F * static_cast<float>(i), 0.9F, 0.0F;
-  spec.controls[kRootPath].asked[1] = false;
+  spec.controls[kRootPath].requested[1] = false;
   const auto dance = Dance(spec);
   for (int i = 0; i < spec.frames; ++i) {
     EXPECT_NEAR(dance.poses[static_cast<size_t>(i)].root_position.x(), 0.01 * i, 1e-5);

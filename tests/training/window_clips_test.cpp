@@ -212,7 +212,7 @@ TEST_F(WindowClipsTest, RequestedEnergyEqualsRecordedEnergy) {
     requests.insert(requests.end(), batch.requests.begin(), batch.requests.end());
   }
   for (WindowRequest& request : requests)
-    request.controls[kVelocityFactors].asked.assign(kBodyParts, true);
+    request.controls[kVelocityFactors].requested.assign(kBodyParts, true);
   const EnergyResponse honest = MeasureResponse(parts, Silent(), requests);
   ASSERT_TRUE(honest.known());
   // Twice the requested energy does not change the dance: the response is lower by as much.

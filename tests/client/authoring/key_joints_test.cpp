@@ -48,7 +48,7 @@ TEST(KeyJointsTest, JointsAloneAreAPartialKey) {
   const auto keys = Parse(R"("time": 2, "joints": {"left_shoulder": [0, 0, 80]})");
   EXPECT_FALSE(keys[0].mask.root_position);
   for (int joint = 0; joint < 24; ++joint)
-    EXPECT_EQ(keys[0].mask.Asks(joint), joint == Body().left_shoulder) << joint;
+    EXPECT_EQ(keys[0].mask.Constrains(joint), joint == Body().left_shoulder) << joint;
   EXPECT_NEAR(keys[0].pose.rotations(2, Body().left_shoulder), 80 * M_PI / 180, 1e-12);
 }
 
@@ -58,7 +58,7 @@ TEST(KeyJointsTest, AListLimitsAPoseToJointsAndLimbs) {
     const std::string& name = Body().joint_names[static_cast<size_t>(joint)];
     const bool arm = name == "left_shoulder" || name == "left_elbow" || name == "left_wrist" ||
                      name == "left_hand";
-    EXPECT_EQ(keys[0].mask.Asks(joint), arm || name == "head") << name;
+    EXPECT_EQ(keys[0].mask.Constrains(joint), arm || name == "head") << name;
   }
   const auto legs = Parse(R"("time": 2, "pose": "kick", "joints": ["legs"])")[0].mask.joints;
   EXPECT_EQ(std::count(legs.begin(), legs.end(), true), 8);

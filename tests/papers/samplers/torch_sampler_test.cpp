@@ -77,7 +77,7 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
     if (spec.target) {
       const PoseMask& mask = spec.target->mask;
       for (int j = 0; j < joints; ++j) {
-        transition.target_mask[0][j] = mask.Asks(j) ? 1 : 0;
+        transition.target_mask[0][j] = mask.Constrains(j) ? 1 : 0;
       }
       transition.target_mask[0][joints] = mask.root_position ? 1 : 0;
     }

@@ -21,7 +21,7 @@ inline double PlaybackClock() {
 /// Frames handed out before other dances get a turn.
 inline constexpr int kFramesASlice = 16;
 
-struct AskedTransition {
+struct PreparedTransition {
   TransitionRequest request;
   std::string key_id;             ///< names its target in warnings
   std::vector<Warning> warnings;  ///< about its controls
@@ -31,12 +31,12 @@ struct AskedTransition {
 /// that of the dance's music. `before` holds the poses danced or given before the transition; if
 /// empty, it starts from ControlTrack::Stance. `audio` is null without music; rows before
 /// `rows_end` must be ready, and the model gets no music from later rows.
-AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
-                              const ControlTrack& controls, const Recurrence& recurrence,
-                              const AudioFeed* audio, const Segment& segment, int64_t rows_end,
-                              std::span<const Pose> before);
+PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& model,
+                                     const ControlTrack& controls, const Recurrence& recurrence,
+                                     const AudioFeed* audio, const Segment& segment,
+                                     int64_t rows_end, std::span<const Pose> before);
 
 /// Adds a warning if the key is too far away for the time left.
-void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, AskedTransition* asked);
+void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared);
 
 }  // namespace choreo

@@ -1,4 +1,4 @@
-#include "server/watch.h"
+#include "server/periodic_thread.h"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@
 
 #include "tests/server/fixture.h"
 
-namespace choreo::watch_test {
+namespace choreo::periodic_thread_test {
 
-TEST(WatchTest, ContinuesAfterMemoryRanOut) {
+TEST(PeriodicThreadTest, ContinuesAfterMemoryRanOut) {
   std::atomic<int> looks = 0;
-  const Watch watch(std::chrono::milliseconds(1), [&] {
+  const PeriodicThread watch(std::chrono::milliseconds(1), [&] {
     if (++looks < 3) throw std::bad_alloc();
   });
   ExpectEventually([&] { return looks > 5; }, "it looks again");
   std::cout << looks << " looks, the first two without memory\n";
 }
 
-}  // namespace choreo::watch_test
+}  // namespace choreo::periodic_thread_test

@@ -1,4 +1,4 @@
-#include "model/dance/asked_transition.h"
+#include "model/dance/prepared_transition.h"
 
 #include <utility>
 
@@ -12,18 +12,18 @@ double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t fra
 
 }  // namespace
 
-AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
-                              const ControlTrack& controls, const Recurrence& recurrence,
-                              const AudioFeed* audio, const Segment& segment, int64_t rows_end,
-                              std::span<const Pose> before) {
-  AskedTransition asked;
-  TransitionRequest& request = asked.request;
+PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& model,
+                                     const ControlTrack& controls, const Recurrence& recurrence,
+                                     const AudioFeed* audio, const Segment& segment,
+                                     int64_t rows_end, std::span<const Pose> before) {
+  PreparedTransition prepared;
+  TransitionRequest& request = prepared.request;
   request.frames = static_cast<int>(segment.to - segment.from);
   request.first_frame = segment.from;
   if (segment.key) {
     request.target = Target{segment.key->pose, segment.key->mask};
     request.hit = segment.key->hit;
-    asked.key_id = segment.key->id;
+    prepared.key_id = segment.key->id;
   }
   Pose stance;
   if (before.empty()) {
@@ -47,15 +47,16 @@ AskedTransition AskTransition(const DanceStart& start, const ModelInfo& model,
   request.variation = start.variation;
   request.style = start.style;
   request.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
-  controls.Ask(asked.key_id, &request, &asked.warnings);
-  return asked;
+  controls.FillControls(prepared.key_id, &request, &prepared.warnings);
+  return prepared;
 }
 
-void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, AskedTransition* asked) {
+void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared) {
   const std::optional<RequiredSpeed> speed = run.required_speed();
   if (!speed || !speed->TooFast()) return;
-  asked->warnings.push_back(IntervalTooShort(
-      model.skeleton, asked->key_id, asked->request.first_frame, asked->request.frames, *speed));
+  prepared->warnings.push_back(IntervalTooShort(model.skeleton, prepared->key_id,
+                                                prepared->request.first_frame,
+                                                prepared->request.frames, *speed));
 }
 
 }  // namespace choreo

@@ -11,11 +11,11 @@
 
 namespace choreo {
 
-/// A thread that does something regularly, from construction to destruction. Logs exceptions
+/// A thread that calls `action` every `interval`, from construction to destruction. Logs exceptions
 /// (memory may be out for a moment) and continues.
-class Watch {
+class PeriodicThread {
  public:
-  Watch(std::chrono::milliseconds interval, std::function<void()> action)
+  PeriodicThread(std::chrono::milliseconds interval, std::function<void()> action)
       : thread_([this, interval, action = std::move(action)](const std::stop_token& stop) {
           std::unique_lock lock(mutex_);
           while (!wake_.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
