@@ -209,7 +209,8 @@ TEST(FlowSampler, MusicAsksForNoMoreEnergyThanTrainingHad) {
   Scene scene = MakeScene(30);
   FlowModelParts parts = Parts();
   parts.config.median_factors.fill(0.01);
-  parts.curve = {.correlation = {1.0, 0.9}, .spread = EnergyPrior::Levels::Constant(0.5)};
+  parts.curve.correlation[0] = 1;
+  parts.curve.spread = 0.5 * Eigen::MatrixXd::Identity(kBodyParts, kBodyParts);
   const Listening network;
   const auto told = [&](double shift) {
     scene.request.energy_shift.now = shift;
