@@ -217,7 +217,14 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   std::optional<HandPose> ExchangeHands(const std::string& id, std::optional<HandPose> hands) {
     const std::lock_guard lock(hands_mutex_);
-    return std::exchange(hands_[id], hands);
+    std::optional<HandPose> before;
+    if (const auto known = hands_.find(id); known != hands_.end()) before = known->second;
+    if (hands) {
+      hands_[id] = *hands;
+    } else {
+      hands_.erase(id);  // so that keys without hands take no memory
+    }
+    return before;
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {
@@ -245,7 +252,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   bool file_decoded_ = false;
 
   std::mutex hands_mutex_;
-  std::map<std::string, std::optional<HandPose>> hands_;  // of keys, for KeyReached
+  std::map<std::string, HandPose> hands_;  // of keys, for KeyReached
 };
 
 class StreamReactor final

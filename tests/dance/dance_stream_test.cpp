@@ -24,7 +24,6 @@ TEST(DanceStream, HitsEveryKeyAndReportsIt) {
     const Key& key = dance.keys[i];
     EXPECT_EQ(recording.reached[i].id, key.id);
     EXPECT_EQ(recording.reached[i].frame, key.frame);
-    EXPECT_EQ(recording.reached[i].frame, key.frame);
     const Pose& danced = recording.poses[static_cast<size_t>(key.frame)];
     const PoseError error = ComparePoses(Skeleton::Smpl24(), danced, key.pose, key.mask);
     EXPECT_LT(error.position_m, 1e-4);

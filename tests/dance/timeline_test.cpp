@@ -327,7 +327,7 @@ TEST(Timeline, DisturbanceStopsTheTransition) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 35, ""}}));
 }
 
-// The plan must not depend on when Next is called.
+// The plan must not depend on when Planned is called.
 TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
