@@ -7,8 +7,8 @@
 namespace choreo {
 namespace {
 
-constexpr double kDetourSpeed = 1.0;       // m/s, at its fastest
-constexpr double kMinDetourSeconds = 0.5;  // seconds
+constexpr double kDetourSpeed = 1.0;  // m/s, at its fastest
+constexpr double kMinDetourSeconds = 0.5;
 constexpr double kPushOff = 10;  // m/s^2: people push off with little more than their weight
 
 double Smooth(double s) { return SmoothStep(std::clamp(s, 0.0, 1.0)); }

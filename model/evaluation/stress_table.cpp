@@ -98,7 +98,7 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   const RealRange range = MeasureReal(evaluation.set, model).range;
   Table table =
-      evaluation.NewTable("stress", "Keys that ask for too much or too little", {"kind", "frames"});
+      evaluation.NewTable("stress", "Keys that ask for too much or too little", {"way", "frames"});
   char note[256];
   std::snprintf(note, sizeof(note),
                 "Frozen: slower than a quarter of real motion's median (%.2f m/s). Warned: the "

@@ -3,7 +3,7 @@
 //   CHOREO_KERNELS        variable to define
 //   CHOREO_KERNELS_NAME   what it is called
 //   CHOREO_VECTOR_BYTES   of one register
-//   CHOREO_MAX_ROWS      of which two registers each are summed at once
+//   CHOREO_MAX_ROWS       of which two registers each are summed at once
 //   CHOREO_BF16           1: products of pairs of bfloat16, AVX512-BF16's
 //   CHOREO_TILES          1: the same, AMX's
 #if CHOREO_BF16
