@@ -276,8 +276,9 @@ std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation) {
     tables.push_back(LivelinessTable(evaluation, method, dances, free));
     if (dances.real.empty()) continue;
     tables.push_back(BandTable(evaluation, method, dances.real, dances.seeds[0]));
-    std::ranges::move(WeightTable(evaluation, method, dances.real, dances.seeds, free.lively),
-                      std::back_inserter(tables));
+    std::ranges::move(
+        WeightTable(evaluation, method, dances.real, dances.locked, dances.seeds, free.lively),
+        std::back_inserter(tables));
   }
   return tables;
 }

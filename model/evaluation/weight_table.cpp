@@ -44,17 +44,19 @@ FamilyWindows WindowsOf(const WeighedDances& dances) {
 
 // The kinds of motion compared.
 struct Weighed {
-  WeighedDances real, others, keyed, free;
+  WeighedDances real, others, footwork, keyed, free;
 };
 
 Weighed WeighAll(const Evaluation& evaluation, const ModelInfo& model, const LivelyDances& real,
-                 const std::vector<LivelyDances>& keyed, const LivelyDances& free) {
+                 const LivelyDances& footwork, const std::vector<LivelyDances>& keyed,
+                 const LivelyDances& free) {
   const auto weigh = [&](const LivelyDances& dances, WeighedDances* to) {
     for (const LivelyFigures& one : dances)
       to->push_back(Weigh(model.skeleton, model.fps, one.clip, one.track, one.turns));
   };
   Weighed all;
   weigh(real, &all.real);
+  weigh(footwork, &all.footwork);
   for (const LivelyDances& seed : keyed) weigh(seed, &all.keyed);
   weigh(free, &all.free);
   if (evaluation.training == nullptr) return all;
@@ -67,11 +69,12 @@ Weighed WeighAll(const Evaluation& evaluation, const ModelInfo& model, const Liv
   return all;
 }
 
-void PutWeights(const std::string& name, Cell real, Cell others, Cell keyed, Cell free,
-                Table* table) {
+void PutWeights(const std::string& name, Cell real, Cell others, Cell footwork, Cell keyed,
+                Cell free, Table* table) {
   table->Begin({name});
   table->Put("real motion", 2, real);
   table->Put("other dancers", 2, others);
+  table->Put("real, footwork", 2, footwork);
   table->Put("keyed", 2, keyed);
   table->Put("free", 2, free);
 }
@@ -83,38 +86,41 @@ void AddSpread(const Weighed& all, Table* table) {
   };
   const double real = mean(all.real, 1).value;
   PutWeights("spread between windows ÷ real", 1, mean(all.others, 1 / real),
-             mean(all.keyed, 1 / real), mean(all.free, 1 / real), table);
+             mean(all.footwork, 1 / real), mean(all.keyed, 1 / real), mean(all.free, 1 / real),
+             table);
 }
 
 void AddCritics(const Weighed& all, Table* table) {
   const FamilyWindows real = WindowsOf(all.real);
   const auto others = FamilyAreas(real, WindowsOf(all.others));
+  const auto footwork = FamilyAreas(real, WindowsOf(all.footwork));
   const auto keyed = FamilyAreas(real, WindowsOf(all.keyed));
   const auto free = FamilyAreas(real, WindowsOf(all.free));
   for (size_t family = 0; family < kCriticFamilies.size(); ++family) {
     PutWeights("critic's area, " + std::string(kCriticFamilies[family]), {}, others[family],
-               keyed[family], free[family], table);
+               footwork[family], keyed[family], free[family], table);
   }
 }
 
 }  // namespace
 
 std::vector<Table> WeightTable(const Evaluation& evaluation, const Method& method,
-                               const LivelyDances& real, const std::vector<LivelyDances>& keyed,
-                               const LivelyDances& free) {
+                               const LivelyDances& real, const LivelyDances& footwork,
+                               const std::vector<LivelyDances>& keyed, const LivelyDances& free) {
   const ModelInfo& model = method.sampler->model();
   if (real.empty() || !BalanceGauge::Fits(model.skeleton)) return {};
-  const Weighed all = WeighAll(evaluation, model, real, keyed, free);
+  const Weighed all = WeighAll(evaluation, model, real, footwork, keyed, free);
   Table table = evaluation.NewTable("weight", "Has she weight", {"figure"}, &method);
   for (const WeightRow& row : WeightRows()) {
     const auto mean = [&](const WeighedDances& dances) {
       return MeanOfKnown(dances, row.figure, row.unit);
     };
-    PutWeights(row.name, mean(all.real), mean(all.others), mean(all.keyed), mean(all.free), &table);
+    PutWeights(row.name, mean(all.real), mean(all.others), mean(all.footwork), mean(all.keyed),
+               mean(all.free), &table);
   }
   AddSpread(all, &table);
-  PutWeights("turns > 60° that go the real way round %", 100, {}, SameWayRound(real, keyed), {},
-             &table);
+  PutWeights("turns > 60° that go the real way round %", 100, {}, SameWayRound(real, {footwork}),
+             SameWayRound(real, keyed), {}, &table);
   AddCritics(all, &table);
   table.note = std::to_string(real.size()) + " clips, " + std::to_string(keyed.size()) +
                " seeds, keys each 2 s; free: " + std::to_string(free.size()) +
