@@ -61,7 +61,7 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const
 }
 
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
-  Pose stance = RestPose(model_->skeleton);
+  Pose stance = StandingPose(model_->skeleton);
   const PathCurve* curve = CurveAt(first_frame, first_frame);
   // The dancer stands still before a key on the first frame: gliding feet would never be planted.
   const int64_t there = key_on_it ? first_frame : first_frame - 1;

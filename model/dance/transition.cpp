@@ -71,7 +71,7 @@ Pose RoundToFloat(const Pose& pose) {
 
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses) {
   const size_t tau = static_cast<size_t>(model.history_frames);
-  const Pose earliest = RoundToFloat(poses.empty() ? RestPose(model.skeleton) : poses.front());
+  const Pose earliest = RoundToFloat(poses.empty() ? StandingPose(model.skeleton) : poses.front());
   std::vector<Pose> history(tau, earliest);
   const std::span<const Pose> newest = poses.last(std::min(tau, poses.size()));
   std::ranges::transform(newest, history.end() - std::ssize(newest), &RoundToFloat);

@@ -122,7 +122,8 @@ class TransitionRun {
 TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
                               const std::function<void(int)>& danced = {});
 
-/// Pads or cuts `poses` to the history of a transition: exactly tau poses, rounded to floats.
+/// Pads or cuts `poses` to the history of a transition: exactly tau poses, rounded to floats. No
+/// poses become a dancer who stands.
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
 /// Replaces the oldest pose by the newest; allocates nothing.
 void PushPose(const Pose& newest, std::vector<Pose>* history);

@@ -1,6 +1,8 @@
 #include "model/motion/kinematics.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/error.h"
 #include "model/motion/rotation.h"
@@ -121,6 +123,22 @@ Pose RestPose(const Skeleton& skeleton) {
   Pose pose;
   pose.root_position.y() = skeleton.pelvis_height;
   pose.rotations = Eigen::Matrix3Xd::Zero(3, skeleton.joints());
+  return pose;
+}
+
+Pose StandingPose(const Skeleton& skeleton) {
+  constexpr double kFromBody = 0.3, kElbowBend = 0.3;  // radians
+  Pose pose = RestPose(skeleton);
+  for (const Hinge& hinge : Hinges(skeleton)) {
+    const bool left = hinge.joint == skeleton.left_elbow;
+    if (hinge.upper < 0 || (!left && hinge.joint != skeleton.right_elbow)) continue;
+    const double side = left ? 1 : -1;
+    const Eigen::Vector3d hanging(side * std::sin(kFromBody), -std::cos(kFromBody), 0);
+    const Eigen::Vector3d arm = skeleton.offsets.col(hinge.joint);
+    pose.rotations.col(hinge.upper) =
+        LogMap(Eigen::Quaterniond::FromTwoVectors(arm, hanging).toRotationMatrix());
+    pose.rotations.col(hinge.joint) = kElbowBend * hinge.axis;
+  }
   return pose;
 }
 

@@ -49,8 +49,11 @@ std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask);
 std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
                                      const PoseMask& mask = {});
 
-/// The neutral stance that a dance without history starts from: rest pose, feet on the floor, at
-/// the origin, facing +Z.
+/// The skeleton without rotations, feet on the floor, at the origin, facing +Z.
 Pose RestPose(const Skeleton& skeleton);
+
+/// Standing at ease, from where a dance without history starts: the rest pose with hanging arms.
+/// Without elbows it is the rest pose.
+Pose StandingPose(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -24,7 +24,7 @@ TEST(Transition, FewerHistoryPosesHoldTheEarliest) {
   const std::vector<Pose> poses = MotionTo(RandomPose(random), 12, random);
   const std::vector<Pose> none = FillHistory(sampler.model(), {});
   ASSERT_EQ(none.size(), 10u);
-  EXPECT_TRUE(SameBits(none[0], RoundToFloat(RestPose(Skeleton::Smpl24()))));
+  EXPECT_TRUE(SameBits(none[0], RoundToFloat(StandingPose(Skeleton::Smpl24()))));
   const std::vector<Pose> three = FillHistory(sampler.model(), std::span(poses).first(3));
   for (size_t i = 0; i < 8; ++i) EXPECT_TRUE(SameBits(three[i], RoundToFloat(poses[0])));
   EXPECT_TRUE(SameBits(three[9], RoundToFloat(poses[2])));
@@ -141,6 +141,7 @@ TEST(Transition, MeasuresRequiredSpeeds) {
   TransitionRequest request;
   request.frames = 15;
   Pose pose = RestPose(Skeleton::Smpl24());
+  request.history = {pose};
   pose.root_position.z() += 3;
   pose.rotations.col(18) = Eigen::Vector3d(0, 2, 0);
   request.target = Target{pose, {}};

@@ -47,6 +47,25 @@ TEST(Kinematics, PlanarChainInClosedForm) {
   }
 }
 
+TEST(Kinematics, AStandingBodyHasItsHandsBesideTheHips) {
+  const Skeleton& smpl = Skeleton::Smpl24();
+  const Pose standing = StandingPose(smpl), rest = RestPose(smpl);
+  const Eigen::Matrix3Xd at = JointPositions(smpl, standing), before = JointPositions(smpl, rest);
+  for (const int foot : smpl.feet) EXPECT_LT((at.col(foot) - before.col(foot)).norm(), 1e-12);
+  for (const char* name : {"left_wrist", "right_wrist"}) {
+    const Eigen::Vector3d wrist = at.col(smpl.Find(name));
+    EXPECT_LT(std::abs(wrist.y() - smpl.pelvis_height), 0.12) << name;
+    EXPECT_GT(std::abs(wrist.x()), 0.2) << name << " is not inside the body";
+    EXPECT_LT(std::abs(wrist.x()), 0.5) << name;
+    EXPECT_GT(wrist.z(), 0) << name << ": elbows bend forwards";
+  }
+}
+
+TEST(Kinematics, ABodyWithoutElbowsStandsAtRest) {
+  const Skeleton chain = Chain();
+  EXPECT_EQ(StandingPose(chain).rotations, RestPose(chain).rotations);
+}
+
 TEST(Kinematics, APoseStandsWithItsLowestFootOnTheFloor) {
   const Skeleton& smpl = Skeleton::Smpl24();
   const Pose rest = RestPose(smpl);
