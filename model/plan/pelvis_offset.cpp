@@ -94,8 +94,7 @@ class PelvisSolver {
         AddReach(frame, &problem);
         if (Leaps(frame)) AddFall(frame, &problem);
         if (Flies(frame)) continue;
-        // Only on the way to a key: at an open end the dance would go on from what this moved.
-        if (rules_.returns) AddBalance(frame, 0, &problem);
+        AddBalance(frame, 0, &problem);
         frame + 1 < count_ ? AddBalance(frame, Lever(frame), &problem) : AddCapture(&problem);
       }
       offset_.leftCols(moved_) = problem.Solve().reshaped(3, moved_);
