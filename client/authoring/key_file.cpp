@@ -23,7 +23,8 @@ namespace {
 using client::KeyPose;
 using nlohmann::json;
 
-constexpr double kMinHoldSeconds = 0.1;  // seconds
+constexpr double kMinHoldSeconds = 0.1;
+constexpr double kUsualHit = 1;  // in the dancer's own time
 constexpr const char* kHold = ".hold";
 constexpr size_t kMaxNamed = 8;  // keys named in a message
 
@@ -140,20 +141,21 @@ void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose
 
 }  // namespace
 
-std::vector<KeyPose> Holding(const KeyPose& key, double seconds, const std::string& field) {
+std::vector<KeyPose> Holding(KeyPose* key, double seconds, const std::string& field) {
   if (!(seconds >= kMinHoldSeconds && seconds <= kMaxHoldSeconds)) {
     std::ostringstream message;
     message << seconds << " s, must be " << kMinHoldSeconds << " to " << kMaxHoldSeconds;
     throw InvalidArgument(field, message.str());
   }
   const int steps = std::max(1, static_cast<int>(std::floor(seconds / kHoldStep + 1e-9)));
-  std::vector<KeyPose> holding(static_cast<size_t>(steps), key);
+  std::vector<KeyPose> holding(static_cast<size_t>(steps), *key);
   for (KeyPose& held : holding) held.hit.reset();
   for (int step = 1; step <= steps; ++step) {
     KeyPose& held = holding[static_cast<size_t>(step) - 1];
     held.time_s += seconds * step / steps;
     held.id += " held " + std::to_string(step);
   }
+  if (!key->hit) key->hit = kUsualHit;
   return holding;
 }
 
@@ -174,7 +176,7 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
     if (list[i].contains("hold")) {
       if (!list[i].contains("time")) throw InvalidArgument(field + kHold, "goes with time");
       const double seconds = JsonNumber(list[i]["hold"], field + kHold);
-      std::ranges::copy(Holding(keys.back(), seconds, field + kHold), std::back_inserter(keys));
+      std::ranges::copy(Holding(&keys.back(), seconds, field + kHold), std::back_inserter(keys));
     }
     if (!places) continue;
     places->push_back(field);

@@ -26,9 +26,10 @@ std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::stri
                                           std::vector<std::string>* places = nullptr);
 
 /// Keys that hold the pose of this one for `seconds`, so close together that the dancer only
-/// settles between them; uses its time, not its frame. Throws Error(kInvalidArgument, field) for a
+/// settles between them; uses its time, not its frame. Unless it says how it is hit, the dancer now
+/// comes to rest in it (hit 1). Throws Error(kInvalidArgument, field) for a
 /// time of less than 0.1 or more than 60 s.
-std::vector<client::KeyPose> Holding(const client::KeyPose& key, double seconds,
+std::vector<client::KeyPose> Holding(client::KeyPose* key, double seconds,
                                      const std::string& field);
 
 /// Whether the key at this place only holds the previous one's pose.

@@ -66,8 +66,8 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     pose = Here(*edit.key.frame).ToWorld(GroundFrame::Of(pose).ToLocal(pose));
   edit.held = named.held;
   if (!options_.hands.empty()) edit.key.hands = FindHandPose(options_.hands);
-  if (options_.hold_s) edit.held = authoring::Holding(edit.key, *options_.hold_s, "--hold");
   if (options_.hit) edit.key.hit = options_.hit;
+  if (options_.hold_s) edit.held = authoring::Holding(&edit.key, *options_.hold_s, "--hold");
   for (client::KeyPose& held : edit.held) {
     held.frame = Frame(at_s + held.time_s - edit.key.time_s);
     held.pose = pose;

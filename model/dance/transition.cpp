@@ -25,6 +25,9 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
+// A key of the pose that she is in leaves less time than this to dance away and back.
+constexpr double kHoldSeconds = 0.4;
+
 // Whether a key is the pose that she already is in.
 bool IsHeld(const Target& target, const Pose& now) {
   constexpr double kSame = 1e-3;  // radians
@@ -126,12 +129,15 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.controls.ToLocal(ground_);
   for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
+  held_ = request.target && request.frames < kHoldSeconds * model.fps &&
+          IsHeld(*request.target, world_);
+  if (held_) spec_.temperature = 0;  // her mean motion: another one each time would tremble
   footwork_ = request.footwork;
   if (!request.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
   if (request.after)
     after = ground_.ToLocal(*request.after);
-  else if (request.hit)
+  else if (request.hit || held_)
     after = spec_.target->pose;  // at rest
   hit_ = request.hit;
   spec_.arrival.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history,
@@ -209,6 +215,7 @@ void TransitionRun::PutOnFeet() {
     const FootworkContext context{.skeleton = model_->skeleton,
                                   .history = std::span(history).last(spec_.history.size()),
                                   .keyed = ends && spec_.arrival,
+                                  .held = held_,
                                   .has_path = spec_.controls[kRootPath].IsGiven(),
                                   .offset_before = offset_,
                                   .fps = model_->fps,

@@ -105,6 +105,7 @@ class TransitionRun {
   GroundFrame ground_;
   int arrival_window_ = 0;  // 0: no steering
   std::optional<double> hit_;
+  bool held_ = false;  // she holds her pose
   bool footwork_;
   GroundFrame stage_;  // of the request, world
   Pose world_;         // the newest frame, whose signs are kept

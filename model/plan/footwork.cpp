@@ -54,14 +54,16 @@ class PlanStander {
       LayDown(side);
     }
     offset_ = Eigen::Matrix3Xd::Zero(3, frames_);
-    for (int pass = 0; pass < kPasses; ++pass) {
+    for (int pass = 0; pass < (context_.held ? 1 : kPasses); ++pass) {
       if (pass > 0) centres_ = Centres();
-      offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
-                             {.returns = context_.keyed,
-                              .heights_alone = context_.has_path,
-                              .before = context_.offset_before,
-                              .fps = context_.fps,
-                              .options = context_.options});
+      // A held pose needs no other balance: moving its pelvis away and back would make it tremble.
+      if (!context_.held)
+        offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
+                               {.returns = context_.keyed,
+                                .heights_alone = context_.has_path,
+                                .before = context_.offset_before,
+                                .fps = context_.fps,
+                                .options = context_.options});
       plan_ = proposed;
       PlaceLegs();
     }

@@ -48,11 +48,17 @@ class PathMaker {
   Eigen::Vector3d Standing(const Stance& stance, int frame) const {
     Eigen::Vector3d at = stance.place;
     at.y() = rest_;
+    const bool to_key = stance.to == last_ && foot_.end == FootTrack::End::kStands;
+    // Too little time to settle on the floor and leave it again: the foot moves straight.
+    if (stance.from == 0 && to_key && last_ + 1 < 2 * settle_) {
+      const double u = (frame + 1.0) / (last_ + 1);
+      return foot_.before + SmoothStep(u) * (foot_.toes.back() - foot_.before);
+    }
     if (stance.from == 0) {
       const double u = std::min(1.0, (frame + 1) / settle_);
       at += (1 - SmoothStep(u)) * (foot_.before - at);
     }
-    if (stance.to == last_ && foot_.end == FootTrack::End::kStands) {
+    if (to_key) {
       const double u = std::max(0.0, 1 - (last_ - frame) / settle_);
       at += SmoothStep(u) * (foot_.toes.back() - at);
     }

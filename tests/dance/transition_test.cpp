@@ -61,6 +61,23 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
             1e-9);
 }
 
+// Another sample in each of its short transitions made a held pose tremble.
+TEST(Transition, OnlyAHeldPoseIsDancedByTheMeanMotion) {
+  const FakeSampler sampler;
+  std::mt19937 random(5);
+  TransitionRequest request;
+  request.temperature = 0.8F;
+  request.history.assign(10, RandomPose(random));
+  request.target = Target{request.history.back(), {}};
+  request.frames = 6;
+  EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0);
+  request.frames = 30;  // time to dance away and back
+  EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
+  request.frames = 6;
+  request.target = Target{RandomPose(random), {}};
+  EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
+}
+
 // A repeated key without a place once let a held pose glide by up to a metre.
 TEST(Transition, AHeldPoseKeepsItsPlace) {
   const FakeSampler sampler;

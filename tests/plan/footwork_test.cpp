@@ -61,6 +61,25 @@ TEST(StandOnFeet, LeavesAStandingBody) {
   }
 }
 
+// Keys of one pose a fifth of a second apart: feet that settled on the floor between them, and a
+// pelvis that balanced, went there and back five times a second.
+TEST(StandOnFeet, LeavesAHeldPose) {
+  for (const double height : {0.0, 0.03}) {
+    Pose held = At({0, height, 0});
+    held.rotations.col(0).x() = 0.3;  // leans
+    const std::vector<Pose> history(10, held);
+    std::vector<Pose> plan(6, held);
+    FootworkContext context = Context();
+    context.history = history;
+    context.keyed = context.held = true;
+    StandOnFeet(context, &plan);
+    for (const Pose& pose : plan) {
+      EXPECT_EQ(pose.root_position, held.root_position);
+      EXPECT_LT(ComparePoses(Body(), pose, held).position_m, 0.002) << height;
+    }
+  }
+}
+
 TEST(StandOnFeet, FeetOfAGlidingBodyStandAndStep) {
   std::vector<Pose> plan = Glide(0.015);
   const Footwork footwork = StandOnFeet(Context(), &plan);
