@@ -1,12 +1,30 @@
 #include "client/authoring/key_faults.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include "client/authoring/key_file.h"
 #include "model/core/error.h"
+#include "model/core/rounded.h"
+#include "model/motion/kinematics.h"
 
 namespace choreo::authoring {
 namespace {
+
+constexpr double kJump = 0.1;  // metres: the least height above the floor that is one
+
+/// Why a key that is in the air will stand, if it will: a key without a place stands on the floor.
+/// Keys that say no height have that of the rest pose.
+std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
+  const double height = key.pose.root_position.y();
+  if (key.mask.root_position || height == skeleton.pelvis_height) return "";
+  const std::optional<double> standing = StandingHeight(skeleton, key.pose, key.mask);
+  if (!standing || height - *standing < kJump) return "";
+  return "the pose is " + Rounded(height - *standing) +
+         " m in the air, but without a place it stands on the floor; give it one: \"place\": [x, "
+         "z]";
+}
 
 TimedPose Timed(const client::KeyPose& key, double fps) {
   return {key.id, static_cast<double>(FrameOf(key, fps)) / fps, key.pose, key.mask};
@@ -30,6 +48,14 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
     warning.frame = FrameOf(keys.poses[fault.pose], fps);
     const std::string place = keys.places.empty() ? "" : " (" + keys.places[fault.pose] + ")";
     warning.message = "key \"" + keys.poses[fault.pose].id + "\"" + place + ": " + fault.message;
+  }
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    const client::KeyPose& key = keys.poses[i];
+    const std::string lost = LostJump(key, skeleton);
+    if (lost.empty() || (!keys.places.empty() && IsHeld(keys.places[i]))) continue;
+    client::Warning& warning = warnings.emplace_back();
+    warning.frame = FrameOf(key, fps);
+    warning.message = "key \"" + key.id + "\": " + lost;
   }
   return warnings;
 }

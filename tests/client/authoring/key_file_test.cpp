@@ -1,5 +1,6 @@
 #include "client/authoring/key_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -378,6 +379,24 @@ TEST(KeyFileTest, TheDemoBeginsQuicklyAndBowsLast) {
   EXPECT_LT(keys[1].time_s, 2);
   EXPECT_EQ(keys.back().id, "bow");
   EXPECT_LT(keys.back().time_s, 24);
+}
+
+TEST(KeyFileTest, AJumpWithoutAPlaceIsWarnedOf) {
+  const Skeleton& body = Skeleton::Smpl24();
+  const auto faults = [&](const std::string& key) {
+    const std::string text = R"({"keyframes": [{"time": 1, )" + key + "}]}";
+    DanceKeys keys;
+    keys.poses = ParseKeyFile(text, "keys.json", body, &keys.places);
+    return KeyFaults(keys, 30, body);
+  };
+  const auto lost = faults(R"("id": "up", "pose": "star_jump")");
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_EQ(lost[0].frame, 30);
+  EXPECT_THAT(lost[0].message, testing::HasSubstr("key \"up\": the pose is 0."));
+  EXPECT_THAT(lost[0].message, testing::HasSubstr("\"place\": [x, z]"));
+  EXPECT_TRUE(faults(R"("pose": "star_jump", "place": [0, 0])").empty());
+  EXPECT_TRUE(faults(R"("pose": "crouch")").empty());
+  EXPECT_TRUE(faults(R"("joints": {"left_knee": [90, 0, 0]})").empty());
 }
 
 }  // namespace choreo::authoring::key_file_test
