@@ -41,6 +41,12 @@ KnownDance ReadKnown(const std::string& path, int64_t frames, double fps) {
     message << report["fps"].dump() << ", but the model runs at " << fps;
     throw InvalidArgument(path + ":fps", message.str());
   }
+  // Older edits wrote no count.
+  if (report.contains("frames") && report["frames"] != frames) {
+    throw InvalidArgument(path + ":frames", report["frames"].dump() + ", but the dance has " +
+                                                std::to_string(frames) +
+                                                ": this is another dance's report");
+  }
   return {KeysOf(report, frames, path), ReadWarnings(report, path)};
 }
 

@@ -21,7 +21,8 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kAround = 2;  // seconds; default reach of an edit
+constexpr double kAround = 2;       // seconds; default reach of an edit
+constexpr double kTooNear_s = 0.2;  // a dancer cannot get from one pose to another in less
 
 int64_t LastFrame(const client::KeyEdit& edit) {
   return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
@@ -73,6 +74,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     held.pose = pose;
     held.hands = edit.key.hands;
   }
+  MakeWay(*edit.key.frame, LastFrame(edit), edit.key.id);
   if (!edit.held.empty()) CheckRoom("--at", at_s, *edit.key.frame, *edit.held.back().frame);
   Set("--at", at_s, std::move(edit));
 }
@@ -107,6 +109,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   }
   edit.key.hit = options_.hit;
   for (const int64_t frame : frames) keys_.erase(frame);
+  MakeWay(frames.front() + by, frames.back() + by, edit.key.id);
   CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
   // The frames danced anew around the new place may not include the old one.
   const auto is_new = [&](int64_t frame) {
@@ -224,6 +227,22 @@ void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64
   }
 }
 
+void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
+  const int64_t near = Frame(kTooNear_s);
+  auto key = keys_.upper_bound(std::max<int64_t>(0, first - near));
+  while (key != keys_.end() && key->first < last + near) {
+    const bool between = key->first > first && key->first <= last;  // CheckRoom refuses that
+    if (key->first == first || between || set_.contains(key->first)) {
+      ++key;
+      continue;
+    }
+    std::cerr << "note: key \"" << IdAt(key->first) << "\" at " << Rounded(Seconds(key->first))
+              << " s makes way for \"" << id << "\": it is less than " << Rounded(kTooNear_s)
+              << " s away\n";
+    key = keys_.erase(key);
+  }
+}
+
 void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   const int64_t first = *edit.key.frame;
   const int64_t last = LastFrame(edit);
@@ -235,6 +254,8 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
                   keys_.contains(other) ? "the key" : "an end of the dance,");
   }
   if (keys_.contains(edit.to)) edit.to_id = IdAt(edit.to);
+  for (const client::KeyPose& held : edit.held) set_.insert(*held.frame);
+  set_.insert(first);
   DropWarnings(edit.from, edit.to);
   WarnOfFaults(edit);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
@@ -264,8 +285,8 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
   std::vector<TimedPose> around;
   for (const int64_t frame : {edit.from, edit.to}) {
     if (frame < 0 || frame >= frames_) continue;
-    around.push_back(
-        {Rounded(Seconds(frame)) + " s", Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
+    around.push_back({keys_.contains(frame) ? IdAt(frame) : Rounded(Seconds(frame)) + " s",
+                      Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
   }
   const auto faults = authoring::KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
   ShowWarnings(faults);

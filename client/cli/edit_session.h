@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ class EditSession {
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Throws if a pose held from one frame to another meets the next key, or the end.
   void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
+  /// Removes keys of the dance from which nobody gets to a new key, held from `first` to `last`, in
+  /// time, and says so.
+  void MakeWay(int64_t first, int64_t last, const std::string& id);
   /// The frame of this second; throws if it is after the dance.
   int64_t FrameInDance(const char* field, double at_s) const;
   int64_t Around() const;
@@ -85,6 +89,7 @@ class EditSession {
   int64_t frames_ = 0;  // at the model's rate
   KnownDance known_;    // from the report and the edits
   ReportKeys& keys_ = known_.keys;
+  std::set<int64_t> set_;  // frames of keys that this edit has set
 };
 
 }  // namespace choreo::cli

@@ -43,6 +43,33 @@ TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   EXPECT_EQ(keys[3]["id"], id);
 }
 
+TEST_F(EditTest, KeysTooNearANewOneMakeWayAndAreNamed) {
+  const std::string id = ReadJson(folder_ / "report.json")["keyframes"][2]["id"];
+  const Outcome outcome = Edit("--key kick --at " + Seconds(keys_[2] + 3) + " --key dab --at " +
+                               Seconds(keys_[2] + 6) + " --report " + At("report.json") +
+                               " --new-report " + At("new.json") + " -o " + At("new.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("note: key \"" + id + "\" at"));
+  EXPECT_THAT(outcome.said, HasSubstr("makes way for \"kick\""));
+  const nlohmann::json report = ReadJson(folder_ / "new.json");
+  std::vector<std::string> ids;
+  for (const auto& key : report["keyframes"]) ids.push_back(key["id"]);
+  EXPECT_EQ(ids.size(), keys_.size() + 1);
+  EXPECT_THAT(ids, testing::Not(testing::Contains(id)));
+  EXPECT_THAT(ids, testing::IsSupersetOf({"kick", "dab"})) << "new keys keep each other";
+}
+
+TEST_F(EditTest, AnotherDancesReportIsRefused) {
+  nlohmann::json report = ReadJson(folder_ / "report.json");
+  report["frames"] = report["frames"].get<int>() + 30;
+  std::ofstream(folder_ / "other.json") << report.dump();
+  const Outcome outcome =
+      Edit("--key kick --at 3 --report " + At("other.json") + " -o " + At("new.npz"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("other.json:frames: "));
+  EXPECT_THAT(outcome.said, HasSubstr("another dance's report"));
+}
+
 TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   const nlohmann::json keys = ReadJson(folder_ / "report.json")["keyframes"];
   const auto remove = [&](size_t index) {
