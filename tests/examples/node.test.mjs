@@ -144,6 +144,18 @@ test('an aborted call ends here and on the server', async () => {
   });
 });
 
+test('a client that is closed ends its calls, and begins no others', async () => {
+  const client = new ChoreoClient(address);
+  const closed = { code: 'CANCELLED', message: 'the client is closed' };
+  const dance = async () => {
+    for await (const answer of client.streamDance(endless())) if (answer.frames) client.close();
+  };
+  await assert.rejects(dance(), closed);
+  await assert.rejects(client.info(), closed);
+  await assert.rejects(collect(client.streamDance([{ config: {} }])), closed);
+  await assert.rejects(collect(client.generateTransition({ config: {}, frames: 9 })), closed);
+});
+
 test('a deadline ends a call', async () => {
   await withClient(async (client) => {
     const dance = collect(client.streamDance(endless(), { deadline: new Date(Date.now() + 100) }));

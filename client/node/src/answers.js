@@ -4,9 +4,9 @@ import { ChoreoError } from './error.js';
 /** Has `signal` cancel a call. What this returns takes that back. */
 function cancelOn(signal, call) {
   const cancel = () => call.cancel();
-  signal?.addEventListener('abort', cancel);
-  if (signal?.aborted) cancel();
-  return () => signal?.removeEventListener('abort', cancel);
+  signal.addEventListener('abort', cancel);
+  if (signal.aborted) cancel();
+  return () => signal.removeEventListener('abort', cancel);
 }
 
 /** The one answer of a call that `begin(callback)` begins. */

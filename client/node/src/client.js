@@ -15,12 +15,13 @@ export class ChoreoClient {
     this.#replicas.close();
   }
 
-  async info({ signal, deadline } = {}) {
+  async info(options = {}) {
     const replicas = this.#replicas;
-    async function* attempt({ stub }) {
+    const { deadline } = options;
+    async function* attempt({ stub }, patience, signal) {
       yield await answerOf((callback) => stub.GetServerInfo({}, replicas.metadata(), { deadline }, callback), signal);
     }
-    for await (const answer of replicas.persist(attempt, { signal, deadline })) return answer;
+    for await (const answer of replicas.persist(attempt, options)) return answer;
   }
 
   streamDance(requests, options) {

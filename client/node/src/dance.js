@@ -7,16 +7,17 @@ import { Journal } from './journal.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
 /** The answers of StreamDance to `requests`. */
-export async function* dance(replicas, requests, { signal, deadline, onResume } = {}) {
+export async function* dance(replicas, requests, options = {}) {
+  const { deadline, onResume } = options;
   const journal = new Journal(requests);
   const progress = new Progress(journal, onResume);
   try {
-    yield* replicas.persist((server, patience) => attempt(server, patience), { signal, deadline });
+    yield* replicas.persist(attempt, options);
   } finally {
     journal.close();
   }
 
-  async function* attempt(server, patience) {
+  async function* attempt(server, patience, signal) {
     progress.restart();
     const call = server.stub.StreamDance(replicas.metadata(), { deadline });
     const sent = { count: 0 };

@@ -33,8 +33,8 @@ export function unavailable(details) {
   return new ChoreoError({ code: grpc.status.UNAVAILABLE, details });
 }
 
-export function cancelled() {
-  return new ChoreoError({ code: grpc.status.CANCELLED, details: 'the call was cancelled' });
+export function cancelled(details = 'the call was cancelled') {
+  return new ChoreoError({ code: grpc.status.CANCELLED, details });
 }
 
 /** Of an option of ours; named as the server names its fields. */

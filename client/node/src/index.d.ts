@@ -79,6 +79,7 @@ export class ChoreoClient {
    * addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT). Throws ChoreoError for options that cannot be used.
    */
   constructor(addresses: string | string[], options?: ClientOptions);
+  /** Ends its calls with CANCELLED, and refuses others. */
   close(): void;
 
   /** Models, limits, devices. */
@@ -88,7 +89,7 @@ export class ChoreoClient {
    * Dances. Sends the `requests`, an iterable that may be asynchronous (music that is being played, say), as fast as the server takes them,
    * and yields the answers meanwhile. Whoever stops reading ends the dance. When its server is lost, the dance goes on at the next one from
    * the last continuation: answers are those of an undisturbed dance, bit for bit, which `onResume` alone hears of. Requests must not be
-   * changed once they are said: they may be said again. (The summary's shares are those of the frames since the last resume.)
+   * changed once they are said: they may be said again. One that the API does not know ends the dance, naming the field's path. (The summary's shares are those of the frames since the last resume.)
    */
   streamDance(
     requests: Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>,
@@ -99,7 +100,10 @@ export class ChoreoClient {
   generateTransition(request: GenerateTransitionRequest, options?: CallOptions): AsyncGenerator<GenerateTransitionResponse, void, undefined>;
 }
 
-/** The body of `skeleton` standing at rest, where and however `rotations` ({joint name: [x, y, z] in radians}) turn it. */
+/**
+ * The body of `skeleton` standing at rest, where and however `rotations` ({joint name: [x, y, z] in radians}) turn it. Throws ChoreoError for
+ * joints that it lacks, and what is no rotation.
+ */
 export function pose(
   skeleton: Pick<Skeleton, 'pelvis_height' | 'joint_names'>,
   rotations?: Record<string, [number, number, number]>,

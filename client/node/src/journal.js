@@ -1,5 +1,7 @@
 // What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
 // messages. Only music that it no longer needs is forgotten.
+import { checked } from './check.js';
+import { invalid } from './error.js';
 
 export class Journal {
   #source;
@@ -12,7 +14,9 @@ export class Journal {
 
   /** `requests`: an iterable, which may be asynchronous. It is asked for the next one when the server takes it. */
   constructor(requests) {
-    this.#source = requests[Symbol.asyncIterator]?.() ?? requests[Symbol.iterator]();
+    const begin = requests?.[Symbol.asyncIterator] ?? requests?.[Symbol.iterator];
+    if (typeof requests !== 'object' || !begin) throw invalid('requests', `${typeof requests} is no iterable of messages`);
+    this.#source = begin.call(requests);
   }
 
   /** Request number `index`: undefined where the source ended before it, null if it is forgotten. Throws what the source threw. */
@@ -29,13 +33,22 @@ export class Journal {
     try {
       const { done, value } = await this.#source.next();
       if (done) this.#over = true;
-      else this.#requests.push(await value);
+      else this.#requests.push(this.#checked(await value));
     } catch (error) {
       this.#over = true;
       this.failure = error;
       throw error;
     } finally {
       this.#more = undefined;
+    }
+  }
+
+  #checked(request) {
+    try {
+      return checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
+    } catch (error) {
+      this.close(); // the source knows nothing of it
+      throw error;
     }
   }
 

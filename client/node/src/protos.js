@@ -24,7 +24,14 @@ export const Choreography = grpc.loadPackageDefinition(
   protoLoader.loadSync('choreo/v1/choreography.proto', { includeDirs: [folder], ...literal }),
 ).choreo.v1.Choreography;
 
+function load(files, options) {
+  const root = new protobuf.Root();
+  root.resolvePath = (_, file) => join(folder, file);
+  return root.loadSync(files, options).resolveAll();
+}
+
+/** The descriptors of the API's messages. */
+export const api = load(['choreo/v1/choreography.proto'], { keepCase: literal.keepCase });
+
 /** google.rpc: Status and the details of errors. */
-export const rpc = new protobuf.Root();
-rpc.resolvePath = (_, file) => join(folder, file);
-rpc.loadSync(['google/rpc/status.proto', 'google/rpc/error_details.proto']);
+export const rpc = load(['google/rpc/status.proto', 'google/rpc/error_details.proto']);

@@ -10,6 +10,7 @@ const longestBackoff = 2; // seconds
 export class Replicas {
   #servers;
   #current = 0;
+  #closing = new AbortController();
 
   /** Throws ChoreoError for options that cannot be used. */
   constructor(addresses, options) {
@@ -21,7 +22,9 @@ export class Replicas {
     }));
   }
 
+  /** Ends all calls. */
   close() {
+    this.#closing.abort();
     for (const { stub } of this.#servers) stub.close();
   }
 
@@ -30,20 +33,32 @@ export class Replicas {
   }
 
   /**
-   * The answers of `attempt(server, patience)`, an async generator, which is asked for again, of one server after another, until it ends or
-   * trying again would not help.
+   * The answers of `attempt(server, patience, signal)`, an async generator, which is asked for again, of one server after another, until it
+   * ends or trying again would not help. The signal is aborted where the caller's is, or the client is closed.
    */
   async *persist(attempt, { signal, deadline } = {}) {
+    const { end, leave } = joined([signal, this.#closing.signal]);
+    try {
+      yield* this.#persist(attempt, end, deadline);
+    } catch (error) {
+      throw this.#closing.signal.aborted ? cancelled('the client is closed') : error;
+    } finally {
+      leave();
+    }
+  }
+
+  async *#persist(attempt, signal, deadline) {
     const patience = new Patience(this.options, deadline, this.#servers.length);
     for (;;) {
       const server = this.#servers[this.#current];
       try {
-        if (signal?.aborted) throw cancelled();
+        if (signal.aborted) throw cancelled();
         await connected(server, this.options.connectTimeout, deadline);
-        yield* attempt(server, patience);
+        if (signal.aborted) throw cancelled();
+        yield* attempt(server, patience, signal);
         return;
       } catch (error) {
-        if (!(error instanceof ChoreoError) || signal?.aborted) throw error;
+        if (!(error instanceof ChoreoError) || signal.aborted) throw error;
         const wait = patience.next(error, this.#leave(server));
         if (wait === undefined) throw named(patience.verdict, server);
         await sleep(1000 * wait, undefined, { signal }).catch(() => {
@@ -58,6 +73,16 @@ export class Replicas {
     if (this.#servers[this.#current] === failed) this.#current = (this.#current + 1) % this.#servers.length;
     return this.#servers.length > 1;
   }
+}
+
+/** A signal that is aborted as soon as one of `signals` is, and what forgets them. (AbortSignal.any wants Node.js 20.) */
+function joined(signals) {
+  const joint = new AbortController();
+  const abort = () => joint.abort();
+  const given = signals.filter(Boolean);
+  for (const signal of given) signal.addEventListener('abort', abort);
+  if (given.some(({ aborted }) => aborted)) abort();
+  return { end: joint.signal, leave: () => given.forEach((signal) => signal.removeEventListener('abort', abort)) };
 }
 
 /** Waits until the server is there, or will not be: the call then says why. */

@@ -1,16 +1,19 @@
 // A transition whose server is lost is made again by another one; what was told already is left out.
 import { answersOf } from './answers.js';
+import { checked } from './check.js';
 import { unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
 /** The answers of GenerateTransition to `request`. */
-export async function* transition(replicas, request, { signal, deadline } = {}) {
+export async function* transition(replicas, asked, options = {}) {
+  const request = checked('GenerateTransitionRequest', asked, 'request', asked?.config?.audio_format?.encoding);
+  const { deadline } = options;
   let begun; // the first server's header
   let filter;
-  yield* replicas.persist(attempt, { signal, deadline });
+  yield* replicas.persist(attempt, options);
 
-  async function* attempt(server, patience) {
+  async function* attempt(server, patience, signal) {
     const config = begun ? { ...request.config, seed: begun.seed, model: begun.model } : request.config;
     const call = server.stub.GenerateTransition({ ...request, config }, replicas.metadata(), { deadline });
     let complete = false;

@@ -1,0 +1,101 @@
+// Whether a request is one of the API: protobufjs drops or bends what it does not know. Here the descriptors say what there is.
+import { types } from 'node:util';
+import protobuf from 'protobufjs';
+import { invalid } from './error.js';
+import { hint, quoted } from './words.js';
+import { api } from './protos.js';
+
+/** Ranges of whole numbers. */
+const ranges = {
+  int32: [-(2n ** 31n), 2n ** 31n - 1n],
+  uint32: [0n, 2n ** 32n - 1n],
+  int64: [-(2n ** 63n), 2n ** 63n - 1n],
+  uint64: [0n, 2n ** 64n - 1n],
+};
+
+/** Arrays of samples, by the encoding whose bytes they have. */
+const samples = { AUDIO_ENCODING_PCM_F32LE: 'Float32Array', AUDIO_ENCODING_PCM_S16LE: 'Int16Array' };
+
+/**
+ * A copy of `value`, a message of the API's `type`, for the stub. Throws ChoreoError, naming the field's path, the value and what is allowed.
+ * `name`: of the whole. `encoding`: of the music that it may hold.
+ */
+export function checked(type, value, name, encoding) {
+  return message(api.lookupType(`choreo.v1.${type}`), value, '', name, encoding);
+}
+
+function message(type, value, path, name, encoding) {
+  const names = Object.keys(type.fields);
+  if (typeof value !== 'object' || value === null || Symbol.iterator in value || types.isPromise(value)) {
+    throw invalid(path || name, `${quoted(value)} is no ${type.name}, {${names.join(', ')}}`);
+  }
+  const copy = {};
+  const chosen = {}; // of each oneof
+  for (const [key, one] of Object.entries(value)) {
+    if (Object.hasOwn(type.oneofs ?? {}, key) && typeof one !== 'object') continue; // in answers it names what is there
+    const at = path ? `${path}.${key}` : key;
+    if (!Object.hasOwn(type.fields, key)) throw invalid(at, `no field of ${type.name}; ${hint(key, names)}`);
+    if (one === undefined || one === null) continue;
+    const field = type.fields[key];
+    const oneof = field.partOf;
+    if (oneof && chosen[oneof.name]) {
+      throw invalid(at, `given beside ${chosen[oneof.name]}; there is one of ${oneof.oneof.join(', ')}`);
+    }
+    if (oneof) chosen[oneof.name] = key;
+    copy[key] = field.repeated ? list(field, one, at, encoding) : single(field, one, at, encoding);
+  }
+  return copy;
+}
+
+function list(field, value, path, encoding) {
+  if (!Array.isArray(value)) throw invalid(path, `${quoted(value)} is no array`);
+  return Array.from(value, (one, index) => single(field, one, `${path}[${index}]`, encoding));
+}
+
+function single(field, value, path, encoding) {
+  const { type, resolvedType } = field;
+  if (resolvedType instanceof protobuf.Enum) return label(resolvedType, value, path);
+  if (resolvedType) return message(resolvedType, value, path, path, encoding);
+  if (type === 'bytes') return bytes(value, path, encoding);
+  if (type in ranges) return whole(type, value, path);
+  if (type === 'double' || type === 'float') return real(value, path);
+  const wanted = type === 'bool' ? 'boolean' : type;
+  if (typeof value !== wanted) throw invalid(path, `${quoted(value)} is no ${wanted}`);
+  return value;
+}
+
+function label({ name, values }, value, path) {
+  if (Object.hasOwn(values, value) || Object.values(values).includes(value)) return value;
+  throw invalid(path, `${quoted(value)} is no ${name}; ${hint(String(value), Object.keys(values))}`);
+}
+
+function real(value, path) {
+  const number = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
+  if (!Number.isFinite(number)) throw invalid(path, `${quoted(value)} is no finite number`);
+  return number;
+}
+
+function whole(type, value, path) {
+  const [least, most] = ranges[type];
+  const isLong = typeof value === 'object' && value !== null && 'low' in value && 'high' in value; // of the package "long"
+  const isText = typeof value === 'string' && /^-?\d+$/.test(value);
+  const number = Number.isSafeInteger(value) || typeof value === 'bigint' || isText || isLong ? BigInt(String(value)) : undefined;
+  if (number >= least && number <= most) return typeof value === 'number' ? value : String(value);
+  const asText = Number.isInteger(value) && number === undefined ? '; numbers above 2^53 go as text' : '';
+  throw invalid(path, `${quoted(value)} is no whole number from ${least} to ${most}${asText}`);
+}
+
+function bytes(value, path, encoding) {
+  if (types.isUint8Array(value)) return value;
+  if (types.isAnyArrayBuffer(value)) return new Uint8Array(value);
+  if (!ArrayBuffer.isView(value)) {
+    const text = typeof value === 'string' ? '; of base64 Buffer.from makes them' : '';
+    throw invalid(path, `${quoted(value)} is no bytes: a Uint8Array, an ArrayBuffer or the encoding's samples${text}`);
+  }
+  const kind = value.constructor.name;
+  const known = api.lookupEnum('choreo.v1.AudioEncoding').valuesById[encoding] ?? encoding;
+  if ((value.BYTES_PER_ELEMENT ?? 1) > 1 && samples[known] !== kind) {
+    throw invalid(path, `${kind} is not what config.audio_format.encoding says, ${known}: that is ${samples[known] ?? 'Uint8Array'} or any bytes`);
+  }
+  return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
+}

@@ -1,0 +1,118 @@
+// client/node: requests that the API does not know are refused by field, value and what is allowed. $CHOREO_SERVER names a choreod.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
+
+const skeleton = { name: 'two', joint_names: ['pelvis', 'left_shoulder'], pelvis_height: 1 };
+
+async function withClient(use) {
+  const client = new ChoreoClient(process.env.CHOREO_SERVER);
+  try {
+    await use(client);
+  } finally {
+    client.close();
+  }
+}
+
+async function collect(answers) {
+  const all = [];
+  for await (const answer of answers) all.push(answer);
+  return all;
+}
+
+const frames = (answers) => answers.reduce((sum, answer) => sum + (answer.frames?.count ?? 0), 0);
+const config = { config: { frames: 30 } };
+const keyframe = (fields) => [config, { keyframe: { id: 'a', time: 0.5, ...fields } }];
+
+test('a request that the API does not know is refused by its path', () =>
+  withClient(async (client) => {
+    for (const [requests, field, description] of [
+      [[{ config: { frameRate: 60 } }], 'config.frameRate', 'no field of DanceConfig; did you mean frame_rate?'],
+      [[{ config: { rate: undefined } }], 'config.rate', 'no field of DanceConfig; did you mean frame_rate?'],
+      [[{ config: { audio_format: { zoom: 1 } } }], 'config.audio_format.zoom', /^no field of AudioFormat; there are encoding, sample_rate, /],
+      [keyframe({ when: { time: 2 } }), 'keyframe.when', /^no field of Keyframe; there are id, frame, time, /],
+      [[{ config: { encoding: 'QUATERNION' } }], 'config.encoding', "'QUATERNION' is no RotationEncoding; did you mean ROTATION_ENCODING_QUATERNION?"],
+      [[{ config: { encoding: 77 } }], 'config.encoding', /^77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, /],
+      [keyframe({ hands: 'fist' }), 'keyframe.hands', "'fist' is no HandPose; did you mean HAND_POSE_FIST?"],
+      [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is no Vector3, {x, y, z}'],
+      [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is no Pose/],
+      [keyframe({ pose: { rotations: [0, NaN] } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
+      [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is no finite number'],
+      [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is no array"],
+      [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is no whole number from -2147483648 to 2147483647"],
+      [keyframe({ id: 5 }), 'keyframe.id', '5 is no string'],
+      [keyframe({ frame: 3 }), 'keyframe.frame', 'given beside time; there is one of frame, time, interval_after_previous'],
+      [[{ config: {}, end_of_audio: {} }], 'end_of_audio', /^given beside config; there is one of config, audio, /],
+      [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is no boolean"],
+      ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is no whole number from 0 to 18446744073709551615$/]),
+      [[{ config: { seed: 2 ** 64 } }], 'config.seed', /; numbers above 2\^53 go as text$/],
+      [[config, undefined], 'requests[1]', /^undefined is no StreamDanceRequest, {config, audio, /],
+      [[config, [config]], 'requests[1]', /is no StreamDanceRequest/],
+      [undefined, 'requests', 'undefined is no iterable of messages'],
+    ]) {
+      await assert.rejects(collect(client.streamDance(requests)), (error) => {
+        assert.ok(error instanceof ChoreoError, error);
+        assert.equal(error.code, 'INVALID_ARGUMENT');
+        assert.equal(error.violations[0].field, field);
+        const said = error.violations[0].description;
+        if (typeof description === 'string') assert.equal(said, description);
+        else assert.match(said, description);
+        assert.equal(error.message, `${field}: ${said}`);
+        return true;
+      });
+    }
+    const ranked = collect(client.generateTransition({ config: {}, frames: 9, rank_by: 'LIKELIHOOD' }));
+    await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is no RankBy; did you mean RANK_BY_LIKELIHOOD?" });
+    await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
+  }));
+
+test('whole numbers come as numbers, text and bigints', () =>
+  withClient(async (client) => {
+    for (const seed of [7, '7', 7n]) assert.equal((await collect(client.streamDance([{ config: { seed, frames: 30 } }])))[0].header.seed, '7');
+  }));
+
+test('a source whose request is refused is ended', () =>
+  withClient(async (client) => {
+    let ended = false;
+    function* requests() {
+      try {
+        yield { config: {} };
+        yield { keyfarme: {} };
+      } finally {
+        ended = true;
+      }
+    }
+    await assert.rejects(collect(client.streamDance(requests())), { message: 'keyfarme: no field of StreamDanceRequest; did you mean keyframe?' });
+    assert.ok(ended);
+  }));
+
+test('music is bytes, or the samples that its encoding says', () =>
+  withClient(async (client) => {
+    const dance = (encoding, data) =>
+      collect(client.streamDance([{ config: { audio_format: { encoding, sample_rate: 8000, channels: 1 } } }, { audio: { data } }]));
+    const [floats, shorts] = [new Float32Array(8000), new Int16Array(8000)];
+    const bytes = [Buffer.from(floats.buffer), new Uint8Array(floats.buffer), floats.buffer, new DataView(floats.buffer)];
+    for (const data of [floats, ...bytes]) assert.equal(frames(await dance('AUDIO_ENCODING_PCM_F32LE', data)), 30);
+    for (const data of [shorts, shorts.buffer]) assert.equal(frames(await dance('AUDIO_ENCODING_PCM_S16LE', data)), 30);
+    assert.equal(frames(await dance(1, floats.subarray(4000))), 15);
+    const wrong = /^audio\.data: Float32Array is not what config\.audio_format\.encoding says, AUDIO_ENCODING_PCM_S16LE: that is Int16Array or any bytes$/;
+    for (const encoding of ['AUDIO_ENCODING_PCM_S16LE', 2]) await assert.rejects(dance(encoding, floats), { message: wrong });
+    for (const data of [[1, 2], 'song.mp3', 5]) {
+      await assert.rejects(dance('AUDIO_ENCODING_PCM_S16LE', data), { message: /^audio\.data: .* is no bytes/ });
+    }
+  }));
+
+test('a pose of joints that are not there, or of what is no rotation, is refused', () => {
+  for (const [rotations, message] of [
+    [{ leftShoulder: [0, 0, 1] }, 'rotations.leftShoulder: no joint of two; did you mean left_shoulder?'],
+    [{ tail: [0, 0, 1] }, 'rotations.tail: no joint of two; there are pelvis, left_shoulder'],
+    [{ pelvis: 1 }, 'rotations.pelvis: 1 is not [x, y, z], three finite numbers'],
+    [{ pelvis: [1, 2] }, 'rotations.pelvis: [ 1, 2 ] is not [x, y, z], three finite numbers'],
+    [{ pelvis: [0, NaN, 0] }, 'rotations.pelvis: [ 0, NaN, 0 ] is not [x, y, z], three finite numbers'],
+  ]) {
+    assert.throws(() => pose(skeleton, rotations), { code: 'INVALID_ARGUMENT', message });
+  }
+  assert.throws(() => pose(skeleton, {}, { x: NaN }), { message: 'x: NaN is no finite number' });
+  assert.throws(() => pose(null), { message: /^skeleton: null is none/ });
+  assert.deepEqual(pose(skeleton, { left_shoulder: new Float32Array([0, 0, 1]) }, { z: 2 }).rotations, [0, 0, 0, 0, 0, 1]);
+});
