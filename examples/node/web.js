@@ -2,10 +2,10 @@
 //   node web.js [--server HOST:PORT]... [--port 8080] [--seconds 60] [--speed 1]
 //
 //   GET  /                  web.html
-//   GET  /dance?seed=1      events: dance, frames, key, moved, over, failed
+//   GET  /dance?seed=1      events: dance, frames, key, moved, over, failed; with Last-Event-ID those after it
 //   POST /dance/ID/keys     {"id": "wave", "time": 4.5, "rotations": {"left_shoulder": [0, 0, 1]}}
 import { randomUUID } from 'node:crypto';
-import { once } from 'node:events';
+import { EventEmitter, once } from 'node:events';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { pose } from 'choreo-client';
@@ -19,6 +19,8 @@ const flags = {
 };
 const lookAhead = 0.5; // seconds: what is nearer than this is settled, and on its way to the page
 const mostBytes = 65536; // of what a page may send
+const mostAway = 5; // seconds that a dance goes on without its page, whose connection may be lost
+const untilBack = 0.5; // seconds after which a browser asks for the rest
 
 /** What a page asked for that makes no sense; the page is told why. */
 class Refusal extends Error {
@@ -72,7 +74,7 @@ class Backend {
       response.setHeader('Content-Type', 'text/html; charset=utf-8');
       response.end(await readFile(new URL('web.html', import.meta.url)));
     } else if (asked === 'GET /dance') {
-      await this.#watch(url.searchParams.get('seed') ?? '1', response);
+      await this.#watch(url.searchParams.get('seed') ?? '1', request.headers['last-event-id'], response);
     } else if (dance) {
       await this.#addKey(dance, request);
       response.writeHead(202).end();
@@ -83,7 +85,7 @@ class Backend {
 
   async #addKey(id, request) {
     const dance = this.#dances.get(id);
-    if (!dance) throw new Refusal(404, `nobody dances ${id}`);
+    if (!dance || dance.over) throw new Refusal(404, `nobody dances ${id}`);
     let text = '';
     for await (const piece of request.setEncoding('utf8')) {
       text += piece;
@@ -98,43 +100,79 @@ class Backend {
     dance.requests.push(keyRequest(key, dance));
   }
 
-  /** Sends a dance as events, until it is over or the page is closed. */
-  async #watch(seed, response) {
+  /**
+   * Tells a page of a dance: a new one or, where its connection was lost, the one of which it heard up to the event `heard`. A browser asks for
+   * that by itself.
+   */
+  async #watch(seed, heard, response) {
+    const [id, last] = heard?.split('/') ?? [];
+    if (heard && !this.#dances.has(id)) return response.writeHead(204).end(); // nothing is left to tell: the browser asks no more
     if (!/^\d{1,19}$/.test(seed)) throw new Refusal(400, `seed: ${seed} is no whole number of 1 to 19 digits`);
-    const stop = new AbortController();
-    response.once('close', () => stop.abort());
+    const dance = heard ? this.#dances.get(id) : this.#begin(seed);
+    const gone = new AbortController();
+    response.once('close', () => gone.abort());
     response.writeHead(200, { 'Content-Type': 'text/event-stream', 'Cache-Control': 'no-store' });
-    const send = async (event, data) => {
-      // A page that reads slowly slows its dance down.
-      if (!response.write(`event: ${event}\ndata: ${JSON.stringify(data)}\n\n`)) await once(response, 'drain', { signal: stop.signal });
-    };
-    const id = randomUUID();
-    const onResume = ({ address, frame }) => send('moved', { address, frame }).catch(() => {});
+    response.write(`retry: ${1000 * untilBack}\n\n`);
+    clearTimeout(dance.forget);
+    ++dance.watchers;
     try {
-      const model = (await this.#client.info({ signal: stop.signal })).models[0];
-      const frames = Math.round(this.#options.seconds * model.model_frame_rate);
-      // Of its keys the requests that are still to be said, and their frames; frames before `granted` are settled.
-      this.#dances.set(id, { model, frames, granted: 0, requests: [], places: new Map() });
-      for await (const answer of this.#client.streamDance(this.#requests(id, seed), { signal: stop.signal, onResume })) {
-        const { header, frames: block, event, summary } = answer;
-        if (header) await send('dance', { id, frame_rate: header.frame_rate, skeleton: header.skeleton });
-        if (block) await send('frames', { first: Number(block.first_frame), places: short(block.root_positions), turns: short(block.rotations) });
-        if (event?.keyframe_reached) await send('key', { id: event.keyframe_reached.id, time: event.time });
-        if (event?.keyframe_rejected) await send('key', { id: event.keyframe_rejected.id, refused: event.keyframe_rejected.reason });
-        if (summary) await send('over', { frames: Number(summary.report.frames) });
+      for (let at = heard ? Number(last) + 1 : 0; at < dance.told.length || !dance.over; ) {
+        if (at >= dance.told.length) await once(dance.news, 'told', { signal: gone.signal });
+        else if (!response.write(dance.told[at++])) await once(response, 'drain', { signal: gone.signal });
       }
     } catch (error) {
-      if (!stop.signal.aborted) await send('failed', { code: error.code, message: error.message, retry_after: error.retryAfter });
+      if (!gone.signal.aborted) throw error;
     } finally {
-      this.#dances.delete(id);
+      if (--dance.watchers === 0) dance.forget = setTimeout(() => this.#end(dance), 1000 * mostAway).unref();
       response.end();
     }
   }
 
+  #begin(seed) {
+    // Of its keys the requests that are still to be said, and their frames; frames before `granted` are settled. All that is told is kept, for
+    // pages that come back.
+    const dance = { id: randomUUID(), granted: 0, requests: [], places: new Map(), told: [], news: new EventEmitter(), watchers: 0, over: false };
+    dance.stop = new AbortController();
+    this.#dances.set(dance.id, dance);
+    this.#dance(dance, seed);
+    return dance;
+  }
+
+  #end(dance) {
+    dance.stop.abort();
+    this.#dances.delete(dance.id);
+  }
+
+  /** Dances, and tells of it as events. */
+  async #dance(dance, seed) {
+    const { signal } = dance.stop;
+    const tell = (event, data) => {
+      dance.told.push(`id: ${dance.id}/${dance.told.length}\nevent: ${event}\ndata: ${JSON.stringify(data)}\n\n`);
+      dance.news.emit('told');
+    };
+    const onResume = ({ address, frame }) => tell('moved', { address, frame });
+    try {
+      dance.model = (await this.#client.info({ signal })).models[0];
+      dance.frames = Math.round(this.#options.seconds * dance.model.model_frame_rate);
+      for await (const answer of this.#client.streamDance(this.#requests(dance, seed), { signal, onResume })) {
+        const { header, frames: block, event, summary } = answer;
+        if (header) tell('dance', { id: dance.id, frame_rate: header.frame_rate, skeleton: header.skeleton });
+        if (block) tell('frames', { first: Number(block.first_frame), places: short(block.root_positions), turns: short(block.rotations) });
+        if (event?.keyframe_reached) tell('key', { id: event.keyframe_reached.id, time: event.time });
+        if (event?.keyframe_rejected) tell('key', { id: event.keyframe_rejected.id, refused: event.keyframe_rejected.reason });
+        if (summary) tell('over', { frames: Number(summary.report.frames) });
+      }
+    } catch (error) {
+      tell('failed', { code: error.code, message: error.message, retry_after: error.retryAfter });
+    } finally {
+      dance.over = true;
+      dance.news.emit('told');
+    }
+  }
+
   /** A dance to music that is being played, with the keys that come from its page. */
-  async *#requests(id, seed) {
+  async *#requests(dance, seed) {
     const { seconds, speed } = this.#options;
-    const dance = this.#dances.get(id);
     // Without generate_until here each key would settle the frames up to itself.
     yield { config: { seed, frames: dance.frames, audio_format: pcm, encoding: 'ROTATION_ENCODING_QUATERNION', generate_until: 0 } };
     for await (const piece of live(clicks(seconds), speed)) {

@@ -29,14 +29,14 @@ async function withBackend(servers, use) {
   assert.deepEqual(await over, [0, null], 'Ctrl-C ends it');
 }
 
-/** What a page hears: [event, data]. */
+/** What a page hears: [event, data, id]. */
 async function* eventsOf(response) {
   let text = '';
   for await (const piece of response.body.pipeThrough(new TextDecoderStream())) {
     text += piece;
     for (let end; (end = text.indexOf('\n\n')) >= 0; text = text.slice(end + 2)) {
-      const [, event, data] = /^event: (\w+)\ndata: (.*)$/.exec(text.slice(0, end));
-      yield [event, JSON.parse(data)];
+      const [, id, event, data] = /^id: (\S+)\nevent: (\w+)\ndata: (.*)$/.exec(text.slice(0, end)) ?? [];
+      if (event) yield [event, JSON.parse(data), id];
     }
   }
 }
@@ -130,6 +130,37 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
       const answer = await fetch(address + path);
       assert.equal(answer.status, status, await answer.text());
     }
+  }));
+
+test('a page whose connection is lost hears the rest, and no second dance', () =>
+  withBackend([other], async (address) => {
+    let [frames, last, heard] = [0, undefined, []];
+    // As a browser does, after each second of the dance.
+    for (let connection = 0; heard.at(-1) !== 'over'; ++connection) {
+      assert.ok(connection < 9, heard);
+      const cut = new AbortController();
+      const headers = last ? { 'Last-Event-ID': last } : {};
+      const response = await fetch(`${address}/dance?seed=7`, { headers, signal: cut.signal });
+      assert.equal(response.status, 200);
+      const until = frames + 30;
+      try {
+        for await (const [event, data, id] of eventsOf(response)) {
+          if (frames >= until) cut.abort(); // what comes now is lost
+          cut.signal.throwIfAborted();
+          last = id;
+          if (event !== 'frames') heard.push(event);
+          else {
+            assert.equal(data.first, frames);
+            frames += data.places.length / 3;
+          }
+        }
+      } catch (error) {
+        if (!cut.signal.aborted) throw error;
+      }
+    }
+    assert.deepEqual([frames, heard], [180, ['dance', 'over']]);
+    const gone = await fetch(`${address}/dance?seed=7`, { headers: { 'Last-Event-ID': 'nobody/3' } });
+    assert.equal(gone.status, 204);
   }));
 
 test('a page that is closed ends its dance on the server', () =>
