@@ -25,7 +25,7 @@ function run(program, args) {
 
 before(async () => {
   app = await mkdtemp(join(tmpdir(), 'choreo-'));
-  for (const name of ['transition.ts', 'proxy.ts', 'package.json']) await cp(join(sources, name), join(app, name));
+  for (const name of ['transition.ts', 'transition_types.ts', 'proxy.ts', 'package.json']) await cp(join(sources, name), join(app, name));
   await cp(join(root, 'proto'), join(app, 'proto'), { recursive: true });
   await symlink(join(sources, 'node_modules'), join(app, 'node_modules'));
   // As docs/programs.md has it.
@@ -39,11 +39,12 @@ after(() => rm(app, { recursive: true }));
 test('the messages of protoc-gen-es type-check, and dance through a proxy of gRPC-Web', async () => {
   const options = ['--strict', '--noUncheckedIndexedAccess', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom,dom.iterable'];
   const types = ['--typeRoots', join(tools, '@types'), '--types', 'node', '--skipLibCheck'];
-  const { code, said } = await run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...types, 'transition.ts', 'proxy.ts']);
+  const { code, said } = await run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...types, 'transition_types.ts', 'proxy.ts']);
   assert.equal(code, 0, said);
 
   const made = (name) => import(pathToFileURL(join(app, name)));
-  const { fieldsOf, firstModel, good, ways } = await made('transition.js');
+  const { fieldsOf, firstModel, ways } = await made('transition.js');
+  const { good } = await made('transition_types.js');
   const server = (await made('proxy.js')).proxy(`http://${process.env.CHOREO_SERVER}`).listen(0, '127.0.0.1');
   await once(server, 'listening');
   const address = `http://127.0.0.1:${server.address().port}`;
@@ -51,6 +52,16 @@ test('the messages of protoc-gen-es type-check, and dance through a proxy of gRP
   try {
     const model = await firstModel(address);
     assert.equal(model.skeleton.jointNames.length, 24);
+
+    // What a browser asks first, for a page of another origin.
+    const headers = { Origin: 'http://page.test', 'Access-Control-Request-Method': 'POST', 'Access-Control-Request-Headers': 'content-type,x-grpc-web' };
+    const preflight = await fetch(`${address}/choreo.v1.Choreography/GenerateTransition`, { method: 'OPTIONS', headers });
+    assert.equal(preflight.status, 204);
+    const allowed = (what) => preflight.headers.get(`access-control-${what}`)?.toLowerCase() ?? '';
+    assert.equal(allowed('allow-origin'), '*');
+    assert.match(allowed('allow-methods'), /post/);
+    for (const header of ['content-type', 'x-grpc-web']) assert.ok(allowed('allow-headers').split(',').includes(header), header);
+    for (const header of ['grpc-status', 'grpc-message']) assert.ok(allowed('expose-headers').split(',').includes(header), header);
 
     const { rotations, best } = await ways(address, good);
     const direct = [[], []];

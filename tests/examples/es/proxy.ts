@@ -1,10 +1,14 @@
-// gRPC-Web in front of a choreod, for pages, where there is no Envoy.
+// gRPC-Web in front of a choreod, for pages, where there is no Envoy:
+//   npm install @bufbuild/protobuf @connectrpc/connect @connectrpc/connect-node
+//
+//   proxy('http://127.0.0.1:50051').listen(8081);
 import { createServer, type Server } from 'node:http';
-import { createClient } from '@connectrpc/connect';
+import { cors, createClient } from '@connectrpc/connect';
 import { connectNodeAdapter, createGrpcTransport } from '@connectrpc/connect-node';
 import { Choreography } from './gen/choreo/v1/choreography_pb.js';
 
-export function proxy(baseUrl: string): Server {
+/** Pages of `origin` may ask; of any, if it is left out. */
+export function proxy(baseUrl: string, origin = '*'): Server {
   const choreod = createClient(Choreography, createGrpcTransport({ baseUrl }));
   const adapter = connectNodeAdapter({
     connect: false,
@@ -15,5 +19,13 @@ export function proxy(baseUrl: string): Server {
         generateTransition: (request, { signal }) => choreod.generateTransition(request, { signal }),
       }),
   });
-  return createServer(adapter);
+  return createServer((request, response) => {
+    response.setHeader('Access-Control-Allow-Origin', origin);
+    response.setHeader('Access-Control-Expose-Headers', cors.exposedHeaders.join());
+    if (request.method !== 'OPTIONS') return adapter(request, response);
+    // Before it calls, the browser asks whether the page may.
+    response.setHeader('Access-Control-Allow-Methods', cors.allowedMethods.join());
+    response.setHeader('Access-Control-Allow-Headers', cors.allowedHeaders.join());
+    response.writeHead(204).end();
+  });
 }

@@ -1,4 +1,5 @@
 // What a page in the browser does: asks for ways to a pose by gRPC-Web, with messages of protoc-gen-es.
+//   npm install @bufbuild/protobuf @connectrpc/connect @connectrpc/connect-web
 import type { MessageInitShape } from '@bufbuild/protobuf';
 import { ConnectError, createClient } from '@connectrpc/connect';
 import { createGrpcWebTransport } from '@connectrpc/connect-web';
@@ -37,9 +38,3 @@ export async function ways(baseUrl: string, request: Request): Promise<{ rotatio
 export function fieldsOf(error: unknown): string[] {
   return ConnectError.from(error).findDetails(BadRequestSchema).flatMap(({ fieldViolations }) => fieldViolations.map(({ field }) => field));
 }
-
-// @ts-expect-error: seeds have 64 bits
-export const numberSeed: Request = { config: { seed: 1 } };
-// @ts-expect-error: no such field
-export const unknownField: Request = { frames: 30, candidate: 2 };
-export const good: Request = { config: { seed: 1n }, frames: 30, candidates: 2 };
