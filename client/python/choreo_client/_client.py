@@ -1,56 +1,69 @@
+from __future__ import annotations
+
+import typing
+
 from . import choreography
-from ._dance import dance
+from ._dance import Resumed, dance
+from ._errors import invalid
 from ._options import Options
 from ._replicas import Cancellation, Replicas
 from ._transition import transition
 
 
-class Answers:
+Answer = typing.TypeVar("Answer")
+Fields = typing.Mapping[str, typing.Any]  # of a message, by name
+
+
+class Answers(typing.Generic[Answer]):
     """A server's answers, as they arrive. If you stop reading early, end the call: use this as a context manager."""
 
     def __init__(self, answers, until):
         self._answers, self._until = answers, until
 
-    def __iter__(self):
+    def __iter__(self) -> Answers[Answer]:
         return self
 
-    def __next__(self):
+    def __next__(self) -> Answer:
         return next(self._answers)
 
-    def __enter__(self):
+    def __enter__(self) -> Answers[Answer]:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.cancel()
         self._answers.close()
 
-    def cancel(self):
+    def cancel(self) -> None:
         """Ends the call, here and on the server, from any thread; reading then raises ChoreoError, code CANCELLED."""
         self._until.cancel()
 
 
 class Client:
     """A client of one server or of several replicas. Connections are made when needed. A call whose server is lost, is full or refuses a model
-    or fingerprint is tried at the next address. Thread-safe. Every failure is a ChoreoError.
+    or fingerprint is tried at the next address. Thread-safe, but to be made after a fork. Calls block. Every failure is a ChoreoError, but for
+    what `requests` and `on_resume` raise, which comes as it is, and names that are no options: a TypeError.
 
     `addresses`: HOST:PORT, unix:PATH or a list of them, which are replicas: when one fails the next is asked. Calls take turns at the
     addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT), and pass those whose health says that they do not serve,
     unless `even_draining`.
     `options`: those of Options."""
 
-    def __init__(self, addresses, **options):
+    def __init__(self, addresses: typing.Union[str, typing.Iterable[str]], **options: typing.Any) -> None:
+        if not hasattr(addresses, "__iter__"):
+            raise invalid("addresses", f"{addresses!r} is neither HOST:PORT nor a list of them")
         self._replicas = Replicas([addresses] if isinstance(addresses, str) else list(addresses), Options(**options))
 
-    def close(self):
+    def close(self) -> None:
+        """Ends its calls with CANCELLED, and refuses others."""
         self._replicas.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Client:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def info(self, timeout=None):
+    def info(self, timeout: typing.Optional[float] = None) -> choreography.GetServerInfoResponse:
         """Models, limits, devices: a GetServerInfoResponse. `timeout`: seconds, of all attempts together."""
         until = Cancellation(timeout)
         metadata = self._replicas.options.metadata
@@ -60,18 +73,25 @@ class Client:
 
         return next(self._replicas.persist(attempt, until))
 
-    def stream_dance(self, requests, on_resume=None, timeout=None):
+    def stream_dance(
+        self,
+        requests: typing.Iterable[typing.Union[choreography.StreamDanceRequest, Fields]],
+        on_resume: typing.Optional[typing.Callable[[Resumed], object]] = None,
+        timeout: typing.Optional[float] = None,
+    ) -> Answers[choreography.StreamDanceResponse]:
         """Dances. Sends the `requests`, an iterable of StreamDanceRequests or of their fields ({"keyframe": ...}), on another thread as fast as
         the server takes them, and gives the answers meanwhile: Answers with StreamDanceResponses.
 
         When its server is lost, the dance goes on at the next one from the last continuation: answers are those of an undisturbed dance, bit
-        for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. (The
-        summary's shares are those of the frames since the last resume.)"""
+        for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. One that the
+        API does not know ends the dance, naming the field's path. (The summary's shares are those of the frames since the last resume.)"""
         until = Cancellation(timeout)
         return Answers(dance(self._replicas, requests, on_resume, until), until)
 
-    def generate_transition(self, request, timeout=None):
-        """One transition, in one or several candidates: Answers with GenerateTransitionResponses. When its server is lost, another one makes it
+    def generate_transition(
+        self, request: typing.Union[choreography.GenerateTransitionRequest, Fields], timeout: typing.Optional[float] = None
+    ) -> Answers[choreography.GenerateTransitionResponse]:
+        """One transition, in one or several candidates: Answers with GenerateTransitionResponses. `request`: one, or its fields. When its server is lost, another one makes it
         again; nothing is told twice."""
         until = Cancellation(timeout)
         return Answers(transition(self._replicas, request, until), until)

@@ -5,6 +5,9 @@ import math
 import threading
 
 from . import choreography
+from ._check import checked
+from ._errors import ChoreoError, invalid
+from ._words import quoted
 
 _BYTES = {choreography.AUDIO_ENCODING_PCM_F32LE: 4, choreography.AUDIO_ENCODING_PCM_S16LE: 2}
 
@@ -13,6 +16,8 @@ class Journal:
     """Calls take their requests from it on threads of their own, one after another."""
 
     def __init__(self, requests):
+        if not hasattr(requests, "__iter__"):
+            raise invalid("requests", f"{quoted(requests)} is no iterable of messages")
         self._source = iter(requests)
         self._asking = threading.Lock()
         self._said = []  # None: forgotten
@@ -34,22 +39,30 @@ class Journal:
 
     def _ask(self):
         try:
-            request = next(self._source)
-            if not isinstance(request, choreography.StreamDanceRequest):
-                request = choreography.StreamDanceRequest(**request)
-            self._said.append(request)
+            self._said.append(self._checked(next(self._source)))
         except StopIteration:
             self._over = True
         except BaseException as failure:
             self._over, self.failure = True, failure
             raise
 
+    def _checked(self, request):
+        encoding = self._said[0].config.audio_format.encoding if self._said else 0
+        try:
+            return checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", encoding)
+        except ChoreoError:  # of which the source knows nothing
+            self._end_source()
+            raise
+
+    def _end_source(self):
+        if hasattr(self._source, "close"):
+            self._source.close()
+
     def close(self):
         """Nobody will ask any more. A source that is at work is left to itself."""
         if self._asking.acquire(blocking=False):
             self._over = True
-            if hasattr(self._source, "close"):
-                self._source.close()
+            self._end_source()
             self._asking.release()
 
     def forget_music_before(self, sample, sent):

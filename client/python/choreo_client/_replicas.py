@@ -1,5 +1,6 @@
 """The servers that may be asked, one at a time, and how long to go on asking."""
 
+import numbers
 import random
 import threading
 import time
@@ -7,7 +8,8 @@ import time
 import grpc
 
 from . import choreography
-from ._errors import ChoreoError, advice_for
+from ._errors import ChoreoError, advice_for, invalid
+from ._words import quoted
 
 LONGEST_BACKOFF = 2  # seconds
 
@@ -42,9 +44,12 @@ class Replicas:
         self.options = options
         self._servers = [Server(address, options, credentials) for address in addresses]
         self._current = 0
+        self._closed = False
         self._lock = threading.Lock()
 
     def close(self):
+        """Ends all calls."""
+        self._closed = True
         for server in self._servers:
             server.channel.close()
 
@@ -62,6 +67,11 @@ class Replicas:
                 error = ChoreoError.of(failure)
             except ChoreoError as failure:
                 error = failure
+            except ValueError:  # what closed channels raise
+                if not self._closed:
+                    raise
+            if self._closed:
+                raise ChoreoError("CANCELLED", "the client is closed")
             if until.cancelled:
                 raise error
             wait = patience.next(error, self._leave(server))
@@ -89,6 +99,8 @@ class Cancellation:
     """Ends a call, from any thread, whichever attempt it is at; and when it has to be over by itself."""
 
     def __init__(self, timeout=None):
+        if timeout is not None and not isinstance(timeout, numbers.Real):
+            raise invalid("timeout", f"{quoted(timeout)} is no number of seconds")
         self.deadline = None if timeout is None else time.monotonic() + timeout
         self._asked = threading.Event()
         self._lock = threading.Lock()

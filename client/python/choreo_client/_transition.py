@@ -1,6 +1,7 @@
 """A transition whose server is lost is made again by another one; what was told already is left out."""
 
 from . import choreography
+from ._check import checked, music_encoding
 from ._errors import unavailable
 from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
@@ -8,7 +9,7 @@ from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 def transition(replicas, request, until):
     """The answers of GenerateTransition to `request`."""
     asked = choreography.GenerateTransitionRequest()
-    asked.CopyFrom(request)
+    asked.CopyFrom(checked(choreography.GenerateTransitionRequest, request, "request", music_encoding(request)))
     begun = delivery_filter = None  # by the first server
 
     def attempt(server, patience):

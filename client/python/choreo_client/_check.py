@@ -1,0 +1,118 @@
+"""Makes messages of what callers give, messages or their fields. protobuf refuses nearly all that the API does not know; here the error names
+the field's path, the value and what is allowed, and comes as a ChoreoError."""
+
+import collections.abc
+import math
+import numbers
+import operator
+
+from google.protobuf.descriptor import FieldDescriptor as Field
+from google.protobuf.message import Message
+
+from . import choreography
+from ._errors import invalid
+from ._words import hint, quoted
+
+_RANGES = {
+    Field.CPPTYPE_INT32: (-(2**31), 2**31 - 1),
+    Field.CPPTYPE_UINT32: (0, 2**32 - 1),
+    Field.CPPTYPE_INT64: (-(2**63), 2**63 - 1),
+    Field.CPPTYPE_UINT64: (0, 2**64 - 1),
+}
+# What buffers of samples hold, by the encoding whose bytes they have.
+_SAMPLES = {"AUDIO_ENCODING_PCM_F32LE": "f", "AUDIO_ENCODING_PCM_S16LE": "h"}
+
+
+def checked(kind, value, name, encoding=0):
+    """A message of class `kind`: `value`, or of its fields. `name`: of the whole. `encoding`: of the music that it may hold."""
+    return _message(kind.DESCRIPTOR, value, "", name, encoding)
+
+
+def music_encoding(request):
+    """What a request's config says of its music."""
+    for name in ("config", "audio_format", "encoding"):
+        request = request.get(name) if isinstance(request, collections.abc.Mapping) else getattr(request, name, None)
+    return request
+
+
+def _message(descriptor, value, path, name, encoding):
+    kind = getattr(choreography, descriptor.name)
+    if isinstance(value, kind):
+        return value
+    names = [field.name for field in descriptor.fields]
+    if not isinstance(value, collections.abc.Mapping):
+        given = f"a {value.DESCRIPTOR.full_name}" if isinstance(value, Message) else quoted(value)
+        raise invalid(path or name, f"{given} is no {descriptor.name}, {{{', '.join(names)}}}")
+    fields, chosen = {}, {}
+    for key, one in value.items():
+        at = f"{path}.{key}" if path else str(key)
+        field = descriptor.fields_by_name.get(key) if isinstance(key, str) else None
+        if field is None:
+            raise invalid(at, f"no field of {descriptor.name}; {hint(key, names)}")
+        if one is None:
+            continue
+        oneof = field.containing_oneof
+        if oneof is not None and chosen.setdefault(oneof.name, key) != key:
+            raise invalid(at, f"given beside {chosen[oneof.name]}; there is one of {', '.join(other.name for other in oneof.fields)}")
+        fields[key] = (_list if _is_repeated(field) else _single)(field, one, at, encoding)
+    return kind(**fields)
+
+
+def _is_repeated(field):
+    # The second is what protobuf had before 6.31.
+    return field.is_repeated if hasattr(field, "is_repeated") else field.label == Field.LABEL_REPEATED
+
+
+def _list(field, value, path, encoding):
+    texts = (str, bytes, collections.abc.Mapping)
+    if isinstance(value, texts) or not hasattr(value, "__iter__"):
+        raise invalid(path, f"{quoted(value)} is no list")
+    return [_single(field, one, f"{path}[{index}]", encoding) for index, one in enumerate(value)]
+
+
+def _single(field, value, path, encoding):
+    if field.message_type is not None:
+        return _message(field.message_type, value, path, path, encoding)
+    if field.enum_type is not None:
+        return _label(field.enum_type, value, path)
+    if field.type == Field.TYPE_BYTES:
+        return _bytes(value, path, encoding)
+    if field.cpp_type in _RANGES:
+        return _whole(value, path, *_RANGES[field.cpp_type])
+    if field.type == Field.TYPE_STRING and isinstance(value, str):
+        return value
+    if field.type == Field.TYPE_BOOL and isinstance(value, int) and value in (0, 1):
+        return bool(value)
+    if field.type in (Field.TYPE_STRING, Field.TYPE_BOOL):
+        raise invalid(path, f"{quoted(value)} is no {'str' if field.type == Field.TYPE_STRING else 'bool'}")
+    if not isinstance(value, numbers.Real) or isinstance(value, bool) or not math.isfinite(value):
+        raise invalid(path, f"{quoted(value)} is no finite number")
+    return float(value)
+
+
+def _label(kind, value, path):
+    known = value in kind.values_by_name if isinstance(value, str) else value in kind.values_by_number
+    if not known:
+        raise invalid(path, f"{quoted(value)} is no {kind.name}; {hint(value, list(kind.values_by_name))}")
+    return value
+
+
+def _whole(value, path, least, most):
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or isinstance(value, bool) or not least <= number <= most:
+        raise invalid(path, f"{quoted(value)} is no whole number from {least} to {most}")
+    return number
+
+
+def _bytes(value, path, encoding):
+    try:
+        view = memoryview(value)
+    except TypeError:
+        raise invalid(path, f"{quoted(value)} is no bytes, and no buffer of the encoding's samples") from None
+    known = choreography.AudioEncoding.Name(encoding) if isinstance(encoding, int) and encoding else encoding or "nothing"
+    if view.itemsize > 1 and view.format.lstrip("@=<") != _SAMPLES.get(known):
+        raise invalid(path, f"samples of format {view.format!r} are not what config.audio_format.encoding says, {known}")
+    return view.tobytes()

@@ -1,0 +1,130 @@
+"""client/python: requests that the API does not know are refused by field, value and what is allowed; failures are ChoreoErrors; methods say
+what they take. python_test.py runs it; $CHOREO_SERVER names a choreod."""
+
+import array
+import inspect
+import os
+import threading
+import typing
+import unittest
+
+from choreo_client import Answers, ChoreoError, Client, choreography, pose
+
+SKELETON = choreography.Skeleton(name="two", joint_names=["pelvis", "left_shoulder"], pelvis_height=1)
+CONFIG = {"config": {"frames": 30}}
+
+
+def keyframe(**fields):
+    return [CONFIG, {"keyframe": {"id": "a", "time": 0.5, **fields}}]
+
+
+class CheckTest(unittest.TestCase):
+    def setUp(self):
+        self.client = Client(os.environ["CHOREO_SERVER"])
+        self.addCleanup(self.client.close)
+
+    def dance(self, *requests):
+        return list(self.client.stream_dance(requests))
+
+    def assert_refused(self, pattern, call, *arguments, code="INVALID_ARGUMENT"):
+        with self.assertRaisesRegex(ChoreoError, f"^{pattern}") as raised:
+            call(*arguments)
+        self.assertEqual(raised.exception.code, code)
+        return raised.exception
+
+    def test_a_request_that_the_api_does_not_know_is_refused_by_its_path(self):
+        for requests, field, description in (
+            ([{"config": {"frameRate": 60}}], "config.frameRate", r"no field of DanceConfig; did you mean frame_rate\?$"),
+            ([{"config": {"audio_format": {"zoom": 1}}}], "config.audio_format.zoom", "no field of AudioFormat; there are encoding, "),
+            ([{"config": {"encoding": "QUATERNION"}}], "config.encoding", r"'QUATERNION' is no .*; did you mean ROTATION_ENCODING_QUATERNION\?$"),
+            ([{"config": {"encoding": 77}}], "config.encoding", "77 is no RotationEncoding; there are ROTATION_ENCODING_UNSPECIFIED, "),
+            (keyframe(hands="fist"), "keyframe.hands", r"'fist' is no HandPose; did you mean HAND_POSE_FIST\?$"),
+            (keyframe(pose={"root_position": [0, 1, 0]}), "keyframe.pose.root_position", r"\[0, 1, 0\] is no Vector3, {x, y, z}$"),
+            (keyframe(pose=choreography.Vector3()), "keyframe.pose", "a choreo.v1.Vector3 is no Pose, "),
+            (keyframe(pose={"rotations": [0, float("nan")]}), "keyframe.pose.rotations[1]", "nan is no finite number$"),
+            (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is no list$"),
+            (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is no whole number from -2147483648 to 2147483647$"),
+            (keyframe(id=5), "keyframe.id", "5 is no str$"),
+            (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
+            ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is no bool$"),
+            *(([{"config": {"seed": seed}}], "config.seed", ".* is no whole number from 0 to 18446744073709551615$") for seed in (1.5, -1, 2**64, "7")),
+            ([CONFIG, None], "requests[1]", "None is no StreamDanceRequest, {config, audio, "),
+        ):
+            error = self.assert_refused("", self.dance, *requests)
+            ((named, said),) = error.violations
+            self.assertEqual(named, field)
+            self.assertRegex(said, f"^{description}")
+            self.assertEqual(str(error), f"{named}: {said}")
+        self.assert_refused("requests: None is no iterable", lambda: list(self.client.stream_dance(None)))
+        self.assert_refused("rank_by: 'LIKELIHOOD' is no RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
+        self.assert_refused("request: None is no GenerateTransitionRequest", self.client.generate_transition, None)
+
+    def test_a_source_whose_request_is_refused_is_ended(self):
+        ended = threading.Event()
+
+        def requests():
+            try:
+                yield {"config": {}}
+                yield {"keyfarme": {}}
+            finally:
+                ended.set()
+
+        wrong = r"keyfarme: no field of StreamDanceRequest; did you mean keyframe\?$"
+        self.assert_refused(wrong, lambda: list(self.client.stream_dance(requests())))
+        self.assertTrue(ended.wait(10))
+
+    def test_music_is_bytes_or_the_samples_that_its_encoding_says(self):
+        def dance(encoding, data):
+            audio_format = {"encoding": encoding, "sample_rate": 8000, "channels": 1}
+            return sum(answer.frames.count for answer in self.dance({"config": {"audio_format": audio_format}}, {"audio": {"data": data}}))
+
+        floats = array.array("f", bytes(4 * 8000))
+        for data in (floats, floats.tobytes(), memoryview(floats.tobytes()), bytearray(floats)):
+            self.assertEqual(dance("AUDIO_ENCODING_PCM_F32LE", data), 30)
+        for data in (floats, array.array("d", [0]), "song.mp3", [1, 2]):
+            self.assert_refused(r"audio\.data: ", dance, choreography.AUDIO_ENCODING_PCM_S16LE, data)
+
+    def test_a_transition_takes_fields(self):
+        answers = list(self.client.generate_transition({"config": {"seed": 3}, "frames": 20, "candidates": 2}))
+        self.assertEqual(sum(answer.frames.count for answer in answers), 40)
+
+    def test_a_pose_of_joints_that_are_not_there_or_of_no_rotations_is_refused(self):
+        for rotations, message in (
+            ({"leftShoulder": [0, 0, 1]}, r"rotations\.leftShoulder: no joint of two; did you mean left_shoulder\?$"),
+            ({"tail": [0, 0, 1]}, r"rotations\.tail: no joint of two; there are pelvis, left_shoulder$"),
+            ({"pelvis": 1}, r"rotations\.pelvis: 1 is not \[x, y, z\], three finite numbers$"),
+            ({"pelvis": [1, 2]}, r"rotations\.pelvis: \[1, 2\] is not"),
+            ({"pelvis": [0, float("nan"), 0]}, r"rotations\.pelvis: \[0, nan, 0\] is not"),
+        ):
+            self.assert_refused(message, pose, SKELETON, rotations)
+        self.assert_refused("x: inf is no finite number$", pose, SKELETON, {}, float("inf"))
+
+    def test_a_closed_client_ends_its_calls_and_begins_no_others(self):
+        def requests():
+            yield {"config": {"generate_until": 30}}
+            over.wait()
+
+        over = threading.Event()
+        self.addCleanup(over.set)
+
+        def dance():
+            for answer in self.client.stream_dance(requests()):
+                if answer.HasField("frames"):
+                    self.client.close()
+
+        for call in (dance, self.client.info, lambda: self.dance(CONFIG), lambda: list(self.client.generate_transition({"frames": 9}))):
+            self.assert_refused("the client is closed$", call, code="CANCELLED")
+
+    def test_a_timeout_and_addresses_that_cannot_be_are_refused(self):
+        self.assert_refused("timeout: 'soon' is no number of seconds$", self.client.info, "soon")
+        self.assert_refused("addresses: None is neither HOST:PORT nor", Client, None)
+
+    def test_public_functions_say_what_they_take_and_give(self):
+        public = [pose]
+        for kind in (Answers, Client):
+            public += [value for name, value in vars(kind).items() if inspect.isfunction(value) and (name[0] != "_" or name == "__next__")]
+        self.assertGreater(len(public), 6)
+        for function in public:
+            told = typing.get_type_hints(function)
+            wanted = {name for name in inspect.signature(function).parameters if name != "self"} | {"return"}
+            self.assertEqual(set(told), wanted, function)
