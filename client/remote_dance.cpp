@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/status.h"
+
 namespace choreo::client {
 namespace {
 
@@ -104,12 +106,19 @@ std::optional<Message> RemoteDance::Impl::Next() {
     if (!attempt_) Connect();
     if (!attempt_) throw Error(ErrorCode::kCancelled, "", "the dance was cancelled");
     v1::StreamDanceResponse response;
+    bool refused = false;
     while (attempt_->Read(&response)) {
+      refused = response.has_header() && IsOtherDance(response.header());
+      if (refused) break;
       std::optional<Message> message = Handle(response);
       if (message) return message;
     }
+    if (refused) attempt_->Cancel();
     grpc::Status status = attempt_->Finish();
-    if (status.ok()) {
+    if (refused) {
+      status = RefusedFingerprint(fingerprint_, attempt_->server().address,
+                                  response.header().fingerprint());
+    } else if (status.ok()) {
       status = {grpc::StatusCode::UNAVAILABLE, "the server ended the dance before its summary"};
     }
     Recover(status);
@@ -167,8 +176,17 @@ std::optional<Message> RemoteDance::Impl::Handle(const v1::StreamDanceResponse& 
   return std::visit([](const auto& said) { return Message(said); }, *event);
 }
 
+bool RemoteDance::Impl::IsOtherDance(const v1::Header& header) const {
+  return header_ && !config_.has_continuation() && header.fingerprint() != fingerprint_ &&
+         !config_.allow_inexact_resume();
+}
+
 Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
   Header received = FromProto(header);
+  // Servers compare the fingerprints of continuations alone.
+  const bool exact =
+      config_.has_continuation() ? header.exact_resume() : header.fingerprint() == fingerprint_;
+  fingerprint_ = header.fingerprint();
   if (!header_) {
     header_ = received;
     // The position of the first output frame that is not before the first frame.
@@ -184,8 +202,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
     throw Error(ErrorCode::kInternal, "",
                 "the server that should go on with the dance has another frame rate or body");
   }
-  return Resumed{attempt_->server().address, filter_->next_frame(), header.exact_resume(),
-                 lost_because_};
+  return Resumed{attempt_->server().address, filter_->next_frame(), exact, lost_because_};
 }
 
 Message RemoteDance::Impl::HandleSummary(const v1::DanceSummary& summary) {

@@ -65,6 +65,8 @@ struct RemoteDance::Impl {
   void Recover(const grpc::Status& status);
   /// The part of a response for the caller, if any.
   std::optional<Message> Handle(const v1::StreamDanceResponse& response);
+  /// Whether a server that begins the dance anew would make other frames, which nobody allowed.
+  bool IsOtherDance(const v1::Header& header) const;
   Message HandleHeader(const v1::Header& header);
   Message HandleSummary(const v1::DanceSummary& summary);
 
@@ -82,6 +84,7 @@ struct RemoteDance::Impl {
 
   // Used by Next alone.
   std::optional<Header> header_;
+  std::string fingerprint_;  // of the server that danced last
   std::optional<DeliveryFilter> filter_;
   std::string lost_because_;  // not empty: the next header is a resumption
   bool complete_ = false;

@@ -56,9 +56,11 @@ std::string FieldOf(const grpc::Status& status) {
   return bad_request.field_violations(0).field();
 }
 
+constexpr const char* kFingerprintField = "config.continuation.fingerprint";
+
 /// Whether another replica may have been started with another value.
 bool IsTheReplicas(const std::string& field) {
-  return field == "config.model" || field == "config.continuation.fingerprint" ||
+  return field == "config.model" || field == kFingerprintField ||
          field == "config.continuation.skeleton";
 }
 
@@ -82,6 +84,19 @@ Error ToError(const grpc::Status& status, const std::string& address, bool tls) 
   // The symptom of plain text sent to a TLS port.
   if (!tls && message.ends_with(": Socket closed")) message += "; it may want TLS, which is off";
   return {ErrorCode::kUnavailable, address, message};
+}
+
+grpc::Status RefusedFingerprint(const std::string& begun, const std::string& address,
+                                const std::string& found) {
+  google::rpc::BadRequest refused;
+  google::rpc::BadRequest::FieldViolation& violation = *refused.add_field_violations();
+  violation.set_field(kFingerprintField);
+  violation.set_description("begun by \"" + begun + "\"; " + address + " has \"" + found +
+                            "\", which allow_inexact_resume would let go on");
+  google::rpc::Status details;
+  details.add_details()->PackFrom(refused);
+  return {grpc::StatusCode::FAILED_PRECONDITION, violation.field() + ": " + violation.description(),
+          details.SerializeAsString()};
 }
 
 RetryAdvice AdviceFor(const grpc::Status& status) {

@@ -16,6 +16,11 @@ Error ToError(const grpc::Status& status);
 /// that may require TLS.
 Error ToError(const grpc::Status& status, const std::string& address, bool tls);
 
+/// A restarted dance meets a server of another fingerprint, which would make other frames. Refused
+/// as servers refuse a continuation: another one may do better.
+grpc::Status RefusedFingerprint(const std::string& begun, const std::string& address,
+                                const std::string& found);
+
 /// How to retry a failed call.
 struct RetryAdvice {
   bool here = false;       ///< at the same server

@@ -285,6 +285,58 @@ TEST(ResumeTest, RefusesAnotherFingerprintUnlessAllowed) {
   EXPECT_FALSE(dance.resumed[0].exact);
 }
 
+/// A dance without keys, whose server dies before its first continuation: how many frames came, and
+/// what was told of the resume.
+std::pair<size_t, std::vector<Resumed>> LoseBeforeContinuation(const Client& client,
+                                                               TestServer* dying) {
+  const auto dance = client.StartDance({.seed = 4, .frames = 90, .generate_until = 0});
+  dance->GenerateUntil(30);
+  std::pair<size_t, std::vector<Resumed>> result;
+  bool lost = false;
+  while (const std::optional<Message> message = dance->Next()) {
+    EXPECT_TRUE(lost || !std::holds_alternative<Continuation>(*message));
+    if (const auto* resumed = std::get_if<Resumed>(&*message)) result.second.push_back(*resumed);
+    const auto* block = std::get_if<FrameBlock>(&*message);
+    if (block == nullptr) continue;
+    result.first += block->poses.size();
+    if (std::exchange(lost, true)) continue;
+    dying->Die();
+    dance->GenerateUntil(90);
+    dance->CompleteKeys();
+  }
+  return result;
+}
+
+TEST(ResumeTest, RestartsOnAnotherFingerprintIfAllowed) {
+  TestServer other("fake-2");
+  {
+    TestServer dying;
+    Options options = FastRetries({dying.address(), other.address()});
+    options.retry_s = 0.3;
+    const Client strict(options);
+    ExpectError(ErrorCode::kFailedPrecondition, "allow_inexact_resume",
+                [&] { LoseBeforeContinuation(strict, &dying); });
+  }
+  {
+    TestServer dying;
+    TestServer heir;
+    // One that may not go on is left for one that may.
+    const Client strict(FastRetries({dying.address(), other.address(), heir.address()}));
+    const auto [frames, resumed] = LoseBeforeContinuation(strict, &dying);
+    EXPECT_EQ(frames, 90U);
+    ASSERT_EQ(resumed.size(), 1U);
+    EXPECT_EQ(resumed[0].address, heir.address());
+    EXPECT_TRUE(resumed[0].exact);
+  }
+  TestServer dying;
+  Options options = FastRetries({dying.address(), other.address()});
+  options.allow_inexact_resume = true;
+  const auto [frames, resumed] = LoseBeforeContinuation(Client(options), &dying);
+  EXPECT_EQ(frames, 90U);
+  ASSERT_EQ(resumed.size(), 1U);
+  EXPECT_FALSE(resumed[0].exact);
+}
+
 TEST(ResumeTest, EndsWhenNoServerIsLeft) {
   TestServer dying;
   Options options = FastRetries({dying.address()});

@@ -1,8 +1,9 @@
 // A choreod with a fake engine that takes controls: its settings and its life are choreod's, its
 // checkpoints are not. A file of a line is one that takes as long to load as the file that the line
-// names takes to be read.
+// names takes to be read. $FAKE_FINGERPRINT makes it a replica of another build.
 #include <spdlog/spdlog.h>
 
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -15,6 +16,13 @@
 
 namespace {
 
+class Sampler final : public choreo::ControlledSampler {
+ public:
+  Sampler() {
+    if (const char* fingerprint = std::getenv("FAKE_FINGERPRINT")) model_.fingerprint = fingerprint;
+  }
+};
+
 choreo::Server::Samplers Load(const std::filesystem::path& path) {
   std::string slow;
   if (std::getline(std::ifstream(path), slow)) {
@@ -22,7 +30,7 @@ choreo::Server::Samplers Load(const std::filesystem::path& path) {
     const std::string read(std::istreambuf_iterator<char>(file), {});
   }
   choreo::Server::Samplers samplers;
-  samplers.push_back(std::make_unique<choreo::ControlledSampler>());
+  samplers.push_back(std::make_unique<Sampler>());
   return samplers;
 }
 

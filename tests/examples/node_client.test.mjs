@@ -140,8 +140,8 @@ async function* edited(skeleton, { goOn, frame_rate } = {}) {
 }
 
 /** A dance without keys, which has no continuation for seconds. */
-async function* unkeyed(skeleton, { goOn } = {}) {
-  yield { config: { audio_format: pcm, frames: 90, seed: '9', generate_until: 0 } };
+async function* unkeyed(skeleton, { goOn, ...config } = {}) {
+  yield { config: { audio_format: pcm, frames: 90, seed: '9', generate_until: 0, ...config } };
   for await (const piece of live(clicks(3), 1000)) {
     const second = piece.audio.first_sample / pcm.sample_rate;
     if (second === 2) await goOn;
@@ -151,11 +151,11 @@ async function* unkeyed(skeleton, { goOn } = {}) {
 }
 
 /** Dances, and kills the server once `isTime(answers)`, in the middle of the dance. Returns what came, and what was told of the resume. */
-async function danceAndKill(source, isTime) {
+async function danceAndKill(source, isTime, heir = other, options = {}) {
   let goOn;
   const resumes = [];
   return withServer([], (one) =>
-    withClient([one.address, other], {}, async (client) => {
+    withClient([one.address, heir], options, async (client) => {
       const { skeleton } = (await client.info()).models[0];
       const requests = source(skeleton, { goOn: new Promise((resolve) => (goOn = resolve)) });
       const answers = await collect(client.streamDance(requests, { onResume: (resume) => resumes.push(resume) }), (_, all) => {
@@ -194,6 +194,26 @@ test('a dance whose server is killed before its first continuation goes on, too'
   assert.equal(resumes.length, 1);
   assert.deepEqual(told(answers), told(await undisturbed(unkeyed)));
 });
+
+test('before its first continuation a dance begins anew on another fingerprint where that is allowed', () =>
+  withServer(
+    [],
+    async ({ address }) => {
+      const lose = (allow_inexact_resume, options) =>
+        danceAndKill((skeleton, more) => unkeyed(skeleton, { allow_inexact_resume, ...more }), (all) => all.at(-1).frames, address, options);
+      const { answers, resumes } = await lose(true);
+      assert.equal(told(answers).frames, '90');
+      assert.deepEqual(resumes.map(({ exact }) => exact), [false]);
+      await assert.rejects(lose(false, { retry: 0.5 }), ({ code, message, violations: [{ field, description }] }) => {
+        assert.equal(code, 'FAILED_PRECONDITION');
+        assert.equal(field, 'config.continuation.fingerprint');
+        assert.match(description, /^begun by ".*"; \S+ has "another", which config\.allow_inexact_resume would let go on$/);
+        assert.equal(message, `${field}: ${description}`);
+        return true;
+      });
+    },
+    { FAKE_FINGERPRINT: 'another' },
+  ));
 
 test('calls wait for a server, and give up in time', async () => {
   const refused = withClient('127.0.0.1:1', { retry: 0.3 }, (client) => client.info());

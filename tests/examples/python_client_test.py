@@ -1,6 +1,7 @@
 """client/python, the package: who may come, and dances that outlive their server. python_test.py runs it; $CHOREO_SERVER names a
 choreod, $CHOREOD the program of it."""
 
+import functools
 import hashlib
 import os
 import pathlib
@@ -47,10 +48,10 @@ def edited(skeleton, frame_rate=0, go_on=None):
     yield {"keyframes_complete": {}}
 
 
-def unkeyed(skeleton, frame_rate=0, go_on=None):
+def unkeyed(skeleton, go_on=None, **config):
     """A dance without keys, which has no continuation for seconds."""
     del skeleton
-    yield {"config": choreography.DanceConfig(seed=9, audio_format=PCM, frames=90, frame_rate=frame_rate, generate_until=0)}
+    yield {"config": choreography.DanceConfig(seed=9, audio_format=PCM, frames=90, generate_until=0, **config)}
     for piece in live(clicks(3), 1000):
         if go_on and piece.first_sample == 2 * RATE:
             go_on.wait()
@@ -75,10 +76,10 @@ def told(answers):
     }
 
 
-def dance_and_kill(source, is_time):
+def dance_and_kill(source, is_time, heir=OTHER, **options):
     """Dances, and kills the server once `is_time(answers)`, in the middle of the dance: what came, and what was told of the resume."""
     go_on, killed, resumes, answers = threading.Event(), False, [], []
-    with Server() as one, Client([one.address, OTHER]) as client:
+    with Server() as one, Client([one.address, heir], **options) as client:
         requests = source(client.info().models[0].skeleton, go_on=go_on)
         for answer in client.stream_dance(requests, on_resume=resumes.append):
             answers.append(answer)
@@ -179,6 +180,21 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(len(resumes), 1)
         self.assertEqual(told(answers), told(undisturbed(unkeyed)))
 
+    def test_before_its_first_continuation_a_dance_begins_anew_on_another_fingerprint_where_that_is_allowed(self):
+        with Server(FAKE_FINGERPRINT="another") as other:
+
+            def lose(allowed, **options):
+                source = functools.partial(unkeyed, allow_inexact_resume=allowed)
+                return dance_and_kill(source, lambda answers: answers[-1].HasField("frames"), other.address, **options)
+
+            answers, resumes = lose(True)
+            self.assertEqual(told(answers)["frames"], (0, 90))
+            self.assertEqual([resumed.exact for resumed in resumes], [False])
+            what = 'begun by ".*"; .* has "another", which config.allow_inexact_resume would let go on$'
+            error = self.assert_refused("FAILED_PRECONDITION", f"^config.continuation.fingerprint: {what}", lose, False, retry_s=0.5)
+            self.assertEqual(error.violations[0].field, "config.continuation.fingerprint")
+            self.assertRegex(error.violations[0].description, "^" + what)
+
     def test_calls_wait_for_a_server_and_give_up_in_time(self):
         error = self.assert_refused("UNAVAILABLE", "^127.0.0.1:1: ", info, "127.0.0.1:1", retry_s=0.3)
         self.assertEqual(error.violations, [])
@@ -236,5 +252,3 @@ class ClientTest(unittest.TestCase):
         with Client(OTHER) as client:
             with self.assertRaisesRegex(OSError, "the microphone is gone"):
                 list(client.stream_dance(requests()))
-            with self.assertRaisesRegex(ValueError, "keyfarme"):
-                list(client.stream_dance([{"config": {}}, {"keyfarme": {}}]))

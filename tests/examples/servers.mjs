@@ -3,9 +3,10 @@ import { execFileSync, spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 import { join } from 'node:path';
 
-/** A choreod of $CHOREOD, which ends with `use`, if not before. */
-export async function withServer(flags, use) {
-  const server = spawn(process.env.CHOREOD, ['--listen', '127.0.0.1:0', ...flags], { stdio: ['ignore', 'pipe', 'inherit'] });
+/** A choreod of $CHOREOD, which ends with `use`, if not before. `more`: of its environment. */
+export async function withServer(flags, use, more = {}) {
+  const env = { ...process.env, ...more };
+  const server = spawn(process.env.CHOREOD, ['--listen', '127.0.0.1:0', ...flags], { env, stdio: ['ignore', 'pipe', 'inherit'] });
   const over = new Promise((resolve) => server.once('exit', resolve));
   try {
     for await (const line of createInterface({ input: server.stdout })) {

@@ -7,11 +7,11 @@ import subprocess
 
 
 class Server:
-    """A choreod of $CHOREOD, which ends with the context, if not before."""
+    """A choreod of $CHOREOD, which ends with the context, if not before. `more`: of its environment."""
 
-    def __init__(self, *flags):
+    def __init__(self, *flags, **more):
         command = [os.environ["CHOREOD"], "--listen", "127.0.0.1:0", *map(str, flags)]
-        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=os.environ | more)
 
     def __enter__(self):
         for line in self._process.stdout:

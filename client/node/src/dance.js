@@ -71,6 +71,8 @@ class Progress {
   #onResume;
   #header;
   #continuation;
+  #fingerprint; // of the server that danced last
+  #mayDiffer = false;
   #filter;
 
   constructor(journal, onResume) {
@@ -80,6 +82,7 @@ class Progress {
 
   /** The first request of an attempt. */
   first(request) {
+    this.#mayDiffer = request.config?.allow_inexact_resume ?? false;
     if (!this.#header || !request.config) return request;
     // Another server has to dance the same dance, and by the same model.
     const config = { ...request.config, seed: this.#header.seed, model: this.#header.model };
@@ -126,6 +129,7 @@ class Progress {
     const { header } = answer;
     if (!this.#header) {
       this.#header = header;
+      this.#fingerprint = header.fingerprint;
       this.#filter = new DeliveryFilter(firstOutputFrame(header));
       return answer;
     }
@@ -135,8 +139,11 @@ class Progress {
       throw new ChoreoError({ code: grpc.status.DATA_LOSS, details });
     }
     // A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
-    if (!this.#continuation) requireSameFingerprint(this.#header, header, address);
-    this.#onResume?.({ address, frame: this.#filter.nextFrame(), exact: header.exact_resume, because: this.lostBecause });
+    const remedy = ', which config.allow_inexact_resume would let go on';
+    if (!this.#continuation && !this.#mayDiffer) requireSameFingerprint(this.#fingerprint, header, address, remedy);
+    const exact = this.#continuation ? header.exact_resume : header.fingerprint === this.#fingerprint;
+    this.#fingerprint = header.fingerprint;
+    this.#onResume?.({ address, frame: this.#filter.nextFrame(), exact, because: this.lostBecause });
     return undefined;
   }
 

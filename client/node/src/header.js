@@ -7,10 +7,13 @@ export function firstOutputFrame({ first_frame, frame_rate, model_frame_rate }) 
   return Math.ceil((Number(first_frame) * frame_rate) / model_frame_rate - 1e-9);
 }
 
-/** A server of another fingerprint makes other frames; another one may do better. The field is the one that servers name. */
-export function requireSameFingerprint(begun, header, address) {
-  if (header.fingerprint === begun.fingerprint) return;
+/**
+ * A server of another fingerprint makes other frames; another one may do better. The field is the one that servers name. `remedy`: what would
+ * let it be.
+ */
+export function requireSameFingerprint(begun, header, address, remedy = '') {
+  if (header.fingerprint === begun) return;
   const field = 'config.continuation.fingerprint';
-  const details = `${field}: begun by "${begun.fingerprint}"; ${address} has "${header.fingerprint}"`;
-  throw new ChoreoError({ code: grpc.status.FAILED_PRECONDITION, details }, [{ field, description: details }]);
+  const description = `begun by "${begun}"; ${address} has "${header.fingerprint}"${remedy}`;
+  throw new ChoreoError({ code: grpc.status.FAILED_PRECONDITION, details: `${field}: ${description}` }, [{ field, description }]);
 }

@@ -19,7 +19,7 @@ export async function* transition(replicas, asked, options = {}) {
     let complete = false;
     for await (const answer of answersOf(call, signal)) {
       if (answer.header && begun) {
-        requireSameFingerprint(begun, answer.header, server.address);
+        requireSameFingerprint(begun.fingerprint, answer.header, server.address);
       } else if (answer.header) {
         begun = answer.header;
         filter = new DeliveryFilter(firstOutputFrame(begun));

@@ -17,7 +17,9 @@ class Resumed:
 
     address: str
     frame: int  # the next one to come, at the output rate
-    exact: bool  # False: of another fingerprint, which config.allow_inexact_resume let through; not as it would have gone on
+    # False: of another fingerprint, which config.allow_inexact_resume let through. The dance goes on, yet not as it would have: smoothly, or,
+    # before the first continuation, with the frames that the other server has for it.
+    exact: bool
     because: ChoreoError  # why the other server was left
 
 
@@ -89,11 +91,14 @@ class _Progress:
     def __init__(self, journal, on_resume):
         self._journal, self._on_resume = journal, on_resume
         self._header = self._continuation = self._filter = None
+        self._fingerprint = None  # of the server that danced last
+        self._may_differ = False
         self.complete = False
         self.lost_because = None
 
     def first(self, request):
         """The first request of an attempt."""
+        self._may_differ = request.config.allow_inexact_resume
         if self._header is None or not request.HasField("config"):
             return request
         again = choreography.StreamDanceRequest()
@@ -132,14 +137,20 @@ class _Progress:
     def _take_header(self, header, address):
         if self._header is None:
             self._header, self._filter = header, DeliveryFilter(header)
+            self._fingerprint = header.fingerprint
             return True
         if header.frame_rate != self._header.frame_rate or header.skeleton.joint_names != self._header.skeleton.joint_names:
             raise ChoreoError("DATA_LOSS", "the server that should go on with the dance has another frame rate or body")
         # A continuation of another fingerprint was refused, or let through by the caller; without one nobody has looked.
+        exact = header.exact_resume
         if self._continuation is None:
-            require_same_fingerprint(self._header, header, address)
+            exact = header.fingerprint == self._fingerprint
+            if not self._may_differ:
+                remedy = ", which config.allow_inexact_resume would let go on"
+                require_same_fingerprint(self._fingerprint, header, address, remedy)
+        self._fingerprint = header.fingerprint
         if self._on_resume is not None:
-            self._on_resume(Resumed(address, self._filter.next_frame(), header.exact_resume, self.lost_because))
+            self._on_resume(Resumed(address, self._filter.next_frame(), exact, self.lost_because))
         return False
 
     def _take_summary(self, report):

@@ -13,10 +13,11 @@ def first_output_frame(header):
     return math.ceil(header.first_frame * header.frame_rate / header.model_frame_rate - 1e-9)
 
 
-def require_same_fingerprint(begun, header, address):
-    """A server of another fingerprint makes other frames; another one may do better. The field is the one that servers name."""
-    if header.fingerprint != begun.fingerprint:
-        what = f'begun by "{begun.fingerprint}"; {address} has "{header.fingerprint}"'
+def require_same_fingerprint(begun, header, address, remedy=""):
+    """A server of another fingerprint makes other frames; another one may do better. The field is the one that servers name. `remedy`: what
+    would let it be."""
+    if header.fingerprint != begun:
+        what = f'begun by "{begun}"; {address} has "{header.fingerprint}"{remedy}'
         raise wrong_field("FAILED_PRECONDITION", "config.continuation.fingerprint", what)
 
 

@@ -19,7 +19,7 @@ def transition(replicas, request, until):
         try:
             for answer in call:
                 if answer.HasField("header") and begun is not None:
-                    require_same_fingerprint(begun, answer.header, server.address)
+                    require_same_fingerprint(begun.fingerprint, answer.header, server.address)
                     continue
                 if answer.HasField("header"):
                     begun, delivery_filter = answer.header, DeliveryFilter(answer.header)
