@@ -54,7 +54,7 @@ const client = new ChoreoClient([process.argv[2]!]);
 const model = (await client.info()).models[0]!;
 const requests: StreamDanceRequest[] = [
   { config: { seed: '1', frames: 60 } },
-  { keyframe: { id: 'a', frame: 40, pose: pose(model.skeleton!, { head: [0, 0.5, 0] }) } },
+  { keyframe: { id: 'a', frame: 40, pose: pose(model.skeleton, { head: [0, 0.5, 0] }) } },
 ];
 let frames: number = 0;
 for await (const answer of client.streamDance(requests)) {
@@ -68,11 +68,26 @@ client.close();
 
 test('the installed package dances, and its errors name the field', async (t) => {
   if (skip) return t.skip(skip);
-  const plain = program.replace(/, type StreamDanceRequest|: StreamDanceRequest\[\]|: number|(?<=\])!|(?<=skeleton)!/g, '');
+  const plain = program.replace(/, type StreamDanceRequest|: StreamDanceRequest\[\]|: number|(?<=\])!/g, '');
   await writeFile(join(app, 'dance.js'), plain);
   const { code, said, out } = await run(process.execPath, ['dance.js', process.env.CHOREO_SERVER], app);
   assert.equal(code, 0, said);
   assert.match(out, /^a\n60\nINVALID_ARGUMENT \w+\n$/);
+});
+
+/** What the compiler says of a program, strictly. */
+async function compile(name, text, ...more) {
+  await writeFile(join(app, name), text);
+  const options = ['--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', '--typeRoots', join(tools, '@types'), '--types', 'node'];
+  const { code, said } = await run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...more, name], app);
+  assert.equal(code, 0, said);
+}
+
+test("the page's programs are TypeScript, too", async (t) => {
+  if (skip) return t.skip(skip);
+  const page = await readFile(join(root, 'client/node/README.md'), 'utf8');
+  const [first] = /(?<=^```js\n)[^`]+/m.exec(page);
+  await compile('page.ts', `declare function draw(places: number[], turns: number[]): void;\n${first}`);
 });
 
 test('its types know the messages', async (t) => {
@@ -86,12 +101,20 @@ for await (const answer of client.streamDance(requests)) {
 }
 // @ts-expect-error: it is tokenFile
 new ChoreoClient([], { token_file: 'x' });
+// @ts-expect-error: text is no music
+requests.push({ audio: { data: 'song.mp3' } });
+requests.push({ audio: { data: new Float32Array(9) } }, { audio: { data: new ArrayBuffer(9) } }, { config: { seed: 1n } });
+import type { Continuation, DanceConfig, Event, Frames, Header, Keyframe, RotationEncoding, StreamDanceResponse } from 'choreo-client';
+const encoding: RotationEncoding = 'ROTATION_ENCODING_QUATERNION';
+const config: DanceConfig = { encoding };
+const key: Keyframe = { id: 'a', time: 2 };
+requests.push({ config }, { keyframe: key });
+function hear({ header, frames, event, continuation }: StreamDanceResponse): [Header?, Frames?, Event?, Continuation?] {
+  return [header ?? undefined, frames ?? undefined, event ?? undefined, continuation ?? undefined];
+}
+const counted: number | undefined = hear((await client.streamDance(requests).next()).value!)[1]?.count;
 `;
-  await writeFile(join(app, 'dance.ts'), program + wrong);
-  const options = ['--noEmit', '--strict', '--noUncheckedIndexedAccess', '--module', 'nodenext', '--target', 'es2022'];
-  const types = ['--typeRoots', join(tools, '@types'), '--types', 'node'];
-  const { code, said } = await run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...types, 'dance.ts'], app);
-  assert.equal(code, 0, said);
+  await compile('dance.ts', program + wrong, '--noUncheckedIndexedAccess');
 });
 
 test('the package has the version of the server', async () => {

@@ -5,7 +5,7 @@ import { cpSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:f
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { literal } from '../src/protos.js';
+import { api, literal } from '../src/protos.js';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -27,12 +27,27 @@ execFileSync(process.execPath, [
   'choreo/v1/choreography.proto',
 ]);
 
-// Declarations hold no values, which the tool writes for enums all the same.
+// Declarations hold no values, which the tool writes for enums all the same. What may be sent is wider than the tool knows: src/check.js.
 const messages = join(types, 'choreo/v1');
 for (const name of readdirSync(messages)) {
   const text = readFileSync(join(messages, name), 'utf8');
   const declared = text.replace(/^export const (\w+) = \{\n([^}]*)\} as const;/gm, (_, type, values) => {
     return `export declare const ${type}: {\n${values.replace(/^( +)(\w+: '\w+'),$/gm, '$1readonly $2;')}};`;
   });
-  writeFileSync(join(messages, name), declared.replace(/^\/\/ Original file: .*\n\n/, ''));
+  const sent = declared.replaceAll('(number | string | Long)', '(number | bigint | string | Long)').replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
+  writeFileSync(join(messages, name), sent.replace(/^\/\/ Original file: .*\n\n/, ''));
 }
+
+// All of them under their own names: those that are sent as they may be sent, the others as they come.
+const sent = new Set();
+function send(type) {
+  if (sent.has(type)) return;
+  sent.add(type);
+  for (const { resolvedType } of type.fieldsArray ?? []) if (resolvedType) send(resolvedType);
+}
+const { Choreography, ...all } = api.lookup('choreo.v1').nested;
+for (const { resolvedRequestType } of Choreography.methodsArray) send(resolvedRequestType);
+const lines = Object.entries(all).map(
+  ([name, type]) => `export type { ${sent.has(type) ? name : `${name}__Output as ${name}`} } from './choreo/v1/${name}.js';\n`,
+);
+writeFileSync(join(types, 'messages.d.ts'), lines.join(''));

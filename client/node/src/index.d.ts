@@ -1,20 +1,12 @@
-import type { GenerateTransitionRequest } from '../types/choreo/v1/GenerateTransitionRequest.js';
-import type { GenerateTransitionResponse__Output } from '../types/choreo/v1/GenerateTransitionResponse.js';
 import type { GetServerInfoResponse__Output } from '../types/choreo/v1/GetServerInfoResponse.js';
 import type { ModelInfo__Output } from '../types/choreo/v1/ModelInfo.js';
-import type { Pose } from '../types/choreo/v1/Pose.js';
-import type { Skeleton__Output } from '../types/choreo/v1/Skeleton.js';
-import type { StreamDanceRequest } from '../types/choreo/v1/StreamDanceRequest.js';
-import type { StreamDanceResponse__Output } from '../types/choreo/v1/StreamDanceResponse.js';
+import type { GenerateTransitionRequest, GenerateTransitionResponse, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
 // Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
 // what comes has all of them. Numbers of 64 bits come as text.
-export type { GenerateTransitionRequest, Pose, StreamDanceRequest };
-export type GenerateTransitionResponse = GenerateTransitionResponse__Output;
-export type ModelInfo = ModelInfo__Output;
-export type ServerInfo = GetServerInfoResponse__Output;
-export type Skeleton = Skeleton__Output;
-export type StreamDanceResponse = StreamDanceResponse__Output;
+export * from '../types/messages.js';
+export type ModelInfo = Omit<ModelInfo__Output, 'skeleton'> & { skeleton: Skeleton };
+export type ServerInfo = Omit<GetServerInfoResponse__Output, 'models'> & { models: ModelInfo[] };
 
 /** How to reach the servers, and how patiently. */
 export interface ClientOptions {
@@ -52,7 +44,10 @@ export interface Resumed {
   address: string;
   /** The next frame to come, at the output rate. */
   frame: number;
-  /** False: of another fingerprint, which config.allow_inexact_resume let through; the dance goes on smoothly, yet not as it would have. */
+  /**
+   * False: of another fingerprint, which config.allow_inexact_resume let through; the dance goes on, yet not as it would have: smoothly, or,
+   * before the first continuation, with the frames that the other server has for it.
+   */
   exact: boolean;
   /** Why the other server was left. */
   because: ChoreoError;
