@@ -2,9 +2,14 @@
 what they take. python_test.py runs it; $CHOREO_SERVER names a choreod."""
 
 import array
+import asyncio
 import inspect
 import os
+import pathlib
+import queue
+import re
 import threading
+import time
 import typing
 import unittest
 
@@ -118,6 +123,34 @@ class CheckTest(unittest.TestCase):
     def test_a_timeout_and_addresses_that_cannot_be_are_refused(self):
         self.assert_refused("timeout: 'soon' is no number of seconds$", self.client.info, "soon")
         self.assert_refused("addresses: None is neither HOST:PORT nor", Client, None)
+
+    def test_the_page_s_program_for_asyncio_dances_and_can_be_cancelled(self):
+        page = pathlib.Path(__file__).resolve().parents[2] / "client/python/README.md"
+        program = {}
+        exec(re.findall(r"(?ms)^```python\n(.*?)^```$", page.read_text())[1], program)  # pylint: disable=exec-used
+
+        async def dance(*said, until_frames):
+            requests, heard, first = queue.SimpleQueue(), [], asyncio.Event()
+
+            def hear(answer):
+                heard.append(answer)
+                if answer.HasField("frames"):
+                    first.set()
+
+            for request in said:
+                requests.put(request)
+            task = asyncio.create_task(program["watch"](self.client, requests, hear))
+            if until_frames:
+                await first.wait()
+                task.cancel()
+            await asyncio.wait([task])
+            self.assertEqual(task.cancelled(), until_frames)
+            return sum(answer.frames.count for answer in heard)
+
+        self.assertEqual(asyncio.run(dance(CONFIG, None, until_frames=False)), 30)
+        asyncio.run(dance({"config": {"generate_until": 30}}, until_frames=True))
+        while self.client.info().active_streams > 0:
+            time.sleep(0.005)
 
     def test_public_functions_say_what_they_take_and_give(self):
         public = [pose]

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import threading
 import typing
 
 from . import choreography
@@ -15,23 +16,27 @@ Fields = typing.Mapping[str, typing.Any]  # of a message, by name
 
 
 class Answers(typing.Generic[Answer]):
-    """A server's answers, as they arrive. If you stop reading early, end the call: use this as a context manager."""
+    """A server's answers, as they arrive. If you stop reading early, end the call: use this as a context manager. Any thread may read, one at
+    a time, and any other leave the context meanwhile."""
 
     def __init__(self, answers, until):
         self._answers, self._until = answers, until
+        self._reading = threading.RLock()
 
     def __iter__(self) -> Answers[Answer]:
         return self
 
     def __next__(self) -> Answer:
-        return next(self._answers)
+        with self._reading:
+            return next(self._answers)
 
     def __enter__(self) -> Answers[Answer]:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.cancel()
-        self._answers.close()
+        with self._reading:
+            self._answers.close()
 
     def cancel(self) -> None:
         """Ends the call, here and on the server, from any thread; reading then raises ChoreoError, code CANCELLED."""
