@@ -2,7 +2,7 @@
 // program of it.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -100,8 +100,15 @@ test('options that cannot be used are named', () =>
       [far, { tls: true, clientCertificate: own.cert, clientKey: ca.key }, new RegExp(`^clientKey: ${ca.key} is not the key of ${own.cert}`)],
       [far, { silence: 1 }, 'silence: 1 s is neither 0 nor at least 2 s'],
       [far, { retry: -1 }, 'retry: -1 is not a finite number >= 0'],
-      [far, { tls: 'yes' }, 'tls: yes is no boolean'],
-      [far, { token_file: 'x' }, /^token_file: no option; there are tls, caCertificate, /],
+      [far, { tls: 'yes' }, "tls: 'yes' is no boolean"],
+      [far, { token_file: 'x' }, 'token_file: no option; did you mean tokenFile?'],
+      [far, { patience: 1 }, /^patience: no option; there are tls, caCertificate, /],
+      ['http://one:50051', {}, 'addresses: http://one:50051 is a URL; HOST:PORT is wanted, and the option tls for TLS'],
+      ['dns:///one', {}, 'addresses: dns:///one has no port; HOST:PORT is wanted'],
+      [undefined, {}, 'addresses: undefined is no HOST:PORT'],
+      [far, { tls: true, token: 'secret\n' }, 'token: it begins or ends with spaces or a newline; trim it'],
+      [far, { tls: true, token: Buffer.from('secret') }, 'token: Buffer is no string'],
+      [far, { tls: true, caCertificate: await readFile(ca.cert, 'utf8') }, 'caCertificate: is the path of a PEM file, not its text'],
     ]) {
       assert.throws(() => new ChoreoClient(addresses, options), { code: 'INVALID_ARGUMENT', message });
     }

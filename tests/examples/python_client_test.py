@@ -152,6 +152,13 @@ class ClientTest(unittest.TestCase):
                 (far, {"tls": True, "ca_certificate": own_key}, f"ca_certificate: {own_key} holds no certificate in PEM"),
                 (far, {"tls": True, "client_certificate": own, "client_key": authority.key}, f"client_key: {authority.key} is not the key of {own}"),
                 (far, {"silence_s": 1}, "silence_s: 1 s is neither 0 nor at least 2 s$"),
+                ("http://one:50051", {}, "addresses: http://one:50051 is a URL; HOST:PORT is wanted, and the option tls for TLS$"),
+                ("dns:///one", {}, "addresses: dns:///one has no port; HOST:PORT is wanted$"),
+                (far, {"tls": True, "token": "secret\n"}, "token: it begins or ends with spaces or a newline; strip it$"),
+                (far, {"tls": True, "token": b"secret"}, "token: a bytes is no str$"),
+                (far, {"tls": True, "ca_certificate": own.read_text()}, "ca_certificate: is the path of a PEM file, not its text$"),
+                (far, {"retry_s": "long"}, "retry_s: a str is no number$"),
+                (far, {"tls": "yes"}, "tls: a str is no bool$"),
                 (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),
             ):
                 self.assert_refused("INVALID_ARGUMENT", "^" + message, Client, addresses, **options)

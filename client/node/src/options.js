@@ -5,6 +5,7 @@ import { isIPv4 } from 'node:net';
 import { createSecureContext } from 'node:tls';
 import grpc from '@grpc/grpc-js';
 import { invalid } from './error.js';
+import { hint, quoted } from './words.js';
 
 /** What index.d.ts explains. */
 const defaults = {
@@ -20,20 +21,26 @@ const defaults = {
   retry: 10,
   firstBackoff: 0.1,
 };
+const files = ['caCertificate', 'clientCertificate', 'clientKey'];
 const leastSilence = 2; // seconds
 const mostPort = 65535;
 const mostTokenBytes = 4096; // gRPC's headers have 8 KiB in all
 
 /** The options with their defaults. Throws ChoreoError, naming the option, for those that cannot be used. */
 export function checkOptions(addresses, given) {
-  for (const name of Object.keys(given)) if (!(name in defaults)) throw invalid(name, `no option; there are ${Object.keys(defaults).join(', ')}`);
+  for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
   const options = { ...defaults, ...Object.fromEntries(Object.entries(given).filter(([, value]) => value !== undefined)) };
   for (const [name, value] of Object.entries(options)) {
-    if (typeof value !== typeof defaults[name]) throw invalid(name, `${value} is no ${typeof defaults[name]}`);
+    // What should be a text may be a secret.
+    const kind = value?.constructor?.name ?? value;
+    if (typeof value !== typeof defaults[name]) throw invalid(name, `${defaults[name] === '' ? kind : quoted(value)} is no ${typeof defaults[name]}`);
     if (typeof value === 'number' && !(value >= 0 && Number.isFinite(value))) throw invalid(name, `${value} is not a finite number >= 0`);
   }
   if (options.silence > 0 && options.silence < leastSilence) {
     throw invalid('silence', `${options.silence} s is neither 0 nor at least ${leastSilence} s`);
+  }
+  for (const name of files) {
+    if (options[name].includes('-----BEGIN')) throw invalid(name, 'is the path of a PEM file, not its text');
   }
   if (addresses.length === 0) throw invalid('addresses', 'none is given');
   for (const address of addresses) checkAddress(address);
@@ -41,11 +48,13 @@ export function checkOptions(addresses, given) {
   return options;
 }
 
-// What gRPC would take for another port.
+// What gRPC would take for a name, or for another port.
 function checkAddress(address) {
-  if (typeof address !== 'string' || address === '') throw invalid('addresses', `${JSON.stringify(address)} is no HOST:PORT`);
+  if (typeof address !== 'string' || address === '') throw invalid('addresses', `${quoted(address)} is no HOST:PORT`);
+  if (/^https?:/i.test(address)) throw invalid('addresses', `${address} is a URL; HOST:PORT is wanted, and the option tls for TLS`);
+  if (/^(unix|unix-abstract|xds):/.test(address)) return;
   const port = /:(\d+)$/.exec(address)?.[1];
-  if (address.startsWith('unix:') || port === undefined) return;
+  if (port === undefined) throw invalid('addresses', `${address} has no port; HOST:PORT is wanted`);
   if (Number(port) < 1 || Number(port) > mostPort) throw invalid('addresses', `${address}: port ${port} is not in [1, ${mostPort}]`);
 }
 
@@ -71,6 +80,7 @@ function checkToken(addresses, { token, tokenFile, tls }) {
 // The value itself is never quoted.
 function requireToken(field, what, token) {
   if (token.length > mostTokenBytes) throw invalid(field, `${what} has ${token.length} bytes, of at most ${mostTokenBytes}`);
+  if (token !== token.trim()) throw invalid(field, `${what} begins or ends with spaces or a newline; trim it`);
   if (!/^[!-~]+$/.test(token)) throw invalid(field, `${what} is no line of visible ASCII characters`);
 }
 

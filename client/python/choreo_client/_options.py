@@ -5,6 +5,7 @@ import dataclasses
 import ipaddress
 import json
 import math
+import numbers
 import os
 import re
 import ssl
@@ -52,6 +53,7 @@ class Options:
 
     def check(self, addresses):
         """Raises ChoreoError, naming the option, for those that cannot be used."""
+        self._check_kinds()
         for name in ("connect_timeout_s", "silence_s", "retry_s", "first_backoff_s"):
             value = getattr(self, name)
             if not 0 <= value < math.inf:
@@ -63,6 +65,15 @@ class Options:
         for address in addresses:
             _check_address(address)
         self._check_token(addresses)
+
+    def _check_kinds(self):
+        for name, (kinds, what) in _KINDS.items():
+            value, unset = getattr(self, name), getattr(Options, name)
+            if not isinstance(value, kinds) and not (value is None and unset is None):
+                raise invalid(name, f"a {type(value).__name__} is no {what}")  # the value may be a secret
+        for name in ("ca_certificate", "client_certificate", "client_key"):
+            if "-----BEGIN" in str(getattr(self, name)):
+                raise invalid(name, "is the path of a PEM file, not its text")
 
     def _check_token(self, addresses):
         if self.token is None and self.token_file is None:
@@ -131,12 +142,27 @@ class Options:
         return list(options.items())
 
 
+_PATH = ((str, os.PathLike), "path")
+_KINDS = {
+    **dict.fromkeys(("tls", "even_draining"), (bool, "bool")),
+    **dict.fromkeys(("ca_certificate", "client_certificate", "client_key", "token_file"), _PATH),
+    **dict.fromkeys(("server_name", "token"), (str, "str")),
+    **dict.fromkeys(("connect_timeout_s", "silence_s", "retry_s", "first_backoff_s"), (numbers.Real, "number")),
+}
+
+
 def _check_address(address):
+    """Refuses what gRPC would take for a name, or for another port."""
     if not isinstance(address, str) or not address:
         raise invalid("addresses", f"{address!r} is no HOST:PORT")
+    if re.match("(?i)https?:", address):
+        raise invalid("addresses", f"{address} is a URL; HOST:PORT is wanted, and the option tls for TLS")
+    if re.match("(unix|unix-abstract|xds):", address):
+        return
     port = re.search(r":([0-9]+)$", address)
-    # What gRPC would take for another port.
-    if port and not address.startswith("unix:") and not 1 <= int(port[1]) <= MOST_PORT:
+    if port is None:
+        raise invalid("addresses", f"{address} has no port; HOST:PORT is wanted")
+    if not 1 <= int(port[1]) <= MOST_PORT:
         raise invalid("addresses", f"{address}: port {port[1]} is not in [1, {MOST_PORT}]")
 
 
@@ -159,6 +185,8 @@ def _require_token(field, what, token):
     """The value itself is never quoted."""
     if len(token) > MOST_TOKEN_BYTES:
         raise invalid(field, f"{what} has {len(token)} bytes, of at most {MOST_TOKEN_BYTES}")
+    if token != token.strip():
+        raise invalid(field, f"{what} begins or ends with spaces or a newline; strip it")
     if not re.fullmatch(r"[!-~]+", token):
         raise invalid(field, f"{what} is no line of visible ASCII characters")
 
