@@ -53,8 +53,9 @@ struct Options {
   /// resume either.
   double retry_s = 10;
   double first_backoff_s = 0.1;  ///< between attempts; doubled each time, up to 2 s
-  /// Continue if only a server with another fingerprint is left: smoothly, but not as the dance
-  /// would have continued. `Resumed` reports it.
+  /// Continue if only a server with another fingerprint is left, not as the dance would have
+  /// continued: smoothly or, before the first continuation, with the frames that this server has
+  /// for it. `Resumed` reports it.
   bool allow_inexact_resume = false;
   /// Also ask servers that accept no new dances, to inspect them.
   bool even_draining = false;
