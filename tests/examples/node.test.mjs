@@ -1,7 +1,9 @@
 // examples/node, and the calls of client/node, against a real choreod, which $CHOREO_SERVER names.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
+import { once } from 'node:events';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { createServer } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -154,6 +156,24 @@ test('a client that is closed ends its calls, and begins no others', async () =>
   await assert.rejects(client.info(), closed);
   await assert.rejects(collect(client.streamDance([{ config: {} }])), closed);
   await assert.rejects(collect(client.generateTransition({ config: {}, frames: 9 })), closed);
+});
+
+test('a call that waits for its connection ends where nobody wants it any more', async () => {
+  const mute = createServer().listen(0, '127.0.0.1'); // accepts, and never answers
+  await once(mute, 'listening');
+  try {
+    const client = new ChoreoClient(`127.0.0.1:${mute.address().port}`, { connectTimeout: 600 });
+    const stop = new AbortController();
+    const [aborted, closed] = [client.info({ signal: stop.signal }), client.info()];
+    const [socket] = await once(mute, 'connection');
+    stop.abort();
+    await assert.rejects(aborted, { code: 'CANCELLED', message: 'the call was cancelled' });
+    client.close();
+    await assert.rejects(closed, { code: 'CANCELLED', message: 'the client is closed' });
+    socket.destroy();
+  } finally {
+    mute.close();
+  }
 });
 
 test('a deadline ends a call', async () => {

@@ -53,7 +53,7 @@ export class Replicas {
       const server = this.#servers[this.#current];
       try {
         if (signal.aborted) throw cancelled();
-        await connected(server, this.options.connectTimeout, deadline);
+        await connected(server, this.options.connectTimeout, deadline, signal);
         if (signal.aborted) throw cancelled();
         yield* attempt(server, patience, signal);
         return;
@@ -85,12 +85,13 @@ function joined(signals) {
   return { end: joint.signal, leave: () => given.forEach((signal) => signal.removeEventListener('abort', abort)) };
 }
 
-/** Waits until the server is there, or will not be: the call then says why. */
-function connected({ address, stub }, seconds, deadline = Infinity) {
+/** Waits until the server is there, or will not be: the call then says why. Or until nobody wants it any more. */
+function connected({ address, stub }, seconds, deadline = Infinity, signal) {
   const { READY, TRANSIENT_FAILURE, SHUTDOWN } = grpc.connectivityState;
   const channel = stub.getChannel();
   const end = Math.min(Date.now() + 1000 * seconds, Number(deadline));
   return new Promise((resolve, reject) => {
+    signal.addEventListener('abort', resolve, { once: true });
     const look = (late) => {
       const state = channel.getConnectivityState(true);
       if ([READY, TRANSIENT_FAILURE, SHUTDOWN].includes(state) || Date.now() >= Number(deadline)) resolve();
