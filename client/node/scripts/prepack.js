@@ -34,8 +34,10 @@ for (const name of readdirSync(messages)) {
   const declared = text.replace(/^export const (\w+) = \{\n([^}]*)\} as const;/gm, (_, type, values) => {
     return `export declare const ${type}: {\n${values.replace(/^( +)(\w+: '\w+'),$/gm, '$1readonly $2;')}};`;
   });
-  const sent = declared.replaceAll('(number | string | Long)', '(number | bigint | string | Long)').replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
-  writeFileSync(join(messages, name), sent.replace(/^\/\/ Original file: .*\n\n/, ''));
+  const wider = declared
+    .replaceAll('(number | string | Long)', '(number | bigint | string | Long)')
+    .replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
+  writeFileSync(join(messages, name), wider.replace(/^\/\/ Original file: .*\n\n/, ''));
 }
 
 // All of them under their own names: those that are sent as they may be sent, the others as they come.

@@ -1,6 +1,7 @@
 import type { GetServerInfoResponse__Output } from '../types/choreo/v1/GetServerInfoResponse.js';
 import type { ModelInfo__Output } from '../types/choreo/v1/ModelInfo.js';
-import type { GenerateTransitionRequest, GenerateTransitionResponse, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
+import type { GenerateTransitionRequest, GenerateTransitionResponse } from '../types/messages.js';
+import type { Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
 // Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
 // what comes has all of them. Numbers of 64 bits come as text.
@@ -84,7 +85,8 @@ export class ChoreoClient {
    * Dances. Sends the `requests`, an iterable that may be asynchronous (music that is being played, say), as fast as the server takes them,
    * and yields the answers meanwhile. Whoever stops reading ends the dance. When its server is lost, the dance goes on at the next one from
    * the last continuation: answers are those of an undisturbed dance, bit for bit, which `onResume` alone hears of. Requests must not be
-   * changed once they are said: they may be said again. One that the API does not know ends the dance, naming the field's path. (The summary's shares are those of the frames since the last resume.)
+   * changed once they are said: they may be said again. One that the API does not know ends the dance, naming the field's path. (The summary's
+   * shares are those of the frames since the last resume.)
    */
   streamDance(
     requests: Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>,

@@ -31,9 +31,10 @@ export function checkOptions(addresses, given) {
   for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
   const options = { ...defaults, ...Object.fromEntries(Object.entries(given).filter(([, value]) => value !== undefined)) };
   for (const [name, value] of Object.entries(options)) {
+    const wanted = typeof defaults[name];
     // What should be a text may be a secret.
-    const kind = value?.constructor?.name ?? value;
-    if (typeof value !== typeof defaults[name]) throw invalid(name, `${defaults[name] === '' ? kind : quoted(value)} is no ${typeof defaults[name]}`);
+    const shown = wanted === 'string' ? (value?.constructor.name ?? value) : quoted(value);
+    if (typeof value !== wanted) throw invalid(name, `${shown} is no ${wanted}`);
     if (typeof value === 'number' && !(value >= 0 && Number.isFinite(value))) throw invalid(name, `${value} is not a finite number >= 0`);
   }
   if (options.silence > 0 && options.silence < leastSilence) {

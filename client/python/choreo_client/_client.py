@@ -96,7 +96,7 @@ class Client:
     def generate_transition(
         self, request: typing.Union[choreography.GenerateTransitionRequest, Fields], timeout: typing.Optional[float] = None
     ) -> Answers[choreography.GenerateTransitionResponse]:
-        """One transition, in one or several candidates: Answers with GenerateTransitionResponses. `request`: one, or its fields. When its server is lost, another one makes it
-        again; nothing is told twice."""
+        """One transition, in one or several candidates: Answers with GenerateTransitionResponses. `request`: one, or its fields. When its server
+        is lost, another one makes it again; nothing is told twice."""
         until = Cancellation(timeout)
         return Answers(transition(self._replicas, request, until), until)
