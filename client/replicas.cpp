@@ -63,13 +63,21 @@ bool IsOfThisMachine(const std::string& address) {
   return host == "localhost" || host == "[::1]";
 }
 
-// Refuses ports that gRPC would misread.
+// Refuses what gRPC would take for a name, or for another port.
 void CheckAddress(const std::string& address) {
   if (address.empty()) throw InvalidArgument("addresses", "one of them is empty");
-  if (address.starts_with("unix:")) return;
-  const std::string port = address.substr(address.rfind(':') + 1);
+  if (address.starts_with("http:") || address.starts_with("https:")) {
+    throw InvalidArgument("addresses", address + " is a URL; HOST:PORT is wanted");
+  }
+  for (const char* scheme : {"unix:", "unix-abstract:", "xds:"}) {
+    if (address.starts_with(scheme)) return;
+  }
+  const size_t colon = address.rfind(':');
+  const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  if (port.empty() || !std::ranges::all_of(port, is_digit)) return;
+  if (port.empty() || !std::ranges::all_of(port, is_digit)) {
+    throw InvalidArgument("addresses", address + " has no port; HOST:PORT is wanted");
+  }
   if (port.size() > 5 || std::stoi(port) < 1 || std::stoi(port) > kMaxPort) {
     throw InvalidArgument("addresses", address + ": port " + port + " is not in [1, " +
                                            std::to_string(kMaxPort) + "]");

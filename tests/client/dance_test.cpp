@@ -140,6 +140,9 @@ TEST(DanceTest, NamesAMissingServer) {
 
 TEST(DanceTest, RefusesOptionsThatCannotBeUsed) {
   ExpectError(ErrorCode::kInvalidArgument, "addresses", [] { Client({.addresses = {}}); });
+  for (const char* address : {"http://one:50051", "one", "dns:///one", "one:70000"}) {
+    ExpectError(ErrorCode::kInvalidArgument, address, [&] { Client({.addresses = {address}}); });
+  }
   ExpectError(ErrorCode::kInvalidArgument, "deadline_s", [] { Client({.deadline_s = -1}); });
   ExpectError(ErrorCode::kInvalidArgument, "ca_certificate",
               [] { Client({.tls = true, .ca_certificate = "/absent.pem"}); });
