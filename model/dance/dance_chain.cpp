@@ -43,7 +43,7 @@ class DanceChain::Job : public SampleJob {
 
   void OnDone(const Error* failure) noexcept override {
     if (failure == nullptr || retired_) return;
-    chain_->Act([this, failure] { chain_->Fail(*this, *failure); });
+    chain_->React([this, failure] { chain_->Fail(*this, *failure); });
   }
 
   double Deadline() const override { return deadline_; }
@@ -94,7 +94,6 @@ class DanceChain::Job : public SampleJob {
 DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_ptr<DanceSink> sink)
     : queue_(queue),
       model_(queue.model()),
-      config_(*asked),
       first_frame_(asked->FirstFrame()),
       mailbox_(std::move(sink)),
       audio_(asked->audio
@@ -102,98 +101,61 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
                                                asked->audio->first_sample)
                  : nullptr),
       start_time_(PlaybackClock()),
-      timeline_({model_.fps, first_frame_, asked->end_frame, asked->audio.has_value(),
-                 asked->generate_until, model_.max_transition_frames}),
-      controls_(model_),
+      score_{*asked,
+             Timeline({model_.fps, first_frame_, asked->end_frame, asked->audio.has_value(),
+                       asked->generate_until, model_.max_transition_frames}),
+             ControlTrack(model_),
+             MusicBeats(model_.fps, asked->music_beats,
+                        asked->continuation ? asked->continuation->last_beat : std::nullopt,
+                        audio(), asked->music_downbeats),
+             Recurrence(model_.fps, asked->variation < 1 ? asked->music_passages : kNoPassages)},
       next_frame_(first_frame_),
       meter_(model_.skeleton, model_.fps, first_frame_,
              asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
       output_(model_.fps, asked->output_fps, first_frame_,
               asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
-                                  : std::nullopt),
-      beats_(model_.fps, asked->music_beats,
-             asked->continuation ? asked->continuation->last_beat : std::nullopt, audio(),
-             asked->music_downbeats),
-      recurrence_(model_.fps, asked->variation < 1 ? asked->music_passages : kNoPassages) {
+                                  : std::nullopt) {
   if (!asked->Before().empty()) history_ = FillHistory(model_, asked->Before());
   if (asked->continuation) {
     stage_ = asked->continuation->stage;
     reached_before_ = asked->continuation->reached;
   }
-  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model_.fps));
+  if (!score_.recurrence.empty())
+    score_.timeline.SetCuts(CutsOf(asked->music_passages, model_.fps));
 }
 
 void DanceChain::Begin() {
-  for (const Warning& warning : config_.Warnings(model_, first_frame_)) Post(warning);
-  Change([](Timeline&) {});  // starts frames that the config has granted
+  for (const Warning& warning : score_.config.Warnings(model_, first_frame_)) Post(warning);
+  Apply([](DanceScore&) {});  // starts frames that the config has granted
 }
 
-void DanceChain::Change(const std::function<void(Timeline&)>& change) {
+void DanceChain::Apply(const std::function<void(DanceScore&)>& change) {
   {
     std::lock_guard lock(mutex_);
     if (over()) return;
-    change(timeline_);
+    change(score_);
     SubmitNext();
   }
   while (HandOut(kFramesASlice)) {
   }
 }
 
-void DanceChain::SetControls(const ControlRequest& request, const std::string& field) {
-  Change([&](Timeline& timeline) {
-    const int64_t from = timeline.Frontier(field);
-    controls_.Set(request, from, field);
-    if (request.velocity_factors) timeline.Disturb();
-    if (!request.root_path) return;
-    const int64_t last = request.root_path->frames.back();
-    timeline.Disturb(request.root_path->frames.front(), last);
-    // A path that lies before the first frame was danced before the resume: it is not late.
-    if (last < from && last >= first_frame_) Post(ControlsTooLate(last, from));
-  });
-}
-
-void DanceChain::GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats,
-                           const std::string& field) {
-  Change([&](Timeline& timeline) {
-    const int64_t from = timeline.Frontier(field);
-    if (const int64_t late = beats_.AddGiven(seconds, from, field, downbeats); late > 0)
-      Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
-  });
-}
-
-void DanceChain::GivePassages(const std::vector<Passage>& passages, const std::string& field) {
-  Change([&](Timeline& timeline) {
-    CheckPassages(passages, field);
-    recurrence_.Give(passages, timeline.Frontier(field), field);
-  });
-}
-
-void DanceChain::SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
-                          const std::vector<Passage>& passages, uint64_t music_id) {
-  std::lock_guard lock(mutex_);
-  if (config_.music_id == 0) config_.music_id = music_id;
-  if (config_.music_beats.empty()) beats_.ReplaceAll(beats, downbeats);
-  if (!recurrence_.empty() || passages.empty() || config_.variation >= 1) return;
-  recurrence_ = Recurrence(model_.fps, passages);
-  timeline_.SetCuts(CutsOf(passages, model_.fps));
-}
-
 void DanceChain::SetPaused(bool paused) {
   paused_ = paused;
-  if (!paused) Act([] {});
+  if (!paused) React([] {});
 }
 
 void DanceChain::Cancel() noexcept {
   cancelled_ = true;
   queue_.CheckCancelled();
-  Act([this] { mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled")); });
+  React([this] { mailbox_.PostError(Error(ErrorCode::kCancelled, "", "cancelled")); });
 }
 
-void DanceChain::Act(const std::function<void()>& act) noexcept {
+void DanceChain::React(const std::function<void()>& change) noexcept {
   try {
     {
       std::lock_guard lock(mutex_);
-      act();
+      change();
       SubmitNext();
     }
     while (HandOut(kFramesASlice)) {
@@ -241,7 +203,7 @@ void DanceChain::Fail(Job& job, const Error& failure) {
 }
 
 bool DanceChain::IsOver(const Segment& segment) const {
-  const std::optional<int64_t> end = timeline_.End();
+  const std::optional<int64_t> end = score_.timeline.End();
   return next_frame_ >= segment.stop || (end && next_frame_ >= *end);
 }
 
@@ -252,10 +214,10 @@ bool DanceChain::HandOutNext() {
   }
   if (paused_) return false;
   if (jobs_.empty()) {
-    const std::optional<int64_t> end = timeline_.End();
+    const std::optional<int64_t> end = score_.timeline.End();
     if (failure_) {
       mailbox_.PostError(*failure_);
-    } else if (timeline_.complete() && end && next_frame_ >= *end) {
+    } else if (score_.timeline.complete() && end && next_frame_ >= *end) {
       Summarise();
     } else {
       return false;
@@ -263,13 +225,14 @@ bool DanceChain::HandOutNext() {
     return true;
   }
   Job& job = *jobs_.front();
-  if (IsOver(*timeline_.Planned())) {
+  if (IsOver(*score_.timeline.Planned())) {
     if (!job.sampled()) job.Retire();  // a sampled job may be handing out frames right now
-    timeline_.Finish();
+    score_.timeline.Finish();
     if (next_frame_ > job.segment().from) PostContinuation();
     jobs_.pop_front();
     // No frame follows the end, so no transition is needed any more.
-    if (const std::optional<int64_t> end = timeline_.End(); end && next_frame_ >= *end) DropJobs();
+    if (const std::optional<int64_t> end = score_.timeline.End(); end && next_frame_ >= *end)
+      DropJobs();
     queue_.CheckCancelled();
     SubmitNext();
     return true;
@@ -278,7 +241,7 @@ bool DanceChain::HandOutNext() {
     mailbox_.PostError(*job.failure());
     return true;
   }
-  if (!job.sampled() || !timeline_.Certain(next_frame_)) return false;
+  if (!job.sampled() || !score_.timeline.Certain(next_frame_)) return false;
   if (audio_ && audio_->ready() <= next_frame_) return false;
   Emit(job, job.FrameAt(next_frame_));
   return true;
@@ -287,12 +250,14 @@ bool DanceChain::HandOutNext() {
 void DanceChain::SubmitNext() {
   if (over() || cancelled_ || failure_ || jobs_.size() > kMaxAhead) return;
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
-  const Segment* segment = timeline_.Planned(jobs_.size());
-  const std::optional<int64_t> end = timeline_.End();
-  if (segment == nullptr || (end && segment->from >= *end) || !timeline_.Certain(segment->from))
+  const Segment* segment = score_.timeline.Planned(jobs_.size());
+  const std::optional<int64_t> end = score_.timeline.End();
+  if (segment == nullptr || (end && segment->from >= *end) ||
+      !score_.timeline.Certain(segment->from))
     return;
   int64_t rows_end = segment->from;
-  if (model_.hears_music) rows_end = std::min(segment->to, config_.end_frame.value_or(segment->to));
+  if (model_.hears_music)
+    rows_end = std::min(segment->to, score_.config.end_frame.value_or(segment->to));
   // Beats of the whole music are set before its first row is ready, so a transition that waits for
   // one row knows them.
   if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1))
@@ -303,15 +268,15 @@ void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
   // A dance that waited for its client's messages is due from now on. Its old start time would let
   // it overtake dances that waited for nobody.
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
-  recurrence_.Begin(segment.from);
+  score_.recurrence.Begin(segment.from);
   try {
     const Job* before = jobs_.empty() ? nullptr : jobs_.back().get();
-    PreparedTransition prepared =
-        PrepareTransition(config_, model_, controls_, recurrence_, audio(), segment, rows_end,
-                          before == nullptr ? history_ : before->HistoryBefore(segment.from));
+    PreparedTransition prepared = PrepareTransition(
+        score_.config, model_, score_.controls, score_.recurrence, audio(), segment, rows_end,
+        before == nullptr ? history_ : before->HistoryBefore(segment.from));
     prepared.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
-    std::vector<Beat> beats = beats_.BeatsFor(segment.from, segment.to);
-    prepared.request.beats = beats_.BeatTimes(beats, segment.from, segment.to);
+    std::vector<Beat> beats = score_.beats.BeatsFor(segment.from, segment.to);
+    prepared.request.beats = score_.beats.BeatTimes(beats, segment.from, segment.to);
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(prepared), std::move(beats));
     queue_.Submit(job);
@@ -327,7 +292,7 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
   if (next_frame_ == segment.from) {
     for (const Warning& warning : job.warnings()) Post(warning);
     history_ = job.before();
-    beats_.StartReporting(job.beats(), segment.from);
+    score_.beats.StartReporting(job.beats(), segment.from);
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(segment.from - model_.history_frames);
   }
@@ -341,7 +306,7 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
       sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
     });
   }
-  for (const Beat& beat : beats_.TakeBeatsAt(emitted)) Post(beat);
+  for (const Beat& beat : score_.beats.TakeBeatsAt(emitted)) Post(beat);
   if (next_frame_ == segment.to && run.arrival()) {
     KeyReached reached = *run.arrival();
     reached.id = segment.key->id;
@@ -367,9 +332,9 @@ void DanceChain::PostContinuation() {
   Continuation continuation{next_frame_, history_, model_.fingerprint};
   if (audio_) {
     continuation.audio_from_sample =
-        ResumeSample(config_, next_frame_, model_, config_.music_beats.empty());
+        ResumeSample(score_.config, next_frame_, model_, score_.config.music_beats.empty());
   }
-  continuation.last_beat = beats_.last_reported();
+  continuation.last_beat = score_.beats.last_reported();
   continuation.stage = stage_;
   continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
@@ -378,9 +343,9 @@ void DanceChain::PostContinuation() {
 }
 
 void DanceChain::Summarise() {
-  if (const auto warning = controls_.BehindEnd(next_frame_)) Post(*warning);
-  const QualityReport report = meter_.Report(beats_.reported());
-  if (const auto warning = controls_.SpeedsMissed(report)) Post(*warning);
+  if (const auto warning = score_.controls.BehindEnd(next_frame_)) Post(*warning);
+  const QualityReport report = meter_.Report(score_.beats.reported());
+  if (const auto warning = score_.controls.SpeedsMissed(report)) Post(*warning);
   mailbox_.PostLast([report](DanceSink& sink) { sink.OnSummary(report); });
 }
 

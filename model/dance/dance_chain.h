@@ -24,7 +24,16 @@
 
 namespace choreo {
 
-/// The chain of transitions behind a DanceStream. It has the transitions of the timeline sampled
+/// What the messages of a dance ask for so far.
+struct DanceScore {
+  DanceConfig config;
+  Timeline timeline;
+  ControlTrack controls;
+  MusicBeats beats;
+  Recurrence recurrence;
+};
+
+/// The chain of transitions behind a DanceStream. It has the transitions of the score sampled
 /// one after the other, each as soon as its start is known, and hands out frames once they are
 /// granted, their music has come and the sink takes them. Thread-safe. Lock order: the chain's
 /// before the queue's and the audio feed's; the sink is called without a lock. Its jobs keep it
@@ -37,44 +46,31 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Posts what the sink must know before the first message.
   void Begin();
 
-  /// Applies a change (of keys or of facts about the music) and continues from there. If the change
-  /// throws, the exception passes through and the chain stays as it was. Does nothing once the
-  /// dance is over.
-  void Change(const std::function<void(Timeline&)>& change);
+  /// Applies a message and continues the dance from there. If `change` throws, the exception passes
+  /// through and the chain stays as it was. Does nothing once the dance is over.
+  void Apply(const std::function<void(DanceScore&)>& change);
 
-  /// The request is valid.
-  void SetControls(const ControlRequest& request, const std::string& field);
-  /// Ascending; at least one.
-  void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats,
-                 const std::string& field);
-
-  /// Tells the sink of an event; only inside a change.
+  /// Tells the sink of an event; only inside Apply.
   void Post(const DanceEvent& event);
 
   /// Whether the last call to the sink has been made or is under way.
   bool over() const { return mailbox_.over(); }
 
   /// The answer to a key that came too late: a rejection, or that it was reached before the dance
-  /// was resumed. Only inside a change.
+  /// was resumed. Only inside Apply.
   void PostLate(const KeyRejected& rejection);
 
   /// Null for a dance without music. Only one thread at a time may push.
   AudioFeed* audio() { return audio_.get(); }
 
-  /// Ascending; at least one.
-  void GivePassages(const std::vector<Passage>& passages, const std::string& field);
-
-  /// What is known about the whole music; before its first sample.
-  void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
-                const std::vector<Passage>& passages, uint64_t music_id);
   void SetPaused(bool paused);
   void Cancel() noexcept;
 
  private:
   class Job;
 
-  // Call without mutex_: runs `act` with it held, then continues the dance.
-  void Act(const std::function<void()>& act) noexcept;
+  // As Apply, for what happens to the dance itself, also once it is over.
+  void React(const std::function<void()>& change) noexcept;
   // Hands out at most `most` frames and ends of transitions, and calls the sink. Only one thread at
   // a time does so, on behalf of all others. Returns true if there may be more.
   bool HandOut(int most);
@@ -95,7 +91,6 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   SampleQueue& queue_;
   const ModelInfo& model_;
-  DanceConfig config_;  // constant except for music_id
   const int64_t first_frame_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
@@ -104,8 +99,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
 
   mutable std::mutex mutex_;  // guards the members below
   double start_time_;         // of the playback; frames are due relative to it
-  Timeline timeline_;
-  ControlTrack controls_;
+  DanceScore score_;
   // The first transitions of the timeline: the one being handed out, and the next. All but the last
   // are sampled.
   std::deque<std::shared_ptr<Job>> jobs_;
@@ -118,8 +112,6 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   QualityMeter meter_;
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
   OutputRate output_;
-  MusicBeats beats_;
-  Recurrence recurrence_;
 };
 
 }  // namespace choreo

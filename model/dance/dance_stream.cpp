@@ -22,9 +22,9 @@ void DanceStream::FinishAudio() {
   if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
   if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
   // Sets the end of the music before rows after it can be danced.
-  chain_->Change([&](Timeline& timeline) { timeline.SetAudioEnd(audio.EndFrame(model_.fps)); });
+  chain_->Apply([&](DanceScore& score) { score.timeline.SetAudioEnd(audio.EndFrame(model_.fps)); });
   audio.Finish();
-  chain_->Change([](Timeline&) {});
+  chain_->Apply([](DanceScore&) {});
 }
 
 DanceStream::DanceStream(SampleQueue& queue, const ValidDance& config,
@@ -40,7 +40,7 @@ void DanceStream::PushAudio(std::span<const float> interleaved, int64_t first_sa
   std::lock_guard lock(messages_);
   AudioFeed& audio = Audio("audio");
   if (chain_->over()) return;
-  audio.Push(interleaved, first_sample, [this] { chain_->Change([](Timeline&) {}); });
+  audio.Push(interleaved, first_sample, [this] { chain_->Apply([](DanceScore&) {}); });
 }
 
 void DanceStream::EndOfAudio() {
@@ -50,7 +50,13 @@ void DanceStream::EndOfAudio() {
 
 void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
                            const std::vector<Passage>& passages, uint64_t music_id) {
-  chain_->SetMusic(beats, downbeats, passages, music_id);
+  chain_->Apply([&](DanceScore& score) {
+    if (score.config.music_id == 0) score.config.music_id = music_id;
+    if (score.config.music_beats.empty()) score.beats.ReplaceAll(beats, downbeats);
+    if (!score.recurrence.empty() || passages.empty() || score.config.variation >= 1) return;
+    score.recurrence = Recurrence(model_.fps, passages);
+    score.timeline.SetCuts(CutsOf(passages, model_.fps));
+  });
 }
 
 std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }
@@ -66,8 +72,8 @@ bool DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pos
   ValidateMask(model_.skeleton, mask, field + ".mask");
   ValidateHit(hit, field + ".hit");
   bool is_set = true;
-  chain_->Change([&](Timeline& timeline) {
-    if (auto rejection = timeline.Set(id, when, pose, mask, field, hit)) {
+  chain_->Apply([&](DanceScore& score) {
+    if (auto rejection = score.timeline.Set(id, when, pose, mask, field, hit)) {
       is_set = false;
       chain_->PostLate(*rejection);
     }
@@ -79,8 +85,8 @@ bool DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pos
 void DanceStream::RemoveKey(const std::string& id) {
   std::lock_guard lock(messages_);
   const std::string field = At("remove_keyframes", removals_);
-  chain_->Change([&](Timeline& timeline) {
-    if (auto rejection = timeline.Remove(id, field)) chain_->Post(*rejection);
+  chain_->Apply([&](DanceScore& score) {
+    if (auto rejection = score.timeline.Remove(id, field)) chain_->Post(*rejection);
   });
   ++removals_;
 }
@@ -89,39 +95,57 @@ void DanceStream::SetControls(const ControlRequest& request) {
   std::lock_guard lock(messages_);
   const std::string field = NextControls();
   ValidateControls(request, model_, field);
-  chain_->SetControls(request, field);
+  chain_->Apply([&](DanceScore& score) {
+    const int64_t from = score.timeline.Frontier(field);
+    score.controls.Set(request, from, field);
+    if (request.velocity_factors) score.timeline.Disturb();
+    if (!request.root_path) return;
+    const int64_t last = request.root_path->frames.back();
+    score.timeline.Disturb(request.root_path->frames.front(), last);
+    // A path that lies before the first frame was danced before the resume: it is not late.
+    if (last < from && last >= score.config.FirstFrame()) chain_->Post(ControlsTooLate(last, from));
+  });
   ++controls_;
 }
 
 void DanceStream::GiveBeats(const std::vector<double>& seconds,
                             const std::vector<double>& downbeats) {
   std::lock_guard lock(messages_);
-  chain_->GiveBeats(seconds, downbeats, NextMusicBeats() + ".times");
+  const std::string field = NextMusicBeats() + ".times";
+  chain_->Apply([&](DanceScore& score) {
+    const int64_t from = score.timeline.Frontier(field);
+    if (const int64_t late = score.beats.AddGiven(seconds, from, field, downbeats); late > 0)
+      chain_->Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
+  });
   ++beats_;
 }
 
 void DanceStream::GivePassages(const std::vector<Passage>& passages) {
   std::lock_guard lock(messages_);
-  chain_->GivePassages(passages, NextMusicPassages() + ".passages");
+  const std::string field = NextMusicPassages() + ".passages";
+  chain_->Apply([&](DanceScore& score) {
+    CheckPassages(passages, field);
+    score.recurrence.Give(passages, score.timeline.Frontier(field), field);
+  });
   ++passages_;
 }
 
 void DanceStream::GenerateUntil(int64_t frame) {
   std::lock_guard lock(messages_);
-  chain_->Change([frame](Timeline& timeline) { timeline.GenerateUntil(frame); });
+  chain_->Apply([frame](DanceScore& score) { score.timeline.GenerateUntil(frame); });
 }
 
 void DanceStream::KeysComplete() {
   std::lock_guard lock(messages_);
-  chain_->Change([](Timeline& timeline) { timeline.Complete(); });
+  chain_->Apply([](DanceScore& score) { score.timeline.Complete(); });
 }
 
 void DanceStream::HalfClose() {
   std::lock_guard lock(messages_);
   const AudioFeed* audio = chain_->audio();
   if (audio != nullptr && !audio->finished()) FinishAudio();
-  chain_->Change([](Timeline& timeline) {
-    if (!timeline.complete()) timeline.Complete();
+  chain_->Apply([](DanceScore& score) {
+    if (!score.timeline.complete()) score.timeline.Complete();
   });
 }
 
