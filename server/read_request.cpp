@@ -11,6 +11,7 @@
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
 #include "proto/wire/controls.h"
+#include "proto/wire/convert.h"
 #include "proto/wire/read_pose.h"
 
 namespace choreo {
@@ -147,12 +148,18 @@ DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
 
 }  // namespace
 
-Target ReadTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
-                  const std::string& pose_field, const std::string& mask_field) {
-  Target target = wire::ToTarget(pose, mask, skeleton, pose_field, mask_field);
-  ValidatePose(skeleton, target.pose, pose_field);
-  ValidateMask(skeleton, target.mask, mask_field);
-  return target;
+Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field) {
+  if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
+  if (!v1::HandPose_IsValid(keyframe.hands())) {
+    throw InvalidArgument(field + ".hands", std::to_string(keyframe.hands()) + ", must be 0 to " +
+                                                std::to_string(v1::HandPose_MAX));
+  }
+  Target target = wire::ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
+                                 skeleton, field, field + ".mask");
+  Key key{.id = keyframe.id(), .pose = std::move(target.pose), .mask = std::move(target.mask)};
+  if (keyframe.has_hit()) key.hit = keyframe.hit();
+  key.hands = wire::FromProto(keyframe.hands());
+  return key;
 }
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
@@ -225,9 +232,9 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
                             std::to_string(message.rank_by()) + " is no RankBy; 0 to 2 are");
   }
   if (message.has_target()) {
-    request.target =
-        ReadTarget(message.target(), message.has_target_mask() ? &message.target_mask() : nullptr,
-                   model.skeleton, "target", "target_mask");
+    request.target = wire::ToTarget(message.target(),
+                                    message.has_target_mask() ? &message.target_mask() : nullptr,
+                                    model.skeleton, "target", "target_mask");
   } else if (message.has_target_mask()) {
     throw InvalidArgument("target_mask", "there is no target");
   }

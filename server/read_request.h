@@ -15,9 +15,8 @@
 /// Pure functions, thread-safe.
 namespace choreo {
 
-/// A key pose that may be danced to. `mask` null: all joints.
-Target ReadTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton& skeleton,
-                  const std::string& pose_field, const std::string& mask_field);
+/// A key without its frame. DanceStream::SetKey checks the values.
+Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field);
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
 

@@ -2,8 +2,6 @@
 
 #include <grpcpp/server_context.h>
 
-#include <map>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -81,15 +79,10 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void OnEvent(const DanceEvent& event) override {
-    DanceEvent told = event;
-    if (auto* key = std::get_if<KeyReached>(&told)) {
+    if (const auto* key = std::get_if<KeyReached>(&event))
       serving_.tally.key_error_m.Add(key->raw_error_m);
-      const std::lock_guard lock(hands_mutex_);
-      const auto hands = hands_.find(key->id);
-      if (hands != hands_.end()) key->hands = hands->second;
-    }
     DanceResponse response;
-    *response.mutable_event() = wire::ToProto(told, queue_->model().fps);
+    *response.mutable_event() = wire::ToProto(event, queue_->model().fps);
     outbox().Send(std::move(response));
   }
 
@@ -195,36 +188,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
-    const ModelInfo& model = queue_->model();
     const std::string field = stream.NextKeyframe();
-    if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
-    const Target target =
-        ReadTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
-                   model.skeleton, field, field + ".mask");
-    std::optional<double> hit;
-    if (keyframe.has_hit()) hit = keyframe.hit();
-    if (!v1::HandPose_IsValid(keyframe.hands())) {
-      throw InvalidArgument(field + ".hands", std::to_string(keyframe.hands()) + ", must be 0 to " +
-                                                  std::to_string(v1::HandPose_MAX));
-    }
-    // Sets the hands first: SetKey may let the key be reached at once. A key that comes too late
-    // changes nothing, so the former key's hands return.
-    const std::optional<HandPose> former =
-        ExchangeHands(keyframe.id(), wire::FromProto(keyframe.hands()));
-    if (!stream.SetKey(keyframe.id(), ToMoment(keyframe, field), target.pose, target.mask, hit))
-      ExchangeHands(keyframe.id(), former);
-  }
-
-  std::optional<HandPose> ExchangeHands(const std::string& id, std::optional<HandPose> hands) {
-    const std::lock_guard lock(hands_mutex_);
-    std::optional<HandPose> before;
-    if (const auto known = hands_.find(id); known != hands_.end()) before = known->second;
-    if (hands) {
-      hands_[id] = *hands;
-    } else {
-      hands_.erase(id);  // so that keys without hands take no memory
-    }
-    return before;
+    stream.SetKey(ToKey(keyframe, queue_->model().skeleton, field), ToMoment(keyframe, field));
   }
 
   void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {
@@ -250,9 +215,6 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   // From messages.
   MusicFile file_;
   bool file_decoded_ = false;
-
-  std::mutex hands_mutex_;
-  std::map<std::string, HandPose> hands_;  // of keys, for KeyReached
 };
 
 class StreamReactor final

@@ -308,9 +308,11 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
   }
   for (const Beat& beat : score_.beats.TakeBeatsAt(emitted)) Post(beat);
   if (next_frame_ == segment.to && run.arrival()) {
+    const Key& key = *score_.timeline.Planned()->key;  // its hands may be newer than the job's
     KeyReached reached = *run.arrival();
-    reached.id = segment.key->id;
+    reached.id = key.id;
     meter_.AddKey(reached);
+    reached.hands = key.hands;
     Post(reached);
   }
 }
@@ -319,11 +321,12 @@ void DanceChain::Post(const DanceEvent& event) {
   mailbox_.Post([event](DanceSink& sink) { sink.OnEvent(event); });
 }
 
-void DanceChain::PostLate(const KeyRejected& rejection) {
+void DanceChain::PostLate(const KeyRejected& rejection, std::optional<HandPose> hands) {
   const auto reached = std::ranges::find_if(reached_before_, [&](const KeyReached& key) {
     return key.id == rejection.id && key.frame == rejection.frame;
   });
   if (reached == reached_before_.end()) return Post(rejection);
+  reached->hands = hands;
   Post(*reached);
   reached_before_.erase(reached);
 }

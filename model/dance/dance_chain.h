@@ -56,9 +56,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Whether the last call to the sink has been made or is under way.
   bool over() const { return mailbox_.over(); }
 
-  /// The answer to a key that came too late: a rejection, or that it was reached before the dance
-  /// was resumed. Only inside Apply.
-  void PostLate(const KeyRejected& rejection);
+  /// The answer to a key with these hands that came too late: a rejection, or that it was reached
+  /// before the dance was resumed. Only inside Apply.
+  void PostLate(const KeyRejected& rejection, std::optional<HandPose> hands);
 
   /// Null for a dance without music. Only one thread at a time may push.
   AudioFeed* audio() { return audio_.get(); }

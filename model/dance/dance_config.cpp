@@ -93,7 +93,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
   CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "config.history.first_frame");
   if (target) {
     ValidatePose(model.skeleton, target->pose, "target");
-    ValidateMask(model.skeleton, target->mask, "target.mask");
+    ValidateMask(model.skeleton, target->mask, "target_mask");
   }
   ValidateKeyId(target_id, "target_id");
   ValidateHit(hit, "target_hit");

@@ -64,22 +64,17 @@ std::string DanceStream::NextControls() const { return At("controls", controls_)
 std::string DanceStream::NextMusicBeats() const { return At("music_beats", beats_); }
 std::string DanceStream::NextMusicPassages() const { return At("music_passages", passages_); }
 
-bool DanceStream::SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
-                         const PoseMask& mask, std::optional<double> hit) {
+void DanceStream::SetKey(const Key& key, const KeyMoment& when) {
   std::lock_guard lock(messages_);
   const std::string field = NextKeyframe();
-  ValidatePose(model_.skeleton, pose, field);
-  ValidateMask(model_.skeleton, mask, field + ".mask");
-  ValidateHit(hit, field + ".hit");
-  bool is_set = true;
+  ValidatePose(model_.skeleton, key.pose, field);
+  ValidateMask(model_.skeleton, key.mask, field + ".mask");
+  ValidateHit(key.hit, field + ".hit");
   chain_->Apply([&](DanceScore& score) {
-    if (auto rejection = score.timeline.Set(id, when, pose, mask, field, hit)) {
-      is_set = false;
-      chain_->PostLate(*rejection);
-    }
+    if (auto rejection = score.timeline.Set(key, when, field))
+      chain_->PostLate(*rejection, key.hands);
   });
   ++keyframes_;
-  return is_set;
 }
 
 void DanceStream::RemoveKey(const std::string& id) {

@@ -58,10 +58,9 @@ class DanceStream {
   std::string NextMusicBeats() const;
   std::string NextMusicPassages() const;
 
-  /// See Timeline. A key that comes too late causes a KeyRejected event and changes nothing:
-  /// returns false. Errors name NextKeyframe().
-  bool SetKey(const std::string& id, const KeyMoment& when, const Pose& pose,
-              const PoseMask& mask = {}, std::optional<double> hit = {});
+  /// See Timeline. A key that comes too late causes a KeyRejected event and changes nothing.
+  /// Errors name NextKeyframe().
+  void SetKey(const Key& key, const KeyMoment& when);
   void RemoveKey(const std::string& id);
   /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
   /// none may come after KeysComplete, which freezes all.

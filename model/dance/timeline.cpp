@@ -32,7 +32,7 @@ int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest
   return from + std::clamp(longest / 2, 1, kTypicalFrames);
 }
 
-bool Key::operator==(const Key& other) const {
+bool Key::IsDancedAs(const Key& other) const {
   return id == other.id && frame == other.frame && pose.root_position == other.pose.root_position &&
          pose.rotations == other.pose.rotations && mask.root_position == other.mask.root_position &&
          mask.joints == other.mask.joints && hit == other.hit;
@@ -100,12 +100,12 @@ std::optional<KeyRejected> Timeline::BeforeTheDance(const std::string& id, int64
                      KeyRejected::Code::kAlreadyDanced};
 }
 
-std::optional<KeyRejected> Timeline::Set(const std::string& id, const KeyMoment& when,
-                                         const Pose& pose, const PoseMask& mask,
-                                         const std::string& field, std::optional<double> hit) {
+std::optional<KeyRejected> Timeline::Set(Key key, const KeyMoment& when, const std::string& field) {
   CheckOpen(field);
+  const std::string id = key.id;
   ValidateKeyId(id, field + ".id");
   const int64_t frame = Resolve(when, field);
+  key.frame = frame;
   if (options_.end_frame && frame >= *options_.end_frame) {
     throw InvalidArgument(PathOf(when, field), "frame " + Frames(frame) +
                                                    " is not before the end of the dance, " +
@@ -140,7 +140,7 @@ std::optional<KeyRejected> Timeline::Set(const std::string& id, const KeyMoment&
         field, "is one more than the limit of " + std::to_string(kMaxKeys) + " keyframes");
   }
   if (known != frame_of_.end()) keys_.erase(known->second);
-  keys_[frame] = Key{id, frame, pose, mask, hit};
+  keys_[frame] = std::move(key);
   frame_of_[id] = frame;
   rejected_.erase(id);
   previous_frame_ = frame;
@@ -240,7 +240,10 @@ void Timeline::CutIfChanged() {
   const bool changed = std::exchange(disturbed_, false);
   if (planned_.empty() || planned_.back().stop <= frontier_) return;
   Segment& open = planned_.back();
-  if (!changed && open.key == From(open.from).key) return;
+  std::optional<Key> key = From(open.from).key;
+  const bool is_same = open.key && key ? open.key->IsDancedAs(*key) : !open.key && !key;
+  if (is_same) open.key = std::move(key);  // its hands may be new
+  if (is_same && !changed) return;
   open.stop = planned_to_ = frontier_;
 }
 

@@ -34,12 +34,15 @@ using KeyMoment = std::variant<AtFrame, AtTime, AfterPrevious>;
 
 /// A key pose at a frame. World frame.
 struct Key {
-  std::string id;
+  std::string id = {};
   int64_t frame = 0;
-  Pose pose;
-  PoseMask mask;
-  std::optional<double> hit = {};  ///< TransitionRequest::hit
-  bool operator==(const Key& other) const;
+  Pose pose = {};
+  PoseMask mask = {};
+  std::optional<double> hit = {};      ///< TransitionRequest::hit
+  std::optional<HandPose> hands = {};  ///< KeyReached::hands
+
+  /// Whether the same is danced to both: hands do not count.
+  bool IsDancedAs(const Key& other) const;
 };
 
 /// One transition to dance: frames [from, to). A key is at frame to - 1. Only frames before `stop`
@@ -78,14 +81,12 @@ class Timeline {
   };
   explicit Timeline(Options options);
 
-  /// Adds a key, or moves (replaces) the one with this id. `field` is the sender's path for errors,
-  /// as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, is in frozen
-  /// frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a frame that
-  /// another id has, one closer than kMinKeyDistance to another key, for more than kMaxKeys, and
-  /// after Complete. The pose and `hit` must be valid (validation.h).
-  std::optional<KeyRejected> Set(const std::string& id, const KeyMoment& when, const Pose& pose,
-                                 const PoseMask& mask, const std::string& field,
-                                 std::optional<double> hit = {});
+  /// Adds a key at `when`, or moves (replaces) the one with this id. `field` is the sender's path
+  /// for errors, as in "keyframes[3]". Returns a rejection if the key, or the one it replaces, is
+  /// in frozen frames. Throws Error(kInvalidArgument) for an empty id, a moment out of range, a
+  /// frame that another id has, one closer than kMinKeyDistance to another key, for more than
+  /// kMaxKeys, and after Complete. The pose and `hit` must be valid (validation.h).
+  std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
   /// Throws Error(kNotFound) for an id that is not on the timeline, Error(kInvalidArgument) after
   /// Complete.

@@ -60,7 +60,7 @@ std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, Dance
   const auto listener = std::make_shared<Listener>();
   DanceStream stream(queue, config, listener);
   if (controls.root_path || controls.velocity_factors) stream.SetControls(controls);
-  for (const Key& key : keys) stream.SetKey(key.id, AtFrame{key.frame}, key.pose, key.mask);
+  for (const Key& key : keys) stream.SetKey(key, AtFrame{key.frame});
   stream.PushAudio(mono, 0);
   stream.HalfClose();
   return listener->Wait();

@@ -67,7 +67,8 @@ TEST_F(ControlledDanceTest, StartsAtTheStartOfThePath) {
     const Recording dance = Perform([key](DanceStream& s) {
       s.SetControls(PathRequest(0, 299, -5, -4));
       if (!key) return;
-      s.SetKey("first", AtFrame{0}, KeyAt(0, 0), {.root_position = false, .joints = {}});
+      s.SetKey({.id = "first", .pose = KeyAt(0, 0), .mask = {.root_position = false, .joints = {}}},
+               AtFrame{0});
     });
     ASSERT_TRUE(dance.summary) << dance.error->what();
     EXPECT_TRUE(dance.warnings.empty()) << dance.warnings[0].message;
@@ -103,7 +104,7 @@ TEST_F(ControlledDanceTest, ControlsApplyFromTheFirstUnfrozenFrame) {
 
 TEST_F(ControlledDanceTest, WithoutGenerateUntilControlsApplyAfterTheLastKey) {
   const Recording dance = Perform([](DanceStream& s) {
-    s.SetKey("a", AtFrame{80}, KeyAt(0, 0));
+    s.SetKey({.id = "a", .pose = KeyAt(0, 0)}, AtFrame{80});
     s.SetControls(Factor(BodyPart::kLeftArm, 5));
   });
   ASSERT_TRUE(dance.summary) << dance.error->what();
@@ -114,8 +115,8 @@ TEST_F(ControlledDanceTest, WithoutGenerateUntilControlsApplyAfterTheLastKey) {
 TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   const Recording dance = Perform([](DanceStream& s) {
     s.SetControls(PathRequest(0, 299, 0, 2));
-    s.SetKey("beside", AtFrame{150}, KeyAt(1.5, 1));
-    s.SetKey("on", AtFrame{240}, KeyAt(2.0 * 240 / 299, 2.0 * 240 / 299));
+    s.SetKey({.id = "beside", .pose = KeyAt(1.5, 1)}, AtFrame{150});
+    s.SetKey({.id = "on", .pose = KeyAt(2.0 * 240 / 299, 2.0 * 240 / 299)}, AtFrame{240});
   });
   ASSERT_TRUE(dance.summary) << dance.error->what();
   ASSERT_EQ(dance.reached.size(), 2u);
@@ -147,9 +148,9 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
     for (const bool path : {true, false}) {
       const Recording dance = Perform([&](DanceStream& s) {
         if (path) s.SetControls(PathRequest(0, 299, 0, 2));
-        s.SetKey("crouch", AtFrame{first}, crouch, nowhere);
-        s.SetKey("up", AtFrame{100}, RestPose(skeleton), nowhere);
-        s.SetKey("again", AtFrame{160}, crouch, nowhere);
+        s.SetKey({.id = "crouch", .pose = crouch, .mask = nowhere}, AtFrame{first});
+        s.SetKey({.id = "up", .pose = RestPose(skeleton), .mask = nowhere}, AtFrame{100});
+        s.SetKey({.id = "again", .pose = crouch, .mask = nowhere}, AtFrame{160});
       });
       ASSERT_TRUE(dance.summary) << dance.error->what();
       EXPECT_TRUE(dance.warnings.empty());
@@ -164,7 +165,7 @@ TEST_F(ControlledDanceTest, AKeyWithoutAPlaceStandsOnTheFloor) {
   jump.root_path->heights = {1.2, 1.2};
   const Recording high = Perform([&](DanceStream& s) {
     s.SetControls(jump);
-    s.SetKey("crouch", AtFrame{100}, crouch, nowhere);
+    s.SetKey({.id = "crouch", .pose = crouch, .mask = nowhere}, AtFrame{100});
   });
   ASSERT_TRUE(high.summary) << high.error->what();
   EXPECT_NEAR(high.poses[100].root_position.y(), 1.2, 1e-5);
@@ -181,8 +182,10 @@ TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
   const Recording dance = Perform([&](DanceStream& s) {
     s.SetControls(PathRequest(0, 299, 0, 5));  // 0.7 m/s
     for (const int64_t frame : {59, 119, 179, 239, 299})
-      s.SetKey("at " + std::to_string(frame), AtFrame{frame}, soft,
-               {.root_position = false, .joints = {}});
+      s.SetKey({.id = "at " + std::to_string(frame),
+                .pose = soft,
+                .mask = {.root_position = false, .joints = {}}},
+               AtFrame{frame});
   });
   ASSERT_TRUE(dance.summary) << dance.error->what();
   EXPECT_TRUE(dance.warnings.empty());
@@ -201,7 +204,7 @@ TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
     s.SetControls(Factor(BodyPart::kTrunk, 0.5F));
     s.GenerateUntil(200);
     between();
-    s.SetKey("end", AtFrame{280}, KeyAt(-1, 0));
+    s.SetKey({.id = "end", .pose = KeyAt(-1, 0)}, AtFrame{280});
   };
   const Recording at_once = Perform([&](DanceStream& s) { messages(s, [] {}); });
   const Recording slowly = Perform([&](DanceStream& s) {
@@ -217,7 +220,7 @@ TEST_F(ControlledDanceTest, ResumesBitForBitWhereverItBroke) {
     s.SetControls(Factor(BodyPart::kLeftArm, 1.5F));
     s.GenerateUntil(70);
     s.SetControls(PathRequest(50, 250, 0.5, -1));
-    s.SetKey("a", AtFrame{130}, KeyAt(0.2, 0));
+    s.SetKey({.id = "a", .pose = KeyAt(0.2, 0)}, AtFrame{130});
     s.GenerateUntil(140);
     s.SetControls(Factor(BodyPart::kLeftLeg, 0));
     s.SetControls(PathRequest(10, 60, 0, 0));  // too late
@@ -347,7 +350,7 @@ TEST_F(ControlledDanceTest, SingleTransitionEqualsTheStreams) {
   const Recording dance = Perform(
       [&](DanceStream& s) {
         s.SetControls(path);
-        s.SetKey("target", AtFrame{89}, key);
+        s.SetKey({.id = "target", .pose = key}, AtFrame{89});
       },
       90);
   GroupRequest request;

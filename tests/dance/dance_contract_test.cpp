@@ -104,11 +104,11 @@ TEST_F(DanceContract, KeysAreCountedInErrors) {
   EXPECT_EQ(Refusal(
                 [&](DanceStream& stream) {
                   for (int i = 0; i < 3; ++i) {
-                    stream.SetKey(std::to_string(i), AtFrame{10 * i + 10}, rest_);
+                    stream.SetKey({.id = std::to_string(i), .pose = rest_}, AtFrame{10 * i + 10});
                   }
                   Pose bad = rest_;
                   bad.rotations(2, 16) = -7.9;
-                  stream.SetKey("3", AtFrame{100}, bad);
+                  stream.SetKey({.id = "3", .pose = bad}, AtFrame{100});
                 },
                 ErrorCode::kInvalidArgument),
             "keyframes[3].rotations[16]: 7.9 rad exceeds 2π");
@@ -128,10 +128,10 @@ TEST_F(DanceContract, LateKeysAreRejectedAndTheDanceContinues) {
   auto sink = std::make_shared<Recorder>();
   DanceStream stream(*queue_, {}, sink);
   stream.GenerateUntil(0);
-  stream.SetKey("a", AtFrame{50}, rest_);
+  stream.SetKey({.id = "a", .pose = rest_}, AtFrame{50});
   stream.GenerateUntil(60);
-  stream.SetKey("late", AtFrame{59}, rest_);
-  stream.SetKey("b", AtFrame{60}, rest_);
+  stream.SetKey({.id = "late", .pose = rest_}, AtFrame{59});
+  stream.SetKey({.id = "b", .pose = rest_}, AtFrame{60});
   stream.KeysComplete();
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.summary);
@@ -144,10 +144,10 @@ TEST_F(DanceContract, LateKeysAreRejectedAndTheDanceContinues) {
 TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
   auto sink = std::make_shared<Recorder>();
   DanceStream stream(*queue_, {}, sink);
-  stream.SetKey("a", AtFrame{20}, rest_);
+  stream.SetKey({.id = "a", .pose = rest_}, AtFrame{20});
   stream.Cancel();
   EXPECT_TRUE(sink->WaitForEnd().error);
-  stream.SetKey("b", AtFrame{40}, rest_);
+  stream.SetKey({.id = "b", .pose = rest_}, AtFrame{40});
   stream.GenerateUntil(1000);
   stream.KeysComplete();
   stream.Cancel();

@@ -102,7 +102,7 @@ TEST(DanceStream, OrderOfKeysDoesNotMatterAfterTheFrontier) {
       }
       SendKey(stream, key);
     }
-    stream.SetKey("mistake", AtFrame{70'000}, RandomPose(random));
+    stream.SetKey({.id = "mistake", .pose = RandomPose(random)}, AtFrame{70'000});
     stream.RemoveKey("mistake");
     stream.KeysComplete();
     const Recording recording = sink->WaitForEnd();

@@ -223,7 +223,7 @@ TEST(DanceStream, FreesAllOfADance) {
       DanceStream stream(*queue, {}, sink);
       stream.GenerateUntil(10);
       sink->WaitForFrames(10);
-      stream.SetKey("a", AtFrame{20}, RestPose(Skeleton::Smpl24()));
+      stream.SetKey({.id = "a", .pose = RestPose(Skeleton::Smpl24())}, AtFrame{20});
       if (whole) stream.HalfClose();
       if (whole) sink->WaitForEnd();
     }
@@ -243,7 +243,7 @@ TEST(DanceStream, FailsWhenMemoryRunsOut) {
   const auto queue = FakeQueue();
   auto sink = std::make_shared<ForgetfulRecorder>();
   DanceStream stream(*queue, {}, sink);
-  stream.SetKey("a", AtFrame{20}, RestPose(Skeleton::Smpl24()));
+  stream.SetKey({.id = "a", .pose = RestPose(Skeleton::Smpl24())}, AtFrame{20});
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.error);
   EXPECT_EQ(recording.error->code(), ErrorCode::kInternal);
@@ -304,9 +304,9 @@ TEST(DanceStream, RefusedMessagesChangeNothing) {
   bad.rotations(0, 16) = 7.9;
   const std::vector<float> nan(10, std::nanf(""));
   for (const Key& key : dance.keys) {
-    EXPECT_THROW(stream.SetKey("bad", AtFrame{90'000}, bad), Error);
+    EXPECT_THROW(stream.SetKey({.id = "bad", .pose = bad}, AtFrame{90'000}), Error);
     SendKey(stream, key);
-    EXPECT_THROW(stream.SetKey("bad", AtFrame{key.frame}, key.pose), Error);
+    EXPECT_THROW(stream.SetKey({.id = "bad", .pose = key.pose}, AtFrame{key.frame}), Error);
     EXPECT_THROW(stream.RemoveKey("unknown"), Error);
     EXPECT_THROW(stream.GenerateUntil(-5), Error);
   }

@@ -67,9 +67,7 @@ inline Dance LiveDance(uint32_t seed, double music_seconds) {
   return dance;
 }
 
-inline void SendKey(DanceStream& stream, const Key& key) {
-  stream.SetKey(key.id, AtFrame{key.frame}, key.pose, key.mask, key.hit);
-}
+inline void SendKey(DanceStream& stream, const Key& key) { stream.SetKey(key, AtFrame{key.frame}); }
 
 /// Sends the song from its sample `from` on.
 inline void SendSong(DanceStream& stream, const Dance& dance, int64_t from = 0) {

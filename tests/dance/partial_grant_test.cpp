@@ -75,8 +75,7 @@ TEST_F(PartialGrantTest, KeysFreezeNothing) {
   for (const Key& key : dance.keys) SendKey(stream, key);
   stream.GenerateUntil(5);
   EXPECT_EQ(sink->WaitForFrames(5).poses.size(), 5U);
-  for (const Key& key : dance.keys)
-    stream.SetKey(key.id, AtFrame{key.frame + 1}, key.pose, key.mask);
+  for (const Key& key : dance.keys) stream.SetKey(key, AtFrame{key.frame + 1});
   stream.HalfClose();
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.summary);
@@ -113,6 +112,28 @@ TEST_F(PartialGrantTest, EditAfterTheFrontierChangesOnlyLaterFrames) {
   edited.push_back(SendKeyStep(dance.keys[1]));
   edited.push_back(Grant(100));
   EXPECT_TRUE(SameDance(plain, Play(dance, edited, true)));
+}
+
+// Newer hands are told, and cut no transition; those of a key that comes too late are not.
+TEST_F(PartialGrantTest, HandsBelongToTheirKeyAndChangeNoFrame) {
+  Dance dance = Editable(55);
+  std::mt19937 random(55);
+  const Pose pose = RandomPose(random);
+  const auto key = [&pose](HandPose hands) {
+    return SendKeyStep({.id = "a", .frame = 60, .pose = pose, .hands = hands});
+  };
+  const Recording plain = Play(dance, {key(HandPose::kOpen), Grant(20), Grant(61)}, true);
+  const Recording changed = Play(
+      dance,
+      {key(HandPose::kOpen), Grant(20), key(HandPose::kFist), Grant(61), key(HandPose::kPoint)},
+      true);
+  EXPECT_TRUE(SameDance(plain, changed));
+  EXPECT_EQ(plain.continuations.size(), changed.continuations.size());
+  EXPECT_EQ(changed.rejected.size(), 1U);
+  ASSERT_EQ(plain.reached.size(), 1U);
+  ASSERT_EQ(changed.reached.size(), 1U);
+  EXPECT_EQ(plain.reached[0].hands, HandPose::kOpen);
+  EXPECT_EQ(changed.reached[0].hands, HandPose::kFist);
 }
 
 // From the end of each transition, and from each cut, to the same messages again.

@@ -40,12 +40,14 @@ void ExpectSameBeats(const Recording& whole, const Recording& rest, size_t told)
   }
 }
 
-/// Keys, in order of time, and how exactly they were reached.
+/// Keys, in order of time, how exactly they were reached, and with which hands.
 auto Figures(const std::vector<KeyReached>& keys) {
-  std::vector<std::tuple<int64_t, std::string, double, double, double, double>> figures;
+  std::vector<
+      std::tuple<int64_t, std::string, double, double, double, double, std::optional<HandPose>>>
+      figures;
   for (const KeyReached& key : keys)
     figures.emplace_back(key.frame, key.id, key.raw_error_m, key.final_error_m, key.final_error_deg,
-                         key.correction_m);
+                         key.correction_m, key.hands);
   std::ranges::sort(figures);
   return figures;
 }
@@ -139,15 +141,15 @@ TEST(Resume, GoesOnBitForBitAfterEdits) {
   for (int i = 0; i < 5; ++i) poses.push_back(RandomPose(random));
   ExpectResumesEverywhere(*queue, dance, [&poses](DanceStream& stream) {
     stream.GenerateUntil(0);
-    stream.SetKey("a", AtFrame{250}, poses[0]);
+    stream.SetKey({.id = "a", .pose = poses[0]}, AtFrame{250});
     stream.GenerateUntil(70);
-    stream.SetKey("b", AtFrame{100}, poses[1]);
-    stream.SetKey("c", AtTime{4.9}, poses[2]);
+    stream.SetKey({.id = "b", .pose = poses[1], .hands = HandPose::kFist}, AtFrame{100});
+    stream.SetKey({.id = "c", .pose = poses[2]}, AtTime{4.9});
     stream.RemoveKey("c");
     stream.GenerateUntil(110);
-    stream.SetKey("d", AfterPrevious{60}, poses[3]);
+    stream.SetKey({.id = "d", .pose = poses[3]}, AfterPrevious{60});
     stream.GenerateUntil(300);
-    stream.SetKey("e", AtFrame{330}, poses[4]);
+    stream.SetKey({.id = "e", .pose = poses[4]}, AtFrame{330});
   });
 }
 
@@ -206,7 +208,7 @@ TEST(Resume, RejectsKeysThatWereNotReachedBefore) {
   const Recording rest = Resume(*queue, dance, whole.continuations[1], [&](DanceStream& stream) {
     SendKey(stream, first);
     SendKey(stream, first);
-    stream.SetKey("new", AtFrame{first.frame - 5}, first.pose, first.mask);
+    stream.SetKey({.id = "new", .pose = first.pose, .mask = first.mask}, AtFrame{first.frame - 5});
     for (size_t i = 1; i < dance.keys.size(); ++i) SendKey(stream, dance.keys[i]);
   });
   ASSERT_TRUE(rest.summary) << rest.error->what();

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 Pose Rest() { return RestPose(Skeleton::Smpl24()); }
 
 std::optional<KeyRejected> Set(Timeline& timeline, const std::string& id, const KeyMoment& when) {
-  return timeline.Set(id, when, Rest(), {}, "keyframes[0]");
+  return timeline.Set({.id = id, .pose = Rest()}, when, "keyframes[0]");
 }
 
 struct Span {
