@@ -19,11 +19,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCM samples are read as they come");
 
-void CheckBeat(double beat, double most, const std::string& field) {
-  if (beat >= 0 && beat <= most) return;
-  throw InvalidArgument(field, Show(beat) + " s is not in [0, " + Show(most) + "]");
-}
-
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
   const std::string field = "config.history.poses";
   if (history.poses_size() == 0) throw InvalidArgument(field, "empty; at least 1 pose is needed");
@@ -61,11 +56,7 @@ Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& mo
   continuation.frame = message.frame();
   continuation.fingerprint = message.fingerprint();
   continuation.audio_from_sample = message.audio_from_sample();
-  if (message.has_last_beat()) {
-    continuation.last_beat = message.last_beat();
-    // Beats may lie after the music's end, as far as the last transition reached.
-    CheckBeat(message.last_beat(), kMaxDanceFrames / model.fps, field + ".last_beat");
-  }
+  if (message.has_last_beat()) continuation.last_beat = message.last_beat();
   if (message.stage_size() > 0) CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
   for (const v1::ReachedKey& key : message.reached()) {
     continuation.reached.push_back({.id = key.id(),
@@ -107,9 +98,8 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
                                           : fresh_seed;
   out->allow_inexact_resume = config.allow_inexact_resume();
   if (config.has_continuation()) out->continuation = ToContinuation(config.continuation(), model);
-  out->music_beats = ToBeats(config.music_beats(), "config.music_beats");
-  out->music_downbeats =
-      ToDownbeats(config.music_downbeats(), out->music_beats, "config.music_downbeats");
+  out->music_beats.assign(config.music_beats().begin(), config.music_beats().end());
+  out->music_downbeats.assign(config.music_downbeats().begin(), config.music_downbeats().end());
   out->music_id = config.music_id();
   out->music_passages = ToPassages(config.music_passages());
 }
@@ -287,34 +277,6 @@ ControlRequest ToControls(const v1::Controls& controls, const std::string& field
   for (const ControlRow& row : kControls)
     names += (names.empty() ? "" : " or ") + std::string(row.name);
   throw InvalidArgument(field, "empty; " + names + " must be there");
-}
-
-std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
-                            const std::string& field) {
-  if (static_cast<size_t>(times.size()) > kMaxBeats) {
-    throw InvalidArgument(
-        field, std::to_string(times.size()) + " beats, the limit is " + std::to_string(kMaxBeats));
-  }
-  for (int i = 0; i < times.size(); ++i) {
-    CheckBeat(times[i], kMaxAudioSeconds, At(field, i));
-    if (i > 0 && times[i] <= times[i - 1]) {
-      throw InvalidArgument(At(field, i), Show(times[i]) + " s is not after the beat before it, " +
-                                              Show(times[i - 1]) + " s");
-    }
-  }
-  return {times.begin(), times.end()};
-}
-
-std::vector<double> ToDownbeats(const google::protobuf::RepeatedField<double>& times,
-                                std::span<const double> beats, const std::string& field) {
-  std::vector<double> downbeats = ToBeats(times, field);
-  for (size_t i = 0; i < downbeats.size(); ++i) {
-    if (!std::ranges::binary_search(beats, downbeats[i])) {
-      throw InvalidArgument(At(field, static_cast<int>(i)),
-                            Show(downbeats[i]) + " s is none of the beats beside it");
-    }
-  }
-  return downbeats;
 }
 
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {

@@ -32,14 +32,6 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const 
 /// Also throws where no control is given. ValidateControls judges the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
 
-/// Times of beats, within the longest music and strictly ascending.
-std::vector<double> ToBeats(const google::protobuf::RepeatedField<double>& times,
-                            const std::string& field);
-
-/// Those of the beats, ascending, that begin a bar: each is one of them.
-std::vector<double> ToDownbeats(const google::protobuf::RepeatedField<double>& times,
-                                std::span<const double> beats, const std::string& field);
-
 /// As they came; CheckPassages says whether they are good.
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 

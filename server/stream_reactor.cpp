@@ -125,9 +125,11 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kControls:
         return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
       case DanceRequest::kMusicBeats:
-        return TakeBeats(*stream, request.music_beats());
+        return stream->GiveBeats(
+            {request.music_beats().times().begin(), request.music_beats().times().end()},
+            {request.music_beats().downbeats().begin(), request.music_beats().downbeats().end()});
       case DanceRequest::kMusicPassages:
-        return TakePassages(*stream, request.music_passages());
+        return stream->GivePassages(ToPassages(request.music_passages().passages()));
       case DanceRequest::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
       case DanceRequest::kKeyframesComplete:
@@ -190,19 +192,6 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
     const std::string field = stream.NextKeyframe();
     stream.SetKey(ToKey(keyframe, queue_->model().skeleton, field), ToMoment(keyframe, field));
-  }
-
-  void TakeBeats(DanceStream& stream, const v1::MusicBeats& message) {
-    const std::string field = stream.NextMusicBeats();
-    if (message.times().empty()) throw InvalidArgument(field + ".times", "empty");
-    const std::vector<double> beats = ToBeats(message.times(), field + ".times");
-    stream.GiveBeats(beats, ToDownbeats(message.downbeats(), beats, field + ".downbeats"));
-  }
-
-  void TakePassages(DanceStream& stream, const v1::MusicPassages& message) {
-    if (message.passages().empty())
-      throw InvalidArgument(stream.NextMusicPassages() + ".passages", "empty");
-    stream.GivePassages(ToPassages(message.passages()));
   }
 
   // From the configuration; written before the stream exists.

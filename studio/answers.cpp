@@ -6,7 +6,6 @@
 #include "client/authoring/choreography.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
-#include "client/authoring/music_beats.h"
 #include "client/authoring/photo_pose.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
@@ -69,7 +68,7 @@ Response ComposeKeys(const StudioContext& context, const Song* music, const Comp
   authoring::CompositionRequest composition{.seconds = request.seconds(), .seed = request.seed()};
   composition.named = "compose.seconds";
   composition.beats.assign(request.beats().begin(), request.beats().end());
-  authoring::CheckBeats(composition.beats, "compose.beats");
+  CheckBeats(composition.beats, "compose.beats");
   if (music && composition.beats.empty()) composition.beats = music->music.track.Seconds();
   if (music) composition.passages = music->music.passages;
   Response response;

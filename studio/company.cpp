@@ -7,7 +7,6 @@
 #include "client/authoring/dance_keys.h"
 #include "client/authoring/formation.h"
 #include "client/authoring/key_file.h"
-#include "client/authoring/music_beats.h"
 #include "client/convert.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/gltf.h"
@@ -110,7 +109,7 @@ Response FormCompany(const StudioContext& context, const Company& request) {
   if (request.dances().empty()) return response;
 
   const std::vector<double> beats(request.beats().begin(), request.beats().end());
-  authoring::CheckBeats(beats, "company.beats");
+  CheckBeats(beats, "company.beats");
   if (request.dance_of_size() != formation->dancers_size())
     throw InvalidArgument("company.dance_of", "is not of each dancer");
   std::vector<client::FinishedDance> dances;

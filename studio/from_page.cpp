@@ -4,7 +4,6 @@
 #include <climits>
 #include <cstring>
 
-#include "client/authoring/music_beats.h"
 #include "client/convert.h"
 #include "model/audio/format.h"
 #include "model/core/field.h"
@@ -82,7 +81,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();
   if (config.has_variation()) out.variation = config.variation();
   out.music_beats.assign(config.music_beats().begin(), config.music_beats().end());
-  authoring::CheckBeats(out.music_beats, "config.music_beats");
+  CheckBeats(out.music_beats, "config.music_beats");
   out.music_downbeats.assign(config.music_downbeats().begin(), config.music_downbeats().end());
   out.style = config.style();
   if (config.has_frames()) out.frames = config.frames();

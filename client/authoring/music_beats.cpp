@@ -15,7 +15,7 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kTempoSlack = 1.06;  // either way: a semitone
+constexpr double kTempoSlack = 1.06;     // either way: a semitone
 constexpr double kMaxSongSeconds = 1e6;  // of a song, of which the dance may use only a part
 constexpr std::streamsize kMaxLineLength = 1000;
 
@@ -189,24 +189,6 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
   }
   track.tempo_bpm = TempoOf(track.Seconds());
   return track;
-}
-
-void CheckBeats(std::span<const double> beats, const std::string& field) {
-  if (beats.size() > kMaxBeats) {
-    throw InvalidArgument(
-        field, std::to_string(beats.size()) + " beats, the limit is " + std::to_string(kMaxBeats));
-  }
-  for (size_t i = 0; i < beats.size(); ++i) {
-    const std::string at = field + "[" + std::to_string(i) + "]";
-    if (!(beats[i] >= 0 && beats[i] <= kMaxAudioSeconds)) {
-      throw InvalidArgument(
-          at, InFull(beats[i]) + " s is not within 0 to " + std::to_string(kMaxAudioSeconds));
-    }
-    if (i > 0 && beats[i] <= beats[i - 1]) {
-      throw InvalidArgument(at, InFull(beats[i]) + " s is not after the beat before it, " +
-                                    InFull(beats[i - 1]) + " s");
-    }
-  }
 }
 
 }  // namespace choreo::authoring

@@ -28,8 +28,4 @@ void RequireSong(const BeatOptions& options, const std::string& song);
 /// Error(kInvalidArgument), whose field is "beats", "downbeat" or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
 
-/// Checks beats given in seconds. Throws Error(kInvalidArgument) with FIELD[i], like the API, for
-/// one outside 0 to 600, or not after the previous one, and for too many.
-void CheckBeats(std::span<const double> beats, const std::string& field);
-
 }  // namespace choreo::authoring

@@ -5,6 +5,7 @@
 
 #include "client/authoring/json_fields.h"
 #include "client/authoring/music_beats.h"
+#include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 #include "model/motion/velocity_factors.h"

@@ -1,9 +1,12 @@
 #include "model/audio/format.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "model/core/error.h"
+#include "model/core/field.h"
+#include "model/core/rounded.h"
 
 namespace choreo {
 
@@ -18,6 +21,35 @@ void CheckAudioFormat(double sample_rate, int channels, const std::string& name)
   if (channels < 1 || channels > kMaxChannels) {
     throw InvalidArgument(name + ".channels", std::to_string(channels) + " is not within 1 to " +
                                                   std::to_string(kMaxChannels));
+  }
+}
+
+void CheckBeats(std::span<const double> beats, const std::string& field) {
+  if (beats.size() > kMaxBeats) {
+    throw InvalidArgument(
+        field, std::to_string(beats.size()) + " beats, the limit is " + std::to_string(kMaxBeats));
+  }
+  for (size_t i = 0; i < beats.size(); ++i) {
+    const std::string at = At(field, static_cast<int64_t>(i));
+    if (!(beats[i] >= 0 && beats[i] <= kMaxAudioSeconds)) {
+      throw InvalidArgument(
+          at, InFull(beats[i]) + " s is not within 0 to " + std::to_string(kMaxAudioSeconds));
+    }
+    if (i > 0 && beats[i] <= beats[i - 1]) {
+      throw InvalidArgument(at, InFull(beats[i]) + " s is not after the beat before it, " +
+                                    InFull(beats[i - 1]) + " s");
+    }
+  }
+}
+
+void CheckDownbeats(std::span<const double> downbeats, std::span<const double> beats,
+                    const std::string& field) {
+  CheckBeats(downbeats, field);
+  for (size_t i = 0; i < downbeats.size(); ++i) {
+    if (!std::ranges::binary_search(beats, downbeats[i])) {
+      throw InvalidArgument(At(field, static_cast<int64_t>(i)),
+                            InFull(downbeats[i]) + " s is none of the beats beside it");
+    }
   }
 }
 

@@ -26,6 +26,13 @@ inline constexpr int64_t kMaxFileSamples = 240'000'000;
 /// `channels` are within the limits above. The fields are `name`.sample_rate and `name`.channels.
 void CheckAudioFormat(double sample_rate, int channels, const std::string& name = "audio");
 
+/// Throws Error(kInvalidArgument, FIELD[i]) unless beats, in seconds, ascend strictly within the
+/// longest music; Error(kInvalidArgument, FIELD) for more than kMaxBeats.
+void CheckBeats(std::span<const double> beats, const std::string& field);
+/// The same, and unless each downbeat is one of these checked beats.
+void CheckDownbeats(std::span<const double> downbeats, std::span<const double> beats,
+                    const std::string& field);
+
 /// Throws Error(kInvalidArgument) if an interleaved sample is NaN or infinite, naming its index.
 /// `first_sample` is the absolute index of the first sample (one per set of channels).
 void CheckFinite(std::span<const float> interleaved, int channels, int64_t first_sample,

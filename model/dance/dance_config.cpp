@@ -37,6 +37,8 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   if (temperature) ValidateTemperature(*temperature, "config.temperature");
   ValidateShare(music_dynamics, "config.music_dynamics");
   ValidateShare(variation, "config.variation");
+  CheckBeats(music_beats, "config.music_beats");
+  CheckDownbeats(music_downbeats, music_beats, "config.music_downbeats");
   CheckPassages(music_passages, "config.music_passages");
   if (music_passages.size() > kMaxPassages) {
     throw InvalidArgument("config.music_passages", std::to_string(music_passages.size()) +

@@ -35,8 +35,8 @@ struct DanceStart {
   /// Resume from a continuation of another fingerprint with a warning instead of
   /// Error(kFailedPrecondition).
   bool allow_inexact_resume = false;
-  /// Seconds, ascending: the dance is timed to them. Empty: to the beats that it detects in the
-  /// music.
+  /// Seconds, valid by CheckBeats: the dance is timed to them. Empty: to the beats that it detects
+  /// in the music.
   std::vector<double> music_beats;
   std::vector<double> music_downbeats;  ///< those that begin a bar; reported, not danced
   /// Passages that repeat earlier ones (see CheckPassages). The dance repeats, too, with this much

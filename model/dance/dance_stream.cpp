@@ -107,6 +107,9 @@ void DanceStream::GiveBeats(const std::vector<double>& seconds,
                             const std::vector<double>& downbeats) {
   std::lock_guard lock(messages_);
   const std::string field = NextMusicBeats() + ".times";
+  if (seconds.empty()) throw InvalidArgument(field, "empty");
+  CheckBeats(seconds, field);
+  CheckDownbeats(downbeats, seconds, NextMusicBeats() + ".downbeats");
   chain_->Apply([&](DanceScore& score) {
     const int64_t from = score.timeline.Frontier(field);
     if (const int64_t late = score.beats.AddGiven(seconds, from, field, downbeats); late > 0)
@@ -118,8 +121,9 @@ void DanceStream::GiveBeats(const std::vector<double>& seconds,
 void DanceStream::GivePassages(const std::vector<Passage>& passages) {
   std::lock_guard lock(messages_);
   const std::string field = NextMusicPassages() + ".passages";
+  if (passages.empty()) throw InvalidArgument(field, "empty");
+  CheckPassages(passages, field);
   chain_->Apply([&](DanceScore& score) {
-    CheckPassages(passages, field);
     score.recurrence.Give(passages, score.timeline.Frontier(field), field);
   });
   ++passages_;

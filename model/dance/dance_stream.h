@@ -65,8 +65,9 @@ class DanceStream {
   /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
   /// none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
-  /// Seconds, ascending, at least one: see MusicBeats::AddGiven. Beats in frozen frames are dropped
-  /// with a Warning. Errors name the times of NextMusicBeats(); none may come after KeysComplete.
+  /// Seconds, at least one, valid by CheckBeats and CheckDownbeats: see MusicBeats::AddGiven. Beats
+  /// in frozen frames are dropped with a Warning. Errors name NextMusicBeats(); none may come after
+  /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
   /// At least one, valid by CheckPassages. From the first on they replace known passages, for
   /// transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may come

@@ -126,6 +126,14 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
                                                 std::to_string(model.history_frames));
   }
   ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
+  if (continuation.last_beat) {
+    // Beats may lie after the music's end, as far as the last transition reached.
+    const double longest = kMaxDanceFrames / model.fps;
+    if (!(*continuation.last_beat >= 0 && *continuation.last_beat <= longest)) {
+      throw InvalidArgument(field + ".last_beat", Show(*continuation.last_beat) +
+                                                      " s is not in [0, " + Show(longest) + "]");
+    }
+  }
   if (continuation.stage) {
     const auto& [middle, front] = *continuation.stage;
     for (const double value : middle) {

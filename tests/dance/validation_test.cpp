@@ -1,10 +1,12 @@
 #include "model/dance/validation.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <limits>
 
+#include "model/audio/format.h"
 #include "model/core/error.h"
 #include "tests/dance/dances.h"
 #include "tests/dance/poses.h"
@@ -82,6 +84,21 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             "config.music_dynamics: 1.5 is not in [0, 1]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_dynamics = std::nan(""); }),
             "config.music_dynamics: nan is not in [0, 1]");
+  const std::vector<double> beats = {0.5, 1};
+  EXPECT_EQ(refusal([&](DanceConfig& c) { c.music_beats = c.music_downbeats = beats; }),
+            "accepted");
+  EXPECT_EQ(refusal([](DanceConfig& c) {
+              c.music_beats = {1, 1};
+            }),
+            "config.music_beats[1]: 1 s is not after the beat before it, 1 s");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_beats = {std::nan("")}; }),
+            "config.music_beats[0]: nan s is not within 0 to 600");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_beats = {600.5}; }),
+            "config.music_beats[0]: 600.5 s is not within 0 to 600");
+  EXPECT_THAT(refusal([](DanceConfig& c) { c.music_beats.resize(kMaxBeats + 1); }),
+              ::testing::HasSubstr("12001 beats, the limit is 12000"));
+  EXPECT_EQ(refusal([&](DanceConfig& c) { c.music_beats = beats, c.music_downbeats = {0.75}; }),
+            "config.music_downbeats[0]: 0.75 s is none of the beats beside it");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "calm"; }), "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
             "config.style: \"Calm\" is no style of the model fake; it has calm, wild");
