@@ -24,7 +24,6 @@ class DanceChain::Job : public SampleJob {
         segment_(segment),
         deadline_(chain_->start_time_ + chain_->Seconds(segment.from - chain_->first_frame_)),
         run_(chain_->model_, prepared.request),
-        before_(prepared.request.history),
         beats_(std::move(beats)) {
     WarnOfSpeed(chain_->model_, run_, &prepared);
     warnings_ = std::move(prepared.warnings);
@@ -60,21 +59,15 @@ class DanceChain::Job : public SampleJob {
   const Segment& segment() const { return segment_; }
   const std::vector<Warning>& warnings() const { return warnings_; }
   const std::vector<Beat>& beats() const { return beats_; }
-  /// The last tau poses before its first frame.
-  const std::vector<Pose>& before() const { return before_; }
   /// Valid once it is sampled.
   const TransitionRun& run() const { return run_; }
-  GroundFrame StageBefore(int64_t frame) const {
-    return run_.StageAfter(static_cast<size_t>(frame - segment_.from));
-  }
   const DanceFrame& FrameAt(int64_t frame) const {
     return run_.frames()[static_cast<size_t>(frame - segment_.from)];
   }
-  /// The last tau poses before a frame of it, or after its last one.
-  std::vector<Pose> HistoryBefore(int64_t frame) const {
-    std::vector<Pose> history = before_;
-    for (int64_t at = segment_.from; at < frame; ++at) PushPose(FrameAt(at).pose, &history);
-    return history;
+  /// What a transition that begins at `frame`, inside or directly after it, continues from.
+  DancedState StateBefore(int64_t frame) const {
+    const auto danced = static_cast<size_t>(frame - segment_.from);
+    return {run_.HistoryAfter(danced), run_.StageAfter(danced)};
   }
 
  private:
@@ -82,7 +75,6 @@ class DanceChain::Job : public SampleJob {
   const Segment segment_;
   const double deadline_;
   TransitionRun run_;
-  const std::vector<Pose> before_;
   const std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
   bool worker_has_sampled_ = false;  // read and written without a lock by the worker alone
@@ -115,9 +107,9 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
       output_(model_.fps, asked->output_fps, first_frame_,
               asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
                                   : std::nullopt) {
-  if (!asked->Before().empty()) history_ = FillHistory(model_, asked->Before());
+  if (!asked->Before().empty()) danced_.history = FillHistory(model_, asked->Before());
   if (asked->continuation) {
-    stage_ = asked->continuation->stage;
+    danced_.stage = asked->continuation->stage;
     reached_before_ = asked->continuation->reached;
   }
   if (!score_.recurrence.empty())
@@ -228,7 +220,10 @@ bool DanceChain::HandOutNext() {
   if (IsOver(*score_.timeline.Planned())) {
     if (!job.sampled()) job.Retire();  // a sampled job may be handing out frames right now
     score_.timeline.Finish();
-    if (next_frame_ > job.segment().from) PostContinuation();
+    if (next_frame_ > job.segment().from) {
+      danced_ = job.StateBefore(next_frame_);
+      PostContinuation();
+    }
     jobs_.pop_front();
     // No frame follows the end, so no transition is needed any more.
     if (const std::optional<int64_t> end = score_.timeline.End(); end && next_frame_ >= *end)
@@ -270,11 +265,11 @@ void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
   start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
   score_.recurrence.Begin(segment.from);
   try {
-    const Job* before = jobs_.empty() ? nullptr : jobs_.back().get();
-    PreparedTransition prepared = PrepareTransition(
-        score_.config, model_, score_.controls, score_.recurrence, audio(), segment, rows_end,
-        before == nullptr ? history_ : before->HistoryBefore(segment.from));
-    prepared.request.stage = before == nullptr ? stage_ : before->StageBefore(segment.from);
+    const DancedState before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(segment.from);
+    PreparedTransition prepared =
+        PrepareTransition(score_.config, model_, score_.controls, score_.recurrence, audio(),
+                          segment, rows_end, before.history);
+    prepared.request.stage = before.stage;
     std::vector<Beat> beats = score_.beats.BeatsFor(segment.from, segment.to);
     prepared.request.beats = score_.beats.BeatTimes(beats, segment.from, segment.to);
     auto job =
@@ -291,14 +286,11 @@ void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
   const Segment& segment = job.segment();
   if (next_frame_ == segment.from) {
     for (const Warning& warning : job.warnings()) Post(warning);
-    history_ = job.before();
     score_.beats.StartReporting(job.beats(), segment.from);
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(segment.from - model_.history_frames);
   }
   const int64_t emitted = next_frame_++;
-  PushPose(frame.pose, &history_);
-  stage_ = job.StageBefore(next_frame_);
   meter_.Add(frame);
   OutputFrames frames = output_.Push(frame);
   if (!frames.poses.empty()) {
@@ -332,13 +324,13 @@ void DanceChain::PostLate(const KeyRejected& rejection, std::optional<HandPose> 
 }
 
 void DanceChain::PostContinuation() {
-  Continuation continuation{next_frame_, history_, model_.fingerprint};
+  Continuation continuation{next_frame_, danced_.history, model_.fingerprint};
   if (audio_) {
     continuation.audio_from_sample =
         ResumeSample(score_.config, next_frame_, model_, score_.config.music_beats.empty());
   }
   continuation.last_beat = score_.beats.last_reported();
-  continuation.stage = stage_;
+  continuation.stage = danced_.stage;
   continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);

@@ -33,6 +33,12 @@ struct DanceScore {
   Recurrence recurrence;
 };
 
+/// What the next transition continues from.
+struct DancedState {
+  std::vector<Pose> history = {};  ///< the last tau poses; empty: the dance begins without any
+  std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage
+};
+
 /// The chain of transitions behind a DanceStream. It has the transitions of the score sampled
 /// one after the other, each as soon as its start is known, and hands out frames once they are
 /// granted, their music has come and the sink takes them. Thread-safe. Lock order: the chain's
@@ -104,10 +110,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   // are sampled.
   std::deque<std::shared_ptr<Job>> jobs_;
   std::optional<Error> failure_;  // why no transition can follow them
-  // The last tau poses handed out; empty until the first frame of a dance that is given none.
-  std::vector<Pose> history_;
-  std::optional<GroundFrame> stage_;  // where the dance stays; from the first transition on
-  int64_t next_frame_;                // the next to hand out
+  DancedState danced_;            // by the transitions that are over
+  int64_t next_frame_;            // the next to hand out
   bool handing_out_ = false, look_again_ = false;
   QualityMeter meter_;
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again

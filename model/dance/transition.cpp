@@ -81,11 +81,6 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
   return history;
 }
 
-void PushPose(const Pose& newest, std::vector<Pose>* history) {
-  std::rotate(history->begin(), history->begin() + 1, history->end());
-  history->back() = newest;
-}
-
 std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
                                 int frames) {
   const auto first = static_cast<double>(first_frame);
@@ -111,11 +106,11 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
     if (!request.target) throw InvalidArgument("after", "needs a target");
   }
 
-  const std::vector<Pose> history = FillHistory(model, request.history);
-  world_ = history.back();
+  before_ = FillHistory(model, request.history);
+  world_ = before_.back();
   world_target_ = Placed(request.target, request.controls, world_);
   ground_ = GroundFrame::Of(world_);
-  spec_.history = CanonicalHistory(ground_, history);
+  spec_.history = CanonicalHistory(ground_, before_);
   stage_ = request.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
   spec_.stage = ground_.ToLocal(stage_);
   if (world_target_) {
@@ -266,6 +261,13 @@ GroundFrame TransitionRun::StageAfter(size_t frames) const {
   const bool has_path = spec_.controls[kRootPath].IsGiven();
   if (!is_there && !has_path) return stage_;
   return {frames_[frames - 1].pose.root_position, stage_.heading};
+}
+
+std::vector<Pose> TransitionRun::HistoryAfter(size_t frames) const {
+  std::vector<Pose> history = before_;
+  for (size_t at = 0; at < frames; ++at) history.push_back(frames_[at].pose);
+  history.erase(history.begin(), history.end() - std::ssize(before_));
+  return history;
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {

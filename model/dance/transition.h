@@ -88,6 +88,8 @@ class TransitionRun {
   /// TransitionRequest::stage for a dance that continues after this many frames. A path, or a key
   /// with a root position, moves the stage there.
   GroundFrame StageAfter(size_t frames) const;
+  /// The last tau poses, world, after this many frames.
+  std::vector<Pose> HistoryAfter(size_t frames) const;
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;
 
@@ -107,8 +109,9 @@ class TransitionRun {
   std::optional<double> hit_;
   bool held_ = false;  // she holds her pose
   bool footwork_;
-  GroundFrame stage_;  // of the request, world
-  Pose world_;         // the newest frame, whose signs are kept
+  GroundFrame stage_;         // of the request, world
+  std::vector<Pose> before_;  // the history, world
+  Pose world_;                // the newest frame, whose signs are kept
 
   std::unique_ptr<Sampling> sampling_;
   Plan drawn_;              // once it is sampled
@@ -126,8 +129,6 @@ TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request
 /// Pads or cuts `poses` to the history of a transition: exactly tau poses, rounded to floats. No
 /// poses become a dancer who stands.
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
-/// Replaces the oldest pose by the newest; allocates nothing.
-void PushPose(const Pose& newest, std::vector<Pose>* history);
 
 /// Rounds every number to float precision, which is what clients receive.
 Pose RoundToFloat(const Pose& pose);

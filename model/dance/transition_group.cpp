@@ -72,10 +72,9 @@ class TransitionGroup::Impl::Job : public SampleJob {
       : group_(std::move(group)),
         request_(request),
         run_(std::move(run)),
-        history_(request.history),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
-                history_.back()) {}
+                request_.history.back()) {}
 
   bool Continue(Sampler& sampler) override {
     if (is_sampled_) return HandOut();
@@ -119,7 +118,6 @@ class TransitionGroup::Impl::Job : public SampleJob {
       return false;
     const DanceFrame& frame = run_->frames()[static_cast<size_t>(handed_out_++)];
     meter_.Add(frame);
-    PushPose(frame.pose, &history_);
     const bool is_last = handed_out_ == frames();
     if (is_last && run_->arrival()) {
       KeyReached reached = *run_->arrival();
@@ -139,8 +137,10 @@ class TransitionGroup::Impl::Job : public SampleJob {
   int Number() const { return static_cast<int>(request_.candidate); }
 
   Continuation GoesOn() const {
-    Continuation end{request_.first_frame + frames(), history_, group_->model_.fingerprint};
-    end.stage = run_->StageAfter(run_->frames().size());
+    const size_t danced = run_->frames().size();
+    Continuation end{request_.first_frame + frames(), run_->HistoryAfter(danced),
+                     group_->model_.fingerprint};
+    end.stage = run_->StageAfter(danced);
     const GroupRequest& request = group_->request_;
     if (request.audio)
       end.audio_from_sample = ResumeSample(request, end.frame, group_->model_, /*beats=*/false);
@@ -155,7 +155,6 @@ class TransitionGroup::Impl::Job : public SampleJob {
 
   std::mutex mutex_;  // guards the members below
   int handed_out_ = 0;
-  std::vector<Pose> history_;
   QualityMeter meter_;
   OutputRate output_;
 };
