@@ -6,10 +6,8 @@
 #include <utility>
 #include <variant>
 
-#include "model/audio/beats.h"
 #include "model/audio/decode.h"
-#include "model/audio/music_id.h"
-#include "model/audio/passages.h"
+#include "model/audio/music_analysis.h"
 #include "model/dance/dance_stream.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
@@ -182,10 +180,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     file_decoded_ = true;
     const std::vector<float> mono = DecodeMono(file_.bytes(), [this] { RequireOpen(); });
     file_.Clear();
-    BeatTrack track;
-    if (music_beats_.empty()) track = FindBeats(mono);
-    const std::vector<double> beats = music_beats_.empty() ? track.Seconds() : music_beats_;
-    stream.SetMusic(beats, track.DownbeatSeconds(), FindPassages(mono, beats), MusicId(mono));
+    stream.SetMusic(music_beats_.empty() ? AnalyseMusic(mono) : AnalyseMusic(mono, music_beats_));
     stream.PushAudio(mono, 0);
   }
 

@@ -6,10 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "model/audio/beats.h"
 #include "model/audio/decode.h"
-#include "model/audio/music_id.h"
-#include "model/audio/passages.h"
+#include "model/audio/music_analysis.h"
 #include "model/dance/transition_group.h"
 #include "model/dance/validation.h"
 #include "proto/wire/convert.h"
@@ -108,10 +106,12 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     request->samples =
         DecodeMono(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
     request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
-    if (request->music_beats.empty()) request->music_beats = FindBeats(request->samples).Seconds();
-    if (request->music_id == 0) request->music_id = MusicId(request->samples);
-    if (request->music_passages.empty())
-      request->music_passages = FindPassages(request->samples, request->music_beats);
+    std::vector<double>& beats = request->music_beats;
+    MusicAnalysis music =
+        beats.empty() ? AnalyseMusic(request->samples) : AnalyseMusic(request->samples, beats);
+    beats = std::move(music.beats);
+    if (request->music_id == 0) request->music_id = music.id;
+    if (request->music_passages.empty()) request->music_passages = std::move(music.passages);
   }
 
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest asked) {

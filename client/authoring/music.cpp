@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "client/edit.h"
 #include "model/audio/beats.h"
-#include "model/audio/music_id.h"
+#include "model/audio/music_analysis.h"
 #include "model/audio/onset.h"
-#include "model/audio/passages.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 
@@ -25,8 +25,9 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   const std::vector<Onset> onsets = FindOnsets(music.mono);
   music.onset_strength = OnsetStrength(onsets);
   music.track = BeatsAsAsked(onsets, start, beats);
-  music.id = MusicId(music.mono);
-  music.passages = FindPassages(music.mono, music.track.Seconds());
+  MusicAnalysis analysis = AnalyseMusic(music.mono, music.track.Seconds());
+  music.passages = std::move(analysis.passages);
+  music.id = analysis.id;
   return music;
 }
 

@@ -48,14 +48,13 @@ void DanceStream::EndOfAudio() {
   FinishAudio();
 }
 
-void DanceStream::SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
-                           const std::vector<Passage>& passages, uint64_t music_id) {
+void DanceStream::SetMusic(const MusicAnalysis& music) {
   chain_->Apply([&](DanceScore& score) {
-    if (score.config.music_id == 0) score.config.music_id = music_id;
-    if (score.config.music_beats.empty()) score.beats.ReplaceAll(beats, downbeats);
-    if (!score.recurrence.empty() || passages.empty() || score.config.variation >= 1) return;
-    score.recurrence = Recurrence(model_.fps, passages);
-    score.timeline.SetCuts(CutsOf(passages, model_.fps));
+    if (score.config.music_id == 0) score.config.music_id = music.id;
+    if (score.config.music_beats.empty()) score.beats.ReplaceAll(music.beats, music.downbeats);
+    if (!score.recurrence.empty() || music.passages.empty() || score.config.variation >= 1) return;
+    score.recurrence = Recurrence(model_.fps, music.passages);
+    score.timeline.SetCuts(CutsOf(music.passages, model_.fps));
   });
 }
 

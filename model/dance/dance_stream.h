@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/audio/music_analysis.h"
 #include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_sink.h"
@@ -45,11 +46,9 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// Sets the results of analysing the whole music: beats (if empty, the dance does not detect
-  /// beats), passages, and the music's id. Call before the first sample. DanceConfig has
-  /// precedence.
-  void SetMusic(const std::vector<double>& beats, const std::vector<double>& downbeats,
-                const std::vector<Passage>& passages, uint64_t music_id);
+  /// Sets what is known about the whole music. Without beats the dance does not detect any. Call
+  /// before the first sample. DanceConfig has precedence.
+  void SetMusic(const MusicAnalysis& music);
 
   /// What errors call the next message of a kind: "keyframes[i]", where i counts accepted ones. For
   /// code that parses messages.

@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "model/audio/beats.h"
 #include "model/audio/made_song.h"
+#include "model/audio/music_analysis.h"
+#include "model/audio/music_id.h"
 
 /// Songs assembled from parts, so that repeats are known.
 namespace choreo::passages_test {
@@ -47,6 +50,20 @@ TEST(Passages, RepeatAtWholeBeats) {
   ASSERT_FALSE(passages.empty());
   for (const Passage& passage : passages)
     EXPECT_NEAR(std::remainder(passage.from - passage.like, 0.5), 0, 1e-9) << passage.from;
+}
+
+// The whole analysis finds beats unless it is given some, and passages at them.
+TEST(Passages, AreFoundAtTheBeatsOfTheAnalysis) {
+  const std::vector<float> song = SongOf({11, 12, 11});
+  const MusicAnalysis found = AnalyseMusic(song);
+  EXPECT_EQ(found.beats, FindBeats(song).Seconds());
+  EXPECT_EQ(found.downbeats, FindBeats(song).DownbeatSeconds());
+  EXPECT_EQ(found.passages, FindPassages(song, found.beats));
+  EXPECT_EQ(found.id, MusicId(song));
+  const std::vector<double> beats = {1, 1.7, 2.4, 3.1};
+  const MusicAnalysis given = AnalyseMusic(song, beats);
+  EXPECT_EQ(given.beats, beats);
+  EXPECT_EQ(given.passages, FindPassages(song, beats));
 }
 
 TEST(Passages, FirstOriginStartsWithTheSong) {

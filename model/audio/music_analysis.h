@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/core/passage.h"
+
+namespace choreo {
+
+/// What is known about music once all of it has come.
+struct MusicAnalysis {
+  std::vector<double> beats = {};      ///< seconds, ascending
+  std::vector<double> downbeats = {};  ///< those of the beats that begin a bar
+  std::vector<Passage> passages = {};  ///< repeats
+  uint64_t id = 0;                     ///< MusicId
+};
+
+/// Finds the beats of mono samples at 22 050 Hz, and the rest. Errors as FindOnsets. Thread-safe.
+MusicAnalysis AnalyseMusic(std::span<const float> mono);
+/// The same for music whose beats are known.
+MusicAnalysis AnalyseMusic(std::span<const float> mono, std::vector<double> beats,
+                           std::vector<double> downbeats = {});
+
+}  // namespace choreo
