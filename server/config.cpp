@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/core/programs.h"
 #include "model/core/threads.h"
 #include "model/engine/engine_choice.h"
@@ -47,11 +48,7 @@ void CheckAddress(const std::string& name, const std::string& address) {
 // Loading a model that uses them checks whether this machine has them.
 void CheckKernels(const std::string& name) {
   if (name.empty() || std::ranges::find(kKernelNames, name) != kKernelNames.end()) return;
-  std::string names;
-  for (const std::string_view known : kKernelNames) {
-    names += (names.empty() ? "" : ", ") + std::string(known);
-  }
-  throw InvalidArgument("--kernels", '"' + name + "\" is none of " + names);
+  throw InvalidArgument("--kernels", '"' + name + "\" is none of " + Joined(kKernelNames));
 }
 
 void CheckLimits(const ServerConfig& config) {

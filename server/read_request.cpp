@@ -7,6 +7,7 @@
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/dance/music_beats.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
@@ -273,10 +274,8 @@ ControlRequest ToControls(const v1::Controls& controls, const std::string& field
   std::vector<const google::protobuf::FieldDescriptor*> said;
   controls.GetReflection()->ListFields(controls, &said);
   if (!said.empty()) return wire::FromProto(controls, field);
-  std::string names;
-  for (const ControlRow& row : kControls)
-    names += (names.empty() ? "" : " or ") + std::string(row.name);
-  throw InvalidArgument(field, "empty; " + names + " must be there");
+  throw InvalidArgument(
+      field, "empty; " + Joined(kControls, &ControlRow::name, " or ") + " must be there");
 }
 
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {

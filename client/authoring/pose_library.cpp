@@ -5,6 +5,7 @@
 #include "client/authoring/pose_file.h"
 #include "client/authoring/pose_sources.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/fit/retarget.h"
 
 namespace choreo::authoring {
@@ -55,9 +56,8 @@ const LibraryPose& FindLibraryPose(const std::string& id) {
   const auto found = std::find_if(poses.begin(), poses.end(),
                                   [&](const LibraryPose& pose) { return pose.id == id; });
   if (found != poses.end()) return *found;
-  std::string known;
-  for (const LibraryPose& pose : poses) known += (known.empty() ? "" : ", ") + pose.id;
-  throw Error(ErrorCode::kNotFound, id, "is no pose of the library, which has " + known);
+  throw Error(ErrorCode::kNotFound, id,
+              "is no pose of the library, which has " + Joined(poses, &LibraryPose::id));
 }
 
 }  // namespace choreo::authoring

@@ -9,6 +9,7 @@
 
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
+#include "model/core/joined.h"
 #include "model/core/programs.h"
 
 namespace choreo::cli {
@@ -104,11 +105,9 @@ const client::ModelDescription& Connection::model(const std::string& name) const
               << server_.models.front().name << "\"\n";
     return server_.models.front();
   }
-  std::string known;
-  for (const client::ModelDescription& model : server_.models)
-    known += (known.empty() ? "" : ", ") + model.name;
   throw Error(ErrorCode::kNotFound, "--model",
-              "the server has no \"" + name + "\", but " + known +
+              "the server has no \"" + name + "\", but " +
+                  Joined(server_.models, &client::ModelDescription::name) +
                   "; choreo serve --model NAME starts one with another, as paper-f or paper-c");
 }
 

@@ -14,6 +14,7 @@
 #include "client/cli/pose_recipe.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/draw/contact_sheet.h"
 #include "model/motion/canonical.h"
 #include "model/motion/joint_angles.h"
@@ -35,12 +36,6 @@ struct PoseOptions {
 };
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
-
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 struct SheetSize {
   int columns;

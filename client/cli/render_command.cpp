@@ -12,6 +12,7 @@
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/core/progress.h"
 #include "model/draw/contact_sheet.h"
 #include "model/draw/video.h"
@@ -61,10 +62,9 @@ void DrawSheet(const RenderOptions& options, const Stage& stage, const std::vect
     if (frame < CountFrames(stage)) sheet.key_frames.push_back(frame);
   }
   if (sheet.title.empty()) {
-    for (const std::string& motion : options.motions) {
-      sheet.title +=
-          (sheet.title.empty() ? "" : ", ") + std::filesystem::path(motion).filename().string();
-    }
+    sheet.title = Joined(options.motions, [](const std::filesystem::path& motion) {
+      return motion.filename().string();
+    });
   }
   if (stage.size() > 1) sheet.tile_width *= 2;
   DrawContactSheet(stage, sheet, options.out);

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/core/joined.h"
+
 namespace choreo {
 
 /// What hands do. kRest leaves fingers as the rig has them.
@@ -23,11 +25,6 @@ inline std::optional<HandPose> FindHandPose(std::string_view name) {
 }
 
 /// All of them, for messages.
-inline std::string HandPoseNames() {
-  std::string names;
-  for (const std::string_view name : kHandPoseNames)
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  return names;
-}
+inline std::string HandPoseNames() { return Joined(kHandPoseNames); }
 
 }  // namespace choreo

@@ -6,6 +6,7 @@
 
 #include "model/core/error.h"
 #include "model/core/hit.h"
+#include "model/core/joined.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -82,8 +83,7 @@ void ValidateStyle(const ModelInfo& model, const std::string& style, const std::
     throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
                                      std::to_string(kMaxIdLength));
   }
-  std::string known;
-  for (const std::string& name : model.styles) known += (known.empty() ? "" : ", ") + name;
+  const std::string known = Joined(model.styles);
   throw InvalidArgument(field, "\"" + style + "\" is no style of the model " + model.name + "; " +
                                    (known.empty() ? "it has none" : "it has " + known));
 }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/dance/validation.h"
 
 namespace choreo {
@@ -64,10 +65,7 @@ void ValidateVelocities(const VelocityRequest& request, const ModelInfo& model,
     throw InvalidArgument(field + ".reference",
                           '"' + reference + "\" stands beside speeds, which have none");
   if (!absolute && FindReference(model, reference) == nullptr) {
-    std::string known;
-    for (const VelocityReference& one : model.velocity_references) {
-      known += (known.empty() ? "" : ", ") + one.name;
-    }
+    const std::string known = Joined(model.velocity_references, &VelocityReference::name);
     throw InvalidArgument(field + ".reference", '"' + reference + "\" is none of the model's, " +
                                                     (known.empty() ? "which has none" : known));
   }

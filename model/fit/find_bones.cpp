@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/core/joined.h"
 #include "model/core/printable.h"
 #include "model/fit/character_body.h"
 #include "model/motion/skeleton.h"
@@ -159,11 +160,8 @@ HumanBones ByNames(const RigNodes& rig) {
 
 void Choose(const RigNodes& rig, const BoneChoice& choice, HumanBones* found) {
   const std::vector<std::string>& known = AllHumanBones();
-  if (std::ranges::find(known, choice.bone) == known.end()) {
-    std::string all;
-    for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
-    throw InvalidArgument(choice.field, "is none of " + all);
-  }
+  if (std::ranges::find(known, choice.bone) == known.end())
+    throw InvalidArgument(choice.field, "is none of " + Joined(known));
   found->bones.erase(choice.bone);
   const auto count = static_cast<int>(rig.names.size());
   if (choice.name.empty()) {

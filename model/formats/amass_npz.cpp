@@ -9,6 +9,7 @@
 
 #include "model/core/error.h"
 #include "model/core/grid.h"
+#include "model/core/joined.h"
 #include "model/core/printable.h"
 #include "model/core/quantile.h"
 #include "model/core/rounded.h"
@@ -259,8 +260,7 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   if (const auto joints = found ? std::nullopt : FindJointArray(npz))
     return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
   if (!found) {
-    std::string names;
-    for (const std::string& name : npz.Names()) names += (names.empty() ? "" : ", ") + name;
+    const std::string names = Joined(npz.Names());
     throw InvalidArgument(
         "", "has no array of rotations by a name that is known, " + LayoutNames() + " (it has: " +
                 (names.empty() ? "nothing" : Printable(names)) + "): " + kWriteArrays);

@@ -39,7 +39,7 @@ int TurningPelvis(const HumanBones& found, const std::vector<int>& parents) {
   return node >= 0 && !taken && IsBelow(node, pelvis, parents) ? node : pelvis;
 }
 
-std::string Joined(const std::vector<std::string>& words) {
+std::string Listed(const std::vector<std::string>& words) {
   std::string text;
   for (size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
@@ -62,7 +62,7 @@ void NoteFit(const RigFit& fit, const MotionReading& reading) {
         "a guess");
   }
   if (!fit.missing.empty())
-    reading.Note("has no " + Joined(fit.missing) + ": our own go along with what carries them");
+    reading.Note("has no " + Listed(fit.missing) + ": our own go along with what carries them");
 }
 
 // Notes a mix of units: some files have bones in centimetres and the root's positions in metres.

@@ -10,6 +10,7 @@
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 
 namespace choreo {
 namespace {
@@ -110,9 +111,7 @@ void NpzArchive::Write(const std::filesystem::path& path) const {
 const std::string& NpzArchive::Member(const std::string& key) const {
   const auto found = members_.find(key);
   if (found != members_.end()) return found->second;
-  std::string present;
-  for (const auto& [other, bytes] : members_) present += (present.empty() ? "" : ", ") + other;
-  throw InvalidArgument(name_, "has no array '" + key + "' (it has: " + present + ")");
+  throw InvalidArgument(name_, "has no array '" + key + "' (it has: " + Joined(Names()) + ")");
 }
 
 NpyArray NpzArchive::Array(const std::string& key) const {

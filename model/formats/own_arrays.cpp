@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
 
@@ -84,11 +85,9 @@ Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
   if (array.shape.size() == 1) array.shape.insert(array.shape.begin(), 1);
   const int64_t width = width_of();
   if (!wanted_width() || array.shape.size() > 3) {
-    std::string shape, wanted;
-    for (const int64_t size : stated) shape += (shape.empty() ? "" : ", ") + std::to_string(size);
-    for (const int64_t size : columns)
-      wanted += (wanted.empty() ? "" : " or ") + std::to_string(size);
-    throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted + "]");
+    const auto text = [](int64_t size) { return std::to_string(size); };
+    throw InvalidArgument(key, "has the shape [" + Joined(stated, text) + "], expected [frames, " +
+                                   Joined(columns, text, " or ") + "]");
   }
   const std::vector<double> values = array.As<double>();
   Eigen::MatrixXd rows = Eigen::Map<const Eigen::MatrixXd>(values.data(), width, array.shape[0]);

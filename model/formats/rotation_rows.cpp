@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/core/quantile.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/rotation.h"
@@ -55,10 +56,9 @@ Rows ReadRows(const NpzArchive& npz, const std::string& key, const auto& is_widt
 
 [[noreturn]] void RefuseShape(const std::string& key, const Rows& rows,
                               const std::vector<int64_t>& joints) {
-  std::string shape, wanted;
-  for (const int64_t size : rows.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(size);
-  for (const int64_t count : joints)
-    wanted += (wanted.empty() ? "" : " or ") + std::to_string(3 * count);
+  const std::string shape = Joined(rows.shape, [](int64_t size) { return std::to_string(size); });
+  const std::string wanted = Joined(
+      joints, [](int64_t count) { return std::to_string(3 * count); }, " or ");
   throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted +
                                  "], or matrices, 6D or quaternions of as many joints");
 }

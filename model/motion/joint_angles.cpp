@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/motion/rotation.h"
 
 namespace choreo {
@@ -42,11 +43,8 @@ AngleRange RangeOf(const Skeleton& skeleton, int joint) {
 int RequireJoint(const Skeleton& skeleton, const std::string& name, const std::string& field) {
   const int joint = skeleton.Find(name);
   if (joint >= 0) return joint;
-  std::string known;
-  for (const std::string& other : skeleton.joint_names)
-    known += (known.empty() ? "" : ", ") + other;
-  throw InvalidArgument(
-      field, "\"" + name + "\" is no joint of " + skeleton.name + ", which has " + known);
+  throw InvalidArgument(field, "\"" + name + "\" is no joint of " + skeleton.name + ", which has " +
+                                   Joined(skeleton.joint_names));
 }
 
 Eigen::Vector3d RotationFromDegrees(const Skeleton& skeleton, int joint,

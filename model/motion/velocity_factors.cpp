@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo {
@@ -48,13 +49,7 @@ std::optional<Membership> FindMembership(std::string_view name) {
 
 }  // namespace
 
-std::string BodyPartNames() {
-  std::string names;
-  for (const std::string_view name : kBodyPartNames) {
-    names.append(names.empty() ? "" : ", ").append(name);
-  }
-  return names;
-}
+std::string BodyPartNames() { return Joined(kBodyPartNames); }
 
 std::optional<BodyPart> FindBodyPart(std::string_view name) {
   const auto found = std::ranges::find(kBodyPartNames, name);
