@@ -6,10 +6,10 @@
 #include <grpcpp/support/channel_arguments.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <sstream>
 
+#include "model/core/address.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "tls/pem.h"
@@ -57,7 +57,7 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
 /// Such traffic does not leave this machine. A name that only begins like an address is a name.
 bool IsOfThisMachine(const std::string& address) {
   if (address.starts_with("unix:")) return true;
-  const std::string host = address.substr(0, address.rfind(':'));
+  const std::string host = SplitAddress(address).host;
   in_addr four;
   if (inet_pton(AF_INET, host.c_str(), &four) == 1) return ntohl(four.s_addr) >> 24 == 127;
   return host == "localhost" || host == "[::1]";
@@ -72,13 +72,10 @@ void CheckAddress(const std::string& address) {
   for (const char* scheme : {"unix:", "unix-abstract:", "xds:"}) {
     if (address.starts_with(scheme)) return;
   }
-  const size_t colon = address.rfind(':');
-  const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
-  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  if (port.empty() || !std::ranges::all_of(port, is_digit)) {
+  const std::string port = SplitAddress(address).port;
+  if (!IsNumber(port))
     throw InvalidArgument("addresses", address + " has no port; HOST:PORT is wanted");
-  }
-  if (port.size() > 5 || std::stoi(port) < 1 || std::stoi(port) > kMaxPort) {
+  if (ParsePort(port).value_or(0) < 1) {
     throw InvalidArgument("addresses", address + ": port " + port + " is not in [1, " +
                                            std::to_string(kMaxPort) + "]");
   }

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <random>
 
+#include "model/core/address.h"
+
 namespace choreo {
 namespace {
 
@@ -36,7 +38,7 @@ std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char
   return {value.data(), value.size()};
 }
 
-std::string AddressOf(const std::string& peer) { return peer.substr(0, peer.rfind(':')); }
+std::string AddressOf(const std::string& peer) { return SplitAddress(peer).host; }
 
 std::string Caller::Party() const {
   return holder.empty() ? AddressOf(peer) : "holder \"" + holder + '"';

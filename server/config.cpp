@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 
+#include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/programs.h"
@@ -33,16 +34,10 @@ void CheckRange(const std::string& name, double value, double least, double most
 }
 
 void CheckAddress(const std::string& name, const std::string& address) {
-  const size_t colon = address.rfind(':');
-  const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
-  const bool digits = !port.empty() && std::all_of(port.begin(), port.end(),
-                                                   [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits) throw InvalidArgument(name, '"' + address + "\" is not HOST:PORT");
-  // gRPC would silently use the port's lowest 16 bits.
-  if (port.size() > 5 || std::stoi(port) > kMaxPort) {
-    throw InvalidArgument(name,
-                          "port " + port + " is not in [0, " + std::to_string(kMaxPort) + "]");
-  }
+  // gRPC would silently use the lowest 16 bits of a larger port.
+  if (ParsePort(SplitAddress(address).port)) return;
+  throw InvalidArgument(name, '"' + address + "\" is not HOST:PORT with a port from 0 to " +
+                                  std::to_string(kMaxPort));
 }
 
 // Loading a model that uses them checks whether this machine has them.

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <memory>
 
+#include "model/core/address.h"
 #include "model/core/error.h"
 
 namespace choreo {
@@ -37,16 +38,13 @@ struct Addresses {
 };
 
 Addresses Resolve(const std::string& address) {
-  const size_t colon = address.rfind(':');
-  std::string host = address.substr(0, colon);
-  const std::string port = address.substr(colon + 1);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  const auto [host, port] = SplitAddress(address);
   addrinfo hints{};
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   Addresses addresses;
-  addresses.error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
+  addresses.error = getaddrinfo(WithoutBrackets(host).c_str(), port.c_str(), &hints, &found);
   addresses.first.reset(found);
   return addresses;
 }

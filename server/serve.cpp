@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "model/core/address.h"
 #include "server/listener.h"
 #include "server/server.h"
 
@@ -134,9 +135,9 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   const bool has_folder = !config.models.empty();
   Server server(config, LoadAll(config, folder, load));
   Reloader reloader(folder, server);
-  const std::string host = config.listen.substr(0, config.listen.rfind(':'));
   // Programs that start a choreod wait for this line.
-  std::cout << "choreod listens on " << host << ':' << server.port() << std::endl;
+  std::cout << "choreod listens on " << SplitAddress(config.listen).host << ':' << server.port()
+            << std::endl;
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
   int signal = 0;

@@ -4,10 +4,10 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
-#include <charconv>
 #include <chrono>
 #include <optional>
 
+#include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/limits.h"
 #include "studio/page.h"
@@ -32,26 +32,14 @@ constexpr const char* kPolicy =
     "img-src 'self' data: blob:; "
     "media-src 'self' blob:; connect-src 'self' blob:; frame-ancestors 'none'";
 
-struct Place {
-  std::string host;
-  std::string port;
-};
-
-Place ParsePlace(const std::string& listen) {
-  const size_t colon = listen.rfind(':');
-  int port = -1;
-  if (colon != std::string::npos) {
-    const char* end = listen.data() + listen.size();
-    const auto [stop, code] = std::from_chars(listen.data() + colon + 1, end, port);
-    if (code != std::errc() || stop != end) port = -1;
-  }
-  if (colon == 0 || port < 0 || port > kMaxPort) {
+Address ParseAddress(const std::string& listen) {
+  Address address = SplitAddress(listen);
+  if (address.host.empty() || !ParsePort(address.port)) {
     throw InvalidArgument("--listen", "\"" + listen + "\" is not HOST:PORT with a port from 0 to " +
                                           std::to_string(kMaxPort));
   }
-  std::string host = listen.substr(0, colon);
-  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  return {host, listen.substr(colon + 1)};
+  address.host = WithoutBrackets(address.host);
+  return address;
 }
 
 /// One connection until it becomes a WebSocket or ends.
@@ -84,7 +72,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   /// Checks the host that the browser believes it talks to: anybody can point another name here.
   bool NamesOurHost() const {
     const std::string host(request_[http::field::host]);
-    const std::string name = host.substr(0, host.rfind(':'));
+    const std::string name = SplitAddress(host).host;
     return name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_;
   }
   bool FromOurPage() const {
@@ -181,10 +169,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 WebServer::WebServer(const std::string& listen, const StudioContext& context)
     : context_(context), calls_(context), acceptor_(io_), timer_(io_), leaving_(kLeaveAtOnce) {
-  const Place place = ParsePlace(listen);
-  host_ = place.host;
+  const Address address = ParseAddress(listen);
+  host_ = address.host;
   try {
-    const tcp::endpoint endpoint = *tcp::resolver(io_).resolve(place.host, place.port).begin();
+    const tcp::endpoint endpoint = *tcp::resolver(io_).resolve(address.host, address.port).begin();
     acceptor_.open(endpoint.protocol());
     acceptor_.set_option(tcp::acceptor::reuse_address(true));
     acceptor_.bind(endpoint);

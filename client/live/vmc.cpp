@@ -3,12 +3,12 @@
 #include <lo/lo.h>
 
 #include <Eigen/Geometry>
-#include <charconv>
 #include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/limits.h"
 #include "model/motion/rotation.h"
@@ -76,19 +76,14 @@ class Bundle {
 };
 
 lo_address Resolve(const std::string& address) {
-  const size_t colon = address.rfind(':');
-  if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
+  const auto [host, port] = SplitAddress(address);
+  if (host.empty() || port.empty())
     throw InvalidArgument("--vmc", "\"" + address + "\" is not HOST:PORT");
-  const std::string port = address.substr(colon + 1);
-  int number = 0;
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (error != std::errc() || end != port.data() + port.size() || number < 1 || number > kMaxPort)
+  if (ParsePort(port).value_or(0) < 1)
     throw InvalidArgument("--vmc", "\"" + address + "\" has the port " + port +
                                        ", which is no whole number from 1 to " +
                                        std::to_string(kMaxPort));
-  std::string host = address.substr(0, colon);
-  if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  return lo_address_new(host.c_str(), address.c_str() + colon + 1);
+  return lo_address_new(WithoutBrackets(host).c_str(), port.c_str());
 }
 
 }  // namespace

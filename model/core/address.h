@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "model/core/limits.h"
+
+namespace choreo {
+
+/// The parts of HOST:PORT, as written.
+struct Address {
+  std::string host, port;
+};
+
+/// Splits at the last colon; without any, all is the host.
+inline Address SplitAddress(const std::string& address) {
+  const size_t colon = address.rfind(':');
+  if (colon == std::string::npos) return {address, ""};
+  return {address.substr(0, colon), address.substr(colon + 1)};
+}
+
+/// "[::1]" -> "::1", as functions that resolve names take it.
+inline std::string WithoutBrackets(const std::string& host) {
+  const bool has = host.size() > 1 && host.starts_with('[') && host.ends_with(']');
+  return has ? host.substr(1, host.size() - 2) : host;
+}
+
+inline bool IsNumber(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The number of a port: digits alone, at most kMaxPort.
+inline std::optional<int> ParsePort(const std::string& port) {
+  if (!IsNumber(port) || port.size() > 5 || std::stoi(port) > kMaxPort) return std::nullopt;
+  return std::stoi(port);
+}
+
+}  // namespace choreo
