@@ -137,7 +137,7 @@ Balance BalanceGauge::At(std::span<const BodyPoints> frames, size_t at) const {
   const double height = balance.centre.y() - floor_;
   const Eigen::Vector2d push(balance.acceleration.x(), balance.acceleration.z());
   balance.zmp_outside =
-      DistanceToHull(below - height / (balance.acceleration.y() + kGravity) * push, support);
+      DistanceToHull(below - MomentLever(height, balance.acceleration.y()) * push, support);
   return balance;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -13,12 +14,20 @@
 namespace choreo {
 
 inline constexpr double kGravity = 9.81;  ///< m/s^2
+/// A sinking body keeps at least this share of its weight for MomentLever.
+inline constexpr double kLightest = 0.25;
 /// A foot is on the floor if its toes, or its ankle less 5 cm, are less than 5 cm above it.
 inline constexpr double kSoleHeight = 0.05, kAnkleAboveSole = 0.05;
 /// A body whose centre accelerates downwards faster than this, m/s^2, is thrown: it falls freely.
 inline constexpr double kThrown = 6;
 /// Metres that feet extend beyond their joints: a zero moment point this close is within them.
 inline constexpr double kSoleReach = 0.15;
+
+/// h / (c''_y + g), seconds squared, of the zero moment point c - h c'' / (c''_y + g): `height` of
+/// the centre above the floor, `rise` its acceleration upwards.
+inline double MomentLever(double height, double rise) {
+  return height / std::max(kLightest * kGravity, kGravity + rise);
+}
 
 /// The point of the convex hull of `others` (at least one) nearest to a point of the floor; the
 /// point itself if it is inside.

@@ -102,7 +102,7 @@ class PlanStander {
     const Eigen::Vector3d& at = centre(frame);
     const Eigen::Vector3d acceleration =
         (centre(frame + 1) - 2 * at + centre(frame - 1)) * (context_.fps * context_.fps);
-    const double lever = at.y() / std::max(kGravity / 4, kGravity + acceleration.y());
+    const double lever = MomentLever(at.y(), acceleration.y());
     return {at.x() - lever * acceleration.x(), at.z() - lever * acceleration.z()};
   }
 

@@ -11,7 +11,6 @@ namespace choreo {
 namespace {
 
 constexpr int kRounds = 3;
-constexpr double kLightest = 0.25;  // share of its weight that a sinking body keeps at least
 constexpr double kPushSeconds =
     0.27;  // s before and after a flight in which legs may push as hard as gravity
 constexpr double kFirm =
@@ -158,11 +157,11 @@ class PelvisSolver {
   double OffsetStep(int frame, int axis) const {
     return Offset(frame + 1, axis) - 2 * Offset(frame, axis) + Offset(frame - 1, axis);
   }
-  // h / (c''_y + g) of the zero moment point c - h c'' / (c''_y + g), frames squared.
+  // MomentLever in frames squared.
   double Lever(int frame) const {
     const double height = Planned(frame).y() + Offset(frame, 1);
     const double rise = (PlannedStep(frame).y() + OffsetStep(frame, 1)) / step_;
-    return height / std::max(kLightest * kGravity, kGravity + rise) / step_;
+    return MomentLever(height, rise) / step_;
   }
 
   // The centre of mass (lever 0) and the zero moment point move with the body, the latter against
