@@ -12,8 +12,8 @@
 namespace choreo {
 
 struct WindowFeatures {
-  Eigen::MatrixXf frames;  ///< [FrameFeatures(), tau + w]: beats, controls, time
-  Eigen::VectorXf whole;   ///< [WholeFeatures()]: pose and velocity left, way to the key, style
+  Eigen::MatrixXf frames;  ///< [FrameFeatures(), tau + w]: whether it is past, beats, controls, time
+  Eigen::VectorXf whole;   ///< [WholeFeatures()]: the last pose, its velocity, way to the key, style
 };
 
 int FrameFeatures(std::span<const ControlRow> controls = kControls);

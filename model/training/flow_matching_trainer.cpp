@@ -225,7 +225,7 @@ class FlowMatchingRun : public TrainingRun {
     Safetensors weights;
     ExportTensors(*average_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
-      // Stores weights as half floats: half the bytes, the same figures. The prior stays exact.
+      // Stores weights as bfloat16: half the bytes, the same figures. The prior stays exact.
       if (name.ends_with(".weight")) RoundToBfloat16(&tensor);
     }
     return SaveContinuousFlow(path, average_, weights, card);

@@ -1,4 +1,4 @@
-// Row by row work, the second half of kernels_of_one_cpu.h, which includes it inside its
+// Row by row work, the second half of kernels_of_one_cpu.cpp, which includes it inside its
 // namespace: no #pragma once.
 
 // From here on scalar code that compilers vectorise. Selections have the form of minima and maxima,
