@@ -28,7 +28,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
   }
 }
 
-bool AreAsked(const Controls& controls) { return wire::ToProto(controls).ByteSizeLong() > 0; }
+bool AreAsked(const ControlRequest& controls) { return wire::ToProto(controls).ByteSizeLong() > 0; }
 
 v1::GenerateTransitionRequest MakeRequest(const TransitionRequest& request) {
   v1::GenerateTransitionRequest out;
@@ -167,7 +167,7 @@ void RemoteDance::RemoveKey(const std::string& id) {
   impl_->Send(std::move(request));
 }
 
-void RemoteDance::SendControls(const Controls& controls) {
+void RemoteDance::SendControls(const ControlRequest& controls) {
   v1::StreamDanceRequest request;
   *request.mutable_controls() = wire::ToProto(controls);
   impl_->Send(std::move(request));

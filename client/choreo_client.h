@@ -84,7 +84,7 @@ class RemoteDance {
   /// Each replaces the earlier one of its kind (velocity factors: for the named parts) from the
   /// first unfrozen frame: that of the last GenerateUntil or, without, the one after the last key.
   /// Not after CompleteKeys.
-  void SendControls(const Controls& controls);
+  void SendControls(const ControlRequest& controls);
   /// Frames before `frame` are final and come; later keys may still change. To edit keys, also set
   /// DanceConfig::generate_until: until this is called each key grants the frames up to itself.
   void GenerateUntil(int64_t frame);

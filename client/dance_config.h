@@ -59,9 +59,6 @@ struct Continuation {
   std::string bytes = {};  ///< the whole, serialised
 };
 
-/// Controls beside key poses and music, for models that support them (ModelDescription::controls).
-using Controls = ControlRequest;
-
 /// The configuration of a dance.
 struct DanceConfig {
   std::string model = {};  ///< empty: the server's first
@@ -95,7 +92,9 @@ struct DanceConfig {
   std::optional<double> variation = {};
   /// For editing keys: as RemoteDance::GenerateUntil before all else; keys then grant no frames.
   std::optional<int64_t> generate_until = {};
-  Controls controls = {};  ///< from the first frame on
+  /// Beside key poses and music, for models that support them (ModelDescription::controls); from
+  /// the first frame on.
+  ControlRequest controls = {};
 };
 
 }  // namespace choreo::client

@@ -38,7 +38,7 @@ struct EditOptions {
   std::vector<double> music_beats = {};       ///< as in DanceConfig::music_beats
   std::vector<Passage> music_passages = {};   ///< as in DanceConfig
   uint64_t music_id = 0;                      ///< as in DanceConfig
-  Controls controls = {};                     ///< for the new frames
+  ControlRequest controls = {};               ///< for the new frames
 };
 
 /// A key pose to set into a dance: changes the frames between `from` and `to`, both exclusive.

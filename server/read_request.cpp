@@ -8,7 +8,6 @@
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
-#include "model/dance/music_beats.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
 #include "proto/wire/controls.h"

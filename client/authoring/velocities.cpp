@@ -108,10 +108,10 @@ class Asked {
     }
   }
 
-  client::Controls::VelocityFactors Finish(const std::string& reference) const {
+  ControlRequest::VelocityFactors Finish(const std::string& reference) const {
     if (*speeds_ && !reference.empty())
       throw InvalidArgument("velocity_factors.reference", "is for multipliers, not for speeds");
-    client::Controls::VelocityFactors velocity;
+    ControlRequest::VelocityFactors velocity;
     velocity.reference = reference;
     velocity.frames = frames_;
     for (size_t part = 0; part < kBodyParts; ++part) {
@@ -149,8 +149,8 @@ class Asked {
 
 bool IsVelocityFile(const std::string& source) { return source.ends_with(".json"); }
 
-client::Controls::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
-                                                 const std::string& reference, double fps) {
+ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
+                                               const std::string& reference, double fps) {
   Asked asked(fps);
   for (const std::string& source : sources) {
     if (IsVelocityFile(source)) {

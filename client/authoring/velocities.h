@@ -17,7 +17,7 @@ bool IsVelocityFile(const std::string& source);
 ///
 /// Throws Error(kInvalidArgument) whose field is "velocity_factors", "velocity_factors.reference"
 /// or NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
-client::Controls::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
-                                                 const std::string& reference, double fps);
+ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
+                                               const std::string& reference, double fps);
 
 }  // namespace choreo::authoring

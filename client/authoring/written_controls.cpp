@@ -29,15 +29,14 @@ void RequireControl(size_t row, const std::string& field, const client::ModelDes
 
 }  // namespace
 
-client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
-                                         double fps) {
+ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps) {
   const nlohmann::json file = ParseJson(text, name);
   const nlohmann::json& list = ListIn(file, name, "points");
   CheckFileMembers(file, name, {"points", "about"}, "a path file has points and perhaps about");
   if (list.size() < 2) {
     throw InvalidArgument(name + ":points", "has 1 point, a path needs at least 2");
   }
-  client::Controls::RootPath path;
+  ControlRequest::RootPath path;
   for (size_t i = 0; i < list.size(); ++i) {
     const nlohmann::json& point = list[i];
     const std::string field = name + ":points[" + std::to_string(i) + "]";
@@ -65,9 +64,9 @@ void WrittenControls::Follow(const WrittenControls& project) {
   velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
 }
 
-client::Controls WrittenControls::Read(const client::ModelDescription& model,
-                                       const client::ServerDescription& server) const {
-  client::Controls controls;
+ControlRequest WrittenControls::Read(const client::ModelDescription& model,
+                                     const client::ServerDescription& server) const {
+  ControlRequest controls;
   if (!path.empty() || !path_text.empty()) {
     RequireControl(kRootPath, NameOf(kRootPath), model, server);
     controls.root_path = ParsePathFile(path.empty() ? path_text : ReadText(path, "path file"),
@@ -82,7 +81,7 @@ client::Controls WrittenControls::Read(const client::ModelDescription& model,
   return controls;
 }
 
-void WrittenControls::RequireBegun(const client::Controls& controls,
+void WrittenControls::RequireBegun(const ControlRequest& controls,
                                    const DanceLength& length) const {
   if (const auto& asked = controls.root_path; asked && asked->frames.front() >= length.frames) {
     throw InvalidArgument(

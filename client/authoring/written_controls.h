@@ -14,8 +14,7 @@ namespace choreo::authoring {
 /// through its points. Models run at `fps`.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
-client::Controls::RootPath ParsePathFile(std::string_view text, const std::string& name,
-                                         double fps);
+ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps);
 
 /// What every dance takes. Errors name the place in a file, or a control as the API does.
 struct WrittenControls {
@@ -31,11 +30,11 @@ struct WrittenControls {
   /// Throws Error as ParsePathFile and ReadVelocities do, Error(kNotFound) for a path file that
   /// is not there, and Error(kInvalidArgument) for a control that the model does not have, naming
   /// those of the server that do.
-  client::Controls Read(const client::ModelDescription& model,
-                        const client::ServerDescription& server) const;
+  ControlRequest Read(const client::ModelDescription& model,
+                      const client::ServerDescription& server) const;
   /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
   /// begins after the end of a dance, which it is not meant for.
-  void RequireBegun(const client::Controls& controls, const DanceLength& length) const;
+  void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;
   /// How errors call the path.
   const std::string& PathName() const { return path.empty() ? path_text_name : path; }
   /// An error about controls as they were sent in terms of what was written; any other as it is.

@@ -22,7 +22,7 @@ namespace choreo::cli {
 namespace {
 
 /// Without a song: as long as the path and the keys need.
-double ChooseSilentSeconds(const DanceOptions& options, const client::Controls& controls,
+double ChooseSilentSeconds(const DanceOptions& options, const ControlRequest& controls,
                            const client::ModelDescription& model) {
   if (options.seconds) return *options.seconds;
   int64_t last = controls.root_path ? controls.root_path->frames.back() : 0;
@@ -121,7 +121,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   const bool is_seed_for_model = options.seed && !options.keys.empty();
   NoteDeterministic(model, {{"--seed", is_seed_for_model},
                             {"--temperature", options.temperature.value_or(0) != 0}});
-  const client::Controls controls = options.controls.Read(model, connection.server());
+  const ControlRequest controls = options.controls.Read(model, connection.server());
   const double seconds =
       music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
   if (music && !model.takes_music) {

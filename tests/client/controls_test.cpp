@@ -25,8 +25,8 @@ class DyingSampler final : public ControlledSampler {
   int left_;
 };
 
-Controls PathControls() {
-  Controls controls;
+ControlRequest PathControls() {
+  ControlRequest controls;
   controls.root_path = {
       .frames = {0, 100, 250}, .points = {{0, 0}, {1, 0.5}, {0, 1}}, .heights = {0.9, 0.7, 0.95}};
   controls.velocity_factors = {.parts = {"left_arm", "trunk"}, .factors = {2, 0.5}};
@@ -77,7 +77,7 @@ TEST(ControlsTest, ChangeDuringTheDance) {
   const Client client({.addresses = {server.address()}});
   const auto dance = client.StartDance({.frames = 120, .controls = PathControls()});
   dance->GenerateUntil(60);
-  Controls still;
+  ControlRequest still;
   still.velocity_factors = {.speeds = {0}};
   dance->SendControls(still);
   dance->CompleteKeys();
@@ -99,7 +99,7 @@ TEST(ControlsTest, SurviveTheLossOfAServer) {
     DanceResult result;
     const auto dance = client.StartDance({.seed = 5, .frames = 250, .controls = PathControls()});
     dance->GenerateUntil(70);
-    Controls lively;
+    ControlRequest lively;
     lively.velocity_factors = {.frames = {100, 200}, .parts = {"right_leg"}, .factors = {1, 3}};
     dance->SendControls(lively);
     KeyPose key{.id = "beside", .frame = 170, .pose = RestPose(Body())};
@@ -174,7 +174,7 @@ TEST(ControlsTest, AreDescribedByTheServer) {
 TEST(ControlsTest, OfAnUnknownPartAreRefusedBeforeSending) {
   const TestServer server(std::make_unique<ControlledSampler>());
   const Client client({.addresses = {server.address()}});
-  Controls controls;
+  ControlRequest controls;
   controls.velocity_factors = {.parts = {"tail"}, .factors = {1}};
   ExpectError(ErrorCode::kInvalidArgument,
               "velocity_factors.parts: \"tail\" is none of trunk, left_arm, right_arm, left_leg, "

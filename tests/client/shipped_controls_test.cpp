@@ -38,8 +38,8 @@ class ShippedControlsTest : public testing::Test {
   }
 
   /// An arc of two metres' radius, a point in each frame, away from the origin, 0.4 m/s.
-  static Controls::RootPath Arc() {
-    Controls::RootPath path;
+  static ControlRequest::RootPath Arc() {
+    ControlRequest::RootPath path;
     for (int frame = 0; frame < kFrames; ++frame) {
       const double angle = 0.4 * frame / 30 / 2;
       path.frames.push_back(frame);
@@ -48,7 +48,7 @@ class ShippedControlsTest : public testing::Test {
     return path;
   }
   /// Through four poses of the library, which say nothing of where they are.
-  static DanceResult Dance(const Controls& controls, uint64_t seed = 0) {
+  static DanceResult Dance(const ControlRequest& controls, uint64_t seed = 0) {
     std::vector<KeyPose> keys;
     for (const auto& [id, frame] :
          {std::pair("groove", 60), {"side_reach", 120}, {"disco_point", 180}, {"groove", 240}}) {
@@ -122,7 +122,7 @@ TEST_F(ShippedControlsTest, InfoNamesThePretrainedModel) {
 }
 
 TEST_F(ShippedControlsTest, FollowsADrawnPathThroughKeys) {
-  const Controls controls{.root_path = Arc()};
+  const ControlRequest controls{.root_path = Arc()};
   const DanceResult dance = Dance(controls);
   ASSERT_EQ(dance.motion.frames.size(), static_cast<size_t>(kFrames));
   EXPECT_TRUE(dance.warnings.empty()) << dance.warnings[0].message;
@@ -142,7 +142,7 @@ TEST_F(ShippedControlsTest, FollowsADrawnPathThroughKeys) {
 }
 
 TEST_F(ShippedControlsTest, MakesAnArmFasterOrSlower) {
-  Controls controls{.root_path = Arc()};
+  ControlRequest controls{.root_path = Arc()};
   const auto danced = [&](double factor) {
     controls.velocity_factors = {.parts = {"left_arm"}, .factors = {factor}};
     return Liveliness(Dance(controls).motion)[1];
@@ -151,7 +151,7 @@ TEST_F(ShippedControlsTest, MakesAnArmFasterOrSlower) {
 }
 
 TEST_F(ShippedControlsTest, ReportsPartSpeedsAndMissedOnes) {
-  Controls controls{.root_path = Arc()};
+  ControlRequest controls{.root_path = Arc()};
   EXPECT_TRUE(Dance(controls).report.part_speeds.empty()) << "nothing was asked";
   controls.velocity_factors = {.parts = {"left_arm", "left_leg"}, .factors = {1, 0}};
   const DanceResult dance = Dance(controls);
@@ -170,7 +170,7 @@ TEST_F(ShippedControlsTest, ReportsPartSpeedsAndMissedOnes) {
 }
 
 TEST_F(ShippedControlsTest, ArmSpeedGrowsWithTheRequest) {
-  Controls controls{.root_path = Arc()};
+  ControlRequest controls{.root_path = Arc()};
   // The way through these keys is itself faster than arms usually are.
   double before = 0;
   for (const double factor : {0.5, 2.0, 4.0}) {
@@ -183,7 +183,7 @@ TEST_F(ShippedControlsTest, ArmSpeedGrowsWithTheRequest) {
 }
 
 TEST_F(ShippedControlsTest, NeitherTremblesNorStopsNorFlips) {
-  Controls controls{.root_path = Arc()};
+  ControlRequest controls{.root_path = Arc()};
   for (const double factor : {0.5, 1.0, 1.5, 2.0}) {
     controls.velocity_factors = {.parts = {"left_arm", "right_arm"}, .factors = {factor, factor}};
     const std::vector<Pose> poses = Dance(controls).motion.frames;
@@ -193,7 +193,7 @@ TEST_F(ShippedControlsTest, NeitherTremblesNorStopsNorFlips) {
 }
 
 TEST_F(ShippedControlsTest, FollowsThePathDown) {
-  Controls controls{.root_path = Arc()};
+  ControlRequest controls{.root_path = Arc()};
   for (int frame = 0; frame < kFrames; ++frame) {
     const double u = std::clamp((frame - 60) / 60.0, 0.0, 1.0);  // down and up again before key 2
     controls.root_path->heights.push_back(0.95 - 0.3 * std::pow(std::sin(u * M_PI), 2));
