@@ -141,7 +141,13 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
   int signal = 0;
-  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP && has_folder) reloader.Request();
+  while (sigwait(&heard, &signal) == 0 && signal == SIGHUP) {
+    if (has_folder) {
+      reloader.Request();
+    } else {
+      spdlog::info("{}: without --models there is nothing to reread", strsignal(signal));
+    }
+  }
   spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
                config.drain_seconds);
   reloader.Stop();

@@ -127,6 +127,19 @@ TEST_F(ServeTest, StopsWhileLoadingAnotherModel) {
 }
 
 TEST_F(ServeTest, FindsATakenAddressBeforeLoadingModels) {
+// Scripts for several servers send it to each.
+TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
+  Start("");
+  AwaitListening();
+  Send(SIGHUP);
+  const client::Client client({.addresses = {address()}});
+  EXPECT_EQ(client.Dance({.frames = 20}, {}, {}).motion.frames.size(), 20U);
+  Send(SIGTERM);
+  const Outcome outcome = End();
+  EXPECT_THAT(outcome.said, HasSubstr("nothing to reread"));
+  EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
+}
+
   const Listener other("127.0.0.1:0");
   const std::string taken = "127.0.0.1:" + std::to_string(other.port());
   WriteSlow("slow");
