@@ -76,7 +76,9 @@ class CallSession : public Call {
   }
 
   /// Call when the reactor is done: frees the dance, which holds this session, and counts the call.
-  void Release() noexcept {
+  /// `lost`: the status never went out. gRPC shows a dead connection as a half-close first, so the
+  /// dance may have ended well for nobody.
+  void Release(bool lost) noexcept {
     CancelDance();
     serving_.frames.GiveBack(this);
     std::optional<Refusal> refusal;
@@ -86,8 +88,11 @@ class CallSession : public Call {
       refusal = refusal_;
     }
     try {
-      const grpc::Status status = outbox_.status();
+      grpc::Status status = outbox_.status();
       if (status.ok()) refusal.reset();  // a refusal after the end does not count
+      if (status.ok() && lost) {
+        status = {grpc::StatusCode::CANCELLED, "the client left before its dance was over"};
+      }
       serving_.tally.Count({.method = method_,
                             .caller = caller_,
                             .status = status,

@@ -38,7 +38,8 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
 
   void OnDone() override {
     const std::unique_ptr<SessionReactor> own(this);
-    session_->Release();
+    // gRPC knows by now whether the client's connection took the status.
+    session_->Release(/*lost=*/context_->IsCancelled());
     serving_.calls.Leave(session_.get());
   }
 

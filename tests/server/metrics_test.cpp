@@ -1,5 +1,7 @@
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -18,6 +20,7 @@
 #include "server/refusal.h"
 #include "tests/server/fixture.h"
 #include "tests/support/sanitizers.h"
+#include "tests/support/tcp_proxy.h"
 
 /// A server's figures for Prometheus.
 namespace choreo::metrics_test {
@@ -199,6 +202,35 @@ TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
                 0);
     }
   }
+}
+
+// gRPC shows a dead connection as the end of the client's messages first, at which a dance ends.
+TEST_F(MetricsTest, DeadClientsAreCancelled) {
+  constexpr int kClients = 10;
+  Start(2, [](ServerConfig& config) { config.metrics = "0"; });
+  std::vector<std::unique_ptr<TcpProxy>> proxies;
+  std::vector<std::unique_ptr<DanceClient>> clients;
+  for (int i = 0; i < kClients; ++i) {
+    proxies.push_back(std::make_unique<TcpProxy>(server->port()));
+    const auto own = grpc::CreateChannel(proxies[i]->address(), grpc::InsecureChannelCredentials());
+    clients.push_back(std::make_unique<DanceClient>(*v1::Choreography::NewStub(own)));
+    v1::DanceConfig config = Config();
+    *config.mutable_audio_format() = MusicFormat();
+    clients[i]->Send(config);
+    clients[i]->SendKeyframesComplete();
+    clients[i]->SendAudio(Music(2), 0);
+    ASSERT_TRUE(clients[i]->ReadFrames(5));
+  }
+  for (int i = 0; i < kClients; ++i) {
+    proxies[i].reset();
+    EXPECT_FALSE(clients[i]->Finish().status.ok());
+  }
+  ExpectIdle();
+  const auto ended = [this](const std::string& status) {
+    return Figure("choreo_calls_total{method=\"StreamDance\",status=\"" + status + "\"}");
+  };
+  ExpectEventually([&] { return ended("CANCELLED") + ended("OK") == kClients; }, "all are counted");
+  EXPECT_EQ(ended("OK"), 0);
 }
 
 TEST_F(MetricsTest, CountRefusalsByReason) {
