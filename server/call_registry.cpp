@@ -8,6 +8,9 @@ namespace choreo {
 namespace {
 
 constexpr double kShareOfLast = 0.1;  // weight of the latest call in the running mean
+constexpr double kLongestWait = 60;
+/// A caller that came this lately is there: for as long as it may have been told to wait.
+constexpr std::chrono::seconds kThere{60};
 
 const char* const kGoingAway = "the server is going away; try another one";
 
@@ -26,13 +29,16 @@ Error ResumeElsewhere() {
 void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
   const std::lock_guard lock(mutex_);
   if (!admitting_) throw Refused(Refusal::kDraining, kGoingAway);
-  int& calls = of_party_[party];
-  if (calls >= limits_.calls_of_peer) {
-    throw Refused(Refusal::kStreamsOfPeer,
-                  party + " has " + std::to_string(calls) + " calls in progress, of at most " +
-                      std::to_string(limits_.calls_of_peer) + " for one caller");
+  if (visits_[0].party != party) std::swap(visits_[0], visits_[1]);
+  visits_[0] = {party, Clock::now()};
+  const auto found = of_party_.find(party);
+  const int calls = found == of_party_.end() ? 0 : found->second, most = MostOf(party);
+  if (calls >= most) {
+    throw Refused(Refusal::kStreamsOfPeer, party + " has " + std::to_string(calls) +
+                                               " calls in progress, of at most " +
+                                               std::to_string(most) + " for one caller");
   }
-  ++calls;
+  ++of_party_[party];
   calls_.emplace(call.get(), Entry{call, std::move(party), Clock::now()});
 }
 
@@ -58,7 +64,9 @@ void CallRegistry::Leave(const Call* call) {
   if (entry.admitted) {
     --admitted_;
     const double took = std::chrono::duration<double>(Clock::now() - entry.since).count();
-    mean_seconds_ += kShareOfLast * (took - mean_seconds_);
+    mean_seconds_ +=
+        std::max(kShareOfLast, 1.0 / static_cast<double>(++ended_)) * (took - mean_seconds_);
+    refused_ = std::max(0, refused_ - 1);
   }
   const auto others = of_party_.find(entry.party);
   if (--others->second == 0) of_party_.erase(others);
@@ -146,9 +154,47 @@ int CallRegistry::count() const {
   return admitted_;
 }
 
-double CallRegistry::retry_after() const {
+bool CallRegistry::HasRival(const std::string& party) const {
   const std::lock_guard lock(mutex_);
-  return std::clamp(mean_seconds_ / std::max(1, admitted_), 1.0, 60.0);
+  return IsRivalled(party);
+}
+
+bool CallRegistry::IsRivalled(const std::string& party) const {
+  if (of_party_.size() > (of_party_.contains(party) ? 1U : 0U)) return true;
+  const auto now = Clock::now();
+  return std::ranges::any_of(visits_, [&](const Visit& visit) {
+    return !visit.party.empty() && visit.party != party && now - visit.at < kThere;
+  });
+}
+
+int CallRegistry::MostOf(const std::string& party) const {
+  return IsRivalled(party) ? limits_.calls_of_peer : limits_.calls_of_lone_peer;
+}
+
+double CallRegistry::utilisation() const {
+  const std::lock_guard lock(mutex_);
+  double most = static_cast<double>(admitted_) / limits_.calls;
+  for (const auto& [party, calls] : of_party_) {
+    most = std::max(most, static_cast<double>(calls) / MostOf(party));
+  }
+  return most;
+}
+
+double CallRegistry::Spread(double seconds) {
+  return std::min(kLongestWait,
+                  std::uniform_real_distribution(1.0, 1.5)(random_) * std::max(1.0, seconds));
+}
+
+double CallRegistry::RetryAfter() {
+  const std::lock_guard lock(mutex_);
+  const int calls = std::max(1, admitted_);
+  refused_ = std::min(refused_ + 1, calls);  // those that left for good make nobody wait for ever
+  return Spread(mean_seconds_ * refused_ / calls);
+}
+
+double CallRegistry::RetryElsewhere() {
+  const std::lock_guard lock(mutex_);
+  return Spread(1);
 }
 
 }  // namespace choreo

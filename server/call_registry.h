@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -7,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -36,7 +38,9 @@ class Call {
 /// Limits on clients' calls and idle time.
 struct CallLimits {
   int calls = 0;
-  int calls_of_peer = 0;  ///< of one caller, including those without a first message
+  /// Of one caller, including those without a first message: while another caller is there, and
+  /// while none is.
+  int calls_of_peer = 0, calls_of_lone_peer = 0;
   std::chrono::milliseconds first_message{};
   std::chrono::milliseconds idle{};    ///< without messages in either direction
   std::chrono::milliseconds unread{};  ///< an answer was not taken
@@ -71,11 +75,20 @@ class CallRegistry {
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
+  /// Whether a caller other than `party` has a call, or came within the last minute. Who was
+  /// refused comes again, and must find a place then.
+  bool HasRival(const std::string& party) const;
+
   bool admitting() const;  ///< until StopAdmitting
   int count() const;       ///< admitted
   const CallLimits& limits() const { return limits_; }
-  /// When capacity may be free, from how often calls have ended lately. Seconds, 1 to 60.
-  double retry_after() const;
+  /// The share of the limits that is taken: of all calls, or the busiest caller's.
+  double utilisation() const;
+  /// When one more refused call should come again: after as many calls have ended as were refused
+  /// before it, spread so that they do not come together. Seconds, 1 to 60.
+  double RetryAfter();
+  /// The same for a client that has other servers to go to.
+  double RetryElsewhere();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -86,8 +99,17 @@ class CallRegistry {
     bool admitted = false;
   };
 
-  // Requires mutex_.
+  /// When a caller last came.
+  struct Visit {
+    std::string party;
+    Clock::time_point at;
+  };
+
+  // These require mutex_.
   std::vector<std::shared_ptr<Call>> Calls(bool admitted) const;
+  bool IsRivalled(const std::string& party) const;
+  int MostOf(const std::string& party) const;
+  double Spread(double seconds);
 
   const CallLimits limits_;
   std::atomic<bool> ends_at_transitions_ = false;
@@ -97,7 +119,11 @@ class CallRegistry {
   std::map<std::string, int> of_party_;
   int admitted_ = 0;
   bool admitting_ = true;
-  double mean_seconds_ = 0;  // of recently ended calls
+  std::array<Visit, 2> visits_;  // the latest caller, and the latest other one
+  double mean_seconds_ = 0;      // of recently ended calls
+  int64_t ended_ = 0;
+  int refused_ = 0;  // that no ended call has made room for
+  std::minstd_rand random_{std::random_device{}()};
 };
 
 }  // namespace choreo

@@ -183,9 +183,11 @@ class CallSession : public Call {
     }
   }
 
-  /// Takes RetryInfo's delay, if any, from the measured load.
+  /// With a delay for RetryInfo.
   grpc::Status StatusOf(const Error& error) const {
-    return ToStatus(error, serving_.calls.retry_after());
+    const std::optional<Refusal> refusal = RefusalIn(error);
+    const bool waits = refusal && *refusal != Refusal::kDraining;
+    return ToStatus(error, waits ? serving_.calls.RetryAfter() : serving_.calls.RetryElsewhere());
   }
 
   /// Names model and seed in the call's log line. Message thread.

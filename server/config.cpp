@@ -54,6 +54,11 @@ void CheckLimits(const ServerConfig& config) {
   CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
   CheckRange("--max-load", config.max_load, 0.1, 2);
   // gRPC counts milliseconds in 32 bits.
+  if (config.max_streams_of_peer > config.max_streams) {
+    throw InvalidArgument("--max-streams-of-peer",
+                          std::to_string(config.max_streams_of_peer) + " is more than " +
+                              std::to_string(config.max_streams) + ", which --max-streams allows");
+  }
   CheckRange("--max-connection-seconds", config.max_connection_seconds, 0, 24 * kDay);
 }
 

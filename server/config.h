@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,7 +43,7 @@ struct ServerConfig {
   std::string metrics;                    ///< HOST:PORT or PORT for Prometheus; empty: nowhere
 
   // Limits on clients' calls and idle time.
-  int max_streams_of_peer = 0;        ///< calls of one caller; 0: seven eighths of max_streams
+  int max_streams_of_peer = 0;        ///< calls of one caller; 0: MaxStreamsOfPeer
   double first_message_seconds = 10;  ///< limit for a call's first message
   double idle_seconds = 120;          ///< limit of a call without messages in either direction
   double unread_seconds = 60;         ///< limit for a client to take an answer
@@ -51,8 +52,14 @@ struct ServerConfig {
 
   /// HOST:PORT of `metrics`; a port alone means this machine.
   std::string MetricsAddress() const;
+  /// While another caller is there: without a setting all but an eighth, at least one.
   int MaxStreamsOfPeer() const {
-    return max_streams_of_peer > 0 ? max_streams_of_peer : max_streams - max_streams / 8;
+    if (max_streams_of_peer > 0) return max_streams_of_peer;
+    return std::max(1, max_streams - std::max(1, max_streams / 8));
+  }
+  /// While no other caller is there: without a setting all.
+  int MaxStreamsOfLonePeer() const {
+    return max_streams_of_peer > 0 ? max_streams_of_peer : max_streams;
   }
 
   /// Throws Error(kInvalidArgument) naming the first setting that cannot be used.

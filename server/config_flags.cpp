@@ -104,7 +104,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
 void AddLimits(CLI::App& app, ServerConfig& config) {
   app.add_option("--max-streams-of-peer", config.max_streams_of_peer,
                  "Calls in progress at once of one token's holder or, without --tokens, from one "
-                 "address. 0: seven eighths of --max-streams.")
+                 "address. 0: all of --max-streams for a lone caller, seven eighths while another "
+                 "is there.")
       ->envname("CHOREO_MAX_STREAMS_OF_PEER")
       ->capture_default_str();
   app.add_option("--first-message-seconds", config.first_message_seconds,

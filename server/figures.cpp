@@ -70,8 +70,8 @@ class Figures {
 
   std::vector<MetricFamily> Collect() const {
     Families out;
-    AddCalls(out);
     const std::map<std::string, Models::Figures> models = serving_.models.figures();
+    AddCalls(models, out);
     AddModels(models, out);
     AddHistograms(models, out);
     try {
@@ -82,7 +82,7 @@ class Figures {
   }
 
  private:
-  void AddCalls(Families& out) const {
+  void AddCalls(const std::map<std::string, Models::Figures>& models, Families& out) const {
     out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
     // Reports all series from the start: rates miss a step at which a series begins.
     const Tally::Calls counted = serving_.tally.calls();
@@ -95,7 +95,8 @@ class Figures {
       }
     }
     out.Begin("refused_calls_total",
-              "Calls that were turned away though nothing is wrong with them, by what was lacking.",
+              "Calls that were turned away, by what was lacking: room, a token, or a server that "
+              "goes on.",
               MetricType::Counter);
     const Tally::Refusals refusals = serving_.tally.refusals();
     for (size_t i = 0; i < kRefusals.size(); ++i)
@@ -103,18 +104,21 @@ class Figures {
     const CallRegistry& calls = serving_.calls;
     out.Begin("draining", "1 from when the server is told to go, 0 before.", MetricType::Gauge);
     out.Add(calls.admitting() ? 0 : 1);
-    out.Begin("streams", "Calls in progress.", MetricType::Gauge);
+    out.Begin("streams", "Calls in progress that have sent their first message.",
+              MetricType::Gauge);
     out.Add(calls.count());
     out.Begin("streams_limit", "Calls that may be in progress.", MetricType::Gauge);
     out.Add(calls.limits().calls);
-    double load = 0;
-    for (const auto& [model, share] : serving_.frames.loads()) load += share;
     out.Begin("utilisation",
-              "The larger of streams / limit and of all load / --max-load; at 1 calls are refused.",
+              "The fullest of all limits: calls, load, candidates, music files, and the busiest "
+              "caller's share of calls and load. At 1 calls are refused.",
               MetricType::Gauge);
-    out.Add(std::max(load / serving_.frames.shares().of_all,
-                     static_cast<double>(calls.count()) / calls.limits().calls));
-    out.Begin("sent_frames_total", "Frames that calls got which are over.", MetricType::Counter);
+    double fullest = std::max(
+        {calls.utilisation(), serving_.frames.utilisation(), serving_.file_music.utilisation()});
+    for (const auto& [model, figures] : models)
+      fullest = std::max(fullest, figures.stats.bulk_share);
+    out.Add(fullest);
+    out.Begin("sent_frames_total", "Frames made for calls that are over.", MetricType::Counter);
     out.Add(static_cast<double>(serving_.tally.frames));
     out.Begin("first_frame_seconds", "From a call's begin to its first frame.",
               MetricType::Histogram);

@@ -29,13 +29,14 @@ void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const st
 void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
                                  const std::string& party, int frames) {
   double frames_per_second = frames / kTransitionSeconds;
-  const double most = std::min(shares_.of_all, shares_.of_peer) / 2;
+  const double most = std::min(shares_.of_all, shares_.of_lone_peer) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
   Take(call, {&model, party, frames_per_second});
 }
 
 void FrameBudget::Take(const void* call, Charge charge) {
+  const double of_party = MostOf(charge.party, charge.model->LoadOf(charge.frames_per_second));
   const std::lock_guard lock(mutex_);
   const auto require = [&](const std::string* party, double most) {
     Frames frames = FramesOf(party);
@@ -51,7 +52,7 @@ void FrameBudget::Take(const void* call, Charge charge) {
   };
   if (shares_.of_all <= 1) {
     require(nullptr, shares_.of_all);
-    require(&charge.party, shares_.of_peer);
+    require(&charge.party, of_party);
   }
   charges_.emplace(call, std::move(charge));
 }
@@ -68,6 +69,38 @@ std::map<std::string, double> FrameBudget::loads() const {
     loads[model->model().name] += model->LoadOf(frames);
   }
   return loads;
+}
+
+double FrameBudget::MostOf(const std::string& party, double cost) const {
+  if (!has_rival_ || !has_rival_(party)) return shares_.of_lone_peer;
+  return std::min(shares_.of_peer, shares_.of_all - cost);
+}
+
+double FrameBudget::utilisation() const {
+  if (shares_.of_all > 1) return 0;
+  struct Sum {
+    double load = 0, largest = 0;
+    void Add(double more) {
+      load += more;
+      largest = std::max(largest, more);
+    }
+    double OfMost(double most) const { return load + largest > most ? 1 : load / most; }
+  };
+  Sum all;
+  std::map<std::string, Sum> of_party;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [call, charge] : charges_) {
+      const double load = charge.model->LoadOf(charge.frames_per_second);
+      all.Add(load);
+      of_party[charge.party].Add(load);
+    }
+  }
+  double most = all.load > 0 ? all.OfMost(shares_.of_all) : 0;
+  for (const auto& [party, sum] : of_party) {
+    if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(party, sum.largest)));
+  }
+  return most;
 }
 
 FrameBudget::Frames FrameBudget::FramesOf(const std::string* party) const {

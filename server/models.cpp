@@ -20,6 +20,7 @@ void Add(const Models::Figures& more, Models::Figures* to) {
   stats.frames += more.stats.frames;
   stats.transitions += more.stats.transitions;
   stats.failures = std::max(stats.failures, more.stats.failures);
+  stats.bulk_share = std::max(stats.bulk_share, more.stats.bulk_share);
   to->histograms.slice_s += more.histograms.slice_s;
   to->histograms.transition_s += more.histograms.transition_s;
   to->histograms.lateness_s += more.histograms.lateness_s;
@@ -92,6 +93,7 @@ void Models::FreeUnused() {
     }
     Figures last = FiguresOf(*at->queue);
     last.stats.workers = last.stats.failures = 0;
+    last.stats.bulk_share = 0;
     AddTo(past_, at->name(), last);
     spdlog::info("model \"{}\", fingerprint {}: nobody dances it any more; it is gone", at->name(),
                  at->queue->model().fingerprint);

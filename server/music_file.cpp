@@ -23,6 +23,11 @@ void MusicBudget::GiveBack(int64_t bytes) {
   taken_ -= bytes;
 }
 
+double MusicBudget::utilisation() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<double>(taken_) / static_cast<double>(bytes_);
+}
+
 void MusicFile::Append(std::string_view bytes, const std::string& field) {
   const int64_t needed = size() + static_cast<int64_t>(bytes.size());
   if (needed > kMaxAudioFileBytes) {

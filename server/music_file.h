@@ -19,6 +19,7 @@ class MusicBudget {
   /// Throws Refused if less is left.
   void Take(int64_t bytes);
   void GiveBack(int64_t bytes);
+  double utilisation() const;  ///< the share that is taken
 
  private:
   const int64_t bytes_;

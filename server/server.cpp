@@ -65,14 +65,19 @@ CallLimits LimitsOf(const ServerConfig& config) {
   return {.calls = config.max_streams,
           .calls_of_peer = config.MaxStreamsOfPeer(),
           .first_message = Milliseconds(config.first_message_seconds),
+          .calls_of_lone_peer = config.MaxStreamsOfLonePeer(),
           .idle = Milliseconds(config.idle_seconds),
           .unread = Milliseconds(config.unread_seconds)};
 }
 
 // One caller may have the same share of the engines' time as of the calls.
 FrameShares SharesOf(const ServerConfig& config) {
-  const double of_peer = std::min(1.0, double(config.MaxStreamsOfPeer()) / config.max_streams);
-  return {.of_all = config.max_load, .of_peer = of_peer * config.max_load};
+  const auto share = [&config](int calls) {
+    return config.max_load * std::min(1.0, double(calls) / config.max_streams);
+  };
+  return {.of_all = config.max_load,
+          .of_peer = share(config.MaxStreamsOfPeer()),
+          .of_lone_peer = share(config.MaxStreamsOfLonePeer())};
 }
 
 void LogSecurity(const ServerConfig& config, const Tokens& tokens) {

@@ -23,7 +23,7 @@ struct Serving {
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
           int64_t file_music_bytes, int io_threads)
       : calls(limits),
-        frames(shares),
+        frames(shares, [this](const std::string& party) { return calls.HasRival(party); }),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),

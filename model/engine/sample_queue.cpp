@@ -308,6 +308,10 @@ SampleQueue::Stats SampleQueue::stats() const {
   Stats stats{.workers = static_cast<int>(impl_->workers.size()),
               .frames = impl_->frames,
               .transitions = impl_->transitions};
+  if (impl_->options.max_bulk > 0) {
+    const std::lock_guard lock(impl_->bulk->mutex);
+    stats.bulk_share = double(impl_->bulk->reserved) / impl_->options.max_bulk;
+  }
   const std::lock_guard lock(impl_->mutex);
   stats.waiting = static_cast<int>(impl_->waiting.size());
   for (const auto& worker : impl_->workers) {

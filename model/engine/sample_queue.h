@@ -60,6 +60,7 @@ class SampleQueue {
     /// Consecutive failures of a worker's jobs that were not their fault; the largest of all
     /// workers.
     int failures = 0;
+    double bulk_share = 0;  ///< of max_bulk, reserved
   };
   /// Measurements so far.
   struct Histograms {

@@ -24,6 +24,15 @@ TEST(ServerConfigTest, DefaultsAreValid) {
   EXPECT_EQ(line.config->max_waiting, 128);
   EXPECT_EQ(line.config->MaxStreamsOfPeer(), 56);
 }
+  EXPECT_EQ(line.config->MaxStreamsOfLonePeer(), 64);
+}
+
+TEST(ServerConfigTest, SmallServersKeepAPlaceForAnotherCaller) {
+  for (const auto& [streams, of_peer] : {std::pair{1, 1}, {2, 1}, {4, 3}, {16, 14}}) {
+    ServerConfig config;
+    config.max_streams = streams;
+    EXPECT_EQ(config.MaxStreamsOfPeer(), of_peer) << streams;
+  }
 
 TEST(ServerConfigTest, AFolderOfModelsExcludesCheckpoints) {
   const CommandLine line = Parse({"--models", "somewhere"});

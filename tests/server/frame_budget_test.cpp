@@ -54,12 +54,40 @@ TEST_F(FrameBudgetTest, ModelsShareTheTime) {
 }
 
 TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
-  FrameBudget budget({.of_all = 0.9, .of_peer = 0.45});
+  FrameBudget budget({.of_all = 0.9, .of_peer = 0.45}, [](const std::string&) { return true; });
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
   ExpectError(ErrorCode::kResourceExhausted,
               "a has 45 % of their time, with this one it would be 50 %, of at most 45 %",
               [&] { budget.TakeDance(&calls[99], *models[0], "a"); });
   EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 9);
+}
+
+// Slow engines serve two dances or so: one holder must not have both.
+TEST_F(FrameBudgetTest, ARivalFindsTimeOnASmallServer) {
+  bool rival = false;
+  FrameBudget budget({.of_all = 0.16, .of_peer = 0.155, .of_lone_peer = 0.16},
+                     [&rival](const std::string&) { return rival; });
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 3);
+  rival = true;
+  EXPECT_THROW(budget.TakeDance(&calls[50], *models[0], "b"), Error);
+  budget.GiveBack(&calls[0]);
+  EXPECT_THROW(budget.TakeDance(&calls[51], *models[0], "a"), Error);
+  budget.TakeDance(&calls[52], *models[0], "b");
+}
+
+TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
+  bool rival = false;
+  FrameBudget budget({.of_all = 0.92, .of_peer = 0.46, .of_lone_peer = 0.92},
+                     [&rival](const std::string&) { return rival; });
+  EXPECT_EQ(budget.utilisation(), 0);
+  budget.TakeDance(&calls[150], *models[0], "a");
+  EXPECT_NEAR(budget.utilisation(), 0.05 / 0.92, 1e-9);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 17);
+  EXPECT_EQ(budget.utilisation(), 1);
+  for (int i = 0; i < 9; ++i) budget.GiveBack(&calls[i]);
+  EXPECT_NEAR(budget.utilisation(), 0.45 / 0.92, 1e-9);
+  rival = true;
+  EXPECT_EQ(budget.utilisation(), 1);
 }
 
 TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {

@@ -233,6 +233,35 @@ TEST_F(MetricsTest, DeadClientsAreCancelled) {
   EXPECT_EQ(ended("OK"), 0);
 }
 
+// Autoscalers and alerts go by it.
+TEST_F(MetricsTest, UtilisationIsOneWhereverCallsAreRefused) {
+  Start(1, [](ServerConfig& config) {
+    config.metrics = "0";
+    config.max_streams = 8;
+    config.max_streams_of_peer = 2;
+    config.max_waiting = 2;
+  });
+  EXPECT_EQ(Figure("choreo_utilisation"), 0);
+  {
+    DanceClient first(stub()), second(stub());
+    for (DanceClient* one : {&first, &second}) {
+      one->Send(Config());
+      ASSERT_TRUE(one->ReadHeader());
+    }
+    EXPECT_EQ(Figure("choreo_utilisation"), 1) << "the caller gets no third call";
+  }
+  ExpectEventually([&] { return Figure("choreo_utilisation") == 0; }, "all have left");
+  probe->closed = true;
+  v1::GenerateTransitionRequest request;
+  *request.mutable_config() = Config();
+  request.set_frames(5);
+  request.set_candidates(2);
+  std::thread caller([&] { EXPECT_TRUE(Generate(request).status.ok()); });
+  ExpectEventually([&] { return Figure("choreo_utilisation") == 1; }, "candidates fill it");
+  probe->closed = false;
+  caller.join();
+}
+
 TEST_F(MetricsTest, CountRefusalsByReason) {
   Start(1, [](ServerConfig& config) {
     config.metrics = "0";

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "model/engine/sampling_cost.h"
-#include "server/call_registry.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::starvation_test {
@@ -215,7 +214,10 @@ TEST_F(StarvationTest, RefusesAtOnceWhatCannotBeServedInTime) {
 }
 
 TEST_F(StarvationTest, OneAddressCannotTakeAllCalls) {
-  Start(1, [](ServerConfig& config) { config.max_streams = 8; });
+  Start(1, [](ServerConfig& config) {
+    config.max_streams = 8;
+    config.max_streams_of_peer = 7;
+  });
   std::vector<std::unique_ptr<DanceClient>> clients;
   for (int i = 0; i < 7; ++i) {
     clients.push_back(OpenEndedDance());
@@ -226,34 +228,6 @@ TEST_F(StarvationTest, OneAddressCannotTakeAllCalls) {
   EXPECT_THAT(refused.error_message(),
               HasSubstr("127.0.0.1 has 7 calls in progress, of at most 7 for one caller"));
   EXPECT_TRUE(DetailsOf(refused).retry_info);
-}
-
-class FakeCall final : public Call {
- public:
-  void Abort(const Error&) override {}
-  void Reset() override {}
-  CallProgress progress() const override { return {}; }
-};
-
-TEST(CallRegistryTest, CallersHaveTheirOwnPlaces) {
-  CallRegistry calls({.calls = 3, .calls_of_peer = 2});
-  std::vector<std::shared_ptr<Call>> entered;
-  const auto enter = [&](const std::string& party) {
-    entered.push_back(std::make_shared<FakeCall>());
-    calls.Enter(entered.back(), party);
-    calls.Admit(entered.back().get());
-  };
-  enter("ipv4:10.0.0.1");
-  enter("ipv4:10.0.0.1");
-  EXPECT_THROW(enter("ipv4:10.0.0.1"), Error);
-  enter("ipv6:%5B::1%5D");
-  EXPECT_THROW(enter("ipv4:10.0.0.2"), Error);  // all three are taken
-  calls.Leave(entered[0].get());
-  enter("ipv4:10.0.0.2");
-  EXPECT_EQ(calls.count(), 3);
-  for (const auto& call : entered) calls.Leave(call.get());
-  EXPECT_EQ(calls.count(), 0);
-  EXPECT_TRUE(calls.WaitUntilEmpty(milliseconds(0)));
 }
 
 }  // namespace choreo::starvation_test

@@ -1,0 +1,104 @@
+#include "server/call_registry.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "server/refusal.h"
+
+/// Who gets the places of a server, and when those who got none should come again.
+namespace choreo::call_registry_test {
+
+struct SilentCall final : Call {
+  void Abort(const Error& /*error*/) override {}
+  void Reset() override {}
+  CallProgress progress() const override { return {}; }
+};
+
+class CallRegistryTest : public testing::Test {
+ protected:
+  static constexpr int kCalls = 4, kOfPeer = 3;
+
+  bool Come(const std::string& party) {
+    const auto call = std::make_shared<SilentCall>();
+    try {
+      registry.Enter(call, party);
+    } catch (const Refused& refused) {
+      EXPECT_EQ(refused.why(), Refusal::kStreamsOfPeer);
+      return false;
+    }
+    try {
+      registry.Admit(call.get());
+    } catch (const Refused& refused) {
+      EXPECT_EQ(refused.why(), Refusal::kStreams);
+      registry.Leave(call.get());
+      return false;
+    }
+    calls.push_back(call);
+    return true;
+  }
+  void LeaveOne() {
+    registry.Leave(calls.front().get());
+    calls.erase(calls.begin());
+  }
+
+  CallRegistry registry{{.calls = kCalls, .calls_of_peer = kOfPeer, .calls_of_lone_peer = kCalls}};
+  std::vector<std::shared_ptr<SilentCall>> calls;
+};
+
+TEST_F(CallRegistryTest, CallersHaveTheirOwnPlaces) {
+  for (int i = 0; i < kOfPeer - 1; ++i) EXPECT_TRUE(Come("ipv4:10.0.0.1"));
+  EXPECT_TRUE(Come("ipv6:%5B::1%5D"));
+  EXPECT_TRUE(Come("ipv4:10.0.0.1"));
+  EXPECT_FALSE(Come("ipv4:10.0.0.1"));
+  EXPECT_FALSE(Come("ipv4:10.0.0.2"));  // all are taken
+  LeaveOne();
+  EXPECT_TRUE(Come("ipv4:10.0.0.2"));
+  EXPECT_EQ(registry.count(), kCalls);
+  while (!calls.empty()) LeaveOne();
+  EXPECT_EQ(registry.count(), 0);
+  EXPECT_TRUE(registry.WaitUntilEmpty(std::chrono::milliseconds(0)));
+}
+
+TEST_F(CallRegistryTest, ALoneCallerMayHaveAllPlaces) {
+  for (int i = 0; i < kCalls; ++i) EXPECT_TRUE(Come("alice"));
+  EXPECT_FALSE(Come("alice"));
+  EXPECT_EQ(registry.utilisation(), 1);
+}
+
+TEST_F(CallRegistryTest, WhoWasRefusedFindsThePlaceThatGetsFree) {
+  for (int i = 0; i < kCalls; ++i) EXPECT_TRUE(Come("alice"));
+  EXPECT_FALSE(Come("bob"));
+  LeaveOne();
+  EXPECT_FALSE(Come("alice"));
+  EXPECT_TRUE(Come("bob"));
+  LeaveOne();
+  EXPECT_TRUE(Come("alice"));
+  EXPECT_FALSE(Come("alice"));
+}
+
+TEST_F(CallRegistryTest, UtilisationIsTheBusiestCallers) {
+  EXPECT_EQ(registry.utilisation(), 0);
+  EXPECT_TRUE(Come("bob"));
+  EXPECT_EQ(registry.utilisation(), 1.0 / kCalls);
+  LeaveOne();
+  for (int i = 0; i < kOfPeer; ++i) EXPECT_TRUE(Come("alice"));
+  EXPECT_EQ(registry.utilisation(), 1) << "alice gets no more while bob is there";
+  EXPECT_TRUE(Come("bob"));
+}
+
+// So that they do not come back together.
+TEST_F(CallRegistryTest, RefusedCallsAreSpread) {
+  std::set<double> times;
+  for (int i = 0; i < 100; ++i) {
+    const double time = registry.RetryAfter();
+    EXPECT_GE(time, 1);
+    EXPECT_LE(time, 60);
+    times.insert(time);
+  }
+  EXPECT_GT(times.size(), 50U);
+}
+
+}  // namespace choreo::call_registry_test
