@@ -73,6 +73,7 @@ class Figures {
     const std::map<std::string, Models::Figures> models = serving_.models.figures();
     AddCalls(models, out);
     AddModels(models, out);
+    AddReloads(out);
     AddHistograms(models, out);
     try {
       AddProcess(out);
@@ -175,6 +176,25 @@ class Figures {
         out.Add(figure.of(figures.stats), {{"model", model}});
       }
     }
+  }
+
+  void AddReloads(Families& out) const {
+    const Reloads::States states = serving_.reloads.states();
+    out.Begin("last_reload_successful",
+              "1 unless the latest change of what is reread was bad, wholly or in part.",
+              MetricType::Gauge);
+    for (size_t i = 0; i < states.size(); ++i)
+      out.Add(states[i].good ? 1 : 0, {{"of", Reloads::kNames[i]}});
+    out.Begin("last_reload_success_timestamp_seconds",
+              "When it was read without a fault for the last time, since 1970.", MetricType::Gauge);
+    for (size_t i = 0; i < states.size(); ++i)
+      out.Add(states[i].succeeded_at, {{"of", Reloads::kNames[i]}});
+    const double expires = serving_.reloads.certificate_expires;
+    if (expires == 0) return;
+    out.Begin("certificate_expiry_timestamp_seconds",
+              "When the certificate in use, or one of its chain, expires, since 1970.",
+              MetricType::Gauge);
+    out.Add(expires);
   }
 
   static void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) {

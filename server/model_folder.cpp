@@ -110,9 +110,11 @@ void ModelFolder::Reload(Server& server, const std::function<bool()>& stopped) {
     const size_t count = fresh.size();
     if (!server.SetModels(names, std::move(fresh))) return;
     served_ = std::move(files);
+    server.NoteModelReload(faults.empty());
     spdlog::info("{} of {} models are new; \"{}\" is the default", count, names.size(),
                  names.front());
   } catch (const std::exception& error) {
+    server.NoteModelReload(false);
     spdlog::error("{}; all models are served as before", Printable(error.what()));
   }
 }

@@ -17,9 +17,11 @@
 #include <vector>
 
 #include "model/core/address.h"
+#include "server/certificate_files.h"
 #include "server/listener.h"
 #include "server/server.h"
 
+#include "server/tokens.h"
 namespace choreo {
 namespace {
 
@@ -111,6 +113,12 @@ void RequireAddresses(const ServerConfig& config) {
 }
 
 // For threads that libraries started before main, which do not inherit main's signal mask: such a
+// Finds unusable files of secrets before loading models, too.
+void RequireSecrets(const ServerConfig& config) {
+  if (!config.tls_certificate.empty()) const CertificateFiles certificate(config);
+  const Tokens tokens(config.tokens);
+}
+
 // thread blocks a signal that reaches it, and sends it again.
 void HandOn(int signal, siginfo_t* /*info*/, void* context) {
   sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, signal);
@@ -133,6 +141,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   ModelFolder folder(config.models, load);
   RequireAddresses(config);
   const bool has_folder = !config.models.empty();
+  RequireSecrets(config);
   Server server(config, LoadAll(config, folder, load));
   Reloader reloader(folder, server);
   // Programs that start a choreod wait for this line.

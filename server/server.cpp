@@ -19,6 +19,7 @@
 
 #include "model/core/error.h"
 #include "model/core/limits.h"
+#include "server/certificate_files.h"
 #include "server/connection_limits.h"
 #include "server/listener.h"
 #include "server/metrics.h"
@@ -45,8 +46,8 @@ constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
 /// The interval at which limits and engines are checked.
 constexpr milliseconds kWatchInterval{100};
-/// The interval at which the tokens' file is read: a removed token works that long at most.
-constexpr milliseconds kTokenInterval{500};
+/// The interval at which tokens and certificate are read: a removed token works that long at most.
+constexpr milliseconds kFileInterval{500};
 /// An engine is broken after this many failures in a row.
 constexpr int kBroken = 3;
 /// ResetGuard's limit, in multiples of the calls that a connection may have.
@@ -64,8 +65,8 @@ milliseconds Milliseconds(double seconds) {
 CallLimits LimitsOf(const ServerConfig& config) {
   return {.calls = config.max_streams,
           .calls_of_peer = config.MaxStreamsOfPeer(),
-          .first_message = Milliseconds(config.first_message_seconds),
           .calls_of_lone_peer = config.MaxStreamsOfLonePeer(),
+          .first_message = Milliseconds(config.first_message_seconds),
           .idle = Milliseconds(config.idle_seconds),
           .unread = Milliseconds(config.unread_seconds)};
 }
@@ -128,6 +129,11 @@ struct Server::Impl {
         service(serving),
         resets(kWaitingCalls * CallsOfConnection(config)),
         listener(config.listen) {
+    if (!config.tls_certificate.empty()) {
+      certificate.emplace(config);
+      WarnIfExpired(certificate->expires());
+      serving.reloads.certificate_expires = static_cast<double>(certificate->expires());
+    }
     // Never released: a process's last grpc_shutdown can wait ten seconds for gRPC's threads.
     [[maybe_unused]] static const bool kept = (grpc_init(), true);
     grpc::EnableDefaultHealthCheckService(true);  // for every server in this process
@@ -135,7 +141,7 @@ struct Server::Impl {
     if (!config.reflection) builder.SetOption(std::make_unique<WithoutReflection>());
     acceptor = builder.experimental().AddExternalConnectionAcceptor(
         grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
-        MakeCredentials(config));
+        MakeCredentials(certificate ? &*certificate : nullptr));
     LimitConnections(config, &builder);
     resets.Watch(&builder);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
@@ -157,8 +163,8 @@ struct Server::Impl {
       serving.models.FreeUnused();
       UpdateHealth();
     });
-    if (serving.tokens.needed()) {
-      token_watch.emplace(kTokenInterval, [this] { serving.tokens.Refresh(); });
+    if (serving.tokens.needed() || certificate) {
+      file_watch.emplace(kFileInterval, [this] { RereadFiles(); });
     }
     if (!config.metrics.empty()) metrics.emplace(config.MetricsAddress(), serving);
     listener.Start([this](int listening, int connection) {
@@ -171,6 +177,14 @@ struct Server::Impl {
       parameters.fd = connection;
       acceptor->HandleNewConnection(&parameters);
     });
+  }
+
+  void RereadFiles() {
+    Reloads& reloads = serving.reloads;
+    if (const auto good = serving.tokens.Refresh()) reloads.Note(Reloads::kTokens, *good);
+    if (!certificate) return;
+    if (const auto good = certificate->Refresh()) reloads.Note(Reloads::kCertificate, *good);
+    reloads.certificate_expires = static_cast<double>(certificate->expires());
   }
 
   // Reports the health of each model and of the server as a whole: SERVING, unless the server
@@ -212,6 +226,7 @@ struct Server::Impl {
   Serving serving;
   ChoreographyService service;
   ResetGuard resets;
+  std::optional<CertificateFiles> certificate;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;
   Listener listener;
@@ -220,7 +235,7 @@ struct Server::Impl {
   std::map<std::string, bool> health;  // last status reported, by name. Lock: health_mutex
   // Declared last, so that their threads end before the members that they use.
   std::optional<PeriodicThread> watch;
-  std::optional<PeriodicThread> token_watch;
+  std::optional<PeriodicThread> file_watch;
   std::optional<MetricsEndpoint> metrics;
 };
 
@@ -243,6 +258,8 @@ bool Server::SetModels(const std::vector<std::string>& names, std::vector<Sample
   impl_->UpdateHealth();
   return true;
 }
+
+void Server::NoteModelReload(bool good) { impl_->serving.reloads.Note(Reloads::kModels, good); }
 
 void Server::Drain(double seconds) {
   if (impl_->drained.exchange(true)) return;

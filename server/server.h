@@ -41,6 +41,9 @@ class Server {
   /// and engines that do not match.
   bool SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh);
 
+  /// For /metrics: whether the latest reread of a folder of models went well.
+  void NoteModelReload(bool good);
+
   /// Health is NOT_SERVING and new calls are UNAVAILABLE at once; calls in progress may continue
   /// for `seconds`, then end as UNAVAILABLE; streams end at a transition, if one comes in the last
   /// quarter. Callers up to a second after the last call still get this status (0 seconds: none

@@ -11,6 +11,7 @@
 #include "server/frame_budget.h"
 #include "server/models.h"
 #include "server/music_file.h"
+#include "server/reloads.h"
 #include "server/tally.h"
 #include "server/task_pool.h"
 #include "server/tokens.h"
@@ -38,6 +39,7 @@ struct Serving {
   FrameBudget frames;
   Tokens tokens;
   Tally tally;
+  Reloads reloads;
   const size_t outbox_bytes;
   MusicBudget file_music;
   // Last: their threads use all of the above.

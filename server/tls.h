@@ -4,13 +4,12 @@
 
 #include <memory>
 
-#include "server/config.h"
+#include "server/certificate_files.h"
 
 namespace choreo {
 
-/// Credentials of connections. With TLS the files are reread while the server runs, so that
-/// certificates can be renewed; new connections use the new ones, and fail while the files do not
-/// match. Throws Error(kInvalidArgument) naming the setting of an unusable file.
-std::shared_ptr<grpc::ServerCredentials> MakeCredentials(const ServerConfig& config);
+/// Credentials of connections; null `files`: without TLS. New connections use the files' versions
+/// of a second ago. The files must outlive the server.
+std::shared_ptr<grpc::ServerCredentials> MakeCredentials(const CertificateFiles* files);
 
 }  // namespace choreo

@@ -42,6 +42,27 @@ Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
 
 std::string Tokens::Read() const { return ReadSmallFile("--tokens", file_, kMaxTokensBytes); }
 
+bool Tokens::ParseHash(std::string_view digits, Hash* hash) {
+  if (digits.size() != 2 * hash->size()) return false;
+  for (size_t i = 0; i < hash->size(); ++i) {
+    const char* at = digits.data() + 2 * i;
+    if (std::from_chars(at, at + 2, (*hash)[i], 16).ptr != at + 2) return false;
+  }
+  return true;
+}
+
+void Tokens::WarnOfRawToken(std::string_view token, const Holders& holders) const {
+  Hash as_hash;
+  if (!ParseHash(token, &as_hash)) return;
+  for (const Holder& one : holders) {
+    if (CRYPTO_memcmp(one.hash.data(), as_hash.data(), as_hash.size()) != 0 ||
+        warned_.exchange(true))
+      continue;
+    spdlog::warn("{}: the line of {} has the token itself; its SHA-256 belongs there",
+                 file_.string(), one.name);
+  }
+}
+
 Tokens::Content Tokens::Parse(const std::string& text) {
   Content content;
   std::istringstream lines(text);
@@ -51,12 +72,7 @@ Tokens::Content Tokens::Parse(const std::string& text) {
     std::string digits;
     Holder holder;
     if (!(words >> digits) || digits.starts_with('#')) continue;
-    bool good = digits.size() == 2 * holder.hash.size();
-    for (size_t i = 0; good && i < holder.hash.size(); ++i) {
-      const char* at = digits.data() + 2 * i;
-      good = std::from_chars(at, at + 2, holder.hash[i], 16).ptr == at + 2;
-    }
-    if (good && words >> holder.name) {
+    if (ParseHash(digits, &holder.hash) && words >> holder.name) {
       content.holders.push_back(std::move(holder));
     } else if (content.bad_lines.size() < kMaxLinesLength) {
       content.bad_lines += (content.bad_lines.empty() ? "" : ", ") + std::to_string(number);
@@ -94,7 +110,10 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
   for (const Holder& one : *all) {
     if (CRYPTO_memcmp(one.hash.data(), hash.data(), hash.size()) == 0) found = &one;
   }
-  if (found == nullptr) return SendToken("nobody here has that token");
+  if (found == nullptr) {
+    WarnOfRawToken(authorization, *all);
+    return SendToken("nobody here has that token");
+  }
   *holder = found->name;
   return grpc::Status::OK;
 }
@@ -105,19 +124,19 @@ void Tokens::Replace(Holders holders) {
   holders_ = std::move(known);
 }
 
-void Tokens::Refresh() {
-  if (!needed()) return;
+std::optional<bool> Tokens::Refresh() {
+  if (!needed()) return std::nullopt;
   std::string text;
   try {
     text = Read();
   } catch (const Error& error) {
-    if (!text_) return;  // logged before
+    if (!text_) return std::nullopt;  // logged before
     text_.reset();
     Replace({});
     spdlog::error("{}; nobody is let in until it can be read", error.what());
-    return;
+    return false;
   }
-  if (text_ == text) return;
+  if (text_ == text) return std::nullopt;
   Content content = Parse(text);
   if (!content.bad_lines.empty()) {
     spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
@@ -125,6 +144,8 @@ void Tokens::Refresh() {
   spdlog::info("{} tokens are known now", content.holders.size());
   Replace(std::move(content.holders));
   text_ = std::move(text);
+  warned_ = false;
+  return content.bad_lines.empty();
 }
 
 }  // namespace choreo

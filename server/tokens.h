@@ -3,6 +3,7 @@
 #include <grpcpp/support/status.h>
 
 #include <array>
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -34,8 +35,9 @@ class Tokens {
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
   /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
-  /// is admitted. Logs both once.
-  void Refresh();
+  /// is admitted. Logs both once. Whether all lines of a changed file are good; none without a
+  /// change.
+  std::optional<bool> Refresh();
 
  private:
   using Hash = std::array<unsigned char, 32>;
@@ -52,14 +54,18 @@ class Tokens {
 
   std::string Read() const;
   static Content Parse(const std::string& text);
+  static bool ParseHash(std::string_view digits, Hash* hash);
   Error BadLines(const std::string& numbers) const;
   std::shared_ptr<const Holders> holders() const;
   void Replace(Holders holders);
+  /// Warns if the file has this token itself where its hash belongs: both may look alike.
+  void WarnOfRawToken(std::string_view token, const Holders& holders) const;
 
   const std::filesystem::path file_;
   // The file as last read; none if unreadable. Used by the refreshing thread.
   std::optional<std::string> text_;
   mutable std::mutex mutex_;
+  mutable std::atomic<bool> warned_ = false;                              // of a raw token
   std::shared_ptr<const Holders> holders_ = std::make_shared<Holders>();  // lock: mutex_
 };
 

@@ -7,8 +7,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
+#include <limits>
 #include <memory>
 
 #include "model/core/error.h"
@@ -133,6 +136,20 @@ std::string ReadCertificates(const std::string& field, const std::filesystem::pa
   if (count == 0) throw Unusable(field, path, "holds no certificate in PEM");
   ERR_clear_error();
   return text;
+}
+
+int64_t ExpiryOf(const std::string& certificates) {
+  const Bio reader = Reader(certificates);
+  int64_t first = std::numeric_limits<int64_t>::max();
+  for (;;) {
+    const X509Pointer one(PEM_read_bio_X509(reader.get(), nullptr, nullptr, nullptr), X509_free);
+    if (!one) break;
+    std::tm date{};
+    if (ASN1_TIME_to_tm(X509_get0_notAfter(one.get()), &date) == 1)
+      first = std::min<int64_t>(first, timegm(&date));
+  }
+  ERR_clear_error();
+  return first;
 }
 
 KeyPair ReadKeyPair(const std::string& certificate_field,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -18,6 +19,9 @@ std::string ReadSmallFile(const std::string& field, const std::filesystem::path&
 
 /// A PEM file with at least one certificate. Throws as ReadSmallFile.
 std::string ReadCertificates(const std::string& field, const std::filesystem::path& path);
+
+/// When the first of these PEM certificates to expire does. Seconds since 1970.
+int64_t ExpiryOf(const std::string& certificates);
 
 struct KeyPair {
   std::string certificates, key;  ///< PEM

@@ -3,11 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 
 #include "client/choreo_client.h"
+#include "server/certificate_files.h"
 #include "server/tokens.h"
 #include "tests/client/run_choreo.h"
 #include "tests/client/test_server.h"
@@ -31,6 +33,25 @@ void Eventually(const std::function<bool()>& condition, const std::string& what)
   }
   std::cout << what << " after " << std::chrono::duration<double>(waited()).count() << " s\n";
 }
+
+/// All that is logged while it lives.
+class LogCapture {
+ public:
+  LogCapture() {
+    auto logger = std::make_shared<spdlog::logger>(
+        "log", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_));
+    logger->set_level(spdlog::level::trace);
+    spdlog::set_default_logger(logger);
+  }
+  ~LogCapture() { spdlog::set_default_logger(before_); }
+  LogCapture(const LogCapture&) = delete;
+  LogCapture& operator=(const LogCapture&) = delete;
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+  const std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+};
 
 bool Serves(const Options& options) {
   try {
@@ -103,7 +124,8 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
   // For a moment the two do not go together, as where files are copied one by one.
   const Certificate renewed = stranger_.Issue("renewed");
   std::filesystem::copy(renewed.key, own.key, std::filesystem::copy_options::overwrite_existing);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1'500));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2'500));
+  EXPECT_TRUE(Serves(Trusting(*server, authority_)));
   std::filesystem::copy(renewed.certificate, own.certificate,
                         std::filesystem::copy_options::overwrite_existing);
   Eventually([&] { return Serves(Trusting(*server, stranger_)); }, "the new one is shown");
@@ -111,6 +133,49 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
   dance->CompleteKeys();
   while (dance->Next()) {
   }
+}
+
+TEST_F(TlsTest, ABadRenewalKeepsTheLastGoodPair) {
+  const Certificate own = authority_.Issue("own");
+  ServerConfig config;
+  Serve(own, config);
+  CertificateFiles files(config);
+  const auto content = [&] {
+    std::ostringstream text;
+    text << std::ifstream(files.pair()).rdbuf();
+    return text.str();
+  };
+  const std::string before = content();
+  EXPECT_THAT(before, HasSubstr("BEGIN CERTIFICATE"));
+  EXPECT_THAT(before, HasSubstr("PRIVATE KEY"));
+  EXPECT_NEAR(static_cast<double>(files.expires()),
+              static_cast<double>(std::time(nullptr)) + 86'400, 3'600);
+  EXPECT_EQ(files.Refresh(), std::nullopt);
+  const auto replace = [](const std::filesystem::path& by, const std::filesystem::path& what) {
+    std::filesystem::copy(by, what, std::filesystem::copy_options::overwrite_existing);
+  };
+  const Certificate renewed = authority_.Issue("renewed"), late = authority_.IssueExpired("late");
+  replace(renewed.key, own.key);
+  EXPECT_EQ(files.Refresh(), std::nullopt) << "the certificate may be on its way";
+  EXPECT_EQ(files.Refresh(), false);
+  EXPECT_EQ(files.Refresh(), std::nullopt) << "this was told";
+  EXPECT_EQ(content(), before);
+  replace(renewed.certificate, own.certificate);
+  EXPECT_EQ(files.Refresh(), true);
+  const std::string after = content();
+  EXPECT_NE(after, before);
+  replace(late.certificate, own.certificate);
+  replace(late.key, own.key);
+  files.Refresh();
+  EXPECT_EQ(files.Refresh(), false) << "it has expired";
+  EXPECT_EQ(content(), after);
+}
+
+TEST_F(TlsTest, AnExpiredCertificateIsTold) {
+  const LogCapture log;
+  const Certificate late = authority_.IssueExpired("late");
+  const auto server = Start([&](ServerConfig& config) { Serve(late, config); });
+  EXPECT_THAT(log.text(), HasSubstr("--tls-cert: expired on "));
 }
 
 TEST_F(TlsTest, ClientsShowARequiredCertificate) {
@@ -300,12 +365,7 @@ TEST_F(TokensTest, TheSchemeIsTheSameInEitherCase) {
 }
 
 TEST_F(TokensTest, NoneIsLogged) {
-  const auto before = spdlog::default_logger();
-  std::ostringstream log;
-  auto logger = std::make_shared<spdlog::logger>(
-      "log", std::make_shared<spdlog::sinks::ostream_sink_mt>(log));
-  logger->set_level(spdlog::level::trace);
-  spdlog::set_default_logger(logger);
+  const LogCapture log;
   Write("tokens", LineOf("correct-horse", "alice"));
   auto server = Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; });
   EXPECT_TRUE(Serves(With(*server, "correct-horse")));
@@ -313,10 +373,22 @@ TEST_F(TokensTest, NoneIsLogged) {
   Write("tokens", "correct-horse alice\n");
   std::this_thread::sleep_for(std::chrono::milliseconds(1'200));
   server.reset();
-  spdlog::set_default_logger(before);
-  EXPECT_THAT(log.str(), HasSubstr("(alice)"));
-  EXPECT_THAT(log.str(), HasSubstr("tokens line 1"));
-  EXPECT_THAT(log.str(), Not(HasSubstr("horse")));
+  EXPECT_THAT(log.text(), HasSubstr("(alice)"));
+  EXPECT_THAT(log.text(), HasSubstr("tokens line 1"));
+  EXPECT_THAT(log.text(), Not(HasSubstr("horse")));
+}
+
+// `openssl rand -hex 32` looks like a hash.
+TEST_F(TokensTest, ARawTokenInTheFileIsTold) {
+  const LogCapture log;
+  const std::string raw(64, '7');
+  Write("tokens", raw + " alice\n");
+  const Tokens tokens(folder_ / "tokens");
+  std::string holder;
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(tokens.FindHolder("Bearer " + raw, &holder).ok());
+  EXPECT_THAT(log.text(), HasSubstr("the line of alice has the token itself"));
+  EXPECT_EQ(log.text().find("alice"), log.text().rfind("alice")) << "told once";
+  EXPECT_THAT(log.text(), Not(HasSubstr(raw)));
 }
 
 TEST_F(TokensTest, AreSentOnlyOverTlsOrLocally) {

@@ -18,9 +18,11 @@
 #include "client/authoring/local_server.h"
 #include "server/listener.h"
 #include "server/refusal.h"
+#include "server/reloads.h"
 #include "tests/server/fixture.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/tcp_proxy.h"
+#include "tests/support/temporary_folder.h"
 
 /// A server's figures for Prometheus.
 namespace choreo::metrics_test {
@@ -260,6 +262,33 @@ TEST_F(MetricsTest, UtilisationIsOneWhereverCallsAreRefused) {
   ExpectEventually([&] { return Figure("choreo_utilisation") == 1; }, "candidates fill it");
   probe->closed = false;
   caller.join();
+}
+
+TEST_F(MetricsTest, ShowFailedReloads) {
+  const TemporaryFolder folder;
+  const std::filesystem::path tokens = folder / "tokens";
+  const std::string good = std::string(64, 'a') + " alice\n";
+  std::ofstream(tokens) << good;
+  Start(1, [&](ServerConfig& config) {
+    config.metrics = "0";
+    config.tokens = tokens;
+  });
+  const auto figure = [this](const std::string& name, const std::string& of) {
+    return Figure("choreo_last_reload_" + name + "{of=\"" + of + "\"}");
+  };
+  for (const char* of : Reloads::kNames) EXPECT_EQ(figure("successful", of), 1) << of;
+  const double begun = figure("success_timestamp_seconds", "tokens");
+  EXPECT_GT(begun, 1e9);
+  std::ofstream(tokens) << good << "nobody\n";
+  ExpectEventually([&] { return figure("successful", "tokens") == 0; }, "it has a bad line");
+  EXPECT_EQ(figure("success_timestamp_seconds", "tokens"), begun);
+  std::filesystem::remove(tokens);
+  std::ofstream(tokens) << good;
+  ExpectEventually([&] { return figure("successful", "tokens") == 1; }, "it is good again");
+  EXPECT_GT(figure("success_timestamp_seconds", "tokens"), begun);
+  server->NoteModelReload(false);
+  EXPECT_EQ(figure("successful", "models"), 0);
+  EXPECT_EQ(Figure("choreo_certificate_expiry_timestamp_seconds"), -1) << "there is none";
 }
 
 TEST_F(MetricsTest, CountRefusalsByReason) {

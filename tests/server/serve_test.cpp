@@ -156,6 +156,19 @@ TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
 }
 
 TEST_F(ServeTest, CountsAllRefusals) {
+TEST_F(ServeTest, FindsBadSecretsBeforeLoadingModels) {
+  WriteSlow("slow");
+  const std::string file = (folder_ / "file").string();
+  std::ofstream(file) << "no hash";
+  for (const std::string& settings :
+       {" --tokens '" + file + "'", " --tls-cert '" + file + "' --tls-key '" + file + "'"}) {
+    Start("--checkpoint '" + (folder_ / "slow").string() + "'" + settings);
+    const Outcome outcome = End();
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.said, HasSubstr(file));
+  }
+}
+
   Start("--max-waiting 1");
   AwaitListening();
   const client::Client client({.addresses = {address()}, .retry_s = 0});

@@ -37,6 +37,17 @@ class Authority {
     return issued;
   }
 
+  /// Expired yesterday.
+  Certificate IssueExpired(const std::string& name) const {
+    const Certificate issued{folder_ / (name + ".pem"), folder_ / (name + ".key")};
+    const std::string request = (folder_ / (name + ".csr")).string();
+    Run("openssl req -new -subj /CN=" + name + " -keyout " + issued.key.string() + " -out " +
+        request + kNewKey);
+    Run("openssl x509 -req -days -1 -in " + request + " -CA " + ca_.certificate.string() +
+        " -CAkey " + ca_.key.string() + " -out " + issued.certificate.string());
+    return issued;
+  }
+
  private:
   static constexpr const char* kNewKey = " -newkey ec -pkeyopt ec_paramgen_curve:P-256 -noenc";
 
