@@ -1,22 +1,28 @@
 #include "server/config.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <regex>
+#include <sstream>
 #include <string_view>
 
 #include "model/core/address.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
+#include "model/core/nearest.h"
 #include "model/core/programs.h"
 #include "model/core/threads.h"
 #include "model/engine/engine_choice.h"
 #include "model/engine/transition_spec.h"
 #include "server/config_flags.h"
 #include "server/listener.h"
+#include "server/log.h"
 #include "server/music_file.h"
 #include "tls/pem.h"
 
@@ -48,17 +54,17 @@ void CheckKernels(const std::string& name) {
 
 void CheckLimits(const ServerConfig& config) {
   constexpr double kDay = 86'400;
+  if (config.max_streams_of_peer > config.max_streams) {
+    throw InvalidArgument("--max-streams-of-peer",
+                          std::to_string(config.max_streams_of_peer) + " is more than " +
+                              std::to_string(config.max_streams) + ", which --max-streams allows");
+  }
   CheckRange("--max-streams-of-peer", config.max_streams_of_peer, 0, 65536);
   CheckRange("--first-message-seconds", config.first_message_seconds, 0.1, kDay);
   CheckRange("--idle-seconds", config.idle_seconds, 0.1, kDay);
   CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
   CheckRange("--max-load", config.max_load, 0.1, 2);
   // gRPC counts milliseconds in 32 bits.
-  if (config.max_streams_of_peer > config.max_streams) {
-    throw InvalidArgument("--max-streams-of-peer",
-                          std::to_string(config.max_streams_of_peer) + " is more than " +
-                              std::to_string(config.max_streams) + ", which --max-streams allows");
-  }
   CheckRange("--max-connection-seconds", config.max_connection_seconds, 0, 24 * kDay);
 }
 
@@ -98,6 +104,69 @@ void RequireNoEmptyFile(const CLI::App& app) {
                            : std::ranges::any_of(option->results(), &std::string::empty);
     if (empty) throw InvalidArgument(name, "is empty; leave it out where none is wanted");
   }
+}
+
+// What Kubernetes sets in pods beside a service called choreo, or choreo-anything.
+bool IsOfAService(const std::string& variable) {
+  static const std::regex kPattern(
+      "CHOREO_([A-Z0-9_]*_)?(SERVICE_(HOST|PORT).*|PORT(_[0-9]+_.*)?)");
+  return std::regex_match(variable, kPattern);
+}
+
+// Which of `known` a variable may mean: a near word, or one that has it as a part, or is one.
+std::string MeantBy(const std::string& name, const std::vector<std::string>& known) {
+  constexpr size_t kShortestPart = 3;
+  Nearest meant(name);
+  for (const std::string& one : known) meant.Offer(one);
+  if (!meant.nearest().empty()) return meant.nearest();
+  for (const std::string& one : known) {
+    const auto& [shorter, longer] =
+        std::minmax(one, name, [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    if (shorter.size() >= kShortestPart &&
+        ('_' + longer + '_').find('_' + shorter + '_') != std::string::npos)
+      return one;
+  }
+  return "";
+}
+
+// Throws for a misspelt variable: the setting would silently be missing. Returns those that mean
+// nothing to us.
+std::vector<std::string> CheckVariables(const CLI::App& app) {
+  const std::string prefix = "CHOREO_";
+  std::vector<std::string> known, unknown;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string variable = option->get_envname();
+    if (variable.starts_with(prefix)) known.push_back(variable.substr(prefix.size()));
+  }
+  // Clients may share our environment.
+  constexpr std::array<std::string_view, 7> kOfClients = {
+      "SERVER", "TLS", "CA", "CLIENT_CERT", "CLIENT_KEY", "SERVER_NAME", "TOKEN_FILE"};
+  for (char** at = environ; *at != nullptr; ++at) {
+    const std::string entry = *at, variable = entry.substr(0, entry.find('='));
+    if (!variable.starts_with(prefix) || IsOfAService(variable)) continue;
+    const std::string name = variable.substr(prefix.size());
+    if (std::ranges::find(known, name) != known.end() ||
+        std::ranges::find(kOfClients, name) != kOfClients.end())
+      continue;
+    const std::string meant = MeantBy(name, known);
+    if (!meant.empty()) {
+      throw InvalidArgument(variable,
+                            "no setting has this variable; did you mean " + prefix + meant + "?");
+    }
+    unknown.push_back(variable);
+  }
+  return unknown;
+}
+
+// Whether errors should be JSON, although parsing may not have come as far as --log-format.
+bool WantsJson(int argc, const char* const* argv) {
+  const std::vector<std::string> words(argv, argv + argc);
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (words[i].starts_with("--log-format=")) return words[i] == "--log-format=json";
+    if (words[i] == "--log-format") return i + 1 < words.size() && words[i + 1] == "json";
+  }
+  const char* variable = std::getenv("CHOREO_LOG_FORMAT");
+  return variable != nullptr && std::string_view(variable) == "json";
 }
 
 }  // namespace
@@ -147,29 +216,37 @@ void ServerConfig::Validate() const {
 
 CommandLine ParseCommandLine(int argc, const char* const* argv) {
   ServerConfig config;
+  const auto say = [&](const char* level, const std::string& what) {
+    const bool json = config.log_format == "json" || WantsJson(argc, argv);
+    std::cerr << (json ? JsonLine(level, what) : "choreod: " + what) << '\n';
+  };
+  const auto complain = [&say](const std::string& what) { say("critical", what); };
   CLI::App app{
       "choreod makes people dance: it serves the gRPC API choreo.v1.Choreography, with health "
       "checking and reflection.\nEvery setting can also come from the environment or a file.",
       "choreod"};
   app.set_version_flag("--version", CHOREO_VERSION);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("choreod: ") + error.what() + "; see --help\n";
+    return std::string(error.what()) + "; see --help";
   });
   AddFlags(app, config);
   try {
     app.parse(argc, argv);
+    for (const std::string& variable : CheckVariables(app))
+      say("warning", variable + ": no setting has this variable; choreod --help lists them");
     RequireNoEmptyFile(app);
     config.Validate();
     return {.config = std::move(config), .exit_code = 0};
   } catch (const CLI::ConfigError& error) {  // "INI was not able to parse KEY"
     const std::string what = error.what();
-    std::cerr << "choreod: " << app.get_config_ptr()->as<std::string>()
-              << ": no setting is called \"" << what.substr(what.rfind(' ') + 1)
-              << "\"; choreod --help lists them\n";
+    complain(app.get_config_ptr()->as<std::string>() + ": no setting is called \"" +
+             what.substr(what.rfind(' ') + 1) + "\"; choreod --help lists them");
   } catch (const CLI::ParseError& error) {
-    if (app.exit(error) == 0) return {.config = std::nullopt, .exit_code = 0};
+    std::ostringstream what;
+    if (app.exit(error, std::cout, what) == 0) return {.config = std::nullopt, .exit_code = 0};
+    complain(what.str());
   } catch (const Error& error) {
-    std::cerr << "choreod: " << error.what() << '\n';
+    complain(error.what());
   }
   return {.config = std::nullopt, .exit_code = kMisused};
 }

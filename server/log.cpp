@@ -1,11 +1,13 @@
 #include "server/log.h"
 
 #include <grpc/support/log.h>
+#include <spdlog/fmt/chrono.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -134,6 +136,14 @@ void StartLog(const std::string& level, bool json) {
   spdlog::set_default_logger(logger);
   spdlog::set_level(spdlog::level::from_str(level));
   gpr_set_log_function(ForwardGrpcLog);
+}
+
+std::string JsonLine(const std::string& level, const std::string& message) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+  return fmt::format(R"({{"time":"{:%Y-%m-%dT%H:%M:%S}.{:03}Z","level":"{}","message":{}}})",
+                     fmt::gmtime(static_cast<std::time_t>(ms / 1000)), ms % 1000, level,
+                     Quoted(message));
 }
 
 void LogCall(const CallRecord& call) {

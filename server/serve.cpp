@@ -19,9 +19,10 @@
 #include "model/core/address.h"
 #include "server/certificate_files.h"
 #include "server/listener.h"
+#include "server/log.h"
 #include "server/server.h"
-
 #include "server/tokens.h"
+
 namespace choreo {
 namespace {
 
@@ -112,13 +113,13 @@ void RequireAddresses(const ServerConfig& config) {
   const Listener figures(config.MetricsAddress(), "--metrics");
 }
 
-// For threads that libraries started before main, which do not inherit main's signal mask: such a
 // Finds unusable files of secrets before loading models, too.
 void RequireSecrets(const ServerConfig& config) {
   if (!config.tls_certificate.empty()) const CertificateFiles certificate(config);
   const Tokens tokens(config.tokens);
 }
 
+// For threads that libraries started before main, which do not inherit main's signal mask: such a
 // thread blocks a signal that reaches it, and sends it again.
 void HandOn(int signal, siginfo_t* /*info*/, void* context) {
   sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, signal);
@@ -140,13 +141,14 @@ void HoldSignals() {
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   ModelFolder folder(config.models, load);
   RequireAddresses(config);
-  const bool has_folder = !config.models.empty();
   RequireSecrets(config);
+  const bool has_folder = !config.models.empty();
   Server server(config, LoadAll(config, folder, load));
   Reloader reloader(folder, server);
   // Programs that start a choreod wait for this line.
-  std::cout << "choreod listens on " << SplitAddress(config.listen).host << ':' << server.port()
-            << std::endl;
+  const std::string line = "choreod listens on " + SplitAddress(config.listen).host + ':' +
+                           std::to_string(server.port());
+  std::cout << (config.log_format == "json" ? JsonLine("info", line) : line) << std::endl;
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
   int signal = 0;

@@ -34,7 +34,8 @@ constexpr const char* kListens = "choreod listens on ";
   setpgid(0, 0);  // a terminal's Ctrl-C goes to us, and we stop the server in order
   dup2(to, STDOUT_FILENO);
   execl(program.c_str(), "choreod", "--listen", listen.c_str(), "--log-level", "warning",
-        "--drain-seconds", "0", model.empty() ? nullptr : "--model", model.c_str(), nullptr);
+        "--log-format", "text", "--drain-seconds", "0", model.empty() ? nullptr : "--model",
+        model.c_str(), nullptr);
   _exit(127);
 }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "model/core/error.h"
 #include "server/config_flags.h"
@@ -23,7 +24,6 @@ TEST(ServerConfigTest, DefaultsAreValid) {
   EXPECT_EQ(line.config->listen, "127.0.0.1:50051");
   EXPECT_EQ(line.config->max_waiting, 128);
   EXPECT_EQ(line.config->MaxStreamsOfPeer(), 56);
-}
   EXPECT_EQ(line.config->MaxStreamsOfLonePeer(), 64);
 }
 
@@ -33,6 +33,7 @@ TEST(ServerConfigTest, SmallServersKeepAPlaceForAnotherCaller) {
     config.max_streams = streams;
     EXPECT_EQ(config.MaxStreamsOfPeer(), of_peer) << streams;
   }
+}
 
 TEST(ServerConfigTest, AFolderOfModelsExcludesCheckpoints) {
   const CommandLine line = Parse({"--models", "somewhere"});
@@ -130,13 +131,29 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
         BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--max-network-mib", "63"},
         BadSetting{"--workers", "-1"}, BadSetting{"--workers", "many"},
-        BadSetting{"--max-streams", "-1"}, BadSetting{"--engine", "fast"},
-        BadSetting{"--kernels", "avx9"}, BadSetting{"--tokens", ""}, BadSetting{"--tls-cert", ""},
-        BadSetting{"--tls-client-ca", ""}, BadSetting{"--tokens", "/tmp"},
-        BadSetting{"--tokens", "/dev/zero"}, BadSetting{"--checkpoint", "/dev/null"},
-        BadSetting{"--device", "gpu"}, BadSetting{"--log-level", "loud"},
-        BadSetting{"--checkpoint", "/nonexistent.safetensors"}, BadSetting{"--drain-seconds", "-3"},
-        BadSetting{"--max-connection-seconds", "2073601"}, BadSetting{"--frobnicate", "1"}));
+        BadSetting{"--max-streams", "-1"}, BadSetting{"--max-streams-of-peer", "65"},
+        BadSetting{"--engine", "fast"}, BadSetting{"--kernels", "avx9"}, BadSetting{"--tokens", ""},
+        BadSetting{"--tls-cert", ""}, BadSetting{"--tls-client-ca", ""},
+        BadSetting{"--tokens", "/tmp"}, BadSetting{"--tokens", "/dev/zero"},
+        BadSetting{"--checkpoint", "/dev/null"}, BadSetting{"--device", "gpu"},
+        BadSetting{"--log-level", "loud"}, BadSetting{"--checkpoint", "/nonexistent.safetensors"},
+        BadSetting{"--drain-seconds", "-3"}, BadSetting{"--max-connection-seconds", "2073601"},
+        BadSetting{"--frobnicate", "1"}));
+
+// A collector of JSON lines gets no others.
+TEST(ServerConfigTest, ErrorsAreJsonWhereTheLogIs) {
+  for (const std::vector<const char*>& arguments :
+       {std::vector<const char*>{"--log-format", "json", "--workers", "-1"},
+        {"--log-format=json", "--frobnicate", "1"},
+        {"--config", "/nonexistent.toml", "--log-format", "json"}}) {
+    testing::internal::CaptureStderr();
+    EXPECT_FALSE(Parse(arguments).config);
+    const std::string line = testing::internal::GetCapturedStderr();
+    const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+    ASSERT_TRUE(object.is_object()) << line;
+    EXPECT_EQ(object.at("level"), "critical");
+  }
+}
 
 // A server that was to ask for tokens does not start without.
 TEST(ServerConfigTest, RefusesAnEmptyFileName) {
@@ -215,6 +232,32 @@ TEST(ServerConfigTest, EnvironmentSetsFlags) {
   EXPECT_FALSE(line.config->reflection);
   EXPECT_FALSE(Parse({"--no-reflection"}).config->reflection);
   EXPECT_TRUE(Parse({}).config->reflection);
+}
+
+// It would be a limit, or a protection, that is not there.
+TEST(ServerConfigTest, RefusesAMisspeltVariable) {
+  const auto said = [](const char* variable, bool starts) {
+    ::setenv(variable, "7", 1);
+    testing::internal::CaptureStderr();
+    const CommandLine line = Parse({});
+    ::unsetenv(variable);
+    EXPECT_EQ(line.config.has_value(), starts) << variable;
+    return testing::internal::GetCapturedStderr();
+  };
+  for (const auto& [variable, meant] : {std::pair{"CHOREO_MAX_STREAM", "CHOREO_MAX_STREAMS"},
+                                        {"CHOREO_TOKENZ", "CHOREO_TOKENS"},
+                                        {"CHOREO_CERT", "CHOREO_TLS_CERT"},
+                                        {"CHOREO_LISTEN_ADDRESS", "CHOREO_LISTEN"}}) {
+    EXPECT_EQ(said(variable, false), std::string("choreod: ") + variable +
+                                         ": no setting has this variable; did you mean " + meant +
+                                         "?\n");
+  }
+  EXPECT_EQ(said("CHOREO_XYLOPHONE", true),
+            "choreod: CHOREO_XYLOPHONE: no setting has this variable; choreod --help lists them\n");
+  // A client's, and those of a Kubernetes service called choreo.
+  for (const char* other : {"CHOREO_SERVER", "CHOREO_SERVICE_HOST", "CHOREO_SERVICE_PORT_GRPC",
+                            "CHOREO_PORT", "CHOREO_PORT_50051_TCP_ADDR", "CHORE", "CHOREOD_PORT"})
+    EXPECT_EQ(said(other, true), "");
 }
 
 TEST(ServerConfigTest, ACertificateNeedsItsKey) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <future>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -46,8 +47,8 @@ class ServeTest : public testing::Test {
     ExpectEventually([this] { return Read("said").ends_with('\n'); }, "it listens");
   }
   std::string address() const {
-    const std::string said = Read("said");
-    return said.substr(said.rfind(' ') + 1, said.size() - said.rfind(' ') - 2);
+    const std::string line = nlohmann::json::parse(Read("said")).at("message");
+    return line.substr(line.rfind(' ') + 1);
   }
   // A checkpoint that is loaded for as long as this test lives, once AwaitLoading has returned.
   void WriteSlow(const std::string& name) {
@@ -126,7 +127,6 @@ TEST_F(ServeTest, StopsWhileLoadingAnotherModel) {
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
 }
 
-TEST_F(ServeTest, FindsATakenAddressBeforeLoadingModels) {
 // Scripts for several servers send it to each.
 TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   Start("");
@@ -140,6 +140,7 @@ TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   EXPECT_THAT(outcome.said, HasSubstr("served 1 calls"));
 }
 
+TEST_F(ServeTest, FindsATakenAddressBeforeLoadingModels) {
   const Listener other("127.0.0.1:0");
   const std::string taken = "127.0.0.1:" + std::to_string(other.port());
   WriteSlow("slow");
@@ -155,7 +156,6 @@ TEST_F(ServeTest, OutlivesSighupWithoutAFolder) {
   EXPECT_THAT(outcome.said, HasSubstr("--metrics: "));
 }
 
-TEST_F(ServeTest, CountsAllRefusals) {
 TEST_F(ServeTest, FindsBadSecretsBeforeLoadingModels) {
   WriteSlow("slow");
   const std::string file = (folder_ / "file").string();
@@ -169,6 +169,7 @@ TEST_F(ServeTest, FindsBadSecretsBeforeLoadingModels) {
   }
 }
 
+TEST_F(ServeTest, CountsAllRefusals) {
   Start("--max-waiting 1");
   AwaitListening();
   const client::Client client({.addresses = {address()}, .retry_s = 0});

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace choreo {
+
+/// Finds the candidate that a misspelt word may mean.
+class Nearest {
+ public:
+  explicit Nearest(std::string word) : word_(std::move(word)) {}
+
+  void Offer(const std::string& known) {
+    const std::optional<size_t> distance = Distance(known);
+    if (!distance || (least_ && *distance >= *least_)) return;
+    least_ = distance;
+    nearest_ = known;
+  }
+
+  /// Empty if none is near.
+  const std::string& nearest() const { return nearest_; }
+
+ private:
+  // The number of wrong letters allowed in a word of this length; short words are all near each
+  // other.
+  static size_t MostEdits(size_t letters) { return letters < 3 ? 0 : letters < 6 ? 1 : 2; }
+
+  // Letters inserted, removed or changed (Levenshtein).
+  size_t Edits(const std::string& known) const {
+    std::vector<size_t> row(known.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 0; i < word_.size(); ++i) {
+      size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (size_t j = 0; j < known.size(); ++j) {
+        const size_t changed = diagonal + (word_[i] == known[j] ? 0 : 1);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+      }
+    }
+    return row.back();
+  }
+
+  // None unless the candidate may be meant: a prefix, as temp of temperature, is near.
+  std::optional<size_t> Distance(const std::string& known) const {
+    if (word_.size() >= 2 && known.starts_with(word_)) return 0;
+    const size_t edits = Edits(known);
+    if (edits > MostEdits(word_.size())) return std::nullopt;
+    return edits;
+  }
+
+  std::string word_, nearest_;
+  std::optional<size_t> least_;
+};
+
+}  // namespace choreo
