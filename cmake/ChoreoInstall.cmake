@@ -16,6 +16,8 @@ install(FILES model/motion/control_request.h model/motion/kinematics.h model/mot
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/choreo/model/motion)
 install(DIRECTORY proto/choreo DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo/proto FILES_MATCHING PATTERN "*.proto")
 install(DIRECTORY model/checkpoints DESTINATION ${CMAKE_INSTALL_DATADIR}/choreo COMPONENT programs)
+configure_file(docker/choreod.service.in ${CMAKE_BINARY_DIR}/choreod.service @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/choreod.service DESTINATION lib/systemd/system COMPONENT systemd)
 install(EXPORT choreoTargets NAMESPACE choreo:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/choreoConfig.cmake.in ${CMAKE_BINARY_DIR}/choreoConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/choreoConfigVersion.cmake COMPATIBILITY SameMinorVersion)

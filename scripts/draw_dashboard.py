@@ -31,7 +31,7 @@ SCRAPE_S = 2
 GRID_COLUMNS = 24  # of Grafana's dashboards
 ROW_INCHES = 0.32
 UNITS = {"percentunit": matplotlib.ticker.PercentFormatter(1), "s": matplotlib.ticker.EngFormatter("s"),
-         "lengthm": matplotlib.ticker.EngFormatter("m")}
+         "lengthm": matplotlib.ticker.EngFormatter("m"), "bytes": matplotlib.ticker.EngFormatter("B")}
 COLOURS = 48  # of the picture, which stays small
 
 

@@ -124,6 +124,26 @@ test('the monitor finds where the pods show their metrics', () => {
   assert.deepEqual(allowed.sort(), container.ports.map(({name}) => name).sort());
 });
 
+test('each pod is scraped once', () => {
+  const {annotations = {}} = ofKind('Deployment').spec.template.metadata;
+  assert.ok(ofKind('ServiceMonitor') && !Object.keys(annotations).some((name) => name.startsWith('prometheus.io/')));
+});
+
+test('clients of labelled namespaces reach the pods', () => {
+  const [{from: [here, elsewhere]}] = ofKind('NetworkPolicy').spec.ingress;
+  assert.deepEqual(elsewhere.podSelector, here.podSelector);
+  assert.deepEqual(elsewhere.namespaceSelector, {matchLabels: {'choreo-clients': 'true'}});
+  assert.ok(readSource('docs/kubernetes.md').includes('choreo-clients=true'));
+});
+
+test('the unit of systemd stops as slowly as the pods, and may open enough', () => {
+  const unit = Object.fromEntries([...read('choreod.service.in').matchAll(/^([A-Za-z]+)=(.*)$/gm)].map(([, key, value]) => [key, value]));
+  assert.ok(Number(unit.TimeoutStopSec) >= Number(setting('CHOREO_DRAIN_SECONDS')) + 10);
+  assert.ok(Number(unit.LimitNOFILE) >= 65536);
+  assert.match(unit.ExecReload, /-HUP/);
+  assert.match(unit.ExecStart, /\/choreod --config \/etc\/choreo\/choreod\.toml$/);
+});
+
 test('alerts are PromQL on metrics and statuses that there are', () => {
   assert.equal(errorsOf('rate(choreo_frames_total[5m]) >').length, 1);
   const asked = new Set();
@@ -133,10 +153,12 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     assert.ok(['critical', 'warning'].includes(labels.severity) && annotations.summary, alert);
     const names = [...expr.matchAll(/\bchoreo_[a-z_]+/g)].map(([name]) => name);
     assert.ok(names.length > 0, alert);
+    [...expr.matchAll(/\bprocess_[a-z_]+/g)].forEach(([name]) => assert.ok(metricSource.includes(`"${name.slice('process_'.length)}"`), name));
     names.forEach((name) => asked.add(name));
     [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
   }
-  ['choreo_streams_limit', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures']
+  ['choreo_streams_limit', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures',
+    'choreo_last_reload_successful', 'choreo_certificate_expiry_timestamp_seconds']
       .forEach((name) => assert.ok(asked.has(name), `nobody is woken for ${name}`));
   assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);
 });
@@ -179,6 +201,11 @@ test('Envoy turns gRPC-Web into gRPC, for pages that are named', () => {
   const proto = readSource('proto/choreo/v1/choreography.proto');
   assert.ok(proto.includes('package choreo.v1;') && proto.includes('service Choreography {'));
   assert.equal(check.grpc_health_check.service_name, 'choreo.v1.Choreography');
+  // All dances that all replicas may have go through it, and who called is logged.
+  const [{thresholds: [breaker]}] = clusters.map((cluster) => cluster.circuit_breakers);
+  assert.ok(breaker.max_requests >= ofKind('HorizontalPodAutoscaler').spec.maxReplicas * Number(setting('CHOREO_MAX_STREAMS')));
+  assert.equal(manager.use_remote_address, true);
+  assert.equal(manager.access_log.length, 1);
   // Each type says its package and its name.
   for (const part of parts(listener)) {
     if ('@type' in part) assert.match(part['@type'], /^type\.googleapis\.com\/envoy\.extensions\.[a-z0-9_.]+\.v3\.[A-Z][A-Za-z]+$/);
@@ -197,6 +224,7 @@ test('containers of compose.yaml may do little', () => {
   assert.equal(service.read_only, true);
   assert.notEqual(service.user.split(':')[0], '0');
   assert.ok(service.mem_limit);
+  assert.ok(service.cpus > 0);
   // Of 28 threads that choreod has and 8 of its health check, several times as many; and calls that take one each are off.
   assert.ok(service.pids_limit >= 100);
   assert.equal(service.environment.CHOREO_REFLECTION, 'false');
