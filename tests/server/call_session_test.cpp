@@ -69,4 +69,20 @@ TEST_F(CallSessionTest, ReadMessagesPauseNothing) {
   EXPECT_TRUE(dance->paused);
 }
 
+TEST_F(CallSessionTest, AnOkThatNeverWentOutIsCancelled) {
+  session.outbox().Close(grpc::Status::OK);
+  session.Release(/*lost=*/true);
+  const auto calls = serving.tally.calls();
+  ASSERT_EQ(calls.size(), 1U);
+  EXPECT_EQ(calls.begin()->first.second, grpc::StatusCode::CANCELLED);
+}
+
+TEST_F(CallSessionTest, AnErrorKeepsItsName) {
+  session.Fail(InvalidArgument("config", "missing"));
+  session.Release(/*lost=*/true);
+  const auto calls = serving.tally.calls();
+  ASSERT_EQ(calls.size(), 1U);
+  EXPECT_EQ(calls.begin()->first.second, grpc::StatusCode::INVALID_ARGUMENT);
+}
+
 }  // namespace choreo::call_session_test

@@ -208,7 +208,7 @@ TEST_F(MetricsTest, EveryStatusIsThereFromTheStart) {
 
 // gRPC shows a dead connection as the end of the client's messages first, at which a dance ends.
 TEST_F(MetricsTest, DeadClientsAreCancelled) {
-  constexpr int kClients = 10;
+  constexpr int kClients = 30;
   Start(2, [](ServerConfig& config) { config.metrics = "0"; });
   std::vector<std::unique_ptr<TcpProxy>> proxies;
   std::vector<std::unique_ptr<DanceClient>> clients;
