@@ -32,7 +32,7 @@ GRID_COLUMNS = 24  # of Grafana's dashboards
 ROW_INCHES = 0.32
 UNITS = {"percentunit": matplotlib.ticker.PercentFormatter(1), "s": matplotlib.ticker.EngFormatter("s"),
          "lengthm": matplotlib.ticker.EngFormatter("m"), "bytes": matplotlib.ticker.EngFormatter("B")}
-COLOURS = 48  # of the picture, which stays small
+COLOURS = 24  # of the picture, which stays small
 
 
 def free_port():
@@ -138,7 +138,7 @@ def main():
         finally:
             prometheus.terminate()
             prometheus.wait()
-    figure.savefig(arguments.picture, dpi=80)
+    figure.savefig(arguments.picture, dpi=64)
     Image.open(arguments.picture).convert("RGB").quantize(COLOURS).save(arguments.picture, optimize=True)
     if empty:
         sys.exit("nothing to show: " + "; ".join(empty))
