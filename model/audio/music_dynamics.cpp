@@ -74,4 +74,19 @@ double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& op
   return std::lerp(options.silent, energy, sounding.front());
 }
 
+MusicLevel HearLevel(std::span<const RowSound> rows, const MusicDynamicsOptions& options) {
+  double power = 0, bass = 0;
+  for (const RowSound& row : rows.last(std::min<size_t>(rows.size(), kLevelRows))) {
+    power += row.power / kLevelRows;
+    bass += row.bass / kLevelRows;
+  }
+  const double loud = std::max(Loudness(power), options.silence);
+  return {loud, std::max(Loudness(bass), loud - options.bass_below)};
+}
+
+bool Turns(const MusicLevel& from, const MusicLevel& to, const MusicDynamicsOptions& options) {
+  return std::abs(to.loud - from.loud) > options.turn_loud ||
+         std::abs(to.deep - from.deep) > options.turn_deep;
+}
+
 }  // namespace choreo

@@ -106,7 +106,9 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
              asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
       output_(model_.fps, asked->output_fps, first_frame_,
               asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
-                                  : std::nullopt) {
+                                  : std::nullopt),
+      // A model that hears music hears that of the transition itself.
+      turn_(asked->music_dynamics > 0 && !model_.hears_music) {
   if (!asked->Before().empty()) danced_.history = FillHistory(model_, asked->Before());
   if (asked->continuation) {
     danced_.stage = asked->continuation->stage;
@@ -216,6 +218,8 @@ bool DanceChain::HandOutNext() {
     }
     return true;
   }
+  const int64_t ready = audio_ ? audio_->ready() : 0;
+  TurnWithMusic(ready);
   Job& job = *jobs_.front();
   if (IsOver(*score_.timeline.Planned())) {
     if (!job.sampled()) job.Retire();  // a sampled job may be handing out frames right now
@@ -237,14 +241,24 @@ bool DanceChain::HandOutNext() {
     return true;
   }
   if (!job.sampled() || !score_.timeline.Certain(next_frame_)) return false;
-  if (audio_ && audio_->ready() <= next_frame_) return false;
+  if (audio_ && ready <= next_frame_) return false;
   Emit(job, job.FrameAt(next_frame_));
   return true;
+}
+
+bool DanceChain::TurnWithMusic(int64_t ready) {
+  if (!audio_ || jobs_.empty()) return true;
+  const int64_t stop = score_.timeline.Planned(jobs_.size() - 1)->stop;
+  const std::optional<int64_t> turn = turn_.Find(*audio_, ready, stop);
+  if (turn) score_.timeline.EndAt(*turn);
+  return turn || ready >= stop;
 }
 
 void DanceChain::SubmitNext() {
   if (over() || cancelled_ || failure_ || jobs_.size() > kMaxAhead) return;
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
+  const int64_t ready = audio_ ? audio_->ready() : 0;
+  if (!TurnWithMusic(ready)) return;
   const Segment* segment = score_.timeline.Planned(jobs_.size());
   const std::optional<int64_t> end = score_.timeline.End();
   if (segment == nullptr || (end && segment->from >= *end) ||
@@ -255,8 +269,7 @@ void DanceChain::SubmitNext() {
     rows_end = std::min(segment->to, score_.config.end_frame.value_or(segment->to));
   // Beats of the whole music are set before its first row is ready, so a transition that waits for
   // one row knows them.
-  if (!audio_ || audio_->ready() >= std::max(rows_end, first_frame_ + 1))
-    Submit(*segment, rows_end);
+  if (!audio_ || ready >= std::max(rows_end, first_frame_ + 1)) Submit(*segment, rows_end);
 }
 
 void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
@@ -270,6 +283,7 @@ void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
         PrepareTransition(score_.config, model_, score_.controls, score_.recurrence, audio(),
                           segment, rows_end, before.history);
     prepared.request.stage = before.stage;
+    if (audio_) turn_.Watch(*audio_, segment);
     std::vector<Beat> beats = score_.beats.BeatsFor(segment.from, segment.to);
     prepared.request.beats = score_.beats.BeatTimes(beats, segment.from, segment.to);
     auto job =

@@ -15,6 +15,7 @@
 #include "model/dance/dance_sink.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/music_beats.h"
+#include "model/dance/music_turn.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/quality_report.h"
 #include "model/dance/recurrence.h"
@@ -87,6 +88,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   // dance; false if nothing may go out now.
   bool HandOutNext();
   void SubmitNext();
+  // Ends the transition that was submitted last where the music turns, as far as rows below `ready`
+  // tell. Returns whether they tell all.
+  bool TurnWithMusic(int64_t ready);
   void Submit(const Segment& segment, int64_t rows_end);
   bool IsOver(const Segment& segment) const;
   void Fail(Job& job, const Error& failure);
@@ -116,6 +120,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   QualityMeter meter_;
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
   OutputRate output_;
+  MusicTurn turn_;  // watches the last of jobs_
 };
 
 }  // namespace choreo

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "model/core/error.h"
@@ -11,8 +12,16 @@ namespace choreo {
 namespace {
 
 constexpr double kMinCut_s = 0.5;
+constexpr int64_t kNever = std::numeric_limits<int64_t>::max();
 
 std::string Frames(int64_t frames) { return std::to_string(frames); }
+
+bool AreDancedAlike(const std::optional<Key>& a, const std::optional<Key>& b) {
+  return a && b ? a->IsDancedAs(*b) : !a && !b;
+}
+bool AreEqual(const std::optional<Key>& a, const std::optional<Key>& b) {
+  return AreDancedAlike(a, b) && (!a || a->hands == b->hands);
+}
 
 double FiniteSeconds(double seconds, const std::string& field) {
   if (!std::isfinite(seconds)) throw InvalidArgument(field, Show(seconds) + " s is not finite");
@@ -38,7 +47,8 @@ bool Key::IsDancedAs(const Key& other) const {
          mask.joints == other.mask.joints && hit == other.hit;
 }
 
-Timeline::Timeline(Options options) : options_(options), planned_to_(options.first_frame) {
+Timeline::Timeline(Options options)
+    : options_(options), disturbed_(kNever), danced_to_(options.first_frame) {
   options_.max_transition_frames = std::min(options_.max_transition_frames, kMaxTransitionFrames);
   if (options_.granted) GenerateUntil(*options_.granted);
 }
@@ -175,7 +185,7 @@ int64_t Timeline::Frontier(const std::string& field) const {
 }
 
 void Timeline::Disturb(int64_t first, int64_t last) {
-  disturbed_ |= first < planned_to_ && last >= frontier_;
+  if (last >= frontier_) disturbed_ = std::min(disturbed_, first);
 }
 
 void Timeline::GenerateUntil(int64_t frame) {
@@ -199,22 +209,47 @@ void Timeline::Complete() {
                           "the dance has no end: no keyframe, no music and no config.frames");
   }
   complete_ = true;
-  CutIfChanged();
+  Record(kNever);
 }
 
 void Timeline::SetCuts(std::vector<int64_t> frames) {
   cuts_ = std::move(frames);
-  if (planned_.empty()) return;
   planned_.clear();
-  planned_to_ = options_.first_frame;
-  PlanTo(frontier_);
 }
 
 void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 
-Segment Timeline::From(int64_t frame) const {
-  const auto ahead = keys_.lower_bound(frame);
-  const auto next = ahead == keys_.end() ? std::nullopt : std::optional(ahead->first);
+void Timeline::Grant(int64_t frame) {
+  if (frame <= frontier_) return;
+  Record(frame);
+  frontier_ = frame;
+}
+
+void Timeline::Record(int64_t granted) {
+  Granted now{granted, KeyFrom(granted), std::exchange(disturbed_, kNever)};
+  if (!grants_.empty()) {
+    // Clients grant many times without a change: such a grant only extends the one before.
+    Granted& last = grants_.back();
+    const bool is_quiet = last.disturbed == kNever && now.disturbed == kNever;
+    if (is_quiet && AreEqual(last.next, now.next) && AreEqual(last.next, KeyFrom(last.to))) {
+      last.to = granted;
+      return;
+    }
+  }
+  grants_.push_back(std::move(now));
+}
+
+std::optional<Key> Timeline::KeyFrom(int64_t frame) const {
+  const auto key = keys_.lower_bound(frame);
+  return key == keys_.end() ? std::nullopt : std::optional(key->second);
+}
+
+// As it was known when `known` was granted: earlier keys are frozen since then, later ones are not.
+Segment Timeline::From(int64_t frame, const Granted& known) const {
+  const auto frozen = keys_.lower_bound(frame);
+  const bool is_frozen = frozen != keys_.end() && frozen->first < known.to;
+  const std::optional<Key> key = is_frozen ? std::optional(frozen->second) : known.next;
+  const auto next = key ? std::optional(key->frame) : std::nullopt;
   int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
@@ -224,43 +259,53 @@ Segment Timeline::From(int64_t frame) const {
         *cut - frame <= options_.max_transition_frames)
       to = *cut;
   }
-  return {frame, to, is_reached ? std::optional(ahead->second) : std::nullopt, to};
+  return {frame, to, is_reached ? key : std::nullopt, to};
 }
 
-void Timeline::PlanTo(int64_t frame) {
-  const std::optional<int64_t> end = End();
-  while (planned_to_ < frame && !(end && planned_to_ >= *end)) {
-    planned_.push_back(From(planned_to_));
-    planned_to_ = planned_.back().to;
+std::deque<Timeline::Granted>::const_iterator Timeline::GrantBeyond(int64_t frame) const {
+  return std::ranges::upper_bound(grants_, frame, {}, &Granted::to);
+}
+
+// A later grant stops the transition at the frontier of its time if it found a change.
+void Timeline::Settle(Plan* plan) const {
+  Segment& segment = plan->segment;
+  for (auto grant = GrantBeyond(plan->settled);
+       grant != grants_.end() && plan->settled < segment.stop; ++grant) {
+    std::optional<Key> key = From(segment.from, *grant).key;
+    const bool is_same = AreDancedAlike(segment.key, key);
+    if (is_same) segment.key = std::move(key);  // its hands may be new
+    if (!is_same || grant->disturbed < segment.to) segment.stop = plan->settled;
+    plan->settled = grant->to;
   }
 }
 
-// The last planned transition may extend past the frontier.
-void Timeline::CutIfChanged() {
-  const bool changed = std::exchange(disturbed_, false);
-  if (planned_.empty() || planned_.back().stop <= frontier_) return;
-  Segment& open = planned_.back();
-  std::optional<Key> key = From(open.from).key;
-  const bool is_same = open.key && key ? open.key->IsDancedAs(*key) : !open.key && !key;
-  if (is_same) open.key = std::move(key);  // its hands may be new
-  if (is_same && !changed) return;
-  open.stop = planned_to_ = frontier_;
-}
-
-void Timeline::Grant(int64_t frame) {
-  if (frame <= frontier_) return;
-  CutIfChanged();
-  frontier_ = frame;
-  PlanTo(frontier_);
+bool Timeline::PlanNext() {
+  const int64_t from = planned_.empty() ? danced_to_ : planned_.back().segment.stop;
+  const std::optional<int64_t> end = End();
+  const auto grant = GrantBeyond(from);
+  if (grant == grants_.end() || (end && from >= *end)) return false;
+  planned_.push_back({From(from, *grant), grant->to});
+  Settle(&planned_.back());
+  return true;
 }
 
 const Segment* Timeline::Planned(size_t ahead) {
-  // Once all is granted nothing can change, so the plan need not exist before it is asked for.
-  if (planned_.size() == ahead && complete_) PlanTo(planned_to_ + 1);
-  return planned_.size() <= ahead ? nullptr : &planned_[ahead];
+  if (!planned_.empty()) Settle(&planned_.back());
+  while (planned_.size() <= ahead && PlanNext()) {
+  }
+  return planned_.size() <= ahead ? nullptr : &planned_[ahead].segment;
 }
 
-void Timeline::Finish() { planned_.pop_front(); }
+void Timeline::EndAt(int64_t frame) {
+  Segment& last = planned_.back().segment;
+  last.stop = std::min(last.stop, frame);
+}
+
+void Timeline::Finish() {
+  danced_to_ = planned_.front().segment.stop;
+  planned_.pop_front();
+  grants_.erase(grants_.begin(), GrantBeyond(danced_to_));
+}
 
 std::optional<int64_t> Timeline::End() const {
   if (options_.end_frame) return options_.end_frame;

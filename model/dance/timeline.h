@@ -59,14 +59,14 @@ struct Segment {
 /// is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 
-/// The keys of one dance, the frozen frontier, and the plan that follows from them. Before it
-/// returns, each call plans every transition (TransitionEnd) with a granted frame, so the plan
-/// depends only on the order of calls. GenerateUntil and Complete grant frames; without them each
-/// accepted key grants the frames up to and including its own. A transition across the frontier
-/// continues as long as planning from its first frame would give it again and Disturb has not been
-/// called; otherwise it stops at the frontier. A resumed dance receives the same messages again:
-/// keys before its first frame keep their places and are answered with a rejection. Not
-/// thread-safe.
+/// The keys of one dance, the frozen frontier, and the plan that follows from them. A transition
+/// (TransitionEnd) is planned with the keys that were known when its first frame was granted, so
+/// the plan depends only on the order of calls, never on when it is asked for. GenerateUntil and
+/// Complete grant frames; without them each accepted key grants the frames up to and including its
+/// own. A transition across the frontier continues as long as planning from its first frame would
+/// give it again and Disturb has not been called; otherwise it stops at the frontier. Music that
+/// changes ends a transition, too (EndAt). A resumed dance receives the same messages again: keys
+/// before its first frame keep their places and are answered with a rejection. Not thread-safe.
 class Timeline {
  public:
   struct Options {
@@ -116,9 +116,11 @@ class Timeline {
   void SetAudioEnd(int64_t frame);
 
   /// The current transition (0) or a later one; null while none may start. The `stop` of the last
-  /// may change until it is done; others are frozen. After Complete, while the music has not ended,
-  /// there is always another.
+  /// may change until it is done or a later one was asked for. After Complete, while the music has
+  /// not ended, there is always another.
   const Segment* Planned(size_t ahead = 0);
+  /// Stops the last transition that was asked for at `frame`, if it goes on till then.
+  void EndAt(int64_t frame);
   /// Marks the current transition as danced up to its stop.
   void Finish();
 
@@ -134,6 +136,17 @@ class Timeline {
   bool complete() const { return complete_; }
 
  private:
+  // A grant, and what was known of the frames after it when it came.
+  struct Granted {
+    int64_t to;               // it froze the frames before this one
+    std::optional<Key> next;  // the first key after them
+    int64_t disturbed;        // the first frame that Disturb named since the grant before
+  };
+  struct Plan {
+    Segment segment;
+    int64_t settled;  // grants of frames before this one have been looked at
+  };
+
   int64_t Resolve(const KeyMoment& when, const std::string& field) const;
   void CheckOpen(const std::string& field) const;
   const Key* Neighbour(int64_t frame, const std::string& except_id) const;
@@ -144,9 +157,12 @@ class Timeline {
   std::string WhyFrozen() const;
   std::optional<KeyRejected> BeforeTheDance(const std::string& id, int64_t frame) const;
   void Grant(int64_t frame);
-  void CutIfChanged();
-  Segment From(int64_t frame) const;
-  void PlanTo(int64_t frame);
+  void Record(int64_t granted);
+  std::optional<Key> KeyFrom(int64_t frame) const;
+  Segment From(int64_t frame, const Granted& known) const;
+  std::deque<Granted>::const_iterator GrantBeyond(int64_t frame) const;
+  void Settle(Plan* plan) const;
+  bool PlanNext();
 
   Options options_;
   std::map<int64_t, Key> keys_;  // by frame; danced ones included
@@ -156,12 +172,13 @@ class Timeline {
   int64_t granted_ = 0;         // by GenerateUntil
   int64_t frontier_ = 0;        // frames before it are frozen
   bool explicit_grants_ = false;
-  bool disturbed_ = false;  // whether the transition across the frontier must stop there
+  int64_t disturbed_;  // Granted::disturbed of the next grant
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
   std::vector<int64_t> cuts_;
-  int64_t planned_to_;
-  std::deque<Segment> planned_;  // the first is the current one
+  std::deque<Granted> grants_;  // those that the current transition and later ones depend on
+  int64_t danced_to_;           // where the current transition begins
+  std::deque<Plan> planned_;    // the first is the current one
 };
 
 }  // namespace choreo

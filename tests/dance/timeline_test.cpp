@@ -28,12 +28,15 @@ std::ostream& operator<<(std::ostream& out, const Span& span) {
   return out << "[" << span.from << ", " << span.to << ") " << span.key;
 }
 
-// The dance so far: transitions that are completely granted.
-std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000) {
+// The dance so far: transitions that are completely granted. `turn` says for each where music ends
+// it. One that would begin after the end has no frames, and counts as none.
+std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000,
+                        int64_t (*turn)(const Segment&) = nullptr) {
   std::vector<Span> spans;
   while (spans.size() < limit) {
     const Segment* segment = timeline.Planned();
-    if (segment == nullptr) break;
+    if (segment == nullptr || segment->from >= timeline.End().value_or(INT64_MAX)) break;
+    if (turn != nullptr) timeline.EndAt(turn(*segment));
     const int64_t last = std::min(segment->stop, timeline.End().value_or(segment->stop)) - 1;
     if (last >= segment->from && !timeline.Certain(last)) break;
     spans.push_back({segment->from, segment->stop, segment->key ? segment->key->id : ""});
@@ -327,12 +330,30 @@ TEST(Timeline, DisturbanceStopsTheTransition) {
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 35, ""}}));
 }
 
-// The plan must not depend on when Planned is called.
+// What music might say: a function of what is planned.
+int64_t Turn(const Segment& segment) {
+  return segment.from % 3 == 0 ? segment.from + 5 + segment.from * 31 % 60 : segment.to;
+}
+
+TEST(Timeline, MusicThatTurnsEndsTheTransition) {
+  Timeline timeline({.has_music = true, .granted = 0});
+  Set(timeline, "a", AtFrame{79});
+  timeline.GenerateUntil(100);
+  ASSERT_NE(timeline.Planned(), nullptr);
+  timeline.EndAt(30);
+  timeline.EndAt(40);  // it is over by then
+  EXPECT_EQ(timeline.Planned()->stop, 30);
+  EXPECT_EQ(timeline.Planned()->to, 80);
+  EXPECT_EQ(Drain(timeline, 2), (std::vector<Span>{{0, 30, "a"}, {30, 80, "a"}}));
+}
+
+// The plan must not depend on when Planned and EndAt are called.
 TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
     const Timeline::Options options{.has_music = round % 2 == 0, .max_transition_frames = 150};
-    Timeline eager(options), lazy(options);
+    Timeline eager(options), lazy(options), deaf(options);  // deaf: learns of turns at the end
+    const auto turn = round % 5 < 2 ? &Turn : nullptr;
     std::vector<std::function<void(Timeline&)>> log;
     std::vector<Span> asked_often;
     int64_t granted = 0;
@@ -353,16 +374,20 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
       log.push_back(send);
       send(eager);
       send(lazy);
+      send(deaf);
+      deaf.Planned();
       if (kind == 3 && round % 3 == 0) granted += frame / 8;
-      const std::vector<Span> now = Drain(eager);
+      const std::vector<Span> now = Drain(eager, 1000, turn);
       asked_often.insert(asked_often.end(), now.begin(), now.end());
     }
-    eager.Complete();
-    lazy.Complete();
-    for (Timeline* timeline : {&eager, &lazy}) timeline->SetAudioEnd(500);
-    const std::vector<Span> rest = Drain(eager);
+    for (Timeline* timeline : {&eager, &lazy, &deaf}) {
+      timeline->Complete();
+      timeline->SetAudioEnd(500);
+    }
+    const std::vector<Span> rest = Drain(eager, 1000, turn);
     asked_often.insert(asked_often.end(), rest.begin(), rest.end());
-    EXPECT_EQ(Drain(lazy), asked_often) << "round " << round;
+    EXPECT_EQ(Drain(lazy, 1000, turn), asked_often) << "round " << round;
+    EXPECT_EQ(Drain(deaf, 1000, turn), asked_often) << "round " << round;
     // The plan is always seamless.
     int64_t at = 0;
     for (const Span& span : asked_often) {
@@ -379,7 +404,7 @@ TEST(Timeline, PlanIsAFunctionOfTheMessagesAlone) {
       for (const auto& send : log) send(resumed);
       resumed.Complete();
       resumed.SetAudioEnd(500);
-      EXPECT_EQ(Drain(resumed),
+      EXPECT_EQ(Drain(resumed, 1000, turn),
                 std::vector<Span>(asked_often.begin() + static_cast<int64_t>(i), asked_often.end()))
           << "round " << round << ", from " << later.first_frame;
     }
