@@ -116,11 +116,15 @@ class LimitedReader {
   int64_t read_ = 0, kept_ = 0;  // samples per channel so far
 };
 
-/// Their mix has less of the channels' power: they correlate by less than -0.9.
-constexpr double kCancelled = 0.05;
+/// Share of the power that the mix of unrelated channels would have. Below it the mix of two has
+/// lost 6 dB against the channels (they correlate by less than -0.5): much of what people hear from
+/// loudspeakers is missing from it.
+constexpr double kCancelled = 0.5;
+/// Of channels about as loud the first is heard, so that they do not take turns.
+constexpr double kClearlyLouder = 1.1;
 
 /// Whether channels cancel each other in these samples, whatever their DC offsets; then all become
-/// the first.
+/// the loudest.
 bool MendCancelled(std::span<float> interleaved, int channels) {
   const auto count = static_cast<size_t>(channels);
   const auto samples = static_cast<double>(interleaved.size() / count);
@@ -138,10 +142,20 @@ bool MendCancelled(std::span<float> interleaved, int channels) {
     mixed_squares += mix * mix;
   }
   double alone = 0;
-  for (size_t c = 0; c < count; ++c) alone += (squares[c] - sums[c] * sums[c] / samples) / channels;
-  if (alone <= 1e-12 * samples || mixed_squares - mixed * mixed / samples >= kCancelled * alone)
+  std::vector<double> powers(count);
+  for (size_t c = 0; c < count; ++c) {
+    powers[c] = squares[c] - sums[c] * sums[c] / samples;
+    alone += powers[c] / channels;
+  }
+  const double unrelated = alone / channels;
+  if (alone <= 1e-12 * samples || mixed_squares - mixed * mixed / samples >= kCancelled * unrelated)
     return false;
-  for (size_t i = 0; i < interleaved.size(); ++i) interleaved[i] = interleaved[i - i % count];
+  size_t loudest = 0;
+  for (size_t c = 1; c < count; ++c) {
+    if (powers[c] > kClearlyLouder * powers[loudest]) loudest = c;
+  }
+  for (size_t i = 0; i < interleaved.size(); ++i)
+    interleaved[i] = interleaved[i - i % count + loudest];
   return true;
 }
 
@@ -171,9 +185,9 @@ DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, 
     if (MendCancelled(part.first(std::min(second, part.size())), audio.channels)) ++cancelled;
   }
   if (cancelled > 0) {
-    audio.notes.push_back("its channels cancel each other (one is the other inverted) in " +
+    audio.notes.push_back("its channels cancel each other, in part or all, in " +
                           std::to_string(cancelled) + " of " + std::to_string(heard) +
-                          " s; there only the first is used");
+                          " s; there only the louder one is used");
   }
   return audio;
 }

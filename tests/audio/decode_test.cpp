@@ -267,6 +267,39 @@ TEST_F(DecodeTest, CancellingChannelsAreReadWithANote) {
   }
 }
 
+// Half of what the channels have is the same, and half is inverted, or a little more.
+TEST_F(DecodeTest, OfChannelsThatCancelInPartTheLouderIsHeard) {
+  const std::vector<float> tone = Sine(440, 22050, 22050, 0.4);
+  struct Case {
+    float common, second;  // how much of another tone both have; the second channel's loudness
+    bool told;
+  };
+  for (const auto& [common, second, told] :
+       {Case{0.5F, 1, true}, {0.5F, 1.3F, true}, {0.7F, 1, false}, {1, 1, false}, {0, 2, true}}) {
+    const std::vector<float> other = Sine(1000, 22050, 22050, 0.4);
+    std::vector<float> both, heard;
+    for (size_t i = 0; i < tone.size(); ++i) {
+      const float left = tone[i] + common * other[i],
+                  right = second * (common * other[i] - tone[i]);
+      both.insert(both.end(), {left, right});
+      heard.push_back(second > 1 ? right : left);
+    }
+    const std::string bytes = Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_FLOAT, 22050, 2, both));
+    const DecodedAudio audio = Decode(bytes);
+    ASSERT_EQ(audio.notes.size(), told ? 1U : 0U) << common << " " << second;
+    EXPECT_EQ(ToModelRate(audio) == heard, told);
+    EXPECT_EQ(DecodeMono(std::as_bytes(std::span(bytes))), ToModelRate(audio));
+  }
+  // Unrelated channels do not cancel each other, however many there are.
+  std::vector<float> many;
+  for (size_t i = 0; i < 22050; ++i) {
+    for (int channel = 0; channel < 6; ++channel)
+      many.push_back(0.1F *
+                     std::sin(static_cast<float>(i) * 0.02F * static_cast<float>(channel + 1)));
+  }
+  EXPECT_TRUE(Decode(Bytes(Write(SF_FORMAT_WAV | SF_FORMAT_FLOAT, 22050, 6, many))).notes.empty());
+}
+
 TEST_F(DecodeTest, APipeIsReadToItsEnd) {
   const std::string bytes =
       Bytes(Write(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 8000, 1, Noise(9000, 2)));
