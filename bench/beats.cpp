@@ -93,7 +93,19 @@ struct Judged {
   std::vector<double> beats{}, downbeats{};  // downbeats: empty if unknown
   std::optional<double> librosa{};           // librosa's F from the first second
   std::vector<SongPlan::Span> spans{};       // judged separately: before and after a tempo step
+  std::vector<SongPlan::Span> silent{};
 };
+
+/// Beats in silence that begin more than a period after it.
+int BeatsInSilence(const Judged& song, const std::vector<double>& beats) {
+  constexpr double kNear = 0.07;  // a beat may precede its sound by this much
+  const double period = 60 / TempoOf(song.beats);
+  return static_cast<int>(std::ranges::count_if(beats, [&](double beat) {
+    return std::ranges::any_of(song.silent, [&](const SongPlan::Span& span) {
+      return beat > span.begin + period + kNear && beat < span.end - kNear;
+    });
+  }));
+}
 
 void PrintHead() {
   std::printf("%-34s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s  %s\n", "song", "F", "from10",
@@ -125,6 +137,10 @@ double Judge(const Judged& song) {
   for (const SongPlan::Span& span : song.spans)
     std::printf(" %.0f-%.0f s: %.2f", span.begin, span.end,
                 BeatFMeasure(found, song.beats, span.begin, span.end));
+  if (!song.silent.empty()) {
+    std::printf(" beats in silence: %d, live %d, client %d", BeatsInSilence(song, found),
+                BeatsInSilence(song, live), BeatsInSilence(song, client));
+  }
   std::printf("\n");
   std::fflush(stdout);
   return f;
@@ -155,7 +171,8 @@ void JudgeMade(uint64_t seed) {
                                    .mono = std::move(made.mono),
                                    .beats = std::move(made.beats),
                                    .downbeats = std::move(made.downbeats),
-                                   .spans = std::move(spans)}));
+                                   .spans = std::move(spans),
+                                   .silent = plan.silent}));
   };
   for (double bpm = 50; bpm <= 200; bpm += 10) {
     const std::string name = std::to_string(static_cast<int>(bpm));

@@ -25,6 +25,13 @@ constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
 constexpr size_t kSettles = 2 * kTypicalFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 
+// Of a song with a drop: its length before that, with the calm that precedes it, and after it.
+constexpr double kBeforeDrop = 20, kCalm = 6, kAfterDrop = 12;
+constexpr int kDropsASeed = 4;
+// Frames that a burst is compared with: before the drop, and when it has settled.
+constexpr size_t kBefore = 60, kSettledFrom = 120, kSettledTo = 300;
+constexpr size_t kSmooth = 11;  // frames of a moving mean
+
 struct Setting {
   const char* name;
   double dynamics = kDefaultDynamics, variation = kDefaultVariation;
@@ -93,8 +100,12 @@ class Judge {
 
   void Parts();
   void Loudness(const std::string& name, const std::vector<std::vector<float>>& songs);
+  /// Seconds from a drop to the burst that answers it, if a calm part precedes: a pad, or silence.
+  void Drops(const std::string& calm, bool is_pad);
   void Form();
   void Hits();
+  /// Of all dances so far.
+  void Exploded();
 
  private:
   /// A figure at usual settings and at those that change `matters`; a dash for others.
@@ -111,7 +122,16 @@ class Judge {
     DanceConfig config;
     config.seed = static_cast<uint64_t>(seed);
     config.music_dynamics = setting.dynamics;
-    return DanceTo(queue_, mono, config);
+    return Dance(mono, config, setting);
+  }
+  std::vector<Pose> Dance(std::span<const float> mono, const DanceConfig& config,
+                          const Setting& setting, std::span<const Key> keys = {},
+                          const ControlRequest& controls = {}) {
+    std::vector<Pose> dance = DanceTo(queue_, mono, config, keys, controls);
+    Tally& tally = tallies_[setting.name];
+    ++tally.dances;
+    tally.exploded += std::ranges::max(Speeds(dance)) > options_.top_speed;
+    return dance;
   }
   std::vector<float> Speeds(std::span<const Pose> dance) const {
     return MeanSpeeds(TrackJoints(skeleton_, dance), kModelFps);
@@ -134,10 +154,15 @@ class Judge {
   }
   double Hits(const MadeSong& song, const std::vector<Pose>& dance) const;
 
+  struct Tally {
+    double dances = 0, exploded = 0;
+  };
+
   SampleQueue& queue_;
   const Skeleton& skeleton_;
   const HearingOptions& options_;
   Table& table_;
+  std::map<std::string, Tally> tallies_;  // by setting
 };
 
 void Judge::Parts() {
@@ -183,6 +208,38 @@ void Judge::Loudness(const std::string& name, const std::vector<std::vector<floa
   });
 }
 
+void Judge::Drops(const std::string& calm, bool is_pad) {
+  std::vector<double> speeds(kBefore + kSettledTo);  // around the drop, mean of all dances
+  const int dances = kDropsASeed * options_.seeds;
+  for (int i = 0; i < dances; ++i) {
+    // Transitions begin every two seconds; drops fall anywhere in them.
+    const double drop = kBeforeDrop + 2.0 * i / dances;
+    const uint64_t seed = options_.first_seed + 60 + static_cast<uint64_t>(i);
+    const auto part = [&](double seconds, bool only_pad) {
+      return MakeSong({.seed = seed, .seconds = seconds, .only_pad = only_pad}).mono;
+    };
+    const std::vector<float> drums = part(drop - kCalm, false), burst = part(kAfterDrop, false);
+    std::vector<float> quiet = part(kCalm, true);
+    if (!is_pad) std::ranges::fill(quiet, 0.0F);
+    const std::vector<float> danced = Speeds(Dance(Join({&drums, &quiet, &burst}), i, kUsual));
+    const size_t first = static_cast<size_t>(std::lround(drop * kModelFps)) - kBefore;
+    for (size_t frame = 0; frame < speeds.size(); ++frame)
+      speeds[frame] += danced[first + frame] / dances;
+  }
+  const auto mean = [&](size_t from, size_t to) {
+    double sum = 0;
+    for (size_t frame = from; frame < to; ++frame) sum += speeds[frame];
+    return sum / static_cast<double>(to - from);
+  };
+  const double half = (mean(0, kBefore) + mean(kBefore + kSettledFrom, kBefore + kSettledTo)) / 2;
+  size_t frame = kBefore;
+  while (frame + kSmooth / 2 + 1 < speeds.size() &&
+         mean(frame - kSmooth / 2, frame + kSmooth / 2 + 1) < half)
+    ++frame;
+  Row("seconds from a drop after " + calm + " to the burst", 2, nullptr,
+      [&](const Setting&) { return static_cast<double>(frame - kBefore) / kModelFps; });
+}
+
 void Judge::Form() {
   double songs = 0, seeds = 0;
   Row("a part again ÷ another part", 2, &Setting::variation, [&](const Setting& setting) {
@@ -197,7 +254,7 @@ void Judge::Form() {
       config.variation = setting.variation;
       config.music_beats = FindBeats(song).Seconds();
       config.music_passages = FindPassages(song, config.music_beats);
-      const std::vector<Pose> dance = DanceTo(queue_, song, config);
+      const std::vector<Pose> dance = Dance(song, config, setting);
       const auto apart = [&](size_t one, size_t two) {
         return Apart(skeleton_, Part(dance, one), Part(dance, two));
       };
@@ -236,14 +293,14 @@ void Judge::Hits() {
     DanceConfig config;
     config.seed = static_cast<uint64_t>(i);
     config.music_beats = FindBeats(song.mono).Seconds();
-    const std::vector<Pose> dance = DanceTo(queue_, song.mono, config);
+    const std::vector<Pose> dance = Dance(song.mono, config, kUsual);
     free += Hits(song, dance) / options_.seeds;
     config.seed += static_cast<uint64_t>(options_.seeds);
     const std::vector<Key> keys = KeysOf(dance);
-    keyed += Hits(song, DanceTo(queue_, song.mono, config, keys)) / options_.seeds;
+    keyed += Hits(song, Dance(song.mono, config, kUsual, keys)) / options_.seeds;
     if (!queue_.model().Takes(kRootPath)) continue;
     on_path +=
-        Hits(song, DanceTo(queue_, song.mono, config, keys, Circle(dance.size()))) / options_.seeds;
+        Hits(song, Dance(song.mono, config, kUsual, keys, Circle(dance.size()))) / options_.seeds;
   }
   const auto row = [&](const std::string& which, double points) {
     Row("hits over chance, " + which + " points", 0, nullptr,
@@ -252,6 +309,13 @@ void Judge::Hits() {
   row("free", free);
   row("keyed", keyed);
   if (queue_.model().Takes(kRootPath)) row("keyed on a path", on_path);
+}
+
+void Judge::Exploded() {
+  Row("exploded %", 0, &Setting::dynamics, [&](const Setting& setting) {
+    const Tally& tally = tallies_[setting.name];
+    return 100 * tally.exploded / tally.dances;
+  });
 }
 
 }  // namespace
@@ -276,8 +340,11 @@ Table EvaluateHearing(SampleQueue& queue, const std::vector<NamedSong>& songs,
   }
   judge.Loudness("made songs with an intro and a break", made);
   for (const NamedSong& song : songs) judge.Loudness(song.name, {song.mono});
+  judge.Drops("a pad", true);
+  judge.Drops("silence", false);
   judge.Form();
   judge.Hits();
+  judge.Exploded();
   return table;
 }
 

@@ -18,6 +18,7 @@ struct HearingOptions {
   uint64_t first_seed = 2'000'000;  ///< of made songs; development used lower ones
   int seeds = 3;                    ///< dances per song, and songs of each kind
   int part_seconds = 20;            ///< of assembled songs, above 4
+  double top_speed = 2.75;  ///< m/s, mean of the joints: no frame of Olivia's recordings exceeds it
 };
 
 /// hearing: how much a dance responds to its music, at usual settings and at others. Dances are
@@ -25,12 +26,15 @@ struct HearingOptions {
 ///
 ///   drums ÷ pad, silence ÷ drums  mean joint speeds in parts of one song, from its fifth second on
 ///   loudness and speed            their correlation over windows of 4 s, mean over seeds
+///   seconds from a drop ...       until the dances' mean speed is half way from what it was before
+///                                 to what it becomes
 ///   a part again ÷ another part   mean distances of joints, with both dancers moved to one place
 ///                                 and facing
 ///   two songs ÷ two seeds         the same for dances of one part each
 ///   hits over chance              points by which kinematic beats hit known beats more often
 ///                                 than the same beats moved, as in HitsOverChance: without
 ///                                 keys, through poses of another dance every 2 s, and on a circle
+///   exploded                      share of all these dances with a frame above `top_speed`
 Table EvaluateHearing(SampleQueue& queue, const std::vector<NamedSong>& songs,
                       const HearingOptions& options = {});
 
