@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "model/audio/format.h"
@@ -15,20 +16,8 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr double kTempoSlack = 1.06;     // either way: a semitone
 constexpr double kMaxSongSeconds = 1e6;  // of a song, of which the dance may use only a part
 constexpr std::streamsize kMaxLineLength = 1000;
-
-/// Counts from beat `first` on, and backwards before it.
-void CountFrom(int64_t first, BeatTrack* track) {
-  const int bar = track->beats_in_bar > 0 ? track->beats_in_bar : kDefaultBar;
-  track->beats_in_bar = bar;
-  track->in_bar.resize(track->frames.size());
-  for (size_t i = 0; i < track->frames.size(); ++i) {
-    const int64_t since = static_cast<int64_t>(i) - first;
-    track->in_bar[i] = static_cast<int>((since % bar + bar) % bar);
-  }
-}
 
 /// Continues the count from counted beats to the others.
 void CountOn(BeatTrack* track) {
@@ -37,16 +26,11 @@ void CountOn(BeatTrack* track) {
   // With downbeats only, a bar lasts from one to the next.
   if (track->beats_in_bar == 1) {
     const auto second = std::find(first + 1, told.end(), 0);
-    if (second != told.end()) track->beats_in_bar = static_cast<int>(second - first);
+    track->beats_in_bar = second != told.end() ? static_cast<int>(second - first) : kDefaultBar;
   }
   const auto at = static_cast<int64_t>(first - told.begin());
   const int64_t downbeat = first == told.end() ? 0 : at - *first;
   CountFrom(downbeat, track);
-}
-
-size_t FirstDownbeat(const BeatTrack& track) {
-  const auto first = std::ranges::find(track.in_bar, 0);
-  return first == track.in_bar.end() ? 0 : static_cast<size_t>(first - track.in_bar.begin());
 }
 
 /// A line of a beat file: the second and, if known, the count in the bar.
@@ -116,49 +100,25 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   return track;
 }
 
-/// Drops every second beat and keeps the half that contains the downbeats.
-void Halve(BeatTrack* track) {
-  BeatTrack half{.beats_in_bar = track->beats_in_bar};
-  const size_t first = FirstDownbeat(*track);
-  for (size_t i = first % 2; i < track->frames.size(); i += 2) {
-    half.frames.push_back(track->frames[i]);
-    half.confidence.push_back(track->confidence[i]);
-  }
-  CountFrom(static_cast<int64_t>(first / 2), &half);
-  *track = std::move(half);
-}
-
-void Double(BeatTrack* track) {
-  BeatTrack twice{.beats_in_bar = track->beats_in_bar};
-  for (size_t i = 0; i < track->frames.size(); ++i) {
-    twice.frames.push_back(track->frames[i]);
-    twice.confidence.push_back(track->confidence[i]);
-    if (i + 1 == track->frames.size()) break;
-    twice.frames.push_back((track->frames[i] + track->frames[i + 1]) / 2);
-    twice.confidence.push_back(track->confidence[i]);
-  }
-  CountFrom(static_cast<int64_t>(2 * FirstDownbeat(*track)), &twice);
-  *track = std::move(twice);
-}
-
-TempoLimits LimitsOf(const BeatOptions& options) {
-  TempoLimits limits;
-  if (!options.tempo_bpm) return limits;
-  limits.slowest_bpm = std::max(limits.slowest_bpm, *options.tempo_bpm / kTempoSlack);
-  limits.fastest_bpm = std::min(limits.fastest_bpm, *options.tempo_bpm * kTempoSlack);
-  return limits;
+void Change(const BeatOptions& options, double start, BeatTrack* track) {
+  Follow(options.hint, track);
+  if (!options.downbeat_s) return;
+  const auto wanted = std::llround((*options.downbeat_s - start) * kOnsetRate);
+  CountFrom(NearestBeat(*track, wanted), track);
 }
 
 }  // namespace
 
 void RequireSong(const BeatOptions& options, const std::string& song) {
-  if (song.empty() && options != BeatOptions())
+  BeatOptions said = options;
+  if (said.FindsThem()) said.beats.reset();
+  if (song.empty() && said != BeatOptions())
     throw InvalidArgument("beats", "and other options of beats need a song");
 }
 
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
-  BeatTrack track = options.beats == "auto" ? TrackBeats(onsets, LimitsOf(options))
-                                            : ReadBeats(options.beats, start);
+  BeatTrack track = options.FindsThem() ? TrackBeats(onsets, LimitsOf(options.hint))
+                                        : ReadBeats(*options.beats, start);
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +
@@ -172,23 +132,42 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
     track.confidence.pop_back();
   }
   if (track.frames.empty()) {
-    if (options.beats != "auto") {
+    if (!options.FindsThem()) {
       throw InvalidArgument(
-          "beats", options.beats + " has no beat within what is heard of the song, its first " +
+          "beats", *options.beats + " has no beat within what is heard of the song, its first " +
                        Rounded(start + end) + " s; beats are in seconds");
     }
     return track;
   }
-  if (options.half_time) Halve(&track);
-  if (options.double_time) Double(&track);
-  if (options.downbeat_s) {
-    const auto wanted = std::llround((*options.downbeat_s - start) * kOnsetRate);
-    const auto nearest = std::ranges::min_element(
-        track.frames, {}, [wanted](int64_t frame) { return std::abs(frame - wanted); });
-    CountFrom(nearest - track.frames.begin(), &track);
-  }
+  Change(options, start, &track);
   track.tempo_bpm = TempoOf(track.Seconds());
   return track;
+}
+
+void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* beats,
+                 std::vector<double>* downbeats) {
+  const bool changes = options.hint.half_time || options.hint.double_time || options.downbeat_s;
+  if (beats->empty() || !changes) return;
+  // No downbeat is known, or downbeats only.
+  BeatTrack track{.beats_in_bar = downbeats->empty() ? 0 : 1};
+  std::map<int64_t, double> told;  // exactly
+  for (const double beat : *beats) {
+    const int64_t frame = std::llround(beat * kOnsetRate);
+    told[frame] = beat;
+    track.frames.push_back(frame);
+    track.in_bar.push_back(std::ranges::binary_search(*downbeats, beat) ? 0 : -1);
+    track.confidence.push_back(1);
+  }
+  CountOn(&track);
+  Change(options, start, &track);
+  beats->clear();
+  downbeats->clear();
+  for (size_t i = 0; i < track.frames.size(); ++i) {
+    const auto exactly = told.find(track.frames[i]);
+    beats->push_back(exactly != told.end() ? exactly->second
+                                           : static_cast<double>(track.frames[i]) / kOnsetRate);
+    if (track.in_bar[i] == 0) downbeats->push_back(beats->back());
+  }
 }
 
 }  // namespace choreo::authoring

@@ -3,20 +3,22 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "model/audio/beat_hint.h"
 #include "model/audio/beats.h"
 
 namespace choreo::authoring {
 
 inline constexpr int kMaxBeatsInBar = 16;  ///< that people count to
-inline constexpr int kDefaultBar = 4;      ///< beats, where nobody says how many
 
 /// Options that override the beat tracker.
 struct BeatOptions {
-  std::string beats = "auto";  ///< or the name of a file
-  std::optional<double> tempo_bpm = {};
-  bool half_time = false, double_time = false;
+  std::optional<std::string> beats = {};  ///< the name of a file, or "auto": they are found
+  BeatHint hint = {};
   std::optional<double> downbeat_s = {};  ///< of the song
+
+  bool FindsThem() const { return beats.value_or("auto") == "auto"; }
 
   bool operator==(const BeatOptions&) const = default;
 };
@@ -27,5 +29,10 @@ void RequireSong(const BeatOptions& options, const std::string& song);
 /// A song's beats from second `start` on, found or read, depending on the options. Throws
 /// Error(kInvalidArgument), whose field is "beats", "downbeat" or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
+
+/// Changes beats that are known, and their downbeats, as the options for half and double time and a
+/// downbeat say. Seconds of a dance that begins at second `start` of its song.
+void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* beats,
+                 std::vector<double>* downbeats);
 
 }  // namespace choreo::authoring

@@ -19,14 +19,15 @@ void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
       "FILE of the song's beats, one a line: its second and, if known, its count in the bar (1: a "
       "downbeat). auto (default): they are found.");
   command
-      .add_option("--tempo", options->tempo_bpm,
+      .add_option("--tempo", options->hint.tempo_bpm,
                   "Rough tempo, beats a minute: beats are looked for within 6 % of it.")
       ->check(NumberFrom(50, 200))
       ->excludes(beats);
   CLI::Option* half =
-      command.add_flag("--half-time", options->half_time, "Count every second beat only.");
+      command.add_flag("--half-time", options->hint.half_time, "Count every second beat only.");
   command
-      .add_flag("--double-time", options->double_time, "Count a beat half way between two, too.")
+      .add_flag("--double-time", options->hint.double_time,
+                "Count a beat half way between two, too.")
       ->excludes(half);
   command
       .add_option("--downbeat", options->downbeat_s,

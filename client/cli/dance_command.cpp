@@ -35,17 +35,19 @@ void TakeProject(DanceOptions* options) {
     }
     options->song = project.song;
   }
-  // Only the project's own song.
+  // Those of the project's own song, unless others are asked for.
   const auto file_of = [](const std::string& song) {
     return std::filesystem::path(song).filename();
   };
-  if (options->beats == authoring::BeatOptions() &&
-      file_of(options->song) == file_of(project.song)) {
+  const bool others = options->beats.beats || options->beats.hint.tempo_bpm;
+  if (!others && file_of(options->song) == file_of(project.song)) {
     for (const auto& [beats, of_dance] : {std::pair(&project.beats, &options->project_beats),
                                           {&project.downbeats, &options->project_downbeats}}) {
       for (const double beat : *beats)
         if (beat >= options->song_start_s) of_dance->push_back(beat - options->song_start_s);
     }
+    authoring::ChangeBeats(options->beats, options->song_start_s, &options->project_beats,
+                           &options->project_downbeats);
   }
   if (!options->seconds) options->seconds = project.seconds;
   if (!options->seed) options->seed = project.seed;

@@ -10,6 +10,7 @@
 #include "client/authoring/dance_keys.h"
 #include "client/authoring/key_file.h"
 #include "client/authoring/pose_library.h"
+#include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/interruption.h"
@@ -33,6 +34,7 @@ struct LiveCommand {
   std::vector<std::string> keys;
   int osc_port = 0;
   std::string midi_clock;
+  authoring::BeatOptions beats;
   double ahead_s = live::LiveOptions{}.ahead_s;
   double look_ahead_s = live::LiveOptions{}.look_ahead_s;
   std::optional<double> seconds;
@@ -45,6 +47,20 @@ struct LiveCommand {
   std::string vmc;
   std::string out;
 };
+
+void CheckBeatOptions(const authoring::BeatOptions& beats) {
+  if (!beats.FindsThem()) {
+    throw InvalidArgument("--beats",
+                          "names the beats of a whole song, but a live dance hears them as it goes "
+                          "along, or takes them from --midi-clock; `choreo dance` reads " +
+                              *beats.beats);
+  }
+  if (beats.downbeat_s) {
+    throw InvalidArgument("--downbeat",
+                          "names a second of a song, but of music that is still to sound nobody "
+                          "knows one; `choreo dance` counts bars from it");
+  }
+}
 
 void CheckOutput(const LiveCommand& options) {
   if (options.out.empty()) return;
@@ -101,6 +117,7 @@ std::string Say(const live::LiveFigures& figures) {
 
 void Run(const LiveCommand& options) {
   CheckOutput(options);
+  CheckBeatOptions(options.beats);
   if (options.server.deadline_s > 0) {
     throw InvalidArgument("--deadline",
                           "a live dance takes as long as its music; --seconds says how long that "
@@ -122,6 +139,7 @@ void Run(const LiveCommand& options) {
   dance.config.temperature = options.temperature;
   dance.config.music_dynamics = options.music_dynamics;
   dance.config.variation = options.variation;
+  dance.beats = options.beats.hint;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;
   dance.most_keys = connection.server().limits.max_keyframes;
@@ -200,6 +218,9 @@ void AddLiveCommand(CLI::App& program) {
   command->add_option("--midi-clock", options->midi_clock,
                       "Device that raw MIDI comes from, as /dev/snd/midiC1D0: its clock says where "
                       "the beats are from its Start on, instead of the music.");
+  AddBeatOptions(*command, &options->beats);
+  for (const char* refused : {"--beats", "--downbeat"})
+    command->get_option(refused)->group("");  // with the reason
   command
       ->add_option("--ahead", options->ahead_s,
                    "Seconds from asking for a pose to the first beat that it may stand on.")

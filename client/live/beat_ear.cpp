@@ -15,7 +15,7 @@ int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 }  // namespace
 
 // Silence precedes the music.
-BeatEar::BeatEar() : mono_(kOnsetWindow / 2) {}
+BeatEar::BeatEar(const BeatHint& hint) : mono_(kOnsetWindow / 2), hint_(hint) {}
 
 BeatsAhead BeatEar::Hear(std::span<const float> mono) {
   mono_.insert(mono_.end(), mono.begin(), mono.end());
@@ -28,7 +28,10 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
 
   if (found_.valid()) {
     if (found_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
-    return PredictBeats(found_.get(), now, now + kAheadSeconds);
+    BeatTrack track = found_.get();
+    Follow(hint_, &track, kept_);
+    if (!track.frames.empty()) kept_ = track.frames.back();
+    return PredictBeats(track, now, now + kAheadSeconds);
   }
   if (heard - asked_ < Onsets(asked_ == 0 ? kFirstSeconds : kEverySeconds)) return {};
   asked_ = heard;
@@ -37,11 +40,12 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
     onsets_.erase(onsets_.begin(), onsets_.begin() + old);
     first_ += old;
   }
-  found_ = std::async(std::launch::async, [onsets = onsets_, first = first_] {
-    BeatTrack track = TrackBeats(onsets);
-    for (int64_t& frame : track.frames) frame += first;
-    return track;
-  });
+  found_ =
+      std::async(std::launch::async, [onsets = onsets_, first = first_, limits = LimitsOf(hint_)] {
+        BeatTrack track = TrackBeats(onsets, limits);
+        for (int64_t& frame : track.frames) frame += first;
+        return track;
+      });
   return {};
 }
 

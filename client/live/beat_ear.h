@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <future>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "model/audio/beat_hint.h"
 #include "model/audio/beats_ahead.h"
 #include "model/audio/onset.h"
 
@@ -17,7 +19,7 @@ class BeatEar {
   /// How far ahead of the music it predicts, seconds: as far as transitions reach.
   static constexpr double kAheadSeconds = 5;
 
-  BeatEar();
+  explicit BeatEar(const BeatHint& hint = {});
 
   /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second; none
   /// while no beat is clear.
@@ -35,6 +37,8 @@ class BeatEar {
   int64_t first_ = 0;          // index of the first of onsets_ in the music
   int64_t asked_ = 0;          // onsets received at the last search
   std::future<BeatTrack> found_;
+  BeatHint hint_;
+  std::optional<int64_t> kept_;  // a beat found last: half time stays on the same half
 };
 
 }  // namespace choreo::live

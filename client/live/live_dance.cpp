@@ -75,7 +75,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   Resampler resampler(sound.sample_rate(), sound.channels());
   std::vector<float> mono;  // of this piece
   PassageEar passages;
-  BeatEar beats;
+  BeatEar beats(options_.beats);
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;

@@ -32,6 +32,7 @@ struct LiveOptions {
   std::map<std::string, Pose> poses = {};  ///< for cues, by name
   double ahead_s = 1;                      ///< least delay from a cue to its pose, on a beat
   double look_ahead_s = 0.3;               ///< nearer frames are already danced
+  BeatHint beats = {};                     ///< about those that are heard
   double seconds = std::numeric_limits<double>::infinity();  ///< limit of the music
   int most_keys = kMaxKeys;  ///< limit of the server for one dance, including keys taken back
 };

@@ -128,6 +128,30 @@ TEST_F(CommandTest, DancesWithoutKeysOnRequest) {
   EXPECT_EQ(Choreo("dance -k none" + Server()).code, 2);  // it says of no length
 }
 
+// What the command line says of beats counts; the rest of them, and of the project, stays.
+TEST_F(CommandTest, OptionsOfBeatsWinOverTheProjects) {
+  WriteClicks(folder_ / "song.wav", 6);  // a click every half second
+  std::ofstream(folder_ / "p.json") << R"({"studio": 1, "song": "song.wav", "seconds": 6,
+    "beats": [[1, 1], [2, 2], [3, 3], [4, 4]], "keyframes": [{"time": 2, "pose": "kick"}]})";
+  std::ofstream(folder_ / "beats.txt") << "3\n";
+  const auto beats = [&](const std::string& options) {
+    const Outcome outcome = Choreo("dance --project " + At("p.json") + Server() + "-o " +
+                                   At("d.npz") + " --report " + At("r.json") + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    const nlohmann::json report = ReadJson(folder_ / "r.json");
+    EXPECT_EQ(report["keyframes"].size(), 1U) << options;
+    // Five frames count for each beat, except at the ends of the dance.
+    return std::lround(report["beat_hit_chance"].get<double>() * 180 / 5);
+  };
+  EXPECT_EQ(beats(""), 4);
+  EXPECT_GT(beats(" --beats auto"), 7);
+  EXPECT_EQ(beats(" --beats " + At("beats.txt")), 1);
+  EXPECT_GT(beats(" --tempo 120"), 7);
+  EXPECT_EQ(beats(" --half-time"), 2);
+  EXPECT_EQ(beats(" --double-time"), 7);
+  EXPECT_EQ(beats(" --downbeat 2"), 4);
+}
+
 TEST_F(CommandTest, BeginsAtTheRequestedSecondOfTheSong) {
   WriteClicks(folder_ / "song.wav", 6);
   const Outcome outcome =

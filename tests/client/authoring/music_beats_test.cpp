@@ -24,7 +24,7 @@ class MusicBeats : public testing::Test {
   BeatTrack Read(const std::string& lines, BeatOptions options = {}, double start = 0) {
     const std::filesystem::path file = folder_ / "beats.txt";
     std::ofstream(file) << lines;
-    options.beats = file;
+    options.beats = file.string();
     const std::vector<Onset> silence(static_cast<size_t>(10 * kModelSampleRate / kOnsetHop));
     return BeatsAsAsked(silence, start, options);
   }
@@ -54,13 +54,13 @@ TEST_F(MusicBeats, SecondsCountFromTheDancesStart) {
 }
 
 TEST_F(MusicBeats, HalfTimeKeepsDownbeats) {
-  const BeatTrack track = Read("1 4\n2 1\n3 2\n4 3\n5 4\n6 1\n", {.half_time = true});
+  const BeatTrack track = Read("1 4\n2 1\n3 2\n4 3\n5 4\n6 1\n", {.hint = {.half_time = true}});
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(2), Near(4), Near(6)));
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(2)));
 }
 
 TEST_F(MusicBeats, DoubleTimeAddsOneBetweenTwo) {
-  const BeatTrack track = Read("1\n2\n3\n", {.double_time = true});
+  const BeatTrack track = Read("1\n2\n3\n", {.hint = {.double_time = true}});
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(1.5), Near(2), Near(2.5), Near(3)));
 }
 
@@ -89,6 +89,33 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument,
               "downbeat: 500 s is after what is heard of the song, its first",
               [&] { Read("1\n", {.downbeat_s = 500}); });
+}
+
+TEST_F(MusicBeats, KnownOnesAreChangedAsTheOptionsSay) {
+  const std::vector<double> beats{0.503, 1.001, 1.507, 2.002, 2.503, 3.004},
+      downbeats{1.001, 2.503};
+  const auto changed = [&](const BeatOptions& options, double start = 0) {
+    auto result = std::pair(beats, downbeats);
+    ChangeBeats(options, start, &result.first, &result.second);
+    return result;
+  };
+  EXPECT_EQ(changed({.beats = "auto", .hint = {.tempo_bpm = 120}}), std::pair(beats, downbeats));
+  const auto half = changed({.hint = {.half_time = true}});
+  EXPECT_EQ(half.first, (std::vector<double>{1.001, 2.002, 3.004})) << "exactly, with the downbeat";
+  EXPECT_EQ(half.second, (std::vector<double>{1.001}));
+  const auto twice = changed({.hint = {.double_time = true}});
+  EXPECT_EQ(twice.first.size(), 11U);
+  EXPECT_NEAR(twice.first[1], 0.752, 0.01);
+  // The dance begins half a second into the song.
+  const auto counted = changed({.downbeat_s = 2.1}, 0.5);
+  EXPECT_EQ(counted.first, beats);
+  EXPECT_EQ(counted.second, (std::vector<double>{1.507, 3.004}));
+}
+
+TEST_F(MusicBeats, AutoNeedsNoSong) {
+  RequireSong({.beats = "auto"}, "");
+  ExpectError(ErrorCode::kInvalidArgument, "need a song",
+              [] { RequireSong({.hint = {.half_time = true}}, ""); });
 }
 
 // The server hears of them as far as the dance goes.

@@ -13,8 +13,8 @@ namespace choreo::live::beat_ear_test {
 /// The beats predicted from `from` s on, each before it sounds. Later predictions replace earlier
 /// ones, but all downbeats are kept.
 std::vector<double> Told(const std::vector<float>& song, double from,
-                         std::vector<double>* downbeats = nullptr) {
-  BeatEar ear;
+                         std::vector<double>* downbeats = nullptr, const BeatHint& hint = {}) {
+  BeatEar ear(hint);
   std::vector<double> told;
   constexpr size_t kPiece = 437;  // 20 ms, of whatever length
   for (size_t at = 0; at < song.size(); at += kPiece) {
@@ -59,6 +59,18 @@ TEST(BeatEar, PredictsBeats) {
   }
   EXPECT_GE(well, 4);
   EXPECT_GE(counted, 3);
+}
+
+TEST(BeatEar, FollowsTheHint) {
+  const MadeSong song = MakeSong({.seed = 3, .seconds = 30, .tempo = {{0, 110}}});
+  const auto told = [&](const BeatHint& hint) { return Told(song.mono, 12, nullptr, hint); };
+  const std::vector<double> all = told({.tempo_bpm = 110});
+  EXPECT_NEAR(TempoOf(all), 110, 2);
+  const std::vector<double> half = told({.tempo_bpm = 110, .half_time = true});
+  EXPECT_NEAR(TempoOf(half), 55, 1);
+  for (size_t i = 1; i < half.size(); ++i)
+    EXPECT_NEAR(half[i] - half[i - 1], 120.0 / 110, 0.1) << "another half from " << half[i];
+  EXPECT_NEAR(TempoOf(told({.tempo_bpm = 110, .double_time = true})), 220, 4);
 }
 
 TEST(BeatEar, DropsLateBeats) {

@@ -98,6 +98,7 @@ class LiveDanceTest : public CommandTest {
     for (const char* name : {"kick", "groove"})
       options.poses[name] = authoring::FindLibraryPose(name).pose;
     options.most_keys = most_keys_;
+    options.beats = hint_;
     live::LiveObserver observer{
         [] { return true; },
         [this](const live::LiveFigures& figures) { figures_.push_back(figures); },
@@ -118,6 +119,7 @@ class LiveDanceTest : public CommandTest {
   }
 
   int most_keys_ = 1000;
+  BeatHint hint_;
   std::vector<live::LiveFigures> figures_;
   std::vector<std::string> notes_;
   Motion motion_;
@@ -205,6 +207,17 @@ TEST_F(LiveDanceTest, FollowsTheBeatsOfAMidiClock) {
     told = true;
   }
   EXPECT_TRUE(told);
+}
+
+// The music has 120 beats a minute.
+TEST_F(LiveDanceTest, HalfTimeIsDancedToEverySecondBeat) {
+  WriteClicks(folder_ / "song.wav", 12);
+  hint_.half_time = true;
+  Dance(*live::PlaySong(folder_ / "song.wav"),
+        std::make_unique<Script>(std::multimap<int, live::Cue>()), nullptr);
+  const std::optional<double> tempo = figures_[figures_.size() - 2].tempo;
+  ASSERT_TRUE(tempo);
+  EXPECT_NEAR(*tempo, 60, 2);
 }
 
 TEST_F(CommandTest, ALiveDanceHasKeysOfAFileAndIsStreamed) {
@@ -298,6 +311,12 @@ TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
   EXPECT_THAT(live(At("song.wav") + " --ahead 0.2").said,
               HasSubstr("--ahead: 0.2 s is not after what is settled already, --look-ahead 0.3 s"));
   EXPECT_THAT(live(At("song.wav") + " --deadline 5").said, HasSubstr("--deadline: a live dance"));
+  EXPECT_THAT(live(At("song.wav") + " --beats beats.txt").said,
+              HasSubstr("--beats: names the beats of a whole song"));
+  EXPECT_THAT(live(At("song.wav") + " --downbeat 0.5").said,
+              HasSubstr("--downbeat: names a second of a song"));
+  EXPECT_EQ(live(At("song.wav") + " --beats auto --half-time").code, 0);
+  EXPECT_THAT(live(At("song.wav") + " --tempo 20").said, HasSubstr("--tempo: "));
   EXPECT_THAT(live(At("song.wav") + " -k none -k a.json").said,
               HasSubstr("--keyframes: none stands beside a.json"));
   EXPECT_EQ(live(At("song.wav") + " -k none").code, 0);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "model/audio/beats.h"
+
+namespace choreo {
+
+/// What somebody who knows the music says about its beats.
+struct BeatHint {
+  std::optional<double> tempo_bpm = {};  ///< beats are looked for within 6 % of it
+  bool half_time = false, double_time = false;
+
+  bool operator==(const BeatHint&) const = default;
+};
+
+inline constexpr int kDefaultBar = 4;  ///< beats, where nobody says how many
+
+/// Tempi near that of the hint.
+TempoLimits LimitsOf(const BeatHint& hint);
+
+/// Drops or adds every second beat, as the hint says. Half time keeps the half that contains the
+/// beat nearest to frame `kept`; none: the first downbeat. Bars keep their number of beats.
+void Follow(const BeatHint& hint, BeatTrack* track, std::optional<int64_t> kept = {});
+
+/// Counts from beat `first` on, and backwards before it; it need not be one of them.
+void CountFrom(int64_t first, BeatTrack* track);
+
+/// The beat nearest to a frame; there must be one.
+int64_t NearestBeat(const BeatTrack& track, int64_t frame);
+
+}  // namespace choreo
