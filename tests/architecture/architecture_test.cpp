@@ -208,8 +208,8 @@ TEST(Architecture, WalkthroughsNeedAtMostTenFiles) {
     }
     counts.push_back(std::to_string(way.size()));
   }
-  EXPECT_THAT(text, HasSubstr("the four ways have " + counts[0] + ", " + counts[1] + ", " +
-                              counts[2] + " and " + counts[3] + " files"));
+  EXPECT_THAT(text, HasSubstr("the ways have " + counts[0] + ", " + counts[1] + ", " + counts[2] +
+                              " and " + counts[3] + " files"));
 }
 
 TEST(Architecture, EveryFileHasAModule) {

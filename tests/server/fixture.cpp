@@ -4,6 +4,7 @@
 #include <grpcpp/security/credentials.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <thread>
 
@@ -13,6 +14,16 @@
 namespace choreo {
 
 using std::chrono::milliseconds;
+
+namespace {
+
+// Of other tests; choreod would warn of them.
+[[maybe_unused]] const bool kVariablesAreUnset = [] {
+  for (const char* variable : {"CHOREO_CASES", "CHOREO_GOLDEN"}) unsetenv(variable);
+  return true;
+}();
+
+}  // namespace
 
 ProbedSampler::ProbedSampler(std::string name, std::shared_ptr<EngineProbe> probe)
     : probe_(std::move(probe)) {
