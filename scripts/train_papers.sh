@@ -48,7 +48,8 @@ PYTHON
 }
 
 # The papers train for some 40 hours on a GPU at 1e-4; so few steps want a higher rate. A step of paper F's with roll-outs takes three times as
-# long as one of likelihood alone, and samples are noise at first: the last third has them. Paper C's transitions grow from 5 to 70 frames.
+# long as one of likelihood alone, and samples are noise at first: the last third has them. Paper C's transitions grow from 5 to 70 frames, in
+# paper-c to 150, the longest that is measured.
 f_steps=${F_STEPS:-9000} f_batch=${F_BATCH:-16}
 c_steps=${C_STEPS:-7500} c_batch=${C_BATCH:-32}
 harvey_steps=${HARVEY_STEPS:-1500} harvey_batch=${HARVEY_BATCH:-32}
@@ -71,11 +72,11 @@ flow() {  # flow NAME STEPS OPTION...
   prepare_tang61
   train "$1" "$2" --preset paper-f "${both[@]}" --batch "$f_batch" --rollout-from $(($2 * 2 / 3)) --device "${DEVICE:-cpu}" "${@:3}"
 }
-controllers() {  # controllers NAME STEPS OPTION...
+controllers() {  # controllers NAME STEPS OPTION...; $longest: of its transitions
   # The real frames' share falls from 1 to a hundredth, as after 92,000 steps of the paper's 0.99995.
   local decay
   decay=$(awk -v n="$2" 'BEGIN { printf "%.6f", exp(log(0.01) / n) }')
-  train "$1" "$2" --preset controllers-paper "${dancedb[@]}" --batch "$c_batch" --longest 70 --truth-decay "$decay" "${@:3}"
+  train "$1" "$2" --preset controllers-paper "${dancedb[@]}" --batch "$c_batch" --longest "${longest:-70}" --truth-decay "$decay" "${@:3}"
 }
 one() {
   local f=${F_ABLATION_STEPS:-$f_steps} c=${C_ABLATION_STEPS:-$c_steps}
@@ -87,7 +88,7 @@ one() {
     f-no-time-embedding) flow "$1" "$f" --no-time-embedding ;;
     f-forward-embedding) flow "$1" "$f" --forward-embedding ;;
     f-no-keys) flow "$1" "$f" --no-keys ;;
-    paper-c) controllers paper-c "$c_steps" ;;
+    paper-c) longest=150 controllers paper-c "$c_steps" ;;
     c-full) controllers c-full "$c" ;;
     c-residual) controllers "$1" "$c" --residual ;;
     c-absolute) controllers "$1" "$c" --no-relative-position ;;
