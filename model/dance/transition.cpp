@@ -40,6 +40,13 @@ bool IsHeld(const Target& target, const Pose& now) {
   return true;
 }
 
+// Whether a key is where she already is.
+bool IsThere(const Target& target, const Pose& now) {
+  constexpr double kSamePlace = 0.01;  // metres
+  return target.mask.root_position &&
+         (target.pose.root_position - now.root_position).norm() < kSamePlace;
+}
+
 // A key without a position gets it from the path, if there is one. A dancer who holds her pose
 // stays where she is.
 std::optional<Target> Placed(std::optional<Target> target, const Controls& controls,
@@ -124,8 +131,8 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.controls.ToLocal(ground_);
   for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
-  held_ = request.target && request.frames < kHoldSeconds * model.fps &&
-          IsHeld(*request.target, world_);
+  held_ = world_target_ && request.frames < kHoldSeconds * model.fps &&
+          IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
   if (held_) spec_.temperature = 0;  // her mean motion: another one each time would tremble
   footwork_ = request.footwork;
   if (!request.target || request.arrival_frames <= 0) return;

@@ -56,7 +56,8 @@ class PlanStander {
     offset_ = Eigen::Matrix3Xd::Zero(3, frames_);
     for (int pass = 0; pass < (context_.held ? 1 : kPasses); ++pass) {
       if (pass > 0) centres_ = Centres();
-      // A held pose needs no other balance: moving its pelvis away and back would make it tremble.
+      // A held pose needs no other balance: a pelvis or feet that moved away and back would
+      // tremble.
       if (!context_.held)
         offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
                                {.returns = context_.keyed,
@@ -183,7 +184,7 @@ class PlanStander {
 
   // Limits ankles: none is lower than in a flat foot, and that of a supporting foot is at most as
   // high as on half toes. The foot turns about its toes for that. The correction fades in from the
-  // previous state, and out towards the key's, within kSettleSeconds.
+  // previous state, and out towards the key's, within kSettleSeconds. A held pose's own foot stays.
   void LayDown(size_t side) {
     const Leg& leg = legs_[side];
     const double settle = kSettleSeconds * context_.fps;
@@ -192,18 +193,22 @@ class PlanStander {
     };
     const double before = sunk(JointPositions(skeleton_, context_.history.back()));
     const double after = context_.keyed ? sunk(planned_.back().positions) : 0;
+    const Eigen::Matrix3Xd& end = planned_.back().positions;
+    const double own = context_.held ? std::abs(end(1, leg.toes) - end(1, leg.ankle)) : 0;
     for (int frame = 0; frame < frames_; ++frame) {
       if (IsKey(frame)) return;
       const auto i = static_cast<size_t>(frame);
       const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / settle)); };
       const double least =
-          ankle_rest_[side] - fade(frame + 1) * before - fade(frames_ - 1 - frame) * after;
+          ankle_rest_[side] - (context_.held
+                                   ? std::max(before, after)
+                                   : fade(frame + 1) * before + fade(frames_ - 1 - frame) * after);
       JointPlacement& at = planned_[i];
       const Eigen::Vector3d ankle = at.positions.col(leg.ankle);
       const Eigen::Vector3d foot = at.positions.col(leg.toes) - ankle;
       const double length = foot.norm(), along = std::hypot(foot.x(), foot.z());
       if (along < 1e-6) continue;
-      const double steepest = length * (1 - (1 - kHalfToes) * Bears(side, frame));
+      const double steepest = std::max(own, length * (1 - (1 - kHalfToes) * Bears(side, frame)));
       const double highest = std::max(toes_[side][i].y() - least, -length);
       const double rise = std::clamp(foot.y(), std::min(-steepest, highest), highest);
       if (rise == foot.y()) continue;

@@ -74,6 +74,10 @@ TEST(Transition, OnlyAHeldPoseIsDancedByTheMeanMotion) {
   request.frames = 30;  // time to dance away and back
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
   request.frames = 6;
+  request.target->pose.root_position.x() += 0.3;  // aside
+  EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
+  request.target->mask.root_position = false;
+  EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0);
   request.target = Target{RandomPose(random), {}};
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
 }

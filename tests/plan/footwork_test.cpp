@@ -64,9 +64,11 @@ TEST(StandOnFeet, LeavesAStandingBody) {
 // Keys of one pose a fifth of a second apart: feet that settled on the floor between them, and a
 // pelvis that balanced, went there and back five times a second.
 TEST(StandOnFeet, LeavesAHeldPose) {
-  for (const double height : {0.0, 0.03}) {
-    Pose held = At({0, height, 0});
+  for (const double pointed : {0.0, 1.0}) {  // on the toes
+    Pose held = At({0, 0, 0});
     held.rotations.col(0).x() = 0.3;  // leans
+    for (const Leg& leg : Leg::Of(Body())) held.rotations.col(leg.ankle).x() += pointed;
+    held.root_position.y() = *StandingHeight(Body(), held) + 0.01;
     const std::vector<Pose> history(10, held);
     std::vector<Pose> plan(6, held);
     FootworkContext context = Context();
@@ -75,7 +77,7 @@ TEST(StandOnFeet, LeavesAHeldPose) {
     StandOnFeet(context, &plan);
     for (const Pose& pose : plan) {
       EXPECT_EQ(pose.root_position, held.root_position);
-      EXPECT_LT(ComparePoses(Body(), pose, held).position_m, 0.002) << height;
+      EXPECT_LT(ComparePoses(Body(), pose, held).position_m, 0.002) << pointed;
     }
   }
 }

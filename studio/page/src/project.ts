@@ -99,7 +99,8 @@ export const trimmed = (keys: Key[], frames: number, fps: number) =>
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
     const steps = Math.round(key.hold / (limits.holdStepS * fps));
-    return [{ ...key, hold: 0 }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
+    const hit = key.hit ?? (steps > 0 ? 1 : null); // who holds a pose comes to rest in it
+    return [{ ...key, hold: 0, hit }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
   });
 }
 const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0, hit: null });

@@ -69,8 +69,8 @@ test('a held pose is a key and those that hold it, as far as the next key', () =
   const all = withHeld(keys, 60, 30);
   assert.deepEqual(all.map(({ frame }) => frame), [30, 36, 40, 46, 58]);
   assert.equal(all[1].id, 'bow held 1');
-  // What holds it is not hit.
-  assert.deepEqual(all.map(({ hit }) => hit), [3, null, null, null, 0]);
+  // Who holds a pose comes to rest in it; what holds it is not hit.
+  assert.deepEqual(all.map(({ hit }) => hit), [3, null, 1, null, 0]);
   assert.deepEqual(withHolds(all).map(({ id, hold }) => [id, hold]), [['bow', 6], ['kick', 6], ['dab', 0]]);
   assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
 });
