@@ -10,8 +10,8 @@
 #   harvey, and c-harvey, which knows paper C's data alone
 # or `all` for every one. Killed, it goes on from where it was when it is started again; what is finished is not trained again.
 # $F_STEPS, $C_STEPS and $HARVEY_STEPS are the steps of the networks, $F_ABLATION_STEPS and $C_ABLATION_STEPS those of all that are compared with
-# f-full and c-full, which are paper-f-printed and paper-c of as few. $DEVICE says where flows train: cpu, cuda:0, auto. $WINDOWS and $LONG_DANCES are
-# how many transitions of each clip and dances `eval` measures.
+# f-full and c-full, which are paper-f-printed and paper-c (with transitions of at most 70 frames) of as few. $DEVICE says where flows train: cpu,
+# cuda:0, auto. $WINDOWS and $LONG_DANCES are how many transitions of each clip and dances `eval` measures.
 set -euo pipefail
 (($# >= 3)) || { echo "train_papers.sh: BIN_DIRECTORY, RECORDINGS and RUN are wanted; see the head of this file" >&2; exit 2; }
 root=$(cd "$(dirname "$0")/.." && pwd)
