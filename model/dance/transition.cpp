@@ -64,6 +64,16 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   return target;
 }
 
+// The pose a frame later: at rest, but for the path, which leads on.
+Pose AtRest(Pose pose, const ControlCurve& path) {
+  if (!path.IsGiven() || path.values.cols() < 2) return pose;
+  const Eigen::Vector3d step =
+      path.values.rightCols<1>() - path.values.rightCols<2>().leftCols<1>();
+  pose.root_position.x() += step.x();
+  pose.root_position.z() += step.z();
+  return pose;
+}
+
 constexpr int kFootworkFrames = 300;  // that footwork processes in one slice
 
 // The volatile keeps the rounding: GCC 12's SLP vectoriser at -O3 drops double -> float -> double
@@ -140,7 +150,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   if (request.after)
     after = ground_.ToLocal(*request.after);
   else if (request.hit || held_)
-    after = spec_.target->pose;  // at rest
+    after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
   hit_ = request.hit;
   spec_.arrival.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history,
                         after);

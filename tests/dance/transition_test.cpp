@@ -61,6 +61,22 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
             1e-9);
 }
 
+// Rest in a pose is that of the joints: the root goes on along the path.
+TEST(Transition, AKeyHitOnAPathKeepsItsWay) {
+  ControlledSampler sampler;
+  TransitionRequest request = RandomRequest(4);
+  request.hit = 1;
+  request.target->mask.root_position = false;
+  const Eigen::Vector3d from = request.history.back().root_position, step(0, 0, 0.02);
+  Eigen::Matrix3Xd path(3, request.frames);
+  for (int i = 0; i < request.frames; ++i) path.col(i) = from + (i + 1) * step;
+  request.controls[kRootPath].values = path;
+  const std::vector<DanceFrame> frames = DanceTransition(sampler, request).frames();
+  const auto root = [&](size_t back) { return frames[frames.size() - back].pose.root_position; };
+  EXPECT_LT((root(1) - path.rightCols<1>()).norm(), 1e-3);
+  EXPECT_NEAR((root(1) - root(2)).z(), step.z(), 0.3 * step.z());
+}
+
 // Another sample in each of its short transitions made a held pose tremble.
 TEST(Transition, OnlyAHeldPoseIsDancedByTheMeanMotion) {
   const FakeSampler sampler;
