@@ -2,11 +2,14 @@
 
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "google/rpc/status.pb.h"
 #include "model/motion/kinematics.h"
@@ -17,9 +20,14 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// Of other tests; choreod would warn of them.
+// Of other tests and scripts; choreod would warn of them, or take them for settings.
 [[maybe_unused]] const bool kVariablesAreUnset = [] {
-  for (const char* variable : {"CHOREO_CASES", "CHOREO_GOLDEN"}) unsetenv(variable);
+  std::vector<std::string> ours;
+  for (char** at = environ; *at != nullptr; ++at) {
+    const std::string entry = *at;
+    if (entry.starts_with("CHOREO_")) ours.push_back(entry.substr(0, entry.find('=')));
+  }
+  for (const std::string& variable : ours) unsetenv(variable.c_str());
   return true;
 }();
 
