@@ -31,7 +31,8 @@ Eigen::VectorXd Displacement(const Pose& from, const Pose& to) {
   return way;
 }
 
-// Of the history's displacements from its last pose, [dimensions, kPast], latest first.
+// Of the history's displacements from its last pose, [dimensions, kPast], latest first, at most
+// kMaxSpeed.
 Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& history) {
   Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(history.rows(), MotionPrior::kPast);
   const Eigen::Index tau = history.cols();
@@ -129,6 +130,7 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   for (int i = 0; i < tau; ++i)
     history_.col(i) = Displacement(last, request.history[static_cast<size_t>(i)]);
   const Eigen::MatrixXd velocity = LastVelocities(prior, history_);
+  velocity_ = velocity.col(0);
   if (request.key) {
     const PoseMask& mask = request.mask;
     keyed_[0] = keyed_[2] = mask.root_position;

@@ -82,6 +82,8 @@ class FlowWindow {
   const Eigen::MatrixXd& mean() const { return mean_; }
   /// The same for the history's poses, [dimensions, tau]; the last column is zero.
   const Eigen::MatrixXd& history() const { return history_; }
+  /// The history's last step, [dimensions], at most MotionPrior::kMaxSpeed.
+  const Eigen::VectorXd& velocity() const { return velocity_; }
   /// The same for the key, [dimensions]; zero where it asks for nothing.
   const Eigen::VectorXd& displacement() const { return displacement_; }
   /// Which dimensions the key fixes, [dimensions].
@@ -121,7 +123,7 @@ class FlowWindow {
   std::shared_ptr<const MotionPrior::Bridge> facing_;
   std::vector<bool> keyed_;
   Eigen::MatrixXd mean_, history_;
-  Eigen::VectorXd displacement_;
+  Eigen::VectorXd velocity_, displacement_;
   double surprise_ = 1;
   Eigen::MatrixXd scales_;
   std::vector<Pose> base_;                      // the mean, as poses

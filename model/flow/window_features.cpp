@@ -129,10 +129,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
     for (const double value : six) put(value);
   }
   put(last.root_position.y() - skeleton.pelvis_height);
-  for (int d = 0; d < dimensions; ++d) {
-    const double before = tau > 1 ? window.history()(d, tau - 2) : 0;
-    put(std::clamp(-before / spread[d], -MotionPrior::kMaxSpeed, MotionPrior::kMaxSpeed));
-  }
+  for (int d = 0; d < dimensions; ++d) put(window.velocity()[d] / spread[d]);
   for (int d = 0; d < dimensions; ++d) put(window.displacement()[d]);
   for (int d = 0; d < dimensions; ++d) put(window.keyed()[static_cast<size_t>(d)] ? 1 : 0);
   put(request.key ? 1 : 0);
