@@ -83,12 +83,12 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_
   return stance;
 }
 
-void ControlTrack::FillPath(const std::string& key_id, TransitionRequest* request,
+void ControlTrack::FillPath(const std::string& key_id, TransitionSpec* spec,
                             std::vector<Warning>* warnings) const {
-  const int frames = request->frames;
-  const int64_t first_frame = request->first_frame;
-  const std::vector<Pose>& history = request->history;
-  const std::optional<Target>& target = request->target;
+  const int frames = spec->frames;
+  const int64_t first_frame = spec->first_frame;
+  const std::vector<Pose>& history = spec->history;
+  const std::optional<Target>& target = spec->target;
   LeadRequest way;
   way.first_frame = first_frame;
   way.fps = model_->fps;
@@ -102,7 +102,7 @@ void ControlTrack::FillPath(const std::string& key_id, TransitionRequest* reques
   WarnOfDistance(way, warnings);
   const Lead floor = LeadPath(way);
 
-  ControlCurve& control = request->controls[kRootPath];
+  ControlCurve& control = spec->controls[kRootPath];
   control.requested[kPathHeight] = std::ranges::any_of(way.curves, HasHeights);
   way.axes = {0, 1, 0};
   for (const PathCurve*& curve : way.curves) {
@@ -146,11 +146,11 @@ void ControlTrack::WarnOfDistance(const LeadRequest& request,
   }
 }
 
-void ControlTrack::FillVelocities(TransitionRequest* request) const {
-  const int64_t first_frame = request->first_frame;
+void ControlTrack::FillVelocities(TransitionSpec* spec) const {
+  const int64_t first_frame = spec->first_frame;
   if (velocities_.empty() || velocities_.front().from > first_frame) return;
-  ControlCurve& factors = request->controls[kVelocityFactors];
-  factors.values.resize(kBodyParts, request->frames);
+  ControlCurve& factors = spec->controls[kVelocityFactors];
+  factors.values.resize(kBodyParts, spec->frames);
   VelocityRequest usual;
   usual.factors = {1};
   for (int part = 0; part < kBodyParts; ++part) {
@@ -161,7 +161,7 @@ void ControlTrack::FillVelocities(TransitionRequest* request) const {
     const bool is_asked = said != velocities_.rend();
     factors.requested[static_cast<size_t>(part)] = is_asked;
     const VelocityRequest& asked = is_asked ? said->control : usual;
-    for (int frame = 0; frame < request->frames; ++frame)
+    for (int frame = 0; frame < spec->frames; ++frame)
       factors.values(part, frame) = SpeedAt(asked, first_frame + frame, body_part, *model_);
   }
 }
@@ -190,10 +190,10 @@ std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) c
   return VelocityNotMet(report.measured_from + report.frames - 1, misses);
 }
 
-void ControlTrack::FillControls(const std::string& key_id, TransitionRequest* request,
+void ControlTrack::FillControls(const std::string& key_id, TransitionSpec* spec,
                                 std::vector<Warning>* warnings) const {
-  FillPath(key_id, request, warnings);
-  FillVelocities(request);
+  FillPath(key_id, spec, warnings);
+  FillVelocities(spec);
 }
 
 }  // namespace choreo

@@ -46,10 +46,10 @@ class ControlTrack {
   /// if one covers this frame, or else at the origin. A key on that very frame sets the pose.
   Pose Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const;
 
-  /// Fills in the request's controls from its first frame, length, history (at least one pose) and
+  /// Fills in the spec's controls from its first frame, length, history (at least one pose) and
   /// target, which warnings call `key_id`. Appends `warnings` where controls and keys contradict
   /// each other.
-  void FillControls(const std::string& key_id, TransitionRequest* request,
+  void FillControls(const std::string& key_id, TransitionSpec* spec,
                     std::vector<Warning>* warnings) const;
 
   /// A warning if the last path set begins at `end` or later.
@@ -67,9 +67,9 @@ class ControlTrack {
 
   const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
   void WarnOfDistance(const LeadRequest& request, std::vector<Warning>* warnings) const;
-  void FillPath(const std::string& key_id, TransitionRequest* request,
+  void FillPath(const std::string& key_id, TransitionSpec* spec,
                 std::vector<Warning>* warnings) const;
-  void FillVelocities(TransitionRequest* request) const;
+  void FillVelocities(TransitionSpec* spec) const;
 
   const ModelInfo* model_;
   std::vector<Since<PathCurve>> paths_;

@@ -282,10 +282,10 @@ void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
     PreparedTransition prepared =
         PrepareTransition(score_.config, model_, score_.controls, score_.recurrence, audio(),
                           segment, rows_end, before.history);
-    prepared.request.stage = before.stage;
+    prepared.request.spec.stage = before.stage;
     if (audio_) turn_.Watch(*audio_, segment);
     std::vector<Beat> beats = score_.beats.BeatsFor(segment.from, segment.to);
-    prepared.request.beats = score_.beats.BeatTimes(beats, segment.from, segment.to);
+    prepared.request.spec.beats = score_.beats.BeatTimes(beats, segment.from, segment.to);
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(prepared), std::move(beats));
     queue_.Submit(job);

@@ -37,7 +37,7 @@ struct DanceScore {
 /// What the next transition continues from.
 struct DancedState {
   std::vector<Pose> history = {};  ///< the last tau poses; empty: the dance begins without any
-  std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage
+  std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage
 };
 
 /// The chain of transitions behind a DanceStream. It has the transitions of the score sampled

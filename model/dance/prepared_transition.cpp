@@ -17,37 +17,37 @@ PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& m
                                      const AudioFeed* audio, const Segment& segment,
                                      int64_t rows_end, std::span<const Pose> before) {
   PreparedTransition prepared;
-  TransitionRequest& request = prepared.request;
-  request.frames = static_cast<int>(segment.to - segment.from);
-  request.first_frame = segment.from;
+  TransitionSpec& spec = prepared.request.spec;
+  spec.frames = static_cast<int>(segment.to - segment.from);
+  spec.first_frame = segment.from;
   if (segment.key) {
-    request.target = Target{segment.key->pose, segment.key->mask};
-    request.hit = segment.key->hit;
+    spec.target = Target{segment.key->pose, segment.key->mask};
+    prepared.request.hit = segment.key->hit;
     prepared.key_id = segment.key->id;
   }
   Pose stance;
   if (before.empty()) {
-    stance = controls.Stance(segment.from, request.frames == 1 ? request.target : std::nullopt);
+    stance = controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
     before = {&stance, 1};
   }
-  request.history = FillHistory(model, before);
+  spec.history = FillHistory(model, before);
   if (audio != nullptr) {
-    request.has_audio = true;
+    spec.has_audio = true;
     if (model.hears_music) {
-      request.audio_history = audio->History(segment.from, model.history_frames);
+      spec.audio_history = audio->History(segment.from, model.history_frames);
       const auto heard = static_cast<int>(rows_end - segment.from);
-      request.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, request.frames);
-      request.audio_rows.leftCols(heard) = audio->History(rows_end, heard);
+      spec.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
+      spec.audio_rows.leftCols(heard) = audio->History(rows_end, heard);
     }
-    request.energy = {HearEnergyAt(*audio, start, segment.from - kTypicalFrames),
-                      HearEnergyAt(*audio, start, segment.from)};
+    spec.energy = {HearEnergyAt(*audio, start, segment.from - kTypicalFrames),
+                   HearEnergyAt(*audio, start, segment.from)};
   }
-  request.seed = start.seed ^ start.music_id;
-  request.noise_like = recurrence.Origins(segment.from, segment.to);
-  request.variation = start.variation;
-  request.style = start.style;
-  request.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
-  controls.FillControls(prepared.key_id, &request, &prepared.warnings);
+  spec.seed = start.seed ^ start.music_id;
+  spec.noise_like = recurrence.Origins(segment.from, segment.to);
+  spec.variation = start.variation;
+  spec.style = start.style;
+  spec.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
+  controls.FillControls(prepared.key_id, &spec, &prepared.warnings);
   return prepared;
 }
 
@@ -55,8 +55,8 @@ void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTrans
   const std::optional<RequiredSpeed> speed = run.required_speed();
   if (!speed || !speed->TooFast()) return;
   prepared->warnings.push_back(IntervalTooShort(model.skeleton, prepared->key_id,
-                                                prepared->request.first_frame,
-                                                prepared->request.frames, *speed));
+                                                prepared->request.spec.first_frame,
+                                                prepared->request.spec.frames, *speed));
 }
 
 }  // namespace choreo

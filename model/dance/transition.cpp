@@ -111,24 +111,24 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
-    : model_(&model), spec_(request) {
-  CheckedIn(request.frames, 1, std::min(model.max_transition_frames, kMaxTransitionFrames),
+    : model_(&model), spec_(request.spec) {
+  CheckedIn(request.spec.frames, 1, std::min(model.max_transition_frames, kMaxTransitionFrames),
             "frames");
-  for (size_t i = 0; i < request.history.size(); ++i) {
-    CheckJoints(model.skeleton, request.history[i], "history[" + std::to_string(i) + "]");
+  for (size_t i = 0; i < request.spec.history.size(); ++i) {
+    CheckJoints(model.skeleton, request.spec.history[i], "history[" + std::to_string(i) + "]");
   }
-  if (request.target) CheckJoints(model.skeleton, request.target->pose, "target");
+  if (request.spec.target) CheckJoints(model.skeleton, request.spec.target->pose, "target");
   if (request.after) {
     CheckJoints(model.skeleton, *request.after, "after");
-    if (!request.target) throw InvalidArgument("after", "needs a target");
+    if (!request.spec.target) throw InvalidArgument("after", "needs a target");
   }
 
-  before_ = FillHistory(model, request.history);
+  before_ = FillHistory(model, request.spec.history);
   world_ = before_.back();
-  world_target_ = Placed(request.target, request.controls, world_);
+  world_target_ = Placed(request.spec.target, request.spec.controls, world_);
   ground_ = GroundFrame::Of(world_);
   spec_.history = CanonicalHistory(ground_, before_);
-  stage_ = request.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
+  stage_ = request.spec.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
   spec_.stage = ground_.ToLocal(stage_);
   if (world_target_) {
     Target& target = spec_.target.emplace(*world_target_);
@@ -141,18 +141,18 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.controls.ToLocal(ground_);
   for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
-  held_ = world_target_ && request.frames < kHoldSeconds * model.fps &&
+  held_ = world_target_ && request.spec.frames < kHoldSeconds * model.fps &&
           IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
   if (held_) spec_.temperature = 0;  // her mean motion: another one each time would tremble
   footwork_ = request.footwork;
-  if (!request.target || request.arrival_frames <= 0) return;
+  if (!request.spec.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
   if (request.after)
     after = ground_.ToLocal(*request.after);
   else if (request.hit || held_)
     after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
   hit_ = request.hit;
-  spec_.arrival.emplace(request.arrival_frames, request.frames, *spec_.target, spec_.history,
+  spec_.arrival.emplace(request.arrival_frames, request.spec.frames, *spec_.target, spec_.history,
                         after);
   arrival_window_ = spec_.arrival->window();
 }
@@ -314,7 +314,7 @@ TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request
   TransitionRun run(sampler.model(), request);
   while (run.Continue(sampler)) {
   }
-  if (danced) danced(request.frames);
+  if (danced) danced(request.spec.frames);
   return run;
 }
 

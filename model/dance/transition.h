@@ -18,10 +18,12 @@
 
 namespace choreo {
 
-/// One transition as its caller describes it: a spec in the world frame. The history may have any
-/// number of poses: the last tau count, fewer are padded with the earliest, and none means the
-/// neutral stance at the origin. A target without a position needs no height.
-struct TransitionRequest : TransitionSpec {
+/// One transition as its caller describes it.
+struct TransitionRequest {
+  /// In the world frame. The history may have any number of poses: the last tau count, fewer are
+  /// padded with the earliest, and none means the neutral stance at the origin. A target without a
+  /// position needs no height.
+  TransitionSpec spec;
   /// The pose one frame after the key, if the motion that follows exists already.
   std::optional<Pose> after;
   /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h), and then rested in unless
@@ -48,9 +50,10 @@ struct Continuation {
   std::string fingerprint;  ///< of the model and build that danced
   /// The first sample that the resumed dance needs; none: unknown.
   std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};   ///< MusicBeats::last_reported at this frame
-  std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage, its height unread
-  std::vector<KeyReached> reached = {};   ///< before `frame`, ascending, without accelerations
+  std::optional<double> last_beat = {};  ///< MusicBeats::last_reported at this frame
+  std::optional<GroundFrame> stage =
+      {};  ///< TransitionSpec::stage, its height unread
+  std::vector<KeyReached> reached = {};  ///< before `frame`, ascending, without accelerations
 };
 
 /// The average speeds needed to reach a key. Paper F, Section 5.2: an interval too short for the
@@ -85,7 +88,7 @@ class TransitionRun {
   const std::vector<DanceFrame>& frames() const { return frames_; }
   /// Set after the last frame of a transition with a target; the caller fills in the id.
   const std::optional<KeyReached>& arrival() const { return arrival_result_; }
-  /// TransitionRequest::stage for a dance that continues after this many frames. A path, or a key
+  /// TransitionSpec::stage for a dance that continues after this many frames. A path, or a key
   /// with a root position, moves the stage there.
   GroundFrame StageAfter(size_t frames) const;
   /// The last tau poses, world, after this many frames.
@@ -134,7 +137,7 @@ std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> pose
 Pose RoundToFloat(const Pose& pose);
 
 /// Picks from the music's beats (seconds, ascending) those of frames [first_frame, first_frame +
-/// frames), one before and one after, as TransitionRequest::beats: in frames from the first.
+/// frames), one before and one after, as TransitionSpec::beats: in frames from the first.
 std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int64_t first_frame,
                                 int frames);
 

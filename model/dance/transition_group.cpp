@@ -74,7 +74,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
         run_(std::move(run)),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
-                request_.history.back()) {}
+                request_.spec.history.back()) {}
 
   bool Continue(Sampler& sampler) override {
     if (is_sampled_) return HandOut();
@@ -95,7 +95,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   }
 
   double Deadline() const override { return deadline_; }
-  int frames() const override { return request_.frames; }
+  int frames() const override { return request_.spec.frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
   /// Hands out the next frames once sampled, unless the group is paused. True while there are more.
@@ -134,11 +134,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
     return true;
   }
 
-  int Number() const { return static_cast<int>(request_.candidate); }
+  int Number() const { return static_cast<int>(request_.spec.candidate); }
 
   Continuation GoesOn() const {
     const size_t danced = run_->frames().size();
-    Continuation end{request_.first_frame + frames(), run_->HistoryAfter(danced),
+    Continuation end{request_.spec.first_frame + frames(), run_->HistoryAfter(danced),
                      group_->model_.fingerprint};
     end.stage = run_->StageAfter(danced);
     const GroupRequest& request = group_->request_;
@@ -199,8 +199,9 @@ void TransitionGroup::Impl::Begin() {
                                                   audio_.get(), segment, end, request_.Before());
   TransitionRequest& transition = prepared.request;
   transition.after = request_.after;
-  transition.beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
-  if (request_.continuation) transition.stage = request_.continuation->stage;
+  transition.spec.beats =
+      BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
+  if (request_.continuation) transition.spec.stage = request_.continuation->stage;
   if (const auto warning = controls_.BehindEnd(end)) prepared.warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)
@@ -213,7 +214,7 @@ void TransitionGroup::Impl::Begin() {
   for (const Warning& warning : prepared.warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
-    transition.candidate = static_cast<uint32_t>(candidate);
+    transition.spec.candidate = static_cast<uint32_t>(candidate);
     jobs.push_back(std::make_shared<Job>(shared_from_this(), transition, std::exchange(run, {})));
   }
   {

@@ -62,7 +62,7 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
 TransitionRequest ControlCourse::RequestFor(size_t window) const {
   TransitionRequest request = RequestOf(model_, evaluation_.set, windows_[window], frames_,
                                         evaluation_.options.temperature, window);
-  request.target->pose = windows_[window].key;
+  request.spec.target->pose = windows_[window].key;
   return request;
 }
 
@@ -74,8 +74,8 @@ void ControlCourse::Redraw(const Draw& draw) {
     track.Set(asked, 0, "path");
     TransitionRequest request = RequestFor(i);
     std::vector<Warning> warnings;
-    track.FillControls("key", &request, &warnings);
-    windows_[i].path = request.controls[kRootPath].values;
+    track.FillControls("key", &request.spec, &warnings);
+    windows_[i].path = request.spec.controls[kRootPath].values;
     windows_[i].factors.resize(kBodyParts, 0);
   }
 }
@@ -104,9 +104,9 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
   std::vector<TransitionRequest> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
     TransitionRequest request = RequestFor(i);
-    if (way.TakesPath()) request.controls[kRootPath].values = windows_[i].path;
+    if (way.TakesPath()) request.spec.controls[kRootPath].values = windows_[i].path;
     if (way.TakesVelocityFactors())
-      request.controls[kVelocityFactors].values = scale * windows_[i].factors;
+      request.spec.controls[kVelocityFactors].values = scale * windows_[i].factors;
     way.Restrict(&request);
     requests.push_back(std::move(request));
   }

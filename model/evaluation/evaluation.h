@@ -40,7 +40,7 @@ struct Method {
   }
   /// Removes from a request the inputs that this method does not take.
   void Restrict(TransitionRequest* request) const {
-    if (!keys) request->target.reset();
+    if (!keys) request->spec.target.reset();
     if (finished) return;
     request->arrival_frames = 0;
     request->footwork = false;

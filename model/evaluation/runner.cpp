@@ -18,31 +18,32 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
   const auto key = plan.keys.lower_bound(at);
   Next out;
   TransitionRequest& request = out.request;
+  TransitionSpec& spec = request.spec;
   const auto next = key == plan.keys.end() ? std::nullopt : std::optional<int64_t>(key->first);
   const auto to = static_cast<int>(TransitionEnd(at, next, model.max_transition_frames));
-  request.frames = to - at;
+  spec.frames = to - at;
   out.danced = std::min(to, plan.frames) - at;
-  if (next && *next + 1 == to) request.target = Target{key->second, {}};
-  request.history = plan.history;
-  request.stage = chain.stage;
+  if (next && *next + 1 == to) spec.target = Target{key->second, {}};
+  spec.history = plan.history;
+  spec.stage = chain.stage;
   const auto known = std::min<std::ptrdiff_t>(at, model.history_frames);
-  request.history.insert(request.history.end(), chain.poses.end() - known, chain.poses.end());
-  request.beats = BeatsAround(plan.beats, /*fps=*/1, at, request.frames);
-  request.seed = plan.seed;
-  request.first_frame = at;
-  request.temperature = plan.temperature;
-  request.style = plan.style;
+  spec.history.insert(spec.history.end(), chain.poses.end() - known, chain.poses.end());
+  spec.beats = BeatsAround(plan.beats, /*fps=*/1, at, spec.frames);
+  spec.seed = plan.seed;
+  spec.first_frame = at;
+  spec.temperature = plan.temperature;
+  spec.style = plan.style;
   if (!plan.finished) {
     request.arrival_frames = 0;
     request.footwork = false;
   }
   if (plan.audio.cols() > 0 && model.hears_music) {
     const int history = model.history_frames;
-    request.has_audio = true;
-    request.audio_history = plan.audio.middleCols(at, history);
+    spec.has_audio = true;
+    spec.audio_history = plan.audio.middleCols(at, history);
     // Nothing is danced after the plan's end, whatever its audio.
-    request.audio_rows = Eigen::MatrixXf::Zero(plan.audio.rows(), request.frames);
-    request.audio_rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
+    spec.audio_rows = Eigen::MatrixXf::Zero(plan.audio.rows(), spec.frames);
+    spec.audio_rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
   }
   return out;
 }

@@ -27,14 +27,14 @@ struct LongPlan {
   std::vector<double> beats;  ///< of the music, in frames of the dance
   uint64_t seed = 0;
   float temperature = 0;
-  std::string style = {};  ///< as in TransitionRequest
+  std::string style = {};  ///< as in TransitionSpec
   bool finished = true;    ///< as served; false: without arrival and footwork
 };
 
 struct LongDance {
   std::vector<Pose> poses;                ///< [frames]
   std::map<int, double> keys;             ///< final error at each key, m
-  std::optional<GroundFrame> stage = {};  ///< TransitionRequest::stage, once a key has set it
+  std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage, once a key has set it
 };
 
 using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]

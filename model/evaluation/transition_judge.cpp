@@ -122,7 +122,7 @@ Dances TransitionJudge::Dance(const Method& method, float temperature, uint32_t 
   std::vector<TransitionRequest> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
     requests.push_back(RequestOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));
-    requests.back().candidate = candidate;
+    requests.back().spec.candidate = candidate;
     method.Restrict(&requests.back());
   }
   return evaluation_.runner.Dance(*method.sampler, requests);

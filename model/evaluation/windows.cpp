@@ -39,18 +39,18 @@ TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const Ev
   const auto first = clip.motion.frames.begin() + window.start;
   const int history = model.history_frames;
   TransitionRequest request;
-  request.frames = frames;
-  request.history.assign(first - history, first);
-  request.target = Target{first[frames - 1], {}};
-  request.temperature = temperature;
-  request.seed = number;
-  request.beats =
-      set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
-  for (double& beat : request.beats) beat -= kBeatMargin;
+  TransitionSpec& spec = request.spec;
+  spec.frames = frames;
+  spec.history.assign(first - history, first);
+  spec.target = Target{first[frames - 1], {}};
+  spec.temperature = temperature;
+  spec.seed = number;
+  spec.beats = set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
+  for (double& beat : spec.beats) beat -= kBeatMargin;
   if (clip.audio.cols() > 0 && model.hears_music) {
-    request.has_audio = true;
-    request.audio_history = clip.audio.middleCols(window.start - history, history);
-    request.audio_rows = clip.audio.middleCols(window.start, frames);
+    spec.has_audio = true;
+    spec.audio_history = clip.audio.middleCols(window.start - history, history);
+    spec.audio_rows = clip.audio.middleCols(window.start, frames);
   }
   return request;
 }

@@ -28,14 +28,14 @@ class ControlTrackTest : public testing::Test {
     std::vector<Warning> warnings;
   };
   Asked For(int64_t first_frame, int frames) const {
-    TransitionRequest request;
-    request.first_frame = first_frame;
-    request.frames = frames;
-    request.history = {here_};
-    request.target = target_;
+    TransitionSpec spec;
+    spec.first_frame = first_frame;
+    spec.frames = frames;
+    spec.history = {here_};
+    spec.target = target_;
     std::vector<Warning> warnings;
-    track_.FillControls("landing", &request, &warnings);
-    return {request.controls, warnings};
+    track_.FillControls("landing", &spec, &warnings);
+    return {spec.controls, warnings};
   }
   void AimAt(double x) {
     target_.emplace().pose = here_;

@@ -11,10 +11,10 @@ namespace choreo::transition_test {
 TransitionRequest RandomRequest(uint32_t seed) {
   std::mt19937 random(seed);
   TransitionRequest request;
-  request.frames = 30;
-  request.history = MotionTo(RandomPose(random), 10, random);
-  request.target = Target{RandomPose(random), {}};
-  request.seed = seed;
+  request.spec.frames = 30;
+  request.spec.history = MotionTo(RandomPose(random), 10, random);
+  request.spec.target = Target{RandomPose(random), {}};
+  request.spec.seed = seed;
   return request;
 }
 
@@ -36,7 +36,7 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
   const FakeSampler sampler;
   TransitionRequest request = RandomRequest(2);
   // Some joints wound up by whole turns, as after many pirouettes.
-  for (Pose& pose : request.history) {
+  for (Pose& pose : request.spec.history) {
     const Eigen::Vector3d w = pose.rotations.col(5);
     pose.rotations.col(5) = w * (1 + 4 * 3.14159265358979 / w.norm());
   }
@@ -54,9 +54,9 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
     }
   }
   // The target is where it was, seen from there.
-  const GroundFrame ground = GroundFrame::Of(RoundToFloat(request.history.back()));
+  const GroundFrame ground = GroundFrame::Of(RoundToFloat(request.spec.history.back()));
   EXPECT_LT(ComparePoses(Skeleton::Smpl24(), ground.ToWorld(run.spec().target->pose),
-                         request.target->pose)
+                         request.spec.target->pose)
                 .position_m,
             1e-9);
 }
@@ -66,11 +66,11 @@ TEST(Transition, AKeyHitOnAPathKeepsItsWay) {
   ControlledSampler sampler;
   TransitionRequest request = RandomRequest(4);
   request.hit = 1;
-  request.target->mask.root_position = false;
-  const Eigen::Vector3d from = request.history.back().root_position, step(0, 0, 0.02);
-  Eigen::Matrix3Xd path(3, request.frames);
-  for (int i = 0; i < request.frames; ++i) path.col(i) = from + (i + 1) * step;
-  request.controls[kRootPath].values = path;
+  request.spec.target->mask.root_position = false;
+  const Eigen::Vector3d from = request.spec.history.back().root_position, step(0, 0, 0.02);
+  Eigen::Matrix3Xd path(3, request.spec.frames);
+  for (int i = 0; i < request.spec.frames; ++i) path.col(i) = from + (i + 1) * step;
+  request.spec.controls[kRootPath].values = path;
   const std::vector<DanceFrame> frames = DanceTransition(sampler, request).frames();
   const auto root = [&](size_t back) { return frames[frames.size() - back].pose.root_position; };
   EXPECT_LT((root(1) - path.rightCols<1>()).norm(), 1e-3);
@@ -82,19 +82,19 @@ TEST(Transition, OnlyAHeldPoseIsDancedByTheMeanMotion) {
   const FakeSampler sampler;
   std::mt19937 random(5);
   TransitionRequest request;
-  request.temperature = 0.8F;
-  request.history.assign(10, RandomPose(random));
-  request.target = Target{request.history.back(), {}};
-  request.frames = 6;
+  request.spec.temperature = 0.8F;
+  request.spec.history.assign(10, RandomPose(random));
+  request.spec.target = Target{request.spec.history.back(), {}};
+  request.spec.frames = 6;
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0);
-  request.frames = 30;  // time to dance away and back
+  request.spec.frames = 30;  // time to dance away and back
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
-  request.frames = 6;
-  request.target->pose.root_position.x() += 0.3;  // aside
+  request.spec.frames = 6;
+  request.spec.target->pose.root_position.x() += 0.3;  // aside
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
-  request.target->mask.root_position = false;
+  request.spec.target->mask.root_position = false;
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0);
-  request.target = Target{RandomPose(random), {}};
+  request.spec.target = Target{RandomPose(random), {}};
   EXPECT_EQ(TransitionRun(sampler.model(), request).spec().temperature, 0.8F);
 }
 
@@ -102,16 +102,16 @@ TEST(Transition, OnlyAHeldPoseIsDancedByTheMeanMotion) {
 TEST(Transition, AHeldPoseKeepsItsPlace) {
   const FakeSampler sampler;
   TransitionRequest request = RandomRequest(5);
-  request.target->mask.root_position = false;
+  request.spec.target->mask.root_position = false;
   EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
-  request.target->pose.rotations = request.history.back().rotations;
+  request.spec.target->pose.rotations = request.spec.history.back().rotations;
   const TransitionRun held(sampler.model(), request);
   EXPECT_TRUE(held.spec().target->mask.root_position);
   EXPECT_LT(
       (held.spec().target->pose.root_position - held.spec().history.back().root_position).norm(),
       1e-6);
-  request.target->mask.joints.assign(24, true);
-  request.target->mask.joints[16] = false;  // an open arm moves the body
+  request.spec.target->mask.joints.assign(24, true);
+  request.spec.target->mask.joints[16] = false;  // an open arm moves the body
   EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
 }
 
@@ -160,13 +160,13 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   TransitionRequest request = RandomRequest(4);
   request.arrival_frames = 0;
   request.footwork = false;
-  request.temperature = 1;
+  request.spec.temperature = 1;
   const TransitionRun run = DanceTransition(sampler, request);
   const std::vector<DanceFrame>& frames = run.frames();
   const auto& arrival = run.arrival();
   ASSERT_TRUE(arrival);
   const PoseError error =
-      ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.target->pose);
+      ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.spec.target->pose);
   EXPECT_GT(error.position_m, 1e-3);
   EXPECT_NEAR(arrival->raw_error_m, error.position_m, 1e-6);
   EXPECT_NEAR(arrival->final_error_m, error.position_m, 1e-12);
@@ -176,22 +176,22 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
 TEST(Transition, MeasuresRequiredSpeeds) {
   const FakeSampler sampler;
   TransitionRequest request;
-  request.frames = 15;
+  request.spec.frames = 15;
   Pose pose = RestPose(Skeleton::Smpl24());
-  request.history = {pose};
+  request.spec.history = {pose};
   pose.root_position.z() += 3;
   pose.rotations.col(18) = Eigen::Vector3d(0, 2, 0);
-  request.target = Target{pose, {}};
+  request.spec.target = Target{pose, {}};
   RequiredSpeed speed = *TransitionRun(sampler.model(), request).required_speed();
   EXPECT_NEAR(speed.root_m_per_s, 6, 1e-5);
   EXPECT_NEAR(speed.joint_rad_per_s, 4, 1e-5);
   EXPECT_EQ(speed.joint, 18);
   EXPECT_TRUE(speed.TooFast());
-  request.target->mask.root_position = false;
+  request.spec.target->mask.root_position = false;
   speed = *TransitionRun(sampler.model(), request).required_speed();
   EXPECT_EQ(speed.root_m_per_s, 0);
   EXPECT_FALSE(speed.TooFast());
-  request.target.reset();
+  request.spec.target.reset();
   EXPECT_FALSE(TransitionRun(sampler.model(), request).required_speed());
 }
 
@@ -211,14 +211,15 @@ TEST(Transition, RefusesRequestsOfTheWrongShape) {
   };
   const Pose other{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, 23)};
   EXPECT_EQ(field([](TransitionRequest&) {}), "accepted");
-  EXPECT_EQ(field([](TransitionRequest& r) { r.frames = 0; }), "frames");
-  EXPECT_EQ(field([](TransitionRequest& r) { r.frames = 1801; }), "frames");
-  EXPECT_EQ(field([&](TransitionRequest& r) { r.history[3] = other; }), "history[3].rotations");
-  EXPECT_EQ(field([&](TransitionRequest& r) { r.target->pose = other; }), "target.rotations");
+  EXPECT_EQ(field([](TransitionRequest& r) { r.spec.frames = 0; }), "frames");
+  EXPECT_EQ(field([](TransitionRequest& r) { r.spec.frames = 1801; }), "frames");
+  EXPECT_EQ(field([&](TransitionRequest& r) { r.spec.history[3] = other; }),
+            "history[3].rotations");
+  EXPECT_EQ(field([&](TransitionRequest& r) { r.spec.target->pose = other; }), "target.rotations");
   EXPECT_EQ(field([&](TransitionRequest& r) { r.after = other; }), "after.rotations");
   EXPECT_EQ(field([](TransitionRequest& r) {
-              r.after = r.target->pose;
-              r.target.reset();
+              r.after = r.spec.target->pose;
+              r.spec.target.reset();
             }),
             "after");
 }

@@ -43,7 +43,7 @@ TEST(Runner, DancesEachAsIfAlone) {
     for (size_t t = 0; t < dances[i].size(); ++t)
       ASSERT_EQ(dances[i][t].rotations, alone.frames()[t].pose.rotations);
   }
-  requests[1].audio_rows.conservativeResize(Eigen::NoChange, 5);
+  requests[1].spec.audio_rows.conservativeResize(Eigen::NoChange, 5);
   ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { runner.Dance(sampler, requests); });
 }
 
@@ -54,7 +54,7 @@ TEST(InterpolationSampler, WalksTheLineOntoTheKey) {
   request.arrival_frames = 0;
   request.footwork = false;
   const TransitionRun run = DanceTransition(sampler, request);
-  const Pose half = InterpolatePoses(request.history.back(), request.target->pose, 0.5);
+  const Pose half = InterpolatePoses(request.spec.history.back(), request.spec.target->pose, 0.5);
   EXPECT_LT(ComparePoses(sampler.model().skeleton, run.frames()[9].pose, half).position_m, 1e-5);
   EXPECT_LT(run.arrival()->raw_error_m, 1e-5);
 }

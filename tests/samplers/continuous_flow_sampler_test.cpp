@@ -204,12 +204,12 @@ TEST_F(ContinuousFlowSamplerTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) 
 
 TEST_F(ContinuousFlowSamplerTest, AServedTransitionArrivesExactly) {
   TransitionRequest request;
-  request.frames = 30;
-  request.seed = 4;
-  request.temperature = 0.7F;
+  request.spec.frames = 30;
+  request.spec.seed = 4;
+  request.spec.temperature = 0.7F;
   Target target{RestPose(Skeleton::Smpl24()), {}};
   target.pose.rotations(2, 16) = 1.0;
-  request.target = target;
+  request.spec.target = target;
   const auto arrival = DanceTransition(*sampler_, request).arrival();
   ASSERT_TRUE(arrival);
   EXPECT_LT(arrival->final_error_m, 1e-3);

@@ -99,11 +99,11 @@ TEST_F(ControllersSamplerTest, FollowsItsPathAndReachesItsKey) {
 
 TEST_F(ControllersSamplerTest, DancesOnTheServedPipeline) {
   TransitionRequest request;
-  request.frames = 30;
+  request.spec.frames = 30;
   Pose there = RestPose(sampler_->model().skeleton);
   there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
   there.rotations(2, 16) = 0.8;
-  request.target = Target{there, {}};
+  request.spec.target = Target{there, {}};
   const TransitionRun run = DanceTransition(*sampler_, request);
   ASSERT_EQ(run.frames().size(), 30U);
   ASSERT_TRUE(run.arrival());
