@@ -18,7 +18,6 @@ v1::Keyframe ToProto(const KeyPose& key);
 /// Bytes of little-endian floats.
 std::string ToPcmBytes(std::span<const float> samples);
 
-Header FromProto(const v1::Header& header);
 /// `joints`: of the header's skeleton.
 FrameBlock FromProto(const v1::Frames& frames, int joints);
 Continuation FromProto(const v1::Continuation& continuation);

@@ -6,29 +6,15 @@
 #include <vector>
 
 #include "client/dance_config.h"
-#include "model/core/grid.h"
 #include "model/messages/dance_event.h"
+#include "model/messages/dance_header.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
-#include "model/motion/skeleton.h"
 
 /// The server's answers during a dance. For conventions see choreo_client.h.
 namespace choreo::client {
 
-/// The first answer: how to interpret the frames.
-struct Header {
-  std::string model = {};
-  std::string fingerprint = {};
-  Skeleton skeleton = {};
-  uint64_t seed = 0;
-  double temperature = 0;
-  double fps = kModelFps;        ///< of the frames received
-  double model_fps = kModelFps;  ///< of every other frame number
-  int64_t first_frame = 0;
-  int latency_frames = 0;
-  bool exact_resume = true;  ///< false: resumed from a continuation of another fingerprint
-  std::string server_version = {};
-};
+using Header = DanceHeader;
 
 /// Consecutive frames.
 struct FrameBlock {

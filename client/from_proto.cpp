@@ -4,23 +4,6 @@
 
 namespace choreo::client {
 
-Header FromProto(const v1::Header& header) {
-  Header out;
-  out.model = header.model();
-  out.fingerprint = header.fingerprint();
-  out.skeleton = FromProto(header.skeleton());
-  out.seed = header.seed();
-  out.temperature = header.temperature();
-  out.fps = header.frame_rate();
-  out.model_fps = header.model_frame_rate();
-  out.first_frame = header.first_frame();
-  out.latency_frames = header.latency_frames();
-  out.exact_resume = header.exact_resume();
-  out.server_version = header.server_version();
-  if (!(out.fps > 0) || !(out.model_fps > 0)) throw wire::Broken("a header without frame rates");
-  return out;
-}
-
 FrameBlock FromProto(const v1::Frames& frames, int joints) {
   const int count = frames.count();
   if (count < 1 || frames.root_positions_size() != 3 * count ||

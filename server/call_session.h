@@ -20,7 +20,6 @@
 #include "server/refusal.h"
 #include "server/serving.h"
 #include "server/status.h"
-#include "server/write_response.h"
 
 namespace choreo {
 
@@ -146,25 +145,24 @@ class CallSession : public Call {
   }
 
   void SendHeader(const ModelInfo& model, const v1::DanceConfig& message, const DanceStart& config,
-                  int64_t first_frame, bool exact_resume) {
+                  int64_t first_frame) {
     Response response;
-    v1::Header* header = response.mutable_header();
-    header->set_model(model.name);
-    header->set_fingerprint(model.fingerprint);
-    *header->mutable_skeleton() = wire::ToProto(model.skeleton);
-    header->set_seed(config.seed);
-    header->set_temperature(config.temperature ? static_cast<double>(*config.temperature)
-                                               : model.default_temperature);
-    header->set_frame_rate(config.output_fps);
-    header->set_model_frame_rate(model.fps);
-    header->set_encoding(message.encoding() == v1::ROTATION_ENCODING_UNSPECIFIED
-                             ? v1::ROTATION_ENCODING_AXIS_ANGLE
-                             : message.encoding());
-    header->set_first_frame(first_frame);
-    header->set_latency_frames(DanceStream::LatencyFrames(config, model));
-    header->set_exact_resume(exact_resume);
-    header->set_free_transition_frames(kTypicalFrames);
-    header->set_server_version(CHOREO_VERSION);
+    *response.mutable_header() = wire::ToProto(
+        DanceHeader{.model = model.name,
+                    .fingerprint = model.fingerprint,
+                    .skeleton = model.skeleton,
+                    .seed = config.seed,
+                    .temperature = config.temperature ? static_cast<double>(*config.temperature)
+                                                      : model.default_temperature,
+                    .fps = config.output_fps,
+                    .model_fps = model.fps,
+                    .first_frame = first_frame,
+                    .latency_frames = DanceStream::LatencyFrames(config, model),
+                    .exact_resume = !config.ResumesInexactly(model),
+                    .free_transition_frames = kTypicalFrames,
+                    .server_version = CHOREO_VERSION});
+    if (message.encoding() != v1::ROTATION_ENCODING_UNSPECIFIED)
+      response.mutable_header()->set_encoding(message.encoding());
     outbox_.Send(std::move(response));
   }
 

@@ -10,6 +10,7 @@
 #include "model/core/joined.h"
 #include "model/dance/transition.h"
 #include "model/dance/validation.h"
+#include "proto/wire/continuation.h"
 #include "proto/wire/controls.h"
 #include "proto/wire/convert.h"
 #include "proto/wire/read_pose.h"
@@ -34,56 +35,6 @@ std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) 
   return poses;
 }
 
-void CheckSize(int64_t size, int64_t expected, const std::string& shape, const std::string& field) {
-  if (size == expected) return;
-  throw InvalidArgument(
-      field, std::to_string(size) + " numbers, not " + std::to_string(expected) + ' ' + shape);
-}
-
-Continuation ToContinuation(const v1::Continuation& message, const ModelInfo& model) {
-  const std::string field = "config.continuation";
-  const Skeleton& skeleton = model.skeleton;
-  if (message.skeleton() != skeleton.name) {
-    throw Error(ErrorCode::kFailedPrecondition, field + ".skeleton",
-                '"' + message.skeleton() + "\" is not the model's, \"" + skeleton.name + '"');
-  }
-  const int history = model.history_frames;
-  CheckSize(message.root_positions_size(), int64_t{3} * history, "[history, 3]",
-            field + ".root_positions");
-  CheckSize(message.rotations_size(), int64_t{3} * history * skeleton.joints(),
-            "[history, joints, 3]", field + ".rotations");
-  Continuation continuation;
-  continuation.frame = message.frame();
-  continuation.fingerprint = message.fingerprint();
-  continuation.audio_from_sample = message.audio_from_sample();
-  if (message.has_last_beat()) continuation.last_beat = message.last_beat();
-  if (message.stage_size() > 0) CheckSize(message.stage_size(), 2, "[x, z]", field + ".stage");
-  for (const v1::ReachedKey& key : message.reached()) {
-    continuation.reached.push_back({.id = key.id(),
-                                    .frame = key.frame(),
-                                    .raw_error_m = key.raw_error_m(),
-                                    .final_error_m = key.final_error_m(),
-                                    .final_error_deg = key.final_error_deg(),
-                                    .correction_m = key.correction_m()});
-  }
-  for (int i = 0; i < history; ++i) {
-    Pose pose;
-    for (int axis = 0; axis < 3; ++axis) {
-      pose.root_position[axis] = message.root_positions(3 * i + axis);
-    }
-    pose.rotations.resize(3, skeleton.joints());
-    for (Eigen::Index d = 0; d < pose.rotations.size(); ++d) {
-      pose.rotations.data()[d] = message.rotations(static_cast<int>(i * pose.rotations.size() + d));
-    }
-    continuation.poses.push_back(std::move(pose));
-  }
-  continuation.stage = GroundFrame::Of(continuation.poses.back());
-  if (message.stage_size() > 0)
-    continuation.stage->origin = {message.stage(0), 0, message.stage(1)};
-  if (message.has_front()) continuation.stage->heading = message.front();
-  return continuation;
-}
-
 // Reads the part of the configuration that both RPCs have.
 void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t fresh_seed,
                 DanceStart* out) {
@@ -97,7 +48,10 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
               : config.has_continuation() ? config.continuation().seed()
                                           : fresh_seed;
   out->allow_inexact_resume = config.allow_inexact_resume();
-  if (config.has_continuation()) out->continuation = ToContinuation(config.continuation(), model);
+  if (config.has_continuation()) {
+    out->continuation = wire::FromProto(config.continuation(), model.skeleton, model.history_frames,
+                                        "config.continuation");
+  }
   out->music_beats.assign(config.music_beats().begin(), config.music_beats().end());
   out->music_downbeats.assign(config.music_downbeats().begin(), config.music_downbeats().end());
   out->music_id = config.music_id();

@@ -10,13 +10,13 @@
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
 #include "proto/wire/convert.h"
+#include "server/describe_model.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
 #include "server/refusal.h"
 #include "server/status.h"
 #include "server/stream_reactor.h"
 #include "server/transition_reactor.h"
-#include "server/write_response.h"
 
 namespace choreo {
 namespace {

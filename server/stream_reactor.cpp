@@ -9,13 +9,13 @@
 #include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
 #include "model/dance/dance_stream.h"
+#include "proto/wire/continuation.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
-#include "server/write_response.h"
 
 namespace choreo {
 namespace {
@@ -86,8 +86,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void OnContinuation(const Continuation& continuation) override {
     DanceResponse response;
-    FromContinuation(continuation, queue_->model(), seed_, audio_ ? &*audio_ : nullptr,
-                     response.mutable_continuation());
+    *response.mutable_continuation() = wire::ToProto(continuation, queue_->model().skeleton, seed_);
+    if (SendsFile()) response.mutable_continuation()->clear_audio_from_sample();
     outbox().Send(std::move(response));
     if (serving_.calls.ends_at_transitions()) Fail(ResumeElsewhere());
   }
@@ -153,13 +153,16 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     seed_ = config->seed;
     music_beats_ = config->music_beats;
     if (message.has_audio_format()) audio_ = message.audio_format();
-    SendHeader(model, message, *config, config->FirstFrame(), !config->ResumesInexactly(model));
+    SendHeader(model, message, *config, config->FirstFrame());
     Adopt(std::make_shared<DanceStream>(*queue_, config, shared_from_this()));
   }
 
+  // A client sends a file as a whole, also when it resumes.
+  bool SendsFile() const { return audio_ && audio_->encoding() == v1::AUDIO_ENCODING_FILE; }
+
   void TakeAudio(DanceStream& stream, const v1::Audio& audio) {
     if (!audio_) throw InvalidArgument("audio", "comes without config.audio_format");
-    if (audio_->encoding() != v1::AUDIO_ENCODING_FILE) {
+    if (!SendsFile()) {
       stream.PushAudio(ToSamples(audio.data(), *audio_, "audio.data"), audio.first_sample());
       return;
     }
@@ -176,7 +179,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   // Passes the music of a complete file to the stream; does nothing for PCM.
   void DecodeFile(DanceStream& stream) {
-    if (!audio_ || audio_->encoding() != v1::AUDIO_ENCODING_FILE || file_decoded_) return;
+    if (!SendsFile() || file_decoded_) return;
     file_decoded_ = true;
     const std::vector<float> mono = DecodeMono(file_.bytes(), [this] { RequireOpen(); });
     file_.Clear();

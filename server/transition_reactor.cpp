@@ -10,12 +10,12 @@
 #include "model/audio/music_analysis.h"
 #include "model/dance/transition_group.h"
 #include "model/dance/validation.h"
+#include "proto/wire/continuation.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
-#include "server/write_response.h"
 
 namespace choreo {
 namespace {
@@ -84,8 +84,9 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       v1::Candidate* candidate = summary->add_candidates();
       candidate->set_candidate(static_cast<uint32_t>(report.candidate));
       *candidate->mutable_report() = wire::ToProto(report.quality);
-      FromContinuation(report.continuation, queue_->model(), seed_, audio_ ? &*audio_ : nullptr,
-                       candidate->mutable_continuation());
+      *candidate->mutable_continuation() =
+          wire::ToProto(report.continuation, queue_->model().skeleton, seed_);
+      if (sends_file_) candidate->mutable_continuation()->clear_audio_from_sample();
       frames += report.quality.frames;
       if (report.quality.support) serving_.tally.support.Add(*report.quality.support);
       for (const KeyReached& key : report.quality.keys) {
@@ -119,11 +120,10 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     RequireOpen();  // does not start for a client that has left
     ValidTransition request(std::move(asked), model);
     encoding_ = message.config().encoding();
-    if (message.config().has_audio_format()) audio_ = message.config().audio_format();
+    sends_file_ = message.config().audio_format().encoding() == v1::AUDIO_ENCODING_FILE;
     seed_ = request->seed;
 
-    SendHeader(model, message.config(), *request, request->FirstFrame(),
-               !request->ResumesInexactly(model));
+    SendHeader(model, message.config(), *request, request->FirstFrame());
     Adopt(std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this()));
   }
 
@@ -131,7 +131,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   // group.
   Models::Use queue_;  // the transition keeps its model, whatever is served meanwhile
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
-  std::optional<v1::AudioFormat> audio_;
+  bool sends_file_ = false;  // a client sends a file as a whole, also when it resumes
   uint64_t seed_ = 0;
 };
 

@@ -5,23 +5,6 @@
 namespace choreo::studio {
 namespace {
 
-v1::Header ToHeader(const client::Header& header) {
-  v1::Header out;
-  out.set_model(header.model);
-  out.set_fingerprint(header.fingerprint);
-  *out.mutable_skeleton() = wire::ToProto(header.skeleton);
-  out.set_seed(header.seed);
-  out.set_temperature(header.temperature);
-  out.set_frame_rate(header.fps);
-  out.set_model_frame_rate(header.model_fps);
-  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
-  out.set_first_frame(header.first_frame);
-  out.set_latency_frames(header.latency_frames);
-  out.set_exact_resume(header.exact_resume);
-  out.set_server_version(header.server_version);
-  return out;
-}
-
 v1::Continuation ToContinuation(const client::Continuation& continuation) {
   v1::Continuation out;
   if (!out.ParseFromString(continuation.bytes))
@@ -33,7 +16,7 @@ v1::Continuation ToContinuation(const client::Continuation& continuation) {
 
 v1::StreamDanceResponse ToProto(const client::Header& header) {
   v1::StreamDanceResponse out;
-  *out.mutable_header() = ToHeader(header);
+  *out.mutable_header() = wire::ToProto(header);
   return out;
 }
 
@@ -68,7 +51,7 @@ v1::StreamDanceResponse ToProto(const client::Report& report) {
 
 std::vector<v1::GenerateTransitionResponse> ToProto(const client::TransitionResult& result) {
   std::vector<v1::GenerateTransitionResponse> out(1);
-  *out.back().mutable_header() = ToHeader(result.header);
+  *out.back().mutable_header() = wire::ToProto(result.header);
   for (const client::Warning& warning : result.warnings)
     *out.emplace_back().mutable_event() = wire::ToProto(warning, result.header.model_fps);
   v1::GenerateTransitionResponse summary;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/engine/sampler.h"
+#include "model/messages/continuation.h"
 #include "model/messages/dance_event.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
@@ -41,19 +42,6 @@ struct DanceFrame {
   std::optional<float> log_likelihood = {};  ///< nats; none if the model has no exact likelihood
   /// Speeds that velocity factors ask for in this frame, by BodyPart, metres a frame.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
-};
-
-/// The end of a transition: all that another server needs to resume the dance.
-struct Continuation {
-  int64_t frame = 0;        ///< the first frame not yet danced; model rate, absolute
-  std::vector<Pose> poses;  ///< tau poses before it, oldest first, world, rounded to floats
-  std::string fingerprint;  ///< of the model and build that danced
-  /// The first sample that the resumed dance needs; none: unknown.
-  std::optional<int64_t> audio_from_sample = {};
-  std::optional<double> last_beat = {};  ///< MusicBeats::last_reported at this frame
-  std::optional<GroundFrame> stage =
-      {};  ///< TransitionSpec::stage, its height unread
-  std::vector<KeyReached> reached = {};  ///< before `frame`, ascending, without accelerations
 };
 
 /// The average speeds needed to reach a key. Paper F, Section 5.2: an interval too short for the

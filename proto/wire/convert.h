@@ -9,6 +9,7 @@
 #include "model/core/hand_pose.h"
 #include "model/core/passage.h"
 #include "model/messages/dance_event.h"
+#include "model/messages/dance_header.h"
 #include "model/messages/model_description.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
@@ -26,6 +27,8 @@ v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
 v1::ModelInfo ToProto(const ModelDescription& model);
+/// With frames in axis-angle.
+v1::Header ToProto(const DanceHeader& header);
 v1::QualityReport ToProto(const QualityReport& report);
 /// `fps`: the model's, at which frames are counted.
 v1::Event ToProto(const DanceEvent& event, double fps);
@@ -38,6 +41,7 @@ Skeleton FromProto(const v1::Skeleton& skeleton);
 /// None if unspecified, or one that this version does not know.
 std::optional<HandPose> FromProto(v1::HandPose hands);
 ModelDescription FromProto(const v1::ModelInfo& model);
+DanceHeader FromProto(const v1::Header& header);
 QualityReport FromProto(const v1::QualityReport& report);
 /// None for a kind of event that this version does not know yet.
 std::optional<DanceEvent> FromProto(const v1::Event& event);

@@ -87,6 +87,24 @@ ModelDescription FromProto(const v1::ModelInfo& model) {
   return out;
 }
 
+DanceHeader FromProto(const v1::Header& header) {
+  DanceHeader out;
+  out.model = header.model();
+  out.fingerprint = header.fingerprint();
+  out.skeleton = FromProto(header.skeleton());
+  out.seed = header.seed();
+  out.temperature = header.temperature();
+  out.fps = header.frame_rate();
+  out.model_fps = header.model_frame_rate();
+  out.first_frame = header.first_frame();
+  out.latency_frames = header.latency_frames();
+  out.exact_resume = header.exact_resume();
+  out.free_transition_frames = header.free_transition_frames();
+  out.server_version = header.server_version();
+  if (!(out.fps > 0) || !(out.model_fps > 0)) throw Broken("a header without frame rates");
+  return out;
+}
+
 QualityReport FromProto(const v1::QualityReport& report) {
   QualityReport out;
   out.frames = report.frames();

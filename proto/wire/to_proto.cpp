@@ -125,6 +125,24 @@ v1::ModelInfo ToProto(const ModelDescription& model) {
   return out;
 }
 
+v1::Header ToProto(const DanceHeader& header) {
+  v1::Header out;
+  out.set_model(header.model);
+  out.set_fingerprint(header.fingerprint);
+  *out.mutable_skeleton() = ToProto(header.skeleton);
+  out.set_seed(header.seed);
+  out.set_temperature(header.temperature);
+  out.set_frame_rate(header.fps);
+  out.set_model_frame_rate(header.model_fps);
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  out.set_first_frame(header.first_frame);
+  out.set_latency_frames(header.latency_frames);
+  out.set_exact_resume(header.exact_resume);
+  out.set_free_transition_frames(header.free_transition_frames);
+  out.set_server_version(header.server_version);
+  return out;
+}
+
 v1::QualityReport ToProto(const QualityReport& report) {
   v1::QualityReport out;
   out.set_first_frame(report.measured_from);

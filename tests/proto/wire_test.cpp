@@ -3,7 +3,10 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include "model/core/error.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
+#include "proto/wire/continuation.h"
 
 namespace choreo::wire_test {
 
@@ -83,6 +86,43 @@ TEST(Wire, ModelsRoundTrip) {
                                .latency_frames = 4,
                                .max_transition_frames = 600};
   ExpectBackAgain(wire::ToProto(model));
+}
+
+TEST(Wire, HeadersRoundTrip) {
+  ExpectBackAgain(wire::ToProto(DanceHeader{.model = "default",
+                                            .fingerprint = "f",
+                                            .skeleton = Skeleton::Smpl24(),
+                                            .seed = 7,
+                                            .temperature = 0.5,
+                                            .fps = 60,
+                                            .model_fps = 30,
+                                            .first_frame = 90,
+                                            .latency_frames = 4,
+                                            .exact_resume = true,
+                                            .free_transition_frames = 60,
+                                            .server_version = "0.2.0"}));
+  EXPECT_THROW(wire::FromProto(v1::Header()), Error) << "no frame rate";
+}
+
+TEST(Wire, ContinuationsRoundTrip) {
+  const Skeleton skeleton = Skeleton::Smpl24();
+  Pose pose = StandingPose(skeleton);
+  pose.rotations.setConstant(0.25);
+  const v1::Continuation message =
+      wire::ToProto(Continuation{.frame = 30,
+                                 .poses = {pose, pose},
+                                 .fingerprint = "f",
+                                 .audio_from_sample = 22050,
+                                 .last_beat = 0.75,
+                                 .stage = GroundFrame{{1, 0, 2}, 0.5},
+                                 .reached = {{"a", 20, 0.25, 0.5, 0.75, 1}}},
+                    skeleton, /*seed=*/7);
+  ExpectFull(message);
+  const Continuation back = wire::FromProto(message, skeleton, 2, "config.continuation");
+  EXPECT_TRUE(
+      google::protobuf::util::MessageDifferencer::Equals(wire::ToProto(back, skeleton, 7), message))
+      << message.DebugString();
+  EXPECT_THROW(wire::FromProto(message, skeleton, 3, "config.continuation"), Error);
 }
 
 TEST(Wire, EventsRoundTrip) {
