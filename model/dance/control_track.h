@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/dance/quality_report.h"
+#include "model/dance/quality_meter.h"
 #include "model/dance/root_path.h"
 #include "model/dance/transition.h"
 #include "model/dance/velocity_request.h"

@@ -17,7 +17,7 @@
 #include "model/dance/music_beats.h"
 #include "model/dance/music_turn.h"
 #include "model/dance/output_rate.h"
-#include "model/dance/quality_report.h"
+#include "model/dance/quality_meter.h"
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/dance/dance_config.h"
-#include "model/dance/quality_report.h"
+#include "model/dance/quality_meter.h"
 #include "model/dance/warning.h"
 #include "model/engine/sample_queue.h"
 

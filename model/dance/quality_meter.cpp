@@ -1,4 +1,4 @@
-#include "model/dance/quality_report.h"
+#include "model/dance/quality_meter.h"
 
 #include <algorithm>
 #include <array>
