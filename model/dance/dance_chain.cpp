@@ -240,7 +240,7 @@ bool DanceChain::HandOutNext() {
     mailbox_.PostError(*job.failure());
     return true;
   }
-  if (!job.sampled() || !score_.timeline.Certain(next_frame_)) return false;
+  if (!job.sampled() || !score_.timeline.IsCertain(next_frame_)) return false;
   if (audio_ && ready <= next_frame_) return false;
   Emit(job, job.FrameAt(next_frame_));
   return true;
@@ -250,7 +250,7 @@ bool DanceChain::TurnWithMusic(int64_t ready) {
   if (!audio_ || jobs_.empty()) return true;
   const int64_t stop = score_.timeline.Planned(jobs_.size() - 1)->stop;
   const std::optional<int64_t> turn = turn_.Find(*audio_, ready, stop);
-  if (turn) score_.timeline.EndAt(*turn);
+  if (turn) score_.timeline.StopAt(*turn);
   return turn || ready >= stop;
 }
 
@@ -262,7 +262,7 @@ void DanceChain::SubmitNext() {
   const Segment* segment = score_.timeline.Planned(jobs_.size());
   const std::optional<int64_t> end = score_.timeline.End();
   if (segment == nullptr || (end && segment->from >= *end) ||
-      !score_.timeline.Certain(segment->from))
+      !score_.timeline.IsCertain(segment->from))
     return;
   int64_t rows_end = segment->from;
   if (model_.hears_music)

@@ -92,10 +92,10 @@ void DanceStream::SetControls(const ControlRequest& request) {
   chain_->Apply([&](DanceScore& score) {
     const int64_t from = score.timeline.Frontier(field);
     score.controls.Set(request, from, field);
-    if (request.velocity_factors) score.timeline.Disturb();
+    if (request.velocity_factors) score.timeline.NoteChange();
     if (!request.root_path) return;
     const int64_t last = request.root_path->frames.back();
-    score.timeline.Disturb(request.root_path->frames.front(), last);
+    score.timeline.NoteChange(request.root_path->frames.front(), last);
     // A path that lies before the first frame was danced before the resume: it is not late.
     if (last < from && last >= score.config.FirstFrame()) chain_->Post(ControlsTooLate(last, from));
   });

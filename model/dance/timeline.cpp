@@ -48,7 +48,7 @@ bool Key::IsDancedAs(const Key& other) const {
 }
 
 Timeline::Timeline(Options options)
-    : options_(options), disturbed_(kNever), danced_to_(options.first_frame) {
+    : options_(options), changed_from_(kNever), danced_to_(options.first_frame) {
   options_.max_transition_frames = std::min(options_.max_transition_frames, kMaxTransitionFrames);
   if (options_.granted) GenerateUntil(*options_.granted);
 }
@@ -184,8 +184,8 @@ int64_t Timeline::Frontier(const std::string& field) const {
   return frontier_;
 }
 
-void Timeline::Disturb(int64_t first, int64_t last) {
-  if (last >= frontier_) disturbed_ = std::min(disturbed_, first);
+void Timeline::NoteChange(int64_t first, int64_t last) {
+  if (last >= frontier_) changed_from_ = std::min(changed_from_, first);
 }
 
 void Timeline::GenerateUntil(int64_t frame) {
@@ -226,11 +226,11 @@ void Timeline::Grant(int64_t frame) {
 }
 
 void Timeline::Record(int64_t granted) {
-  Granted now{granted, KeyFrom(granted), std::exchange(disturbed_, kNever)};
+  Granted now{granted, KeyFrom(granted), std::exchange(changed_from_, kNever)};
   if (!grants_.empty()) {
     // Clients grant many times without a change: such a grant only extends the one before.
     Granted& last = grants_.back();
-    const bool is_quiet = last.disturbed == kNever && now.disturbed == kNever;
+    const bool is_quiet = last.changed_from == kNever && now.changed_from == kNever;
     if (is_quiet && AreEqual(last.next, now.next) && AreEqual(last.next, KeyFrom(last.to))) {
       last.to = granted;
       return;
@@ -245,7 +245,7 @@ std::optional<Key> Timeline::KeyFrom(int64_t frame) const {
 }
 
 // As it was known when `known` was granted: earlier keys are frozen since then, later ones are not.
-Segment Timeline::From(int64_t frame, const Granted& known) const {
+Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
   const auto frozen = keys_.lower_bound(frame);
   const bool is_frozen = frozen != keys_.end() && frozen->first < known.to;
   const std::optional<Key> key = is_frozen ? std::optional(frozen->second) : known.next;
@@ -271,10 +271,10 @@ void Timeline::Settle(Plan* plan) const {
   Segment& segment = plan->segment;
   for (auto grant = GrantBeyond(plan->settled);
        grant != grants_.end() && plan->settled < segment.stop; ++grant) {
-    std::optional<Key> key = From(segment.from, *grant).key;
+    std::optional<Key> key = SegmentFrom(segment.from, *grant).key;
     const bool is_same = AreDancedAlike(segment.key, key);
     if (is_same) segment.key = std::move(key);  // its hands may be new
-    if (!is_same || grant->disturbed < segment.to) segment.stop = plan->settled;
+    if (!is_same || grant->changed_from < segment.to) segment.stop = plan->settled;
     plan->settled = grant->to;
   }
 }
@@ -284,7 +284,7 @@ bool Timeline::PlanNext() {
   const std::optional<int64_t> end = End();
   const auto grant = GrantBeyond(from);
   if (grant == grants_.end() || (end && from >= *end)) return false;
-  planned_.push_back({From(from, *grant), grant->to});
+  planned_.push_back({SegmentFrom(from, *grant), grant->to});
   Settle(&planned_.back());
   return true;
 }
@@ -296,7 +296,7 @@ const Segment* Timeline::Planned(size_t ahead) {
   return planned_.size() <= ahead ? nullptr : &planned_[ahead].segment;
 }
 
-void Timeline::EndAt(int64_t frame) {
+void Timeline::StopAt(int64_t frame) {
   Segment& last = planned_.back().segment;
   last.stop = std::min(last.stop, frame);
 }
@@ -315,7 +315,7 @@ std::optional<int64_t> Timeline::End() const {
   return std::max(end, options_.first_frame);
 }
 
-bool Timeline::Certain(int64_t frame) const {
+bool Timeline::IsCertain(int64_t frame) const {
   if (!complete_ && frame >= frontier_) return false;
   if (const std::optional<int64_t> end = End()) return frame < *end;
   if (!options_.has_music || !audio_end_ || frame < *audio_end_) return true;

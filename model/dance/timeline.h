@@ -64,8 +64,8 @@ int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest
 /// the plan depends only on the order of calls, never on when it is asked for. GenerateUntil and
 /// Complete grant frames; without them each accepted key grants the frames up to and including its
 /// own. A transition across the frontier continues as long as planning from its first frame would
-/// give it again and Disturb has not been called; otherwise it stops at the frontier. Music that
-/// changes ends a transition, too (EndAt). A resumed dance receives the same messages again: keys
+/// give it again and NoteChange has not been called; otherwise it stops at the frontier. Music that
+/// changes ends a transition, too (StopAt). A resumed dance receives the same messages again: keys
 /// before its first frame keep their places and are answered with a rejection. Not thread-safe.
 class Timeline {
  public:
@@ -97,7 +97,7 @@ class Timeline {
   int64_t Frontier(const std::string& field) const;
 
   /// Something other than keys has changed for frames of [first, last].
-  void Disturb(int64_t first = 0, int64_t last = std::numeric_limits<int64_t>::max());
+  void NoteChange(int64_t first = 0, int64_t last = std::numeric_limits<int64_t>::max());
 
   /// Grants and freezes the frames before this one; keys there are late from now on. Does nothing
   /// after Complete. Throws Error(kInvalidArgument) if the frame decreases or is out of range.
@@ -120,7 +120,7 @@ class Timeline {
   /// not ended, there is always another.
   const Segment* Planned(size_t ahead = 0);
   /// Stops the last transition that was asked for at `frame`, if it goes on till then.
-  void EndAt(int64_t frame);
+  void StopAt(int64_t frame);
   /// Marks the current transition as danced up to its stop.
   void Finish();
 
@@ -131,7 +131,7 @@ class Timeline {
 
   /// True if this frame is granted and certain to be danced. After the end of the music frames are
   /// uncertain as long as a key may still come.
-  bool Certain(int64_t frame) const;
+  bool IsCertain(int64_t frame) const;
 
   bool complete() const { return complete_; }
 
@@ -140,7 +140,7 @@ class Timeline {
   struct Granted {
     int64_t to;               // it froze the frames before this one
     std::optional<Key> next;  // the first key after them
-    int64_t disturbed;        // the first frame that Disturb named since the grant before
+    int64_t changed_from;     // the first frame that NoteChange named since the grant before
   };
   struct Plan {
     Segment segment;
@@ -159,7 +159,7 @@ class Timeline {
   void Grant(int64_t frame);
   void Record(int64_t granted);
   std::optional<Key> KeyFrom(int64_t frame) const;
-  Segment From(int64_t frame, const Granted& known) const;
+  Segment SegmentFrom(int64_t frame, const Granted& known) const;
   std::deque<Granted>::const_iterator GrantBeyond(int64_t frame) const;
   void Settle(Plan* plan) const;
   bool PlanNext();
@@ -172,7 +172,7 @@ class Timeline {
   int64_t granted_ = 0;         // by GenerateUntil
   int64_t frontier_ = 0;        // frames before it are frozen
   bool explicit_grants_ = false;
-  int64_t disturbed_;  // Granted::disturbed of the next grant
+  int64_t changed_from_;  // Granted::changed_from of the next grant
   bool complete_ = false;
   std::optional<int64_t> audio_end_;
   std::vector<int64_t> cuts_;

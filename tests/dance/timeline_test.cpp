@@ -36,9 +36,9 @@ std::vector<Span> Drain(Timeline& timeline, size_t limit = 1000,
   while (spans.size() < limit) {
     const Segment* segment = timeline.Planned();
     if (segment == nullptr || segment->from >= timeline.End().value_or(INT64_MAX)) break;
-    if (turn != nullptr) timeline.EndAt(turn(*segment));
+    if (turn != nullptr) timeline.StopAt(turn(*segment));
     const int64_t last = std::min(segment->stop, timeline.End().value_or(segment->stop)) - 1;
-    if (last >= segment->from && !timeline.Certain(last)) break;
+    if (last >= segment->from && !timeline.IsCertain(last)) break;
     spans.push_back({segment->from, segment->stop, segment->key ? segment->key->id : ""});
     timeline.Finish();
   }
@@ -246,21 +246,21 @@ TEST(Timeline, EndsWhereTheConfigSays) {
   timeline.GenerateUntil(100);
   // The last transition is planned at its full length; its dance cuts it short.
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 60, ""}, {60, 120, ""}}));
-  EXPECT_TRUE(timeline.Certain(99));
-  EXPECT_FALSE(timeline.Certain(100));
+  EXPECT_TRUE(timeline.IsCertain(99));
+  EXPECT_FALSE(timeline.IsCertain(100));
 }
 
 TEST(Timeline, FramesAfterTheMusicNeedAFrozenKey) {
   Timeline timeline({.has_music = true});
   timeline.GenerateUntil(120);
   timeline.SetAudioEnd(80);
-  EXPECT_TRUE(timeline.Certain(79));
-  EXPECT_FALSE(timeline.Certain(80));
+  EXPECT_TRUE(timeline.IsCertain(79));
+  EXPECT_FALSE(timeline.IsCertain(80));
   Set(timeline, "a", AtFrame{130});
-  EXPECT_FALSE(timeline.Certain(80));  // it may be removed
+  EXPECT_FALSE(timeline.IsCertain(80));  // it may be removed
   timeline.GenerateUntil(140);
-  EXPECT_TRUE(timeline.Certain(130));
-  EXPECT_FALSE(timeline.Certain(131));
+  EXPECT_TRUE(timeline.IsCertain(130));
+  EXPECT_FALSE(timeline.IsCertain(131));
   timeline.Complete();
   EXPECT_EQ(timeline.End(), 131);
 }
@@ -296,8 +296,8 @@ TEST(Timeline, GrantAloneDoesNotReplan) {
     for (int64_t frame = stride; frame < 200; frame += stride) timeline.GenerateUntil(frame);
     timeline.GenerateUntil(200);
     EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 100, "a"}, {100, 160, ""}})) << stride;
-    EXPECT_TRUE(timeline.Certain(199));
-    EXPECT_FALSE(timeline.Certain(200));
+    EXPECT_TRUE(timeline.IsCertain(199));
+    EXPECT_FALSE(timeline.IsCertain(200));
   }
 }
 
@@ -322,10 +322,10 @@ TEST(Timeline, AChangeAheadStopsTheTransitionAtTheFrontier) {
 
 TEST(Timeline, DisturbanceStopsTheTransition) {
   Timeline timeline({.has_music = true, .granted = 30});
-  timeline.Disturb(60, 90);  // after it
-  timeline.Disturb(0, 29);   // danced
+  timeline.NoteChange(60, 90);  // after it
+  timeline.NoteChange(0, 29);   // danced
   timeline.GenerateUntil(35);
-  timeline.Disturb(59, 90);
+  timeline.NoteChange(59, 90);
   timeline.GenerateUntil(40);
   EXPECT_EQ(Drain(timeline), (std::vector<Span>{{0, 35, ""}}));
 }
@@ -340,8 +340,8 @@ TEST(Timeline, MusicThatTurnsEndsTheTransition) {
   Set(timeline, "a", AtFrame{79});
   timeline.GenerateUntil(100);
   ASSERT_NE(timeline.Planned(), nullptr);
-  timeline.EndAt(30);
-  timeline.EndAt(40);  // it is over by then
+  timeline.StopAt(30);
+  timeline.StopAt(40);  // it is over by then
   EXPECT_EQ(timeline.Planned()->stop, 30);
   EXPECT_EQ(timeline.Planned()->to, 80);
   EXPECT_EQ(Drain(timeline, 2), (std::vector<Span>{{0, 30, "a"}, {30, 80, "a"}}));
