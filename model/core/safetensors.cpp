@@ -49,6 +49,99 @@ std::vector<uint16_t> UpperHalves(const std::vector<float>& values) {
   return halves;
 }
 
+class SafetensorsReader {
+ public:
+  explicit SafetensorsReader(const std::filesystem::path& path)
+      : name_(path.string()), file_(path, std::ios::binary) {
+    if (!file_) throw Error(ErrorCode::kNotFound, name_, "no such file, or it can't be read");
+    file_bytes_ = std::filesystem::file_size(path);
+  }
+
+  Safetensors Read() {
+    const std::string header = ReadHeader();
+    Safetensors content;
+    try {
+      const nlohmann::json entries = nlohmann::json::parse(header);
+      for (const auto& [name, entry] : entries.items()) {
+        if (name == "__metadata__") {
+          content.metadata = entry.get<std::map<std::string, std::string>>();
+        } else {
+          content.tensors.emplace(name, ReadTensor(name, entry));
+        }
+      }
+    } catch (const nlohmann::json::exception& error) {
+      throw Failure(std::string("its header is not the expected JSON (") + error.what() + ")");
+    }
+    return content;
+  }
+
+ private:
+  Error Failure(const std::string& why) const {
+    return InvalidArgument(name_, "not a usable safetensors file: " + why);
+  }
+
+  std::string ReadHeader() {
+    uint64_t bytes = 0;
+    if (!file_.read(reinterpret_cast<char*>(&bytes), 8)) throw Failure("shorter than 8 bytes");
+    if (bytes > kMaxHeaderBytes || bytes + 8 > file_bytes_) {
+      throw Failure("header of " + std::to_string(bytes) + " bytes in a file of " +
+                    std::to_string(file_bytes_));
+    }
+    std::string header(bytes, '\0');
+    file_.read(header.data(), static_cast<std::streamsize>(bytes));
+    data_begin_ = 8 + bytes;
+    return header;
+  }
+
+  NamedTensor ReadTensor(const std::string& name, const nlohmann::json& entry) {
+    const bool halved = entry.at("dtype") == "BF16";
+    if (!halved && entry.at("dtype") != "F32")
+      throw Failure("tensor " + name + " is neither F32 nor BF16");
+    const size_t width = halved ? sizeof(uint16_t) : sizeof(float);
+    NamedTensor tensor;
+    tensor.shape = entry.at("shape").get<std::vector<int64_t>>();
+    const auto begin = entry.at("data_offsets").at(0).get<uint64_t>();
+    const auto end = entry.at("data_offsets").at(1).get<uint64_t>();
+    const int64_t count = ElementCount(tensor.shape);
+    const uint64_t data_bytes = file_bytes_ - data_begin_;
+    if (count < 0 || begin > end || end > data_bytes ||
+        end - begin != static_cast<uint64_t>(count) * width) {
+      throw Failure("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
+                    std::to_string(end) + " of " + std::to_string(data_bytes) +
+                    " does not fit its shape (truncated?)");
+    }
+    Occupy(name, begin, end);
+    tensor.data.resize(static_cast<size_t>(count));
+    file_.seekg(static_cast<std::streamoff>(data_begin_ + begin));
+    std::vector<uint16_t> halves(halved ? tensor.data.size() : 0);
+    file_.read(halved ? reinterpret_cast<char*>(halves.data())
+                      : reinterpret_cast<char*>(tensor.data.data()),
+               static_cast<std::streamsize>(end - begin));
+    for (size_t i = 0; i < halves.size(); ++i)
+      tensor.data[i] = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
+    if (!file_) throw Failure("tensor " + name + " can't be read");
+    return tensor;
+  }
+
+  // The next tensor must start at our end or later; the previous one must end at our start or
+  // earlier.
+  void Occupy(const std::string& name, uint64_t begin, uint64_t end) {
+    if (begin == end) return;
+    const auto after = occupied_.lower_bound(begin);
+    if ((after != occupied_.end() && after->first < end) ||
+        (after != occupied_.begin() && std::prev(after)->second > begin)) {
+      throw Failure("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
+                    std::to_string(end) + " overlaps another one");
+    }
+    occupied_.emplace(begin, end);
+  }
+
+  const std::string name_;
+  std::ifstream file_;
+  uint64_t file_bytes_ = 0, data_begin_ = 0;
+  std::map<uint64_t, uint64_t> occupied_;  // by the tensors so far, begin to end
+};
+
 }  // namespace
 
 const NamedTensor& Safetensors::Get(const std::string& name,
@@ -70,72 +163,7 @@ void RoundToBfloat16(NamedTensor* tensor) {
 }
 
 Safetensors ReadSafetensors(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::kNotFound, path.string(), "no such file, or it can't be read");
-  const auto fail = [&](const std::string& why) -> Error {
-    return InvalidArgument(path.string(), "not a usable safetensors file: " + why);
-  };
-  const uint64_t file_bytes = std::filesystem::file_size(path);
-  uint64_t header_bytes = 0;
-  if (!file.read(reinterpret_cast<char*>(&header_bytes), 8)) throw fail("shorter than 8 bytes");
-  if (header_bytes > kMaxHeaderBytes || header_bytes + 8 > file_bytes) {
-    throw fail("header of " + std::to_string(header_bytes) + " bytes in a file of " +
-               std::to_string(file_bytes));
-  }
-  std::string header(header_bytes, '\0');
-  file.read(header.data(), static_cast<std::streamsize>(header_bytes));
-  const uint64_t data_bytes = file_bytes - 8 - header_bytes;
-
-  Safetensors content;
-  std::map<uint64_t, uint64_t> extents;  // of the tensors so far, begin to end
-  try {
-    const nlohmann::json entries = nlohmann::json::parse(header);
-    for (const auto& [name, entry] : entries.items()) {
-      if (name == "__metadata__") {
-        content.metadata = entry.get<std::map<std::string, std::string>>();
-        continue;
-      }
-      const bool halved = entry.at("dtype") == "BF16";
-      if (!halved && entry.at("dtype") != "F32")
-        throw fail("tensor " + name + " is neither F32 nor BF16");
-      const size_t width = halved ? sizeof(uint16_t) : sizeof(float);
-      NamedTensor tensor;
-      tensor.shape = entry.at("shape").get<std::vector<int64_t>>();
-      const auto begin = entry.at("data_offsets").at(0).get<uint64_t>();
-      const auto end = entry.at("data_offsets").at(1).get<uint64_t>();
-      const int64_t count = ElementCount(tensor.shape);
-      if (count < 0 || begin > end || end > data_bytes ||
-          end - begin != static_cast<uint64_t>(count) * width) {
-        throw fail("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
-                   std::to_string(end) + " of " + std::to_string(data_bytes) +
-                   " does not fit its shape (truncated?)");
-      }
-      // The next tensor must start at our end or later; the previous one must end at our start or
-      // earlier.
-      const auto after = extents.lower_bound(begin);
-      const bool overlaps =
-          end > begin && ((after != extents.end() && after->first < end) ||
-                          (after != extents.begin() && std::prev(after)->second > begin));
-      if (overlaps) {
-        throw fail("tensor " + name + " at bytes " + std::to_string(begin) + " to " +
-                   std::to_string(end) + " overlaps another one");
-      }
-      if (end > begin) extents.emplace(begin, end);
-      tensor.data.resize(static_cast<size_t>(count));
-      file.seekg(static_cast<std::streamoff>(8 + header_bytes + begin));
-      std::vector<uint16_t> halves(halved ? tensor.data.size() : 0);
-      file.read(halved ? reinterpret_cast<char*>(halves.data())
-                       : reinterpret_cast<char*>(tensor.data.data()),
-                static_cast<std::streamsize>(end - begin));
-      for (size_t i = 0; i < halves.size(); ++i)
-        tensor.data[i] = std::bit_cast<float>(static_cast<uint32_t>(halves[i]) << 16U);
-      if (!file) throw fail("tensor " + name + " can't be read");
-      content.tensors.emplace(name, std::move(tensor));
-    }
-  } catch (const nlohmann::json::exception& error) {
-    throw fail(std::string("its header is not the expected JSON (") + error.what() + ")");
-  }
-  return content;
+  return SafetensorsReader(path).Read();
 }
 
 void WriteSafetensors(const std::filesystem::path& path, const Safetensors& content) {

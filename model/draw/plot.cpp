@@ -155,61 +155,40 @@ void DrawLegend(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
   if (!plot.series.empty()) top = y + kPitch;
 }
 
-}  // namespace
+struct Ranges {
+  Range x, y;
+};
 
-void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
-  Check(plot);
-  Range xs, ys;
+// Of the finite values of all series.
+Ranges RangesOf(const Plot& plot) {
+  Ranges of;
   for (const PlotSeries& series : plot.series) {
     for (size_t k = 0; k < series.x.size(); ++k) {
       if (!std::isfinite(series.x[k]) || !std::isfinite(series.y[k])) continue;
-      xs.Add(series.x[k]);
-      ys.Add(series.y[k]);
+      of.x.Add(series.x[k]);
+      of.y.Add(series.y[k]);
     }
   }
   const bool bars = !plot.x_names.empty();
-  if (bars) xs.Add(-0.5), xs.Add(static_cast<double>(plot.x_names.size()) - 0.5);
+  if (bars) of.x.Add(-0.5), of.x.Add(static_cast<double>(plot.x_names.size()) - 0.5);
   const bool from_zero = bars || plot.from_zero;
-  if (from_zero) ys.Add(0);
-  const double floor = ys.low;
-  xs.Settle(plot.map ? 0.04 : 0);
-  ys.Settle(0.04);
-  if (from_zero) ys.low = floor;
-  const std::vector<Stroke> strokes = ChooseStrokes(plot, ys.high - ys.low);
+  if (from_zero) of.y.Add(0);
+  const double floor = of.y.low;
+  of.x.Settle(plot.map ? 0.04 : 0);
+  of.y.Settle(0.04);
+  if (from_zero) of.y.low = floor;
+  return of;
+}
 
-  const Canvas canvas(plot.width, plot.height, kPaper);
+struct Area {
+  double left, right, top, bottom;  // pixels
+};
+
+// The grid, both axes' ticks and their labels.
+void DrawAxes(const Canvas& canvas, const Plot& plot, const Area& area, const Axis& x_axis,
+              const Axis& y_axis) {
+  const auto& [left, right, top, bottom] = area;
   cairo_t* cr = canvas.cr();
-  const double bottom = plot.height - 62, right = plot.width - 28;
-  double top = 16;
-  canvas.SetColour(kInk);
-  if (!plot.title.empty()) {
-    canvas.Text(plot.title, 24, top + kTitleFont / 2, kTitleFont, Align::kLeft, true);
-    top += kTitleFont + 14;
-  }
-  DrawLegend(canvas, plot, strokes, 24, right, top);
-  top += 10;
-
-  Axis y_axis(ys.low, ys.high, bottom, top, 56);
-  double widest = 0;
-  for (const Tick& tick : y_axis.ticks()) {
-    widest = std::max(widest, canvas.TextWidth(tick.label, kLabelSize));
-  }
-  const double left = 24 + (plot.y_label.empty() ? 0 : 26) + widest + 8;
-  if (plot.map) {
-    const double unit =
-        std::max((xs.high - xs.low) / (right - left), (ys.high - ys.low) / (bottom - top));
-    xs.WidenTo(unit * (right - left));
-    ys.WidenTo(unit * (bottom - top));
-    y_axis = Axis(ys.low, ys.high, bottom, top, 56);
-  }
-  Axis x_axis(xs.low, xs.high, left, right, 90);
-  if (bars) {
-    double widest_name = 0;
-    for (const std::string& name : plot.x_names)
-      widest_name = std::max(widest_name, canvas.TextWidth(name, kLabelSize));
-    x_axis.Name(plot.x_names, widest_name + 8);
-  }
-
   cairo_set_line_width(cr, 1);
   for (const Tick& tick : y_axis.ticks()) {
     const double y = std::round(y_axis.At(tick.value)) + 0.5;
@@ -234,6 +213,49 @@ void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
   cairo_rotate(cr, -M_PI / 2);
   canvas.Text(plot.y_label, 0, 0, kLabelSize, Align::kCentre);
   cairo_restore(cr);
+}
+
+double WidestText(const Canvas& canvas, const std::vector<std::string>& texts) {
+  double widest = 0;
+  for (const std::string& text : texts)
+    widest = std::max(widest, canvas.TextWidth(text, kLabelSize));
+  return widest;
+}
+
+}  // namespace
+
+void DrawPlot(const Plot& plot, const std::filesystem::path& png) {
+  Check(plot);
+  auto [xs, ys] = RangesOf(plot);
+  const bool bars = !plot.x_names.empty();
+  const std::vector<Stroke> strokes = ChooseStrokes(plot, ys.high - ys.low);
+
+  const Canvas canvas(plot.width, plot.height, kPaper);
+  cairo_t* cr = canvas.cr();
+  const double bottom = plot.height - 62, right = plot.width - 28;
+  double top = 16;
+  canvas.SetColour(kInk);
+  if (!plot.title.empty()) {
+    canvas.Text(plot.title, 24, top + kTitleFont / 2, kTitleFont, Align::kLeft, true);
+    top += kTitleFont + 14;
+  }
+  DrawLegend(canvas, plot, strokes, 24, right, top);
+  top += 10;
+
+  Axis y_axis(ys.low, ys.high, bottom, top, 56);
+  std::vector<std::string> labels;
+  for (const Tick& tick : y_axis.ticks()) labels.push_back(tick.label);
+  const double left = 24 + (plot.y_label.empty() ? 0 : 26) + WidestText(canvas, labels) + 8;
+  if (plot.map) {
+    const double unit =
+        std::max((xs.high - xs.low) / (right - left), (ys.high - ys.low) / (bottom - top));
+    xs.WidenTo(unit * (right - left));
+    ys.WidenTo(unit * (bottom - top));
+    y_axis = Axis(ys.low, ys.high, bottom, top, 56);
+  }
+  Axis x_axis(xs.low, xs.high, left, right, 90);
+  if (bars) x_axis.Name(plot.x_names, WidestText(canvas, plot.x_names) + 8);
+  DrawAxes(canvas, plot, {left, right, top, bottom}, x_axis, y_axis);
 
   cairo_save(cr);
   cairo_rectangle(cr, left - 4, top - 4, right - left + 8, bottom - top + 8);

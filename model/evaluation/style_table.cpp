@@ -16,26 +16,59 @@ int StyleIn(const std::vector<std::string>& styles, const std::string& style) {
   return found == styles.end() ? -1 : static_cast<int>(found - styles.begin());
 }
 
-}  // namespace
-
-std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
-  const ModelInfo& model = evaluation.model();
-  if (evaluation.training == nullptr || model.styles.empty()) return {};
-  std::vector<std::string> styles;  // both requested and present in the recordings
+// Those that can be requested of the model and are present in its training clips.
+std::vector<std::string> RecordedStyles(const ModelInfo& model, const ClipSet& training) {
+  std::vector<std::string> styles;
   for (const std::string& style : model.styles) {
-    if (std::ranges::any_of(evaluation.training->clips,
+    if (std::ranges::any_of(training.clips,
                             [&](const auto& clip) { return StyleOf(clip.name) == style; }))
       styles.push_back(style);
   }
-  if (styles.size() < 2) return {};
+  return styles;
+}
+
+StyleClassifier LearnStyles(const ModelInfo& model, const ClipSet& training,
+                            const std::vector<std::string>& styles) {
   CriticWindows seen;
-  for (const PreparedClip& clip : evaluation.training->clips) {
+  for (const PreparedClip& clip : training.clips) {
     const int style = StyleIn(styles, StyleOf(clip.name));
     if (style < 0) continue;
     seen.Add(TrackJoints(model.skeleton, clip.motion.frames), model.fps,
              static_cast<size_t>(style));
   }
-  const StyleClassifier classifier(seen, static_cast<int>(styles.size()));
+  return {seen, static_cast<int>(styles.size())};
+}
+
+// A dance in each style, from the beginning of each clip.
+std::vector<LongPlan> PlanStyles(const Evaluation& evaluation,
+                                 const std::vector<std::string>& styles) {
+  const ModelInfo& model = evaluation.model();
+  const int history = model.history_frames;
+  std::vector<LongPlan> plans;
+  for (size_t i = 0; i < evaluation.set.clips.size(); ++i) {
+    if (std::ssize(evaluation.set.clips[i].motion.frames) < history) continue;
+    for (size_t style = 0; style < styles.size(); ++style) {
+      LongPlan plan;
+      plan.clip = i;
+      plan.frames = kSeconds * static_cast<int>(model.fps);
+      plan.seed = style;
+      plan.history = RealPoses(evaluation.set, {i, history}, 0, history);
+      plan.temperature = evaluation.options.temperature;
+      plan.style = styles[style];
+      plans.push_back(std::move(plan));
+    }
+  }
+  return plans;
+}
+
+}  // namespace
+
+std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
+  const ModelInfo& model = evaluation.model();
+  if (evaluation.training == nullptr || model.styles.empty()) return {};
+  const std::vector<std::string> styles = RecordedStyles(model, *evaluation.training);
+  if (styles.size() < 2) return {};
+  const StyleClassifier classifier = LearnStyles(model, *evaluation.training, styles);
   const auto recognised = [&](std::span<const Pose> poses, int style) {
     CriticWindows windows;
     windows.Add(TrackJoints(model.skeleton, poses), model.fps, 0);
@@ -45,26 +78,13 @@ std::vector<Table> EvaluateStyles(const Evaluation& evaluation) {
   };
 
   std::vector<ClipFigure> real, danced;
-  std::vector<LongPlan> plans;
-  const int history = model.history_frames, frames = kSeconds * static_cast<int>(model.fps);
   for (size_t i = 0; i < evaluation.set.clips.size(); ++i) {
     const PreparedClip& clip = evaluation.set.clips[i];
-    const auto& poses = clip.motion.frames;
-    const int danced_style = StyleIn(styles, StyleOf(clip.name));
-    if (danced_style >= 0 && poses.size() > 2 * model.fps)
-      real.push_back({i, recognised(poses, danced_style)});
-    if (std::ssize(poses) < history) continue;
-    for (size_t style = 0; style < styles.size(); ++style) {
-      LongPlan plan;
-      plan.clip = i;
-      plan.frames = frames;
-      plan.seed = style;
-      plan.history = RealPoses(evaluation.set, {i, history}, 0, history);
-      plan.temperature = evaluation.options.temperature;
-      plan.style = styles[style];
-      plans.push_back(std::move(plan));
-    }
+    const int style = StyleIn(styles, StyleOf(clip.name));
+    if (style >= 0 && clip.motion.frames.size() > 2 * model.fps)
+      real.push_back({i, recognised(clip.motion.frames, style)});
   }
+  const std::vector<LongPlan> plans = PlanStyles(evaluation, styles);
   const std::vector<LongDance> dances =
       evaluation.runner.DanceLong(*evaluation.judged().sampler, plans);
   for (size_t i = 0; i < dances.size(); ++i)
