@@ -209,71 +209,17 @@ Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout,
   return std::move(all.turns);
 }
 
-}  // namespace
-
-Eigen::Vector3d SmplRestPelvis() { return {-0.00179506, -0.22333382, 0.02821918}; }
-Eigen::Vector3d SmplXRestPelvis() { return {0.00312326, -0.35140747, 0.01203655}; }
-
-Pose ToAmass(const Pose& pose) {
-  const Eigen::Matrix3d z_up = kYUpFromZUp.transpose();
-  Pose amass = pose;
-  amass.root_position = z_up * pose.root_position - SmplRestPelvis();
-  amass.rotations.col(0) = LogMap(z_up * ExpMap(pose.rotations.col(0)));
-  return amass;
+// A dict of the archive, with the rate that stands beside it.
+NpzArchive NestedWithRate(const NpzArchive& npz, const std::string& within) {
+  NpzArchive nested = npz.Nested(within);
+  for (const char* rate : kRateNames) {
+    if (npz.Has(rate) && !nested.Has(rate)) nested.SetArray(rate, npz.Array(rate));
+  }
+  return nested;
 }
 
-Pose FromAmass(const Pose& amass) {
-  Pose pose = amass;
-  pose.root_position = kYUpFromZUp * (amass.root_position + SmplRestPelvis());
-  pose.rotations.col(0) = LogMap(kYUpFromZUp * ExpMap(amass.rotations.col(0)));
-  return pose;
-}
-
-Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
-  // Beside ours stand AMASS's arrays, which may lie otherwise.
-  const bool as_amass = (!reading.up.empty() || reading.scale > 0) && npz.Has("poses");
-  if (npz.Has("rotations") && npz.Has("root_positions") && !as_amass) {
-    reading.RefuseBody();
-    Motion motion = ReadOwnArrays(Skeleton::Smpl24(), npz);
-    CheckMotionLimits(motion);
-    return motion;
-  }
-  const std::optional<Layout> found = FindLayout(npz);
-  if (!found && !FindJointArray(npz)) {
-    MotionReading inner = reading;
-    if (const std::string within = DictWithin(npz, &inner); !within.empty()) {
-      NpzArchive nested = npz.Nested(within);
-      for (const char* rate : kRateNames) {
-        if (npz.Has(rate) && !nested.Has(rate)) nested.SetArray(rate, npz.Array(rate));
-      }
-      reading.Note("the arrays of its \"" + Printable(within) + "\" are read");
-      Motion motion = ReadSmplMotion(nested, inner);
-      if (const size_t dicts = npz.NestedNames().size();
-          dicts > 1 && motion.frames.size() == 1 && reading.body.empty()) {
-        throw InvalidArgument(
-            "", "holds " + std::to_string(dicts) +
-                    " dicts of one frame each, in any order: --body reads one, or " + kWriteArrays);
-      }
-      return motion;
-    }
-  }
-  if (const auto joints = found ? std::nullopt : FindJointArray(npz))
-    return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
-  if (!found) {
-    const std::string names = Joined(npz.Names());
-    throw InvalidArgument(
-        "", "has no array of rotations by a name that is known, " + LayoutNames() + " (it has: " +
-                (names.empty() ? "nothing" : Printable(names)) + "): " + kWriteArrays);
-  }
-  const Layout& layout = *found;
-  const int64_t people = PeopleIn(
-      npz.Array(layout.body), [&](int64_t width) { return AreRotations(width, JointsOf(layout)); });
-  if (people > 1) {
-    MotionReading inner = reading;
-    const int64_t person = ChoosePerson(people, layout.body, reading);
-    inner.body.clear();
-    return ReadSmplMotion(PersonOf(npz, layout, people, person), inner);
-  }
+// The motion of one body.
+Motion ReadLayout(const NpzArchive& npz, const Layout& layout, const MotionReading& reading) {
   reading.RefuseBody();
   if (std::string_view(layout.body) == "pose_world")
     reading.Note("its pose_world and trans_world are read, not what its camera saw");
@@ -301,6 +247,59 @@ Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
   if (!edge)
     file.root_offset = IsSmplX(npz, turns.rows() / 3) ? SmplXRestPelvis() : SmplRestPelvis();
   return Settle(std::move(file), reading);
+}
+
+}  // namespace
+
+Eigen::Vector3d SmplRestPelvis() { return {-0.00179506, -0.22333382, 0.02821918}; }
+Eigen::Vector3d SmplXRestPelvis() { return {0.00312326, -0.35140747, 0.01203655}; }
+
+Pose ToAmass(const Pose& pose) {
+  const Eigen::Matrix3d z_up = kYUpFromZUp.transpose();
+  Pose amass = pose;
+  amass.root_position = z_up * pose.root_position - SmplRestPelvis();
+  amass.rotations.col(0) = LogMap(z_up * ExpMap(pose.rotations.col(0)));
+  return amass;
+}
+
+Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
+  // Beside ours stand AMASS's arrays, which may lie otherwise.
+  const bool as_amass = (!reading.up.empty() || reading.scale > 0) && npz.Has("poses");
+  if (npz.Has("rotations") && npz.Has("root_positions") && !as_amass) {
+    reading.RefuseBody();
+    Motion motion = ReadOwnArrays(Skeleton::Smpl24(), npz);
+    CheckMotionLimits(motion);
+    return motion;
+  }
+  if (const std::optional<Layout> layout = FindLayout(npz)) {
+    const int64_t people = PeopleIn(npz.Array(layout->body), [&](int64_t width) {
+      return AreRotations(width, JointsOf(*layout));
+    });
+    if (people <= 1) return ReadLayout(npz, *layout, reading);
+    MotionReading inner = reading;
+    const int64_t person = ChoosePerson(people, layout->body, reading);
+    inner.body.clear();
+    return ReadSmplMotion(PersonOf(npz, *layout, people, person), inner);
+  }
+  if (const auto joints = FindJointArray(npz))
+    return ReadJointPlaces(*joints, ReadRate(npz, kModelFps, false, reading), reading);
+  MotionReading inner = reading;
+  if (const std::string within = DictWithin(npz, &inner); !within.empty()) {
+    const NpzArchive nested = NestedWithRate(npz, within);
+    reading.Note("the arrays of its \"" + Printable(within) + "\" are read");
+    Motion motion = ReadSmplMotion(nested, inner);
+    if (const size_t dicts = npz.NestedNames().size();
+        dicts > 1 && motion.frames.size() == 1 && reading.body.empty()) {
+      throw InvalidArgument(
+          "", "holds " + std::to_string(dicts) +
+                  " dicts of one frame each, in any order: --body reads one, or " + kWriteArrays);
+    }
+    return motion;
+  }
+  const std::string names = Joined(npz.Names());
+  throw InvalidArgument("", "has no array of rotations by a name that is known, " + LayoutNames() +
+                                " (it has: " + (names.empty() ? "nothing" : Printable(names)) +
+                                "): " + kWriteArrays);
 }
 
 void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, NpzArchive& npz) {

@@ -32,9 +32,8 @@ Eigen::Vector3d SmplRestPelvis();
 Eigen::Vector3d SmplXRestPelvis();
 
 /// Converts a pose of our world (Y up, position of the pelvis) to AMASS's (Z up, SMPL's translation
-/// in `root_position`), and back. Only the root changes; its angle is then in [0, pi].
+/// in `root_position`). Only the root changes; its angle is then in [0, pi].
 Pose ToAmass(const Pose& pose);
-Pose FromAmass(const Pose& amass);
 
 /// SMPL's 24 joints at the file's own rate (AIST++ 60, others 30 if no key states it); if several
 /// layouts are present, the first in the table counts. motion_check.h checks all but ours. Throws
