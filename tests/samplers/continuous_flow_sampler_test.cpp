@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "bench/random_checkpoints.h"
 #include "model/core/error.h"
@@ -12,6 +11,7 @@
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace choreo::continuous_flow_sampler_test {
 
@@ -27,14 +27,9 @@ class ContinuousFlowSamplerTest : public testing::Test {
     config.window_frames = 16;
     config.styles = {"waltz"};
     config.median_factors = {0.01, 0.02, 0.02, 0.015, 0.015};
-    path_ = std::filesystem::path(testing::TempDir()) /
-            ("continuous_" +
-             std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
-             std::to_string(getpid()) + ".safetensors");
     WriteRandomContinuousFlow(path_, config, Skeleton::Smpl24(), 3);
     sampler_ = MakeSampler(path_, {});
   }
-  ~ContinuousFlowSamplerTest() override { std::filesystem::remove(path_); }
 
   TransitionSpec Spec(uint64_t seed, int frames = 12) const {
     TransitionSpec spec = RandomSpec(sampler_->model(), seed, frames);
@@ -44,7 +39,8 @@ class ContinuousFlowSamplerTest : public testing::Test {
   }
   Plan Dance(const TransitionSpec& spec) { return sampler_->Sample(spec); }
 
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "model.safetensors";
   std::unique_ptr<Sampler> sampler_;
 };
 

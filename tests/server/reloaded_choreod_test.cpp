@@ -10,6 +10,7 @@
 
 #include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
+#include "tests/server/interrupted_dance.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -41,31 +42,9 @@ class ReloadedChoreodTest : public testing::Test {
   }
   client::Client Client() const { return client::Client({.addresses = {server->address()}}); }
 
-  // With something in the middle.
-  std::vector<Pose> Dance(const std::string& model, const std::function<void()>& between = {}) {
-    constexpr int64_t kFrames = 150, kFirst = 30;
-    const client::Client client = Client();
-    const auto one =
-        client.StartDance({.model = model, .seed = 1, .frames = kFrames, .generate_until = 0});
-    one->GenerateUntil(kFirst);
-    std::vector<Pose> poses;
-    while (const std::optional<client::Message> message = one->Next()) {
-      const auto* block = std::get_if<client::FrameBlock>(&*message);
-      if (block == nullptr) continue;
-      poses.insert(poses.end(), block->poses.begin(), block->poses.end());
-      if (std::ssize(poses) != kFirst) continue;
-      if (between) between();
-      one->CompleteKeys();
-    }
-    EXPECT_EQ(std::ssize(poses), kFrames);
-    return poses;
-  }
-  static void ExpectSame(const std::vector<Pose>& poses, const std::vector<Pose>& wanted) {
-    ASSERT_EQ(poses.size(), wanted.size());
-    for (size_t i = 0; i < poses.size(); ++i) {
-      ASSERT_EQ(poses[i].root_position, wanted[i].root_position) << i;
-      ASSERT_EQ(poses[i].rotations, wanted[i].rotations) << i;
-    }
+  std::vector<Pose> Dance(const std::string& model,
+                          const std::function<void()>& between = {}) const {
+    return DanceAround(Client(), model, 150, between);
   }
   // Loading takes seconds, and longer where others compute.
   static void WaitUntil(const std::function<bool()>& condition) {
@@ -88,23 +67,23 @@ class ReloadedChoreodTest : public testing::Test {
 
 TEST_F(ReloadedChoreodTest, ReloadsItsFolderOnSighup) {
   const std::vector<Pose> wanted = Dance("default");
-  ExpectSame(Dance("default",
-                   [&] {
-                     Put("free");
-                     HangUp(100);
-                     Await({"default", "free"});
-                   }),
-             wanted);
+  ExpectSamePoses(Dance("default",
+                        [&] {
+                          Put("free");
+                          HangUp(100);
+                          Await({"default", "free"});
+                        }),
+                  wanted);
   const std::vector<Pose> free = Dance("free");
-  ExpectSame(Dance("default",
-                   [&] {
-                     std::filesystem::remove(models / "default.safetensors");
-                     std::ofstream(models / "free.safetensors") << "broken in its place";
-                     HangUp(1);
-                     Await({"free"});
-                   }),
-             wanted);
-  ExpectSame(Dance(""), free);
+  ExpectSamePoses(Dance("default",
+                        [&] {
+                          std::filesystem::remove(models / "default.safetensors");
+                          std::ofstream(models / "free.safetensors") << "broken in its place";
+                          HangUp(1);
+                          Await({"free"});
+                        }),
+                  wanted);
+  ExpectSamePoses(Dance(""), free);
 }
 
 // Of a process's threads the kernel may choose any that takes a signal.

@@ -9,6 +9,7 @@
 #include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
 #include "model/core/safetensors.h"
+#include "tests/server/interrupted_dance.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -107,36 +108,15 @@ TEST_F(StartTest, ARunningServerOutlivesItsCheckpoint) {
   authoring::LocalServer server(CHOREOD_PROGRAM);
   ::unsetenv("CHOREO_CHECKPOINT");
   const client::Client client({.addresses = {server.address()}});
-  const auto dance = [&](const std::function<void()>& between) {
-    constexpr int64_t kFrames = 300, kFirst = 30;
-    const auto one = client.StartDance({.seed = 1, .frames = kFrames, .generate_until = 0});
-    one->GenerateUntil(kFirst);
-    std::vector<Pose> poses;
-    while (const std::optional<client::Message> message = one->Next()) {
-      const auto* block = std::get_if<client::FrameBlock>(&*message);
-      if (block == nullptr) continue;
-      poses.insert(poses.end(), block->poses.begin(), block->poses.end());
-      if (std::ssize(poses) != kFirst) continue;
-      between();
-      one->CompleteKeys();
-    }
-    EXPECT_EQ(std::ssize(poses), kFrames);
-    return poses;
-  };
-  const auto nothing = [] {};
-  const std::vector<Pose> wanted = dance(nothing);
-  const auto expect_same = [&](const std::vector<Pose>& poses) {
-    ASSERT_EQ(poses.size(), wanted.size());
-    for (size_t i = 0; i < poses.size(); ++i) {
-      ASSERT_EQ(poses[i].root_position, wanted[i].root_position) << i;
-      ASSERT_EQ(poses[i].rotations, wanted[i].rotations) << i;
-    }
+  const std::vector<Pose> wanted = DanceAround(client, "", 300);
+  const auto expect_the_same_around = [&](const std::function<void()>& between) {
+    ExpectSamePoses(DanceAround(client, "", 300, between), wanted);
   };
   // In its place, so that who had it open would see it.
-  expect_same(dance([&] { std::ofstream(path_, std::ios::trunc) << "no checkpoint"; }));
-  expect_same(dance(nothing));
-  expect_same(dance([&] { std::filesystem::remove(path_); }));
-  expect_same(dance(nothing));
+  expect_the_same_around([&] { std::ofstream(path_, std::ios::trunc) << "no checkpoint"; });
+  expect_the_same_around({});
+  expect_the_same_around([&] { std::filesystem::remove(path_); });
+  expect_the_same_around({});
   server.RequireRunning();
   std::cout << "4 dances of " << wanted.size() << " frames, all as before\n";
 }

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "model/motion/kinematics.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
+#include "tests/support/temporary_folder.h"
 
 namespace choreo::controllers_sampler_test {
 
@@ -23,14 +23,9 @@ class ControllersSamplerTest : public testing::Test {
     config.encoding = 8;
     config.lstm = 16;
     config.decoder_hidden = 16;
-    path_ = std::filesystem::path(testing::TempDir()) /
-            ("controllers_" +
-             std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
-             std::to_string(getpid()) + ".safetensors");
     WriteRandomControllers(path_, config, Skeleton::Smpl24(), 3);
     sampler_ = MakeSampler(path_, {});
   }
-  ~ControllersSamplerTest() override { std::filesystem::remove(path_); }
 
   TransitionSpec Spec(uint64_t seed, int frames = 12) const {
     TransitionSpec spec = RandomSpec(sampler_->model(), seed, frames);
@@ -44,7 +39,8 @@ class ControllersSamplerTest : public testing::Test {
     return spec;
   }
 
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "model.safetensors";
   std::unique_ptr<Sampler> sampler_;
 };
 

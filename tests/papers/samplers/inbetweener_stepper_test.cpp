@@ -1,7 +1,6 @@
 #include "model/papers/samplers/inbetweener_stepper.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "model/motion/kinematics.h"
 #include "model/samplers/samplers.h"
 #include "tests/samplers/sampled.h"
+#include "tests/support/temporary_folder.h"
 
 namespace choreo::inbetweener_stepper_test {
 
@@ -23,14 +23,12 @@ class InbetweenerStepperTest : public testing::Test {
     SetTorchThreads(1);
     FlowConfig config = FlowConfig::Preset(kInbetweenerPreset);
     config.hidden = 16;
-    path_ = std::filesystem::path(testing::TempDir()) /
-            ("inbetweener_" + std::to_string(getpid()) + ".safetensors");
     WriteRandomInbetweener(path_, config, Skeleton::Smpl24(), 3);
     sampler_ = MakeSampler(path_, {});
   }
-  ~InbetweenerStepperTest() override { std::filesystem::remove(path_); }
 
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "model.safetensors";
   std::unique_ptr<Sampler> sampler_;
 };
 
