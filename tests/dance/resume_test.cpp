@@ -112,7 +112,7 @@ TEST(Resume, GoesOnBitForBitWithMusicAlone) {
 TEST(Resume, GoesOnBitForBitListeningForBeats) {
   const auto queue = FakeQueue();
   for (const bool keyed : {false, true}) {
-    Dance dance = LiveDance(31, 40);
+    Dance dance = LiveDance(31, 36);
     if (!keyed) dance.keys.clear();
     const Recording whole = Perform(*queue, dance);
     EXPECT_GT(whole.beats.size(), 20U);

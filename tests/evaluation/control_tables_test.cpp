@@ -69,22 +69,18 @@ class SwingingSampler : public ControlledSampler {
   }
 };
 
-std::vector<Table> Evaluate(const ClipSet& set, const std::vector<Method>& methods,
-                            const EvalOptions& options) {
-  const Runner runner;
-  const Evaluation evaluation{set, methods, options, runner};
-  std::vector<Table> tables;
-  for (const auto evaluate :
-       {EvaluateControls, EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths})
-    std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
-  return tables;
-}
+using Evaluate = std::vector<Table> (*)(const Evaluation&);
 
+/// Evaluates what a test asks for, and no other tables.
 class ControlTablesTest : public testing::Test {
  protected:
+  std::vector<Table> TablesOf(Evaluate evaluate, const std::vector<Method>& methods) const {
+    const Runner runner;
+    return evaluate({set_, methods, options_, runner});
+  }
   double Figure(const std::string& table, const std::vector<std::string>& row,
-                const std::string& column) const {
-    const Table& of = *std::ranges::find(tables_, table + "_set", &Table::name);
+                const std::string& column) {
+    const Table& of = Named(table + "_set");
     const auto at = std::ranges::find(of.columns, column, &Column::heading) - of.columns.begin();
     const auto line = std::ranges::find(of.rows, row, &TableRow::labels);
     if (line == of.rows.end()) return std::nan("");
@@ -105,7 +101,20 @@ class ControlTablesTest : public testing::Test {
                                         {"plain", Method::Kind::kModel, &plain_},
                                         {"model", Method::Kind::kModel, &line_, true, true, false}};
   const EvalOptions options_{.windows_per_clip = 1};
-  const std::vector<Table> tables_ = Evaluate(set_, methods_, options_);
+  std::vector<Table> tables_;  // evaluated so far
+
+ private:
+  const Table& Named(const std::string& name) {
+    const auto known = std::ranges::find(tables_, name, &Table::name);
+    if (known != tables_.end()) return *known;
+    const Evaluate evaluate = name == "multipliers_set" || name == "constant_set"
+                                  ? EvaluateMultipliers
+                              : name == "repetition_set" ? EvaluateRepetition
+                              : name == "drawn_set"      ? EvaluateDrawnPaths
+                                                         : EvaluateControls;
+    std::ranges::move(TablesOf(evaluate, methods_), std::back_inserter(tables_));
+    return *std::ranges::find(tables_, name, &Table::name);
+  }
 };
 
 TEST_F(ControlTablesTest, RealMotionIsTheYardstick) {
@@ -203,8 +212,7 @@ TEST_F(ControlTablesTest, OmitsTransitionsThatAreTooLongForTheModel) {
   } brief;
   const std::vector<Method> methods = {{"brief", Method::Kind::kModel, &brief},
                                        {"model", Method::Kind::kModel, &line_}};
-  const auto tables = Evaluate(set_, methods, options_);
-  const Table& table = *std::ranges::find(tables, "repetition_set", &Table::name);
+  const Table table = TablesOf(EvaluateRepetition, methods).at(0);
   const auto row =
       std::ranges::find(table.rows, std::vector<std::string>{"brief"}, &TableRow::labels);
   ASSERT_NE(row, table.rows.end());
@@ -214,7 +222,9 @@ TEST_F(ControlTablesTest, OmitsTransitionsThatAreTooLongForTheModel) {
 }
 
 TEST_F(ControlTablesTest, ModelWithoutControlsHasNoTables) {
-  EXPECT_TRUE(Evaluate(set_, {{"model", Method::Kind::kModel, &plain_}}, options_).empty());
+  for (const Evaluate evaluate :
+       {EvaluateControls, EvaluateMultipliers, EvaluateRepetition, EvaluateDrawnPaths})
+    EXPECT_TRUE(TablesOf(evaluate, {{"model", Method::Kind::kModel, &plain_}}).empty());
 }
 
 }  // namespace choreo::control_tables_test

@@ -122,7 +122,8 @@ class LabEval : public testing::Test {
 
   Outcome Eval(const std::string& arguments) {
     return Lab("eval --model ablation/checkpoint.safetensors" + kData +
-                   " --lengths 10 20 --windows 2 --best-of 2 --long-dances 2 --long-frames 60 " +
+                   " --lengths 10 20 --windows 2 --best-of 2 --long-dances 2 --long-frames 60 "
+                   "--free-dances 2 " +
                    arguments,
                folder_.path());
   }
@@ -252,7 +253,7 @@ TEST_F(LabEval, WarnsOfLengthsWithoutWindows) {
   TrainOneStep("controllers-paper");
   const Outcome outcome = Lab("eval --model ablation/checkpoint.safetensors" + kData +
                                   " --lengths 10 115 --windows 1 --best-of 0 --long-dances 0 "
-                                  "--no-encoder --engine packed",
+                                  "--free-dances 0 --no-encoder --engine packed",
                               folder_.path());
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("--lengths: no clip of clips has 115 frames"));
@@ -279,7 +280,8 @@ TEST_F(LabEval, MeasuresAnyGroupOfTheSplitsFileAndNamesThemAll) {
   std::ofstream(folder_.path() / "clips" / "splits.json")
       << R"({"ours": {"train": ["train_0"], "validation": ["held_out"], "another genre": ["last"]}})";
   TrainOneStep("ablation");
-  const std::string brief = "--engine packed --best-of 0 --long-dances 0 --no-encoder ";
+  const std::string brief =
+      "--engine packed --best-of 0 --long-dances 0 --free-dances 0 --no-encoder ";
   const Outcome other = Eval(brief + "--split 'another genre' --json t.json");
   EXPECT_EQ(other.code, 0) << other.said;
   EXPECT_THAT(other.said, HasSubstr(", another genre clips, "));

@@ -91,7 +91,7 @@ TEST_F(OverloadTest, ABurstIsAdmittedAsFarAsTheEngineHolds) {
 
 TEST_F(OverloadTest, AdmitsSomeAndTellsTheOthersWhenToRetry) {
   StartCostly();
-  const int seconds = Setting("CHOREO_FAULT_SECONDS", 8);
+  const int seconds = Setting("CHOREO_FAULT_SECONDS", 5);
   Seen seen;
   {
     const auto end = Clock::now() + std::chrono::seconds(seconds);
