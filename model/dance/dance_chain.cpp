@@ -279,13 +279,19 @@ void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
   score_.recurrence.Begin(segment.from);
   try {
     const DancedState before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(segment.from);
-    PreparedTransition prepared =
-        PrepareTransition(score_.config, model_, score_.controls, score_.recurrence, audio(),
-                          segment, rows_end, before.history);
-    prepared.request.spec.stage = before.stage;
-    if (audio_) turn_.Watch(*audio_, segment);
     std::vector<Beat> beats = score_.beats.BeatsFor(segment.from, segment.to);
-    prepared.request.spec.beats = score_.beats.BeatTimes(beats, segment.from, segment.to);
+    PreparedTransition prepared =
+        PrepareTransition({.start = score_.config,
+                           .model = model_,
+                           .controls = score_.controls,
+                           .recurrence = score_.recurrence,
+                           .audio = audio(),
+                           .segment = segment,
+                           .rows_end = rows_end,
+                           .before = before.history,
+                           .stage = before.stage,
+                           .beats = score_.beats.BeatTimes(beats, segment.from, segment.to)});
+    if (audio_) turn_.Watch(*audio_, segment);
     auto job =
         std::make_shared<Job>(shared_from_this(), segment, std::move(prepared), std::move(beats));
     queue_.Submit(job);

@@ -12,10 +12,9 @@ double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t fra
 
 }  // namespace
 
-PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& model,
-                                     const ControlTrack& controls, const Recurrence& recurrence,
-                                     const AudioFeed* audio, const Segment& segment,
-                                     int64_t rows_end, std::span<const Pose> before) {
+PreparedTransition PrepareTransition(const TransitionInputs& inputs) {
+  const auto& [start, model, controls, recurrence, audio, segment, rows_end, before, stage, beats] =
+      inputs;
   PreparedTransition prepared;
   TransitionSpec& spec = prepared.request.spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
@@ -25,12 +24,14 @@ PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& m
     prepared.request.hit = segment.key->hit;
     prepared.key_id = segment.key->id;
   }
-  Pose stance;
   if (before.empty()) {
-    stance = controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
-    before = {&stance, 1};
+    const Pose stance =
+        controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
+    spec.history = FillHistory(model, {&stance, 1});
+  } else {
+    spec.history = FillHistory(model, before);
   }
-  spec.history = FillHistory(model, before);
+  spec.stage = stage;
   if (audio != nullptr) {
     spec.has_audio = true;
     if (model.hears_music) {
@@ -42,6 +43,7 @@ PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& m
     spec.energy = {HearEnergyAt(*audio, start, segment.from - kTypicalFrames),
                    HearEnergyAt(*audio, start, segment.from)};
   }
+  spec.beats = beats;
   spec.seed = start.seed ^ start.music_id;
   spec.noise_like = recurrence.Origins(segment.from, segment.to);
   spec.variation = start.variation;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,20 +23,29 @@ inline double PlaybackClock() {
 /// Frames handed out before other dances get a turn.
 inline constexpr int kFramesASlice = 16;
 
+/// What a transition of a dance depends on.
+struct TransitionInputs {
+  const DanceStart& start;
+  const ModelInfo& model;
+  const ControlTrack& controls;
+  const Recurrence& recurrence;  ///< of the dance's music
+  const AudioFeed* audio;        ///< null without music
+  const Segment& segment;
+  int64_t rows_end;  ///< rows before it must be ready; the model gets no music from later ones
+  /// The poses danced or given before the transition; empty: it starts from ControlTrack::Stance.
+  std::span<const Pose> before;
+  std::optional<GroundFrame> stage;  ///< TransitionSpec::stage
+  std::vector<double> beats;         ///< TransitionSpec::beats
+};
+
 struct PreparedTransition {
   TransitionRequest request;
   std::string key_id;             ///< names its target in warnings
   std::vector<Warning> warnings;  ///< about its controls
 };
 
-/// Builds the request for one transition of a dance, without its stage and beats. `recurrence` is
-/// that of the dance's music. `before` holds the poses danced or given before the transition; if
-/// empty, it starts from ControlTrack::Stance. `audio` is null without music; rows before
-/// `rows_end` must be ready, and the model gets no music from later rows.
-PreparedTransition PrepareTransition(const DanceStart& start, const ModelInfo& model,
-                                     const ControlTrack& controls, const Recurrence& recurrence,
-                                     const AudioFeed* audio, const Segment& segment,
-                                     int64_t rows_end, std::span<const Pose> before);
+/// Builds the request for one transition of a dance.
+PreparedTransition PrepareTransition(const TransitionInputs& inputs);
 
 /// Adds a warning if the key is too far away for the time left.
 void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared);

@@ -194,14 +194,19 @@ void TransitionGroup::Impl::Begin() {
   Segment segment{first_frame_, end, std::nullopt};
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
-  PreparedTransition prepared = PrepareTransition(request_, model_, controls_,
-                                                  Recurrence(model_.fps, request_.music_passages),
-                                                  audio_.get(), segment, end, request_.Before());
+  PreparedTransition prepared = PrepareTransition(
+      {.start = request_,
+       .model = model_,
+       .controls = controls_,
+       .recurrence = Recurrence(model_.fps, request_.music_passages),
+       .audio = audio_.get(),
+       .segment = segment,
+       .rows_end = end,
+       .before = request_.Before(),
+       .stage = request_.continuation ? request_.continuation->stage : std::nullopt,
+       .beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames)});
   TransitionRequest& transition = prepared.request;
   transition.after = request_.after;
-  transition.spec.beats =
-      BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames);
-  if (request_.continuation) transition.spec.stage = request_.continuation->stage;
   if (const auto warning = controls_.BehindEnd(end)) prepared.warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)
