@@ -118,7 +118,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest asked) {
     const ModelInfo& model = queue_->model();
     RequireOpen();  // does not start for a client that has left
-    ValidTransition request(std::move(asked), model);
+    ValidGroup request(std::move(asked), model);
     encoding_ = message.config().encoding();
     sends_file_ = message.config().audio_format().encoding() == v1::AUDIO_ENCODING_FILE;
     seed_ = request->seed;

@@ -122,7 +122,7 @@ class Valid {
   Asked asked_;
 };
 using ValidDance = Valid<DanceConfig>;
-using ValidTransition = Valid<GroupRequest>;
+using ValidGroup = Valid<GroupRequest>;
 
 /// Last sample frame at which the audio of a dance, or transition, that starts at `first_frame` may
 /// begin without changing a bit.

@@ -278,7 +278,7 @@ void TransitionGroup::Impl::Done(CandidateReport report) {
   mailbox_.PostLast([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }
 
-TransitionGroup::TransitionGroup(SampleQueue& queue, ValidTransition request,
+TransitionGroup::TransitionGroup(SampleQueue& queue, ValidGroup request,
                                  std::shared_ptr<GroupSink> sink) {
   impl_ = std::make_shared<Impl>(queue, *std::move(request), std::move(sink));
   impl_->Begin();

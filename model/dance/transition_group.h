@@ -48,10 +48,9 @@ class TransitionGroup {
   /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if the queue has no room
   /// for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs are
   /// gone.
-  TransitionGroup(SampleQueue& queue, ValidTransition request, std::shared_ptr<GroupSink> sink);
+  TransitionGroup(SampleQueue& queue, ValidGroup request, std::shared_ptr<GroupSink> sink);
   TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink)
-      : TransitionGroup(queue, ValidTransition(std::move(request), queue.model()),
-                        std::move(sink)) {}
+      : TransitionGroup(queue, ValidGroup(std::move(request), queue.model()), std::move(sink)) {}
   ~TransitionGroup();
   TransitionGroup(const TransitionGroup&) = delete;
   TransitionGroup& operator=(const TransitionGroup&) = delete;
