@@ -62,12 +62,4 @@ std::vector<Pose> TransitionSampler::TakePoses() {
   return poses;
 }
 
-std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                   const WindowRequest& request, const FlowNoise& noise) {
-  TransitionSampler sampler(model, network, request, noise);
-  while (sampler.Continue()) {
-  }
-  return sampler.TakePoses();
-}
-
 }  // namespace choreo

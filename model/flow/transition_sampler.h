@@ -38,8 +38,4 @@ class TransitionSampler {
   std::optional<WindowSampler> window_;
 };
 
-/// Samples the whole transition.
-std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                   const WindowRequest& request, const FlowNoise& noise);
-
 }  // namespace choreo

@@ -9,6 +9,14 @@
 
 namespace choreo::flow_sampler_test {
 
+std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
+                                   const WindowRequest& request, const FlowNoise& noise) {
+  TransitionSampler sampler(model, network, request, noise);
+  while (sampler.Continue()) {
+  }
+  return sampler.TakePoses();
+}
+
 // Has learnt nothing: its dances are the prior's.
 class Silent : public FlowNetwork {
  public:
