@@ -122,35 +122,48 @@ std::array<std::optional<double>, kBodyParts> LevelsOf(
 
 FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   const Pose& last = request.history.back();
-  const int joints = static_cast<int>(last.rotations.cols());
-  const int dimensions = 3 + 3 * joints, tau = static_cast<int>(request.history.size());
+  const int dimensions = 3 + 3 * static_cast<int>(last.rotations.cols());
+  const int tau = static_cast<int>(request.history.size());
   keyed_.assign(static_cast<size_t>(dimensions), false);
   displacement_ = Eigen::VectorXd::Zero(dimensions);
   history_ = Eigen::MatrixXd::Zero(dimensions, tau);
   for (int i = 0; i < tau; ++i)
     history_.col(i) = Displacement(last, request.history[static_cast<size_t>(i)]);
-  const Eigen::MatrixXd velocity = LastVelocities(prior, history_);
-  velocity_ = velocity.col(0);
-  if (request.key) {
-    const PoseMask& mask = request.mask;
-    keyed_[0] = keyed_[2] = mask.root_position;
-    keyed_[1] = mask.root_position || request.height;
-    displacement_ = Displacement(last, *request.key);
-    const Eigen::Vector3d ahead =
-        std::min<double>(kTurnHorizon, request.to_key) * velocity.col(0).segment<3>(3);
-    displacement_.segment<3>(3) =
-        NearerWayRound(displacement_.segment<3>(3), request.turning.value_or(ahead));
-    for (int d = 3; d < dimensions; ++d)
-      keyed_[static_cast<size_t>(d)] = mask.Constrains(d / 3 - 1);
-    for (int d = 0; d < dimensions; ++d) {
-      if (!keyed_[static_cast<size_t>(d)]) displacement_[d] = 0;
-    }
-    to_key_ = prior.Bridges(request.frames, request.to_key);
+  const Eigen::MatrixXd velocities = LastVelocities(prior, history_);
+  velocity_ = velocities.col(0);
+  if (request.key) SetKey(prior, request);
+  SetMean(prior, request, velocities);
+  if (request.FrontCounts() && prior.usual().facing > 0) FaceAudience(prior, request, velocities);
+  SetEnergy(prior, request);
+  SetBase(last);
+}
+
+void FlowWindow::SetKey(const MotionPrior& prior, const WindowRequest& request) {
+  const PoseMask& mask = request.mask;
+  keyed_[0] = keyed_[2] = mask.root_position;
+  keyed_[1] = mask.root_position || request.height;
+  displacement_ = Displacement(request.history.back(), *request.key);
+  const Eigen::Vector3d ahead =
+      std::min<double>(kTurnHorizon, request.to_key) * velocity_.segment<3>(3);
+  displacement_.segment<3>(3) =
+      NearerWayRound(displacement_.segment<3>(3), request.turning.value_or(ahead));
+  const auto dimensions = static_cast<int>(displacement_.size());
+  for (int d = 3; d < dimensions; ++d) keyed_[static_cast<size_t>(d)] = mask.Constrains(d / 3 - 1);
+  for (int d = 0; d < dimensions; ++d) {
+    if (!keyed_[static_cast<size_t>(d)]) displacement_[d] = 0;
   }
+  to_key_ = prior.Bridges(request.frames, request.to_key);
+}
+
+void FlowWindow::SetMean(const MotionPrior& prior, const WindowRequest& request,
+                         const Eigen::MatrixXd& velocities) {
+  const Pose& last = request.history.back();
+  const auto dimensions = static_cast<int>(displacement_.size());
   const bool whole = std::ranges::find(keyed_, false) == keyed_.end();
   if (!whole) free_ = prior.Bridges(request.frames, 0);
   Eigen::VectorXd way = displacement_;  // to the key or to the usual pose
-  if (const Pose& usual = prior.usual().pose; !whole && usual.rotations.cols() == joints) {
+  if (const Pose& usual = prior.usual().pose;
+      !whole && usual.rotations.cols() == last.rotations.cols()) {
     Pose home = usual;
     if (request.StageCounts()) {
       stage_ = prior.StageBridges(request.frames);
@@ -166,43 +179,47 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   mean_.resize(dimensions, request.frames);
   double squares = 0, known = 0;
   for (int d = 0; d < dimensions; ++d) {
-    const MotionPrior::Bridge& bridge = At(d);
+    const MotionPrior::Bridge& bridge = BridgeOf(d);
     // A history that the dance made says little about its keys' energy.
     const bool keyed = keyed_[static_cast<size_t>(d)];
     if (prior.Moves(d) && keyed) {
       squares += displacement_[d] * displacement_[d] / bridge.expected[MotionPrior::kPast];
       ++known;
     } else if (prior.Moves(d) && !request.key) {
-      squares += velocity.row(d)
+      squares += velocities.row(d)
                      .transpose()
                      .cwiseAbs2()
                      .cwiseQuotient(bridge.expected.head<MotionPrior::kPast>())
                      .sum();
       known += MotionPrior::kPast;
     }
-    mean_.row(d) = (bridge.past * velocity.row(d).transpose() + bridge.key * way[d]).transpose();
+    mean_.row(d) = (bridge.past * velocities.row(d).transpose() + bridge.key * way[d]).transpose();
   }
   if (known > 0) surprise_ = squares / known;
-  if (request.FrontCounts() && prior.usual().facing > 0) {
-    // Turns about the vertical. About the body's own axis, a dancer who bends forwards would bend
-    // backwards half a turn later.
-    facing_ = prior.FacingBridge(request.frames);
-    const Eigen::Vector3d up = UpOf(last);
-    const double turn = request.turn ? *request.turn : FreeTurn(prior, request, 0);
-    const Eigen::VectorXd turned =
-        facing_->key * (turn + WrapAngle(request.stage->heading - turn)) +
-        (facing_->past - (*free_)[MotionPrior::kTurn].past) *
-            (velocity.middleRows<3>(3).transpose() * up);
-    mean_.middleRows<3>(3) += up * turned.transpose();
-  }
-  SetEnergy(prior, request);
-  base_.resize(static_cast<size_t>(request.frames), last);
-  base_turns_.resize(static_cast<size_t>(request.frames * joints));
-  for (int i = 0; i < request.frames; ++i)
+}
+
+// Turns about the vertical. About the body's own axis, a dancer who bends forwards would bend
+// backwards half a turn later.
+void FlowWindow::FaceAudience(const MotionPrior& prior, const WindowRequest& request,
+                              const Eigen::MatrixXd& velocities) {
+  facing_ = prior.FacingBridge(request.frames);
+  const Eigen::Vector3d up = UpOf(request.history.back());
+  const double turn = request.turn ? *request.turn : FreeTurn(prior, request, 0);
+  const Eigen::VectorXd turned = facing_->key * (turn + WrapAngle(request.stage->heading - turn)) +
+                                 (facing_->past - (*free_)[MotionPrior::kTurn].past) *
+                                     (velocities.middleRows<3>(3).transpose() * up);
+  mean_.middleRows<3>(3) += up * turned.transpose();
+}
+
+void FlowWindow::SetBase(const Pose& last) {
+  const auto joints = static_cast<int>(last.rotations.cols());
+  base_.resize(static_cast<size_t>(frames()), last);
+  base_turns_.resize(static_cast<size_t>(frames() * joints));
+  for (int i = 0; i < frames(); ++i)
     base_[static_cast<size_t>(i)].root_position += mean_.col(i).head<3>();
   for (int j = 0; j < joints; ++j) {
     const Eigen::Quaterniond from = QuaternionFromExp(last.rotations.col(j));
-    for (int i = 0; i < request.frames; ++i) {
+    for (int i = 0; i < frames(); ++i) {
       Eigen::Quaterniond& turn = base_turns_[static_cast<size_t>(i * joints + j)];
       turn = from * QuaternionFromExp(mean_.col(i).segment<3>(3 + 3 * j));
       base_[static_cast<size_t>(i)].rotations.col(j) =
@@ -211,7 +228,7 @@ FlowWindow::FlowWindow(const MotionPrior& prior, const WindowRequest& request) {
   }
 }
 
-Eigen::Quaterniond FlowWindow::Turn(const Eigen::MatrixXd& x, int frame, int joint) const {
+Eigen::Quaterniond FlowWindow::RotationOf(const Eigen::MatrixXd& x, int frame, int joint) const {
   const auto at = static_cast<size_t>(frame * (x.rows() / 3 - 1) + joint);
   return base_turns_[at] * QuaternionFromExp(x.col(frame).segment<3>(3 + 3 * joint));
 }
@@ -242,7 +259,7 @@ std::vector<Pose> FlowWindow::Decode(const Eigen::MatrixXd& x) const {
     pose.root_position += x.col(i).head<3>();
     for (int j = 0; j < pose.rotations.cols(); ++j) {
       pose.rotations.col(j) =
-          NearestBranch(ExpFromQuaternion(Turn(x, i, j)), pose.rotations.col(j));
+          NearestBranch(ExpFromQuaternion(RotationOf(x, i, j)), pose.rotations.col(j));
     }
   }
   return poses;
@@ -254,7 +271,8 @@ Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::M
   Eigen::Matrix3Xd local(3, 3 * joints);
   JointPlacement placement;
   for (int i = 0; i < frames(); ++i) {
-    for (int j = 0; j < joints; ++j) local.middleCols<3>(3 * j) = Turn(x, i, j).toRotationMatrix();
+    for (int j = 0; j < joints; ++j)
+      local.middleCols<3>(3 * j) = RotationOf(x, i, j).toRotationMatrix();
     const Eigen::Vector3d root = base_[static_cast<size_t>(i)].root_position + x.col(i).head<3>();
     ForwardKinematics(skeleton, root, local, placement);
     places.col(i) = placement.positions.reshaped().cast<float>();
@@ -267,7 +285,7 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
   for (int d = 0; d < z.rows(); ++d) {
     // Loops over columns: half the time of Eigen's triangular product.
-    const Eigen::MatrixXf& spread = At(d).spread;
+    const Eigen::MatrixXf& spread = BridgeOf(d).spread;
     for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
       x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);
   }
@@ -275,7 +293,7 @@ Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
 }
 
 Eigen::VectorXd FlowWindow::Whiten(int dimension, const Eigen::VectorXd& x) const {
-  const Eigen::MatrixXd spread = At(dimension).spread.cast<double>();
+  const Eigen::MatrixXd spread = BridgeOf(dimension).spread.cast<double>();
   const Eigen::VectorXd white = spread.triangularView<Eigen::Lower>().solve(x);
   return white.cwiseQuotient(scales_.row(dimension).transpose());
 }

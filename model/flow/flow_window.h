@@ -111,9 +111,17 @@ class FlowWindow {
   Eigen::VectorXd Whiten(int dimension, const Eigen::VectorXd& x) const;
 
  private:
+  // What the constructor sets up, in this order. `velocities`: the last ones, [dimensions, kPast].
+  void SetKey(const MotionPrior& prior, const WindowRequest& request);
+  void SetMean(const MotionPrior& prior, const WindowRequest& request,
+               const Eigen::MatrixXd& velocities);
+  void FaceAudience(const MotionPrior& prior, const WindowRequest& request,
+                    const Eigen::MatrixXd& velocities);
+  void SetBase(const Pose& last);
+
   // A joint's local rotation in Decode(x)'s poses.
-  Eigen::Quaterniond Turn(const Eigen::MatrixXd& x, int frame, int joint) const;
-  const MotionPrior::Bridge& At(int dimension) const {
+  Eigen::Quaterniond RotationOf(const Eigen::MatrixXd& x, int frame, int joint) const;
+  const MotionPrior::Bridge& BridgeOf(int dimension) const {
     const auto d = static_cast<size_t>(dimension);
     if (dimension == MotionPrior::kTurn && facing_) return *facing_;
     return (keyed_[d] ? *to_key_ : d < 3 && stage_ ? *stage_ : *free_)[d];
