@@ -60,6 +60,50 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
   return table;
 }
 
+// A table with one figure, at each length.
+struct ControlFigure {
+  const char *name, *title, *note;
+  int digits;
+  bool averaged;  ///< over the lengths, too
+  ControlCourse::Figure figure;
+};
+
+// The first is LRP.
+std::vector<ControlFigure> ControlFigures(const Skeleton& skeleton, double fps) {
+  return {
+      {"lrp", "LRP, cm",
+       "Paper C, Table 2: distance of root-relative positions of postures that face +Z.", 1, true,
+       [&skeleton](const auto& window, const auto& danced) {
+         return 100 * RootRelativeDistance(FacingTrack(skeleton, danced),
+                                           FacingTrack(skeleton, window.real));
+       }},
+      {"lrp_turned", "LRP in the scene's axes, cm", "As LRP, but a wrong heading counts too.", 1,
+       false,
+       [&skeleton](const auto& window, const auto& danced) {
+         return 100 * RootRelativeDistance(TrackJoints(skeleton, danced),
+                                           TrackJoints(skeleton, window.real));
+       }},
+      {"avf", "AVF", "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, true,
+       [&skeleton](const auto& window, const auto& danced) {
+         const auto factors = FactorTrackOf(skeleton, window.before, danced);
+         return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
+       }},
+      {"art", "ART", "Paper C, Table 4: share whose root keeps within 7 cm.", 2, true,
+       [&skeleton](const auto& window, const auto& danced) {
+         const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
+         return off < kRootTolerance ? 1.0 : 0.0;
+       }},
+      {"control_skate", "Skating ratio", "Share of the steps in which a foot skates.", 3, false,
+       [&skeleton, fps](const auto& window, const auto& danced) {
+         return SkateRatioOf(skeleton, fps, window.before, danced);
+       }},
+      {"tremor", "Trembling", "Share of the joints' movement from the root above 4 Hz.", 2, false,
+       [&skeleton, fps](const auto&, const auto& danced) {
+         return TremorShare(TrackJoints(skeleton, danced), fps);
+       }},
+  };
+}
+
 }  // namespace
 
 std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
@@ -69,7 +113,6 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   const std::string asked =
       "Transitions between real poses, with the real dance's root path and velocity factors" +
       WithoutControls(ways) + ". ";
-  const Skeleton& skeleton = model.skeleton;
   std::vector<ControlCourse> courses;
   std::vector<std::vector<Dances>> dances(ways.size());  // by length
   for (const int frames : kControlledFrames) {
@@ -77,61 +120,30 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
     for (size_t w = 0; w < ways.size(); ++w) dances[w].push_back(courses.back().Dance(ways[w]));
   }
   std::vector<Table> tables;
-  // Adds a table and returns the figures of all methods.
-  const auto add = [&](const char* name, const char* title, const std::string& note, int digits,
-                       bool averaged, const ControlCourse::Figure& figure) {
-    Table& table = tables.emplace_back(evaluation.NewTable(name, title, {"method"}));
-    table.note = asked + note;
+  std::vector<Lengths> lrp;
+  for (const ControlFigure& of : ControlFigures(model.skeleton, model.fps)) {
+    Table& table = tables.emplace_back(evaluation.NewTable(of.name, of.title, {"method"}));
+    table.note = asked + of.note;
     std::vector<Lengths> all;
     for (size_t w = 0; w < ways.size(); ++w) {
       Lengths& lengths = all.emplace_back();
       table.Begin({ways[w].name});
       for (size_t i = 0; i < courses.size(); ++i) {
-        lengths.push_back(courses[i].FiguresOf(dances[w][i], figure));
-        table.Put(std::to_string(kControlledFrames[i]), digits, Mean(lengths.back()));
+        lengths.push_back(courses[i].FiguresOf(dances[w][i], of.figure));
+        table.Put(std::to_string(kControlledFrames[i]), of.digits, Mean(lengths.back()));
       }
-      if (averaged) table.Put("mean", digits, MeanOfMeans(lengths));
+      if (of.averaged) table.Put("mean", of.digits, MeanOfMeans(lengths));
     }
-    return all;
-  };
-  const std::vector<Lengths> lrp =
-      add("lrp", "LRP, cm",
-          "Paper C, Table 2: distance of root-relative positions of postures that face +Z.", 1,
-          true, [&](const auto& window, const auto& danced) {
-            return 100 * RootRelativeDistance(FacingTrack(skeleton, danced),
-                                              FacingTrack(skeleton, window.real));
-          });
-  Table& ratio =
-      tables.emplace_back(evaluation.NewTable("lrp_ratio", "LRP over interpolation's", {"method"}));
+    if (lrp.empty()) lrp = std::move(all);
+  }
+  Table ratio = evaluation.NewTable("lrp_ratio", "LRP over interpolation's", {"method"});
   ratio.note = asked + "Interpolation: slerp, its root on the path.";
   for (size_t w = 0; w < ways.size(); ++w) {
     ratio.Begin({ways[w].name});
     for (size_t i = 0; i < courses.size(); ++i)
       ratio.Put(std::to_string(kControlledFrames[i]), 2, Ratio(lrp[w][i], lrp[kInterpolation][i]));
   }
-  add("lrp_turned", "LRP in the scene's axes, cm", "As LRP, but a wrong heading counts too.", 1,
-      false, [&](const auto& window, const auto& danced) {
-        return 100 * RootRelativeDistance(TrackJoints(skeleton, danced),
-                                          TrackJoints(skeleton, window.real));
-      });
-  add("avf", "AVF", "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, true,
-      [&](const auto& window, const auto& danced) {
-        const auto factors = FactorTrackOf(skeleton, window.before, danced);
-        return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
-      });
-  add("art", "ART", "Paper C, Table 4: share whose root keeps within 7 cm.", 2, true,
-      [&](const auto& window, const auto& danced) {
-        const double off = RootDeviation(TrackJoints(skeleton, danced), window.path);
-        return off < kRootTolerance ? 1.0 : 0.0;
-      });
-  add("control_skate", "Skating ratio", "Share of the steps in which a foot skates.", 3, false,
-      [&](const auto& window, const auto& danced) {
-        return SkateRatioOf(skeleton, model.fps, window.before, danced);
-      });
-  add("tremor", "Trembling", "Share of the joints' movement from the root above 4 Hz.", 2, false,
-      [&](const auto&, const auto& danced) {
-        return TremorShare(TrackJoints(skeleton, danced), model.fps);
-      });
+  tables.insert(tables.begin() + 1, std::move(ratio));
   return tables;
 }
 
