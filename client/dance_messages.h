@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/dance_config.h"
+#include "model/messages/call_timing.h"
 #include "model/messages/dance_event.h"
 #include "model/messages/dance_header.h"
 #include "model/messages/quality_report.h"
@@ -40,9 +41,7 @@ struct Resumed {
 /// The end of a dance, with its quality. `frames` and `keys` cover the whole dance; the rest covers
 /// frames from `measured_from` on, which is where the last server took over.
 struct Report : QualityReport {
-  double first_frame_latency_s = 0;
-  double elapsed_s = 0;
-  double real_time_factor = 0;  ///< seconds of dance a second
+  CallTiming timing = {};
 };
 
 using Message = std::variant<Header, FrameBlock, KeyReached, KeyRejected, Beat, Warning,

@@ -34,11 +34,7 @@ Continuation FromProto(const v1::Continuation& continuation) {
 }
 
 Report FromProto(const v1::QualityReport& report, const v1::Timing& timing) {
-  Report out{FromProto(report)};
-  out.first_frame_latency_s = timing.first_frame_latency_s();
-  out.elapsed_s = timing.elapsed_s();
-  out.real_time_factor = timing.real_time_factor();
-  return out;
+  return {FromProto(report), FromProto(timing)};
 }
 
 ServerDescription FromProto(const v1::GetServerInfoResponse& response) {

@@ -199,10 +199,9 @@ class CallSession : public Call {
     if (frames_ == 0) first_frame_s_ = Elapsed();
     frames_ += static_cast<int64_t>(frames);
   }
-  void FillTiming(double danced_s, v1::Timing* timing) const {
-    timing->set_first_frame_latency_s(first_frame_s_);
-    timing->set_elapsed_s(Elapsed());
-    timing->set_real_time_factor(danced_s / Elapsed());
+  CallTiming TimingOf(double danced_s) const {
+    const double elapsed = Elapsed();
+    return {first_frame_s_, elapsed, danced_s / elapsed};
   }
 
   Serving& serving_;

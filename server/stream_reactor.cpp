@@ -97,7 +97,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     DanceResponse response;
     v1::DanceSummary* summary = response.mutable_summary();
     *summary->mutable_report() = wire::ToProto(report);
-    FillTiming(static_cast<double>(report.frames) / queue_->model().fps, summary->mutable_timing());
+    *summary->mutable_timing() =
+        wire::ToProto(TimingOf(static_cast<double>(report.frames) / queue_->model().fps));
     outbox().Send(std::move(response));
     End(grpc::Status::OK);
   }

@@ -93,7 +93,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
         serving_.tally.key_error_m.Add(key.raw_error_m);
       }
     }
-    FillTiming(static_cast<double>(frames) / queue_->model().fps, summary->mutable_timing());
+    *summary->mutable_timing() =
+        wire::ToProto(TimingOf(static_cast<double>(frames) / queue_->model().fps));
     outbox().Send(std::move(response));
     End(grpc::Status::OK);
   }

@@ -42,10 +42,7 @@ v1::StreamDanceResponse ToProto(const client::Continuation& continuation) {
 v1::StreamDanceResponse ToProto(const client::Report& report) {
   v1::StreamDanceResponse out;
   *out.mutable_summary()->mutable_report() = wire::ToProto(report);
-  v1::Timing* timing = out.mutable_summary()->mutable_timing();
-  timing->set_first_frame_latency_s(report.first_frame_latency_s);
-  timing->set_elapsed_s(report.elapsed_s);
-  timing->set_real_time_factor(report.real_time_factor);
+  *out.mutable_summary()->mutable_timing() = wire::ToProto(report.timing);
   return out;
 }
 

@@ -112,8 +112,8 @@ std::string ReportJson(const WrittenDance& dance) {
       speeds[std::string(kBodyPartNames[part])] = {{"asked", asked}, {"danced", danced}};
     }
   }
-  json["first_frame_latency_s"] = report.first_frame_latency_s;
-  json["real_time_factor"] = report.real_time_factor;
+  json["first_frame_latency_s"] = report.timing.first_frame_latency_s;
+  json["real_time_factor"] = report.timing.real_time_factor;
   return json.dump(2) + "\n";
 }
 
@@ -213,7 +213,7 @@ std::string ReportText(const WrittenDance& dance) {
     text += '\n';
   }
   text += Format("first frame after %.0f ms, %.1f times real time\n",
-                 1000 * report.first_frame_latency_s, report.real_time_factor);
+                 1000 * report.timing.first_frame_latency_s, report.timing.real_time_factor);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/core/hand_pose.h"
 #include "model/core/passage.h"
+#include "model/messages/call_timing.h"
 #include "model/messages/dance_event.h"
 #include "model/messages/dance_header.h"
 #include "model/messages/model_description.h"
@@ -30,6 +31,7 @@ v1::ModelInfo ToProto(const ModelDescription& model);
 /// With frames in axis-angle.
 v1::Header ToProto(const DanceHeader& header);
 v1::QualityReport ToProto(const QualityReport& report);
+v1::Timing ToProto(const CallTiming& timing);
 /// `fps`: the model's, at which frames are counted.
 v1::Event ToProto(const DanceEvent& event, double fps);
 /// All but the candidate.
@@ -43,6 +45,7 @@ std::optional<HandPose> FromProto(v1::HandPose hands);
 ModelDescription FromProto(const v1::ModelInfo& model);
 DanceHeader FromProto(const v1::Header& header);
 QualityReport FromProto(const v1::QualityReport& report);
+CallTiming FromProto(const v1::Timing& timing);
 /// None for a kind of event that this version does not know yet.
 std::optional<DanceEvent> FromProto(const v1::Event& event);
 

@@ -130,6 +130,10 @@ QualityReport FromProto(const v1::QualityReport& report) {
   return out;
 }
 
+CallTiming FromProto(const v1::Timing& timing) {
+  return {timing.first_frame_latency_s(), timing.elapsed_s(), timing.real_time_factor()};
+}
+
 std::optional<DanceEvent> FromProto(const v1::Event& event) {
   const int64_t frame = event.frame();
   switch (event.event_case()) {

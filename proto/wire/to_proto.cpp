@@ -170,6 +170,14 @@ v1::QualityReport ToProto(const QualityReport& report) {
   return out;
 }
 
+v1::Timing ToProto(const CallTiming& timing) {
+  v1::Timing out;
+  out.set_first_frame_latency_s(timing.first_frame_latency_s);
+  out.set_elapsed_s(timing.elapsed_s);
+  out.set_real_time_factor(timing.real_time_factor);
+  return out;
+}
+
 v1::Event ToProto(const DanceEvent& event, double fps) {
   v1::Event out;
   std::visit(

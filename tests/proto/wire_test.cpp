@@ -67,6 +67,8 @@ TEST(Wire, ReportsRoundTrip) {
   ExpectBackAgain(wire::ToProto(report));
 }
 
+TEST(Wire, TimingsRoundTrip) { ExpectBackAgain(wire::ToProto(CallTiming{0.25, 2, 3})); }
+
 TEST(Wire, ModelsRoundTrip) {
   const ModelDescription model{.name = "default",
                                .fingerprint = "f",
