@@ -6,6 +6,20 @@
 #include "model/motion/canonical.h"
 
 namespace choreo {
+namespace {
+
+// What the random numbers of a frame decide that follow those of its motion, of the window's energy
+// and of the energy's curve.
+enum Decision { kFreeTurn, kWayToKey, kDecisions };
+
+double NumberFor(Decision decision, const FlowModelParts& model, const FlowNoise& noise) {
+  const auto first = static_cast<size_t>(model.prior.dimensions() + 2 * kBodyParts);
+  std::vector<float> normal(first + kDecisions);
+  noise.Fill(0, normal);
+  return normal[first + decision];
+}
+
+}  // namespace
 
 TransitionSampler::TransitionSampler(const FlowModelParts& model, const FlowNetwork& network,
                                      WindowRequest request, const FlowNoise& noise)
@@ -16,10 +30,8 @@ TransitionSampler::TransitionSampler(const FlowModelParts& model, const FlowNetw
       windows_((request_.frames + model.config.window_frames - 1) / model.config.window_frames),
       emitted_(request_.history) {
   if (request_.turning) return;
-  // Skips the random numbers used by the first frame and its energy.
-  std::vector<float> normal(static_cast<size_t>(model.prior.dimensions() + kBodyParts + 1));
-  noise.Fill(0, normal);
-  request_.turning = model.turns.Sample(model.skeleton, request_, normal.back(), noise.temperature);
+  request_.turning = model.turns.Sample(model.skeleton, request_,
+                                        NumberFor(kWayToKey, model, noise), noise.temperature);
 }
 
 bool TransitionSampler::Continue() {
@@ -38,10 +50,8 @@ void TransitionSampler::BeginWindow() {
   WindowRequest part =
       request_.Part(frames_, frames, std::span(emitted_).last(request_.history.size()), ground_);
   if (part.FrontCounts()) {
-    // Skips those of the energy's curve, too.
-    std::vector<float> normal(static_cast<size_t>(model_->prior.dimensions() + 2 * kBodyParts + 1));
-    noise.Fill(0, normal);
-    part.turn = FreeTurn(model_->prior, part, std::min(noise.temperature, 1.0) * normal.back());
+    part.turn = FreeTurn(model_->prior, part,
+                         std::min(noise.temperature, 1.0) * NumberFor(kFreeTurn, *model_, noise));
   }
   window_.emplace(*model_, *network_, std::move(part), noise);
 }

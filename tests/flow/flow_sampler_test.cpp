@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
@@ -347,6 +349,41 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
   const auto there = SampleTransition(parts, network, turned, noise);
   for (size_t i = 0; i < here.size(); ++i)
     EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);
+}
+
+// Each is decided by a random number of its own.
+TEST(FlowSampler, TheWayRoundToAKeyTellsNothingOfTheTrunksEnergy) {
+  Scene scene = MakeScene(10);
+  const Pose& last = scene.request.history.back();
+  scene.request.key = last;
+  scene.request.key->rotations.col(0) =
+      LogMap(ExpMap(std::numbers::pi * 0.98 * UpOf(last)) * ExpMap(last.rotations.col(0)));
+  FlowModelParts parts = Parts();
+  parts.config.median_factors.fill(0.01);
+  parts.curve.correlation[0] = 1;
+  parts.curve.spread = 0.5 * Eigen::MatrixXd::Identity(kBodyParts, kBodyParts);
+  parts.turns.weights[0] = 1e-9;  // dancers turn either way as often
+  const Listening network;
+  constexpr int kFirstControl = 7, kPathFeatures = 5;  // window_features.cpp
+  constexpr int kSeeds = 100;
+  double turns = 0, together = 0, energy = 0, square = 0;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const std::vector<Pose> poses =
+        SampleTransition(parts, network, scene.request, {.seed = seed, .temperature = 1});
+    const Eigen::Vector3d half =
+        RotationDifference(last.rotations.col(0), poses[poses.size() / 2].rotations.col(0));
+    const double turn = half.dot(UpOf(last)) > 0 ? 1 : -1;
+    const double level = network.all(kFirstControl + kPathFeatures, 0);
+    turns += turn;
+    together += turn * level;
+    energy += level;
+    square += level * level;
+  }
+  EXPECT_LT(std::abs(turns), 0.3 * kSeeds) << "both ways";
+  const double variance = square / kSeeds - std::pow(energy / kSeeds, 2);
+  ASSERT_GT(variance, 0.01);
+  const double covariance = together / kSeeds - turns / kSeeds * energy / kSeeds;
+  EXPECT_LT(std::abs(covariance) / std::sqrt(variance), 0.3);
 }
 
 // A long distance needs energy; the key gives the distance as far as it is known.
