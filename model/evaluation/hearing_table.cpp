@@ -105,7 +105,7 @@ class Judge {
   void Form();
   void Hits();
   /// Of all dances so far.
-  void Exploded();
+  void Fastest();
 
  private:
   /// A figure at usual settings and at those that change `matters`; a dash for others.
@@ -130,7 +130,11 @@ class Judge {
     std::vector<Pose> dance = DanceTo(queue_, mono, config, keys, controls);
     Tally& tally = tallies_[setting.name];
     ++tally.dances;
-    tally.exploded += std::ranges::max(Speeds(dance)) > options_.top_speed;
+    const std::vector<float> speeds = Speeds(dance);
+    tally.exploded += std::ranges::max(speeds) > options_.top_speed;
+    tally.frames += static_cast<double>(speeds.size());
+    tally.rare += static_cast<double>(
+        std::ranges::count_if(speeds, [this](float speed) { return speed > options_.rare_speed; }));
     return dance;
   }
   std::vector<float> Speeds(std::span<const Pose> dance) const {
@@ -155,7 +159,7 @@ class Judge {
   double Hits(const MadeSong& song, const std::vector<Pose>& dance) const;
 
   struct Tally {
-    double dances = 0, exploded = 0;
+    double dances = 0, exploded = 0, frames = 0, rare = 0;
   };
 
   SampleQueue& queue_;
@@ -311,11 +315,16 @@ void Judge::Hits() {
   if (queue_.model().Takes(kRootPath)) row("keyed on a path", on_path);
 }
 
-void Judge::Exploded() {
-  Row("exploded %", 0, &Setting::dynamics, [&](const Setting& setting) {
-    const Tally& tally = tallies_[setting.name];
-    return 100 * tally.exploded / tally.dances;
-  });
+void Judge::Fastest() {
+  const auto row = [&](const std::string& label, int digits, double Tally::*some,
+                       double Tally::*all) {
+    Row(label, digits, &Setting::dynamics, [&](const Setting& setting) {
+      const Tally& tally = tallies_[setting.name];
+      return 100 * tally.*some / tally.*all;
+    });
+  };
+  row("rarely fast frames %", 2, &Tally::rare, &Tally::frames);
+  row("exploded %", 0, &Tally::exploded, &Tally::dances);
 }
 
 }  // namespace
@@ -344,7 +353,7 @@ Table EvaluateHearing(SampleQueue& queue, const std::vector<NamedSong>& songs,
   judge.Drops("silence", false);
   judge.Form();
   judge.Hits();
-  judge.Exploded();
+  judge.Fastest();
   return table;
 }
 

@@ -29,6 +29,7 @@ struct Song {
   bool shuffled = false;
 };
 // The first three vary the tempo, the next the phase, then a control; the last is for the range.
+constexpr size_t kTimedSong = 1;  // whose jerk is told
 constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true},
                            {60, 0}, {75, 0},  {150, 0}, {180, 0}};
 
@@ -118,6 +119,13 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
+  // Does timing to beats make her jerk?
+  const Song& song = kSongs[kTimedSong];
+  const LivelyDances& timed = dances.songs[kTimedSong];
+  Add("jerk below 8 Hz, " + std::to_string(std::lround(song.bpm)) + " bpm m/s³", {}, {},
+      Mean(timed, &LivelyFigures::jerk, 1),
+      Ratio(FiguresOf(timed, &LivelyFigures::jerk), FiguresOf(dances.real, &LivelyFigures::jerk)),
+      table);
   add("skating %", &LivelyFigures::skate_ratio, 100);
   add("knee snaps a minute", &LivelyFigures::knee_snaps, 1);
   add("elbow snaps a minute", &LivelyFigures::elbow_snaps, 1);
@@ -222,7 +230,8 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDan
              Table* table) {
   const std::vector<LongFigures>& dances = free.whole;
   if (dances.empty()) return;
-  const RealRange real = MeasureReal(evaluation.set, model).range;
+  const RealDances recorded = MeasureReal(evaluation.set, model);
+  const RealRange& real = recorded.range;
   std::vector<float> speeds;
   for (const LongFigures& dance : dances) speeds.push_back(static_cast<float>(dance.median_speed));
   const auto share = [&](auto is) {
@@ -231,6 +240,18 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDan
   const double speed = Percentile(speeds, 0.5);
   Add("free: median speed cm/s", 100 * real.median_speed, {}, 100 * speed,
       speed / real.median_speed, table);
+  const auto add_fastest = [&](const std::string& name, double rank) {
+    const auto fastest = [rank](const std::vector<LongFigures>& some) {
+      std::vector<float> all;
+      for (const LongFigures& one : some)
+        all.insert(all.end(), one.speeds.begin(), one.speeds.end());
+      return Percentile(std::move(all), rank);
+    };
+    const double own = fastest(recorded.clips), theirs = fastest(dances);
+    Add("free: " + name + " cm/s", 100 * own, {}, 100 * theirs, theirs / own, table);
+  };
+  add_fastest("one frame in 1,000 is faster than", 0.999);
+  add_fastest("fastest frame", 1);
   AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }), table);
   AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }), table);
   AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }), table);

@@ -37,15 +37,20 @@ void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
 
 /// Times a plan so that the dancer is fastest on the music's beats, as kinematic beats are (paper
-/// F, Section 4.2). A root path keeps its positions and heights.
+/// F, Section 4.2): TimesOnBeats. A root path keeps its positions and heights.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 
-/// The time, in frames, whose pose a plan of `frames` frames takes at frame t, for t in [-1, frames
-/// - 1]; -1 is the history's last pose. Between two beats time is t + A P / 2 pi sin(2 pi (t -
-/// beat) / P): its speed is 1 + A on each beat and 1 - A halfway between; A is the accent. A is
-/// larger beside a key on a beat, as dancers are slow at key poses. The ends stay in place; time is
-/// even before the first beat, after the last, and where the music pauses.
-double BeatTime(const PlanContext& context, int frames, double t);
+/// The times, in frames, whose poses a plan's frames take so that it is fastest on the beats;
+/// `speeds` are the ones with which it reaches its frames. Moves the plan's own kinematic beats
+/// onto the music's, by the way through time with the largest sum of speed times cos(2 pi phase of
+/// the beat). The pace of time is 1 at first and within 1 - A and 1 + A; A is the accent. The last
+/// frame keeps its time. Time is as even as before without beats and where the music pauses.
+std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds);
+
+/// Gives the plan's frames from `first` on the poses of other times, in [-1, frames - 1]; -1 is the
+/// history's last pose. A root path keeps its positions and heights.
+void Retime(const PlanContext& context, int first, std::span<const double> times,
+            std::vector<Pose>* plan);
 
 /// How long before a key its hit shows, seconds: 0.5 s hardly does, as Arrival smooths the last
 /// 0.4.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/motion/kinematic_beats.h"
@@ -26,26 +27,58 @@ std::vector<double> EveryFifteen(double first, double last) {
   return beats;
 }
 
-double Time(std::span<const double> beats, int frames, bool keyed, double t) {
-  return BeatTime(
-      {.skeleton = Skeleton::Smpl24(), .history = {}, .beats = beats, .keyed = keyed, .fps = 30},
-      frames, t);
+std::vector<double> Times(std::span<const double> beats, std::span<const double> speeds) {
+  return TimesOnBeats({.skeleton = Skeleton::Smpl24(), .history = {}, .beats = beats, .fps = 30},
+                      speeds);
 }
 
-TEST(BeatTiming, KeepsTheEndsAndNeverRunsBackwards) {
-  for (const int frames : {2, 7, 30, 32, 45, 60, 75, 90}) {
-    for (const double first : {-11.0, -16.0}) {  // the second: on all keys of whole seconds' ways
-      for (const bool keyed : {false, true}) {
+// A dancer with beats of her own, `late` frames after the music's.
+std::vector<double> Swaying(int frames, double period, double late) {
+  std::vector<double> speeds;
+  for (int t = 0; t < frames; ++t)
+    speeds.push_back(0.02 + 0.01 * std::cos(2 * M_PI * (t - late) / period));
+  return speeds;
+}
+
+TEST(BeatTiming, KeepsTheEndAndStaysWithinTheAccent) {
+  const double accent = PlanOptions().accent;
+  for (const int frames : {1, 2, 7, 30, 32, 45, 60, 75, 90, 300}) {
+    for (const double first : {-11.0, -16.0}) {
+      for (const double late : {0.0, 4.0, 7.0}) {
         const std::vector<double> beats = EveryFifteen(first, frames + 15);
-        const auto time = [&](double t) { return Time(beats, frames, keyed, t); };
-        EXPECT_NEAR(time(-1), -1, 1e-12);
-        EXPECT_NEAR(time(frames - 1), frames - 1, 1e-12);
-        for (double t = -1; t < frames - 1; t += 0.1) {
-          EXPECT_LT(time(t), time(t + 0.1)) << frames << " " << first << " " << t;
-          EXPECT_LT(std::abs(time(t) - t), 4) << frames << " " << first << " " << t;
+        const std::vector<double> times = Times(beats, Swaying(frames, 17, late));
+        double before = -1, pace = 1;
+        for (const double time : times) {
+          EXPECT_NEAR(time - before, 1, accent + 1e-9);
+          EXPECT_NEAR(time - before, pace, accent / 4 + 1e-9);
+          pace = time - before;
+          before = time;
         }
+        EXPECT_NEAR(times.back(), frames - 1, 1e-9);
       }
     }
+  }
+}
+
+TEST(BeatTiming, MovesTheDancersOwnBeatsOntoTheMusics) {
+  const std::vector<double> beats = EveryFifteen(-8, 110);
+  for (const double late : {-4.0, -2.0, 2.0, 4.0}) {
+    const std::vector<double> speeds = Swaying(90, 15, 7 + late);
+    const std::vector<double> times = Times(beats, speeds);
+    std::vector<float> timed;
+    for (size_t t = 1; t < times.size(); ++t) {
+      const double pace = times[t] - times[t - 1];
+      timed.push_back(static_cast<float>(pace * speeds[static_cast<size_t>(times[t])]));
+    }
+    int hits = 0, peaks = 0;
+    for (const int64_t peak : KinematicBeats(timed, 30)) {
+      if (peak < 15 || peak > 75) continue;  // time takes a while to turn
+      ++peaks;
+      hits += std::ranges::any_of(
+          beats, [&](double beat) { return std::abs(beat - static_cast<double>(peak)) <= 2; });
+    }
+    EXPECT_GE(peaks, 3) << late;
+    EXPECT_EQ(hits, peaks) << late;
   }
 }
 
@@ -87,22 +120,11 @@ TEST(KeyHit, TimesTheFramesBeforeTheKeyAlone) {
 }
 
 TEST(BeatTiming, RunsEvenlyWithoutBeatsAndWhereTheMusicPauses) {
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(Time({}, 31, true, t), t);
-  const std::vector<double> pause = {-100, 200};
-  for (double t = -1; t < 30; t += 0.5) EXPECT_EQ(Time(pause, 31, true, t), t);
-}
-
-TEST(BeatTiming, RunsFastestAtKeysThatStandOnBeats) {
-  const auto pace = [](std::span<const double> beats, int frames, bool keyed, double t) {
-    return (Time(beats, frames, keyed, t + 0.05) - Time(beats, frames, keyed, t)) / 0.05;
-  };
-  const std::vector<double> on = EveryFifteen(-16, 100), off = EveryFifteen(-9, 100);
-  // 60 frames from key to key, both on a beat: 1 + 0.25 + 0.75 at each.
-  EXPECT_NEAR(pace(on, 60, true, 58.95), 2, 0.05);
-  EXPECT_NEAR(pace(on, 60, true, -1), 2, 0.05);
-  EXPECT_NEAR(pace(on, 60, false, 58.95), 1.25, 0.05);
-  EXPECT_LT(pace(off, 60, true, 58.95), 1.25);
-  EXPECT_NEAR(pace(on, 30, true, 28.95), 1.25, 0.05);  // there is no room
+  const std::vector<double> pause = {-100, 200}, speeds = Swaying(31, 15, 4);
+  for (const std::vector<double>& beats : {std::vector<double>(), pause}) {
+    const std::vector<double> times = Times(beats, speeds);
+    for (size_t t = 0; t < times.size(); ++t) EXPECT_EQ(times[t], static_cast<double>(t));
+  }
 }
 
 TEST(BeatTiming, SpeedPeaksOnTheBeats) {

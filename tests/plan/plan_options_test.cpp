@@ -17,10 +17,10 @@ TEST(PlanOptions, MissingOptionsHaveDefaults) {
 }
 
 TEST(PlanOptions, TimeNeverRunsBackwards) {
-  PlanOptions options{.accent = 0.5, .key_accent = 0.51};
+  PlanOptions options{.accent = 1};
   ExpectError(ErrorCode::kInvalidArgument, "config.plan.accent",
               [&] { options.Validate("config.plan"); });
-  options.key_accent = 0.5;
+  options.accent = 0.99;
   EXPECT_NO_THROW(options.Validate("config.plan"));
 }
 

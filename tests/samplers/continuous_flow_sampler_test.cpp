@@ -62,7 +62,7 @@ TEST_F(ContinuousFlowSamplerTest, RefusesUnprintableNamesAndFilesOverAGigabyte) 
     refused("is not 1 to 64 printable bytes");
   }
   ContinuousFlowConfig backwards{.width = 24, .layers = 1, .heads = 2};
-  backwards.plan.accent = 0.5;
+  backwards.plan.accent = 1;
   WriteRandomContinuousFlow(path_, backwards, Skeleton::Smpl24(), 3);
   refused("config.plan.accent");
   for (const int steps : {0, 65}) {
