@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace choreo {
 
@@ -9,7 +10,15 @@ namespace choreo {
 /// base 10 000.
 double EmbedCountAt(double count, size_t place, size_t width);
 
-/// All places of the embedding.
-void EmbedCount(double count, std::span<float> embedding);
+/// All places of an embedding, for many counts.
+class CountEmbedding {
+ public:
+  explicit CountEmbedding(size_t width);
+  /// `embedding` [width]
+  void Fill(double count, std::span<float> embedding) const;
+
+ private:
+  std::vector<double> rates_;  // of each pair of places
+};
 
 }  // namespace choreo

@@ -90,6 +90,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   const Pose& last = request.history.back();
   const Eigen::VectorXd spread = prior.VelocitySpread();
   WindowFeatures features;
+  static const CountEmbedding embedding(kTimeWidth);
   const std::span<const ControlRow> rows = request.controls.rows();
   const int since = kFirstControl + ControlsWidth(rows), left = since + kTimeWidth;
   features.frames = Eigen::MatrixXf::Zero(FrameFeatures(rows), tau + frames);
@@ -105,8 +106,8 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
           static_cast<float>(std::cos(2 * angle)),
           static_cast<float>(2 * std::log(beat->period / kTypicalBeat));
     }
-    EmbedCount(i, place(since));
-    if (request.key) EmbedCount(request.to_key - 1 - i, place(left));
+    embedding.Fill(i, place(since));
+    if (request.key) embedding.Fill(request.to_key - 1 - i, place(left));
     if (i < 0) continue;
     float* next = at.data() + kFirstControl;
     for (size_t control = 0; control < rows.size(); next += FeaturesOf(rows[control++])) {
@@ -134,7 +135,7 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
   for (int d = 0; d < dimensions; ++d) put(window.keyed()[static_cast<size_t>(d)] ? 1 : 0);
   put(request.key ? 1 : 0);
   if (request.key)
-    EmbedCount(8 * std::log2(request.to_key), {features.whole.data() + next, kTimeWidth});
+    embedding.Fill(8 * std::log2(request.to_key), {features.whole.data() + next, kTimeWidth});
   next += kTimeWidth;
   if (request.style >= 0) features.whole[next + request.style] = 1;
   return features;

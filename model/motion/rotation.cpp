@@ -25,8 +25,10 @@ Eigen::Vector3d LogMap(const Eigen::Matrix3d& r) {
 
 Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w) {
   const double angle = w.norm();
-  const double scale = angle < 1e-8 ? 0.5 : std::sin(0.5 * angle) / angle;
-  return {std::cos(0.5 * angle), scale * w.x(), scale * w.y(), scale * w.z()};
+  // Both always: compilers compute them together then.
+  const double sine = std::sin(0.5 * angle), cosine = std::cos(0.5 * angle);
+  const double scale = angle < 1e-8 ? 0.5 : sine / angle;
+  return {cosine, scale * w.x(), scale * w.y(), scale * w.z()};
 }
 
 Eigen::Vector3d ExpFromQuaternion(const Eigen::Quaterniond& q) {

@@ -28,10 +28,11 @@ Eigen::MatrixXf KeyConditions(const FlowConfig& config, int joints, int feature_
   }
   conditions.topRows(asked.size()).colwise() = asked;
   if (!config.time_embedding || asked.tail(joints + 1).isZero()) return conditions;
+  const CountEmbedding embedding(static_cast<size_t>(feature_width));
   for (int frame = 0; frame < frames; ++frame) {
     const int count = config.forward_embedding ? frame : frames - 1 - frame;
-    EmbedCount(count,
-               {conditions.col(frame).data() + asked.size(), static_cast<size_t>(feature_width)});
+    embedding.Fill(
+        count, {conditions.col(frame).data() + asked.size(), static_cast<size_t>(feature_width)});
     if (config.innovations && !config.forward_embedding)
       conditions(conditions.rows() - 1, frame) = static_cast<float>(frames - frame);
   }
