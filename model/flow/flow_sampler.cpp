@@ -15,38 +15,26 @@
 namespace choreo {
 namespace {
 
-// [dimensions, w] Standard normal noise, correlated over dimensions like motion.
-Eigen::MatrixXd Noise(const FlowModelParts& model, const FlowNoise& noise, int frames) {
-  Eigen::MatrixXd z(model.prior.dimensions(), frames);
-  std::vector<float> normal(static_cast<size_t>(z.rows()));
-  for (int i = 0; i < frames; ++i) {
-    noise.Fill(i, normal);
-    z.col(i) = Eigen::Map<const Eigen::VectorXf>(normal.data(), z.rows()).cast<double>();
-  }
-  return model.mixing.triangularView<Eigen::Lower>() * z;
+// The random numbers of a window, [.., w]: of the motion's dimensions, then of the energy's levels
+// (the first frame's count) and curves.
+Eigen::MatrixXf Normals(const FlowModelParts& model, const FlowNoise& noise, int frames) {
+  Eigen::MatrixXf normals(model.prior.dimensions() + 2 * kBodyParts, frames);
+  for (int i = 0; i < frames; ++i)
+    noise.Fill(i, {normals.col(i).data(), static_cast<size_t>(normals.rows())});
+  return normals;
 }
 
 // Gives body parts without velocity factors an energy, sampled from the prior.
-void FillInEnergy(const FlowModelParts& model, const FlowNoise& noise, const FlowWindow& window,
-                  WindowRequest* request) {
+void FillInEnergy(const FlowModelParts& model, double temperature, const Eigen::MatrixXf& normals,
+                  const FlowWindow& window, WindowRequest* request) {
   ControlCurve& energy_control = request->controls[kVelocityFactors];
   if (!energy_control.IsGiven()) {
     energy_control.values = Eigen::MatrixXd::Zero(kBodyParts, request->frames);
     energy_control.requested.assign(kBodyParts, false);
   }
-  // Takes random numbers that follow those of the frames' noise: the first frame's for the window's
-  // level, every frame's for the curve.
-  const double temperature = std::min(noise.temperature, 1.0);
-  const auto first = static_cast<size_t>(model.prior.dimensions());
-  std::vector<float> normal(first + 2 * kBodyParts);
-  EnergyPrior::Levels levels;
-  Eigen::MatrixXd ways(kBodyParts, request->frames);
-  for (int i = request->frames - 1; i >= 0; --i) {
-    noise.Fill(i, normal);
-    const Eigen::Map<const Eigen::VectorXf> own(normal.data() + first, 2 * kBodyParts);
-    levels = temperature * own.head<kBodyParts>().cast<double>();
-    ways.col(i) = temperature * own.tail<kBodyParts>().cast<double>();
-  }
+  EnergyPrior::Levels levels =
+      temperature * normals.col(0).segment<kBodyParts>(model.prior.dimensions()).cast<double>();
+  Eigen::MatrixXd ways = temperature * normals.bottomRows<kBodyParts>().cast<double>();
   // The history already contains the shift; do not add it again.
   EnergyPrior::Known known = KnownOfEnergy(model, *request, window);
   known.history.array() -= request->energy_shift.before;
@@ -240,12 +228,18 @@ class WindowSampler::Pass {
        const FlowNoise& noise)
       : window_(model.prior, request),
         temperature_(std::min(noise.temperature, kMaxFlowTemperature)) {
-    FillInEnergy(model, noise, window_, &request);
-    CorrectLevels(model, std::min(noise.temperature, 1.0), &request);
+    const Eigen::MatrixXf normals = Normals(model, noise, window_.frames());
+    const double temperature = std::min(noise.temperature, 1.0);
+    FillInEnergy(model, temperature, normals, window_, &request);
+    CorrectLevels(model, temperature, &request);
     window_.SetEnergy(model.prior, request);
     known_.emplace(request, window_);
     const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window_.frames());
-    start_ = temperature_ > 0 ? Noise(model, noise, window_.frames()) : still;
+    // Correlated over dimensions like motion.
+    start_ = still;
+    if (temperature_ > 0)
+      start_ = model.mixing.triangularView<Eigen::Lower>() *
+               normals.topRows(still.rows()).cast<double>();
     w_ = start_;
     field_.emplace(model, network, std::move(request), window_);
     needs_mean_ = temperature_ != 1;
