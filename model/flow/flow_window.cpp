@@ -283,11 +283,25 @@ Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::M
 Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   const Eigen::MatrixXf by_time = scales_.cwiseProduct(z).cast<float>().transpose();
   Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
+  constexpr Eigen::Index kTogether = 4;
   for (int d = 0; d < z.rows(); ++d) {
-    // Loops over columns: half the time of Eigen's triangular product.
+    // Loops over columns, several at once, in this order in each row: half the time of Eigen's
+    // triangular product.
     const Eigen::MatrixXf& spread = BridgeOf(d).spread;
-    for (Eigen::Index i = 0, left = z.cols(); i < z.cols(); ++i, --left)
-      x.col(d).tail(left) += by_time(i, d) * spread.col(i).tail(left);
+    const auto add = [&](Eigen::Index i, Eigen::Index rows) {
+      x.col(d).segment(i, rows) += by_time(i, d) * spread.col(i).segment(i, rows);
+    };
+    Eigen::Index i = 0;
+    for (; i + kTogether <= z.cols(); i += kTogether) {
+      for (Eigen::Index own = 0; own < kTogether; ++own) add(i + own, kTogether - own);
+      const Eigen::Index left = z.cols() - i - kTogether;
+      const auto next = [&](Eigen::Index own) {
+        return by_time(i + own, d) * spread.col(i + own).tail(left);
+      };
+      auto rest = x.col(d).tail(left);
+      rest = (((rest + next(0)) + next(1)) + next(2)) + next(3);
+    }
+    for (; i < z.cols(); ++i) add(i, z.cols() - i);
   }
   return x.transpose().cast<double>();
 }

@@ -79,13 +79,15 @@ Eigen::MatrixXd MotionPrior::Scales(double surprise, const Eigen::MatrixXd& leve
   };
   Eigen::MatrixXd scales = Eigen::MatrixXd::Constant(
       dimensions(), levels.cols(), scale(by.surprise * log_surprise, kMinScale, 1 / kMinScale));
-  for (size_t d = 0; d < by.parts.size(); ++d) {
-    for (Eigen::Index i = 0; by.parts[d] >= 0 && i < levels.cols(); ++i) {
-      const double level = levels(by.parts[d], i);
-      if (std::isnan(level)) continue;
-      scales(static_cast<Eigen::Index>(d), i) =
-          scale(by.offset + by.known_surprise * log_surprise + by.level * level, by.least_scale,
-                kMaxAsked);
+  for (Eigen::Index i = 0; i < levels.cols(); ++i) {
+    const Eigen::VectorXd asked = levels.col(i).unaryExpr([&](double level) {
+      return scale(by.offset + by.known_surprise * log_surprise + by.level * level, by.least_scale,
+                   kMaxAsked);
+    });
+    for (size_t d = 0; d < by.parts.size(); ++d) {
+      const int part = by.parts[d];
+      if (part >= 0 && !std::isnan(levels(part, i)))
+        scales(static_cast<Eigen::Index>(d), i) = asked[part];
     }
   }
   return scales;
