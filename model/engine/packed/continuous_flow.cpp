@@ -100,14 +100,15 @@ Eigen::MatrixXf PackedFlowNetwork::Condition(const Eigen::VectorXf& whole,
 }
 
 void PackedFlowNetwork::Normalise(const RowBuffer& x, const float* shift, const float* scale,
-                                  long tokens, RowBuffer* out) const {
+                                  Range rows, RowBuffer* out) const {
   const Eigen::VectorXf gain = Eigen::Map<const Eigen::VectorXf>(scale, width_).array() + 1;
-  for (long i = 0; i < tokens; ++i)
+  for (long i = rows.first; i < rows.end; ++i)
     kernels_.layer_norm(x.Row(i), gain.data(), shift, width_, out->Row(i));
 }
 
-void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work) const {
+void PackedFlowNetwork::Attend(const Block& block, Range read, Workspace* work) const {
   const long panel = kernels_.panel, head = width_ / heads_;
+  const long first = read.first, tokens = read.end;
   const long key_panels = RoundUp(tokens, panel) / panel;
   const long value_panels = RoundUp(head, panel) / panel;
   const float scale = 1 / std::sqrt(static_cast<float>(head));
@@ -126,50 +127,50 @@ void PackedFlowNetwork::Attend(const Block& block, long tokens, Workspace* work)
                     work->values.Row(0) + (v * tokens + i) * panel);
       }
     }
-    kernels_.multiply({.a = work->qkv.Row(0) + h * head,
+    kernels_.multiply({.a = work->qkv.Row(first) + h * head,
                        .a_stride = work->qkv.stride(),
                        .b = work->keys.Row(0),
                        .depth = head,
                        .panels = key_panels,
                        // Relative to token i all others are i tokens further back.
-                       .init = block.bias.row(h).data() + most_tokens_,
+                       .init = block.bias.row(h).data() + most_tokens_ - first,
                        .init_stride = -1,
-                       .c = work->shares.Row(0),
+                       .c = work->shares.Row(first),
                        .c_stride = work->shares.stride(),
-                       .rows = tokens});
-    for (long i = 0; i < tokens; ++i) kernels_.softmax(work->shares.Row(i), tokens);
-    for (long i = 0; i < tokens; ++i)
+                       .rows = tokens - first});
+    for (long i = first; i < tokens; ++i) kernels_.softmax(work->shares.Row(i), tokens);
+    for (long i = first; i < tokens; ++i)
       std::fill_n(work->mixed.Row(i) + h * head, value_panels * panel, 0.0F);
-    kernels_.multiply({.a = work->shares.Row(0),
+    kernels_.multiply({.a = work->shares.Row(first),
                        .a_stride = work->shares.stride(),
                        .b = work->values.Row(0),
                        .depth = tokens,
                        .panels = value_panels,
-                       .init = work->mixed.Row(0) + h * head,
+                       .init = work->mixed.Row(first) + h * head,
                        .init_stride = work->mixed.stride(),
-                       .c = work->mixed.Row(0) + h * head,
+                       .c = work->mixed.Row(first) + h * head,
                        .c_stride = work->mixed.stride(),
-                       .rows = tokens});
+                       .rows = tokens - first});
   }
 }
 
-void PackedFlowNetwork::Transform(const Block& block, const float* modulation, long tokens,
+void PackedFlowNetwork::Transform(const Block& block, const float* modulation, Range read,
                                   Workspace* work) const {
   const auto part = [&](int i) { return modulation + i * width_; };
   const auto add = [&](const float* weight) {
     const Eigen::Map<const Eigen::RowVectorXf> by(weight, width_);
-    for (long i = 0; i < tokens; ++i)
+    for (long i = read.first; i < read.end; ++i)
       work->x.Head(i, width_).array() += (1 + by.array()) * work->added.Head(i, width_).array();
   };
-  Normalise(work->x, part(1), part(0), tokens, &work->normal);
-  block.qkv.Run(work->normal, &work->qkv, tokens);
-  Attend(block, tokens, work);
-  block.out.Run(work->mixed, &work->added, tokens);
+  Normalise(work->x, part(1), part(0), {0, read.end}, &work->normal);
+  block.qkv.Run(work->normal, &work->qkv, read.end);
+  Attend(block, read, work);
+  block.out.Run(work->mixed, &work->added, read.first, read.end);
   add(part(2));
-  Normalise(work->x, part(4), part(3), tokens, &work->normal);
-  block.up.Run(work->normal, &work->wide, tokens);
-  for (long i = 0; i < tokens; ++i) kernels_.gelu(work->wide.Row(i), kMlpRatio * width_);
-  block.down.Run(work->wide, &work->added, tokens);
+  Normalise(work->x, part(4), part(3), read, &work->normal);
+  block.up.Run(work->normal, &work->wide, read.first, read.end);
+  for (long i = read.first; i < read.end; ++i) kernels_.gelu(work->wide.Row(i), kMlpRatio * width_);
+  block.down.Run(work->wide, &work->added, read.first, read.end);
   add(part(5));
 }
 
@@ -190,18 +191,26 @@ Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eige
   embed_.Run(seen.data(), token, work.x.Row(0), work.x.stride(), tokens);
   for (long i = 0; i < tokens; ++i) work.x.Head(i, width_) += condition.tail(width_).transpose();
   const float* modulation = condition.data();
+  // Nobody reads what the last block makes of the history.
+  const Range window{(seen.cols() - z.cols()) / kFramesAToken, tokens};
   for (const Block& block : blocks_) {
-    Transform(block, modulation, tokens, &work);
+    Transform(block, modulation, &block == &blocks_.back() ? window : Range{0, tokens}, &work);
     modulation += 6 * width_;
   }
-  Normalise(work.x, modulation + width_, modulation, tokens, &work.normal);
-  Eigen::MatrixXf out(head_.padded(), tokens);
-  head_.Run(work.normal.Row(0), work.normal.stride(), out.data(), out.rows(), tokens);
+  Normalise(work.x, modulation + width_, modulation, window, &work.normal);
+  const long read = window.end - window.first;
+  Eigen::MatrixXf out(head_.padded(), read);
+  head_.Run(work.normal.Row(window.first), work.normal.stride(), out.data(), out.rows(), read);
   // A token has two frames; a frame has an offset and a factor for z.
-  const Eigen::MatrixXf pairs = out.topRows(head_.columns())
-                                    .reshaped(2 * z.rows(), kFramesAToken * tokens)
-                                    .rightCols(z.cols());
-  return pairs.topRows(z.rows()) + pairs.bottomRows(z.rows()).cwiseProduct(z);
+  Eigen::MatrixXf f(z.rows(), z.cols());
+  const long before = kFramesAToken * read - z.cols();
+  for (long i = 0; i < z.cols(); ++i) {
+    const long frame = before + i;
+    const Eigen::Map<const Eigen::MatrixXf> pair(
+        out.col(frame / kFramesAToken).data() + frame % kFramesAToken * 2 * z.rows(), z.rows(), 2);
+    f.col(i) = pair.col(0) + pair.col(1).cwiseProduct(z.col(i));
+  }
+  return f;
 }
 
 }  // namespace choreo

@@ -37,12 +37,17 @@ class PackedFlowNetwork : public FlowNetwork {
   };
   struct Workspace;
 
-  /// Attention over time, from `qkv` to `mixed`.
-  void Attend(const Block& block, long tokens, Workspace* work) const;
-  /// One block: x += attention, x += perceptron, each weighted by `modulation`.
-  void Transform(const Block& block, const float* modulation, long tokens, Workspace* work) const;
+  /// Tokens from `first` to before `end`.
+  struct Range {
+    long first, end;
+  };
+  /// Attention over time of the tokens `read`, from `qkv` of all to `mixed`.
+  void Attend(const Block& block, Range read, Workspace* work) const;
+  /// One block: x += attention, x += perceptron, each weighted by `modulation`. Computes the tokens
+  /// `read`, which are the last ones; those before take part in their attention.
+  void Transform(const Block& block, const float* modulation, Range read, Workspace* work) const;
   /// out = normalised x times (1 + scale) + shift, row by row; both [width].
-  void Normalise(const RowBuffer& x, const float* shift, const float* scale, long tokens,
+  void Normalise(const RowBuffer& x, const float* shift, const float* scale, Range rows,
                  RowBuffer* out) const;
 
   const PackedKernels& kernels_;

@@ -67,8 +67,10 @@ class PackedLinear {
   void Run(const float* x, long x_stride, float* y, long y_stride, long rows) const {
     Multiply(x, x_stride, bias_.data(), 0, y, y_stride, rows);
   }
-  void Run(const RowBuffer& x, RowBuffer* y, long rows) const {
-    Run(x.Row(0), x.stride(), y->Row(0), y->stride(), rows);
+  void Run(const RowBuffer& x, RowBuffer* y, long rows) const { Run(x, y, 0, rows); }
+  /// Rows from `first` to before `end`.
+  void Run(const RowBuffer& x, RowBuffer* y, long first, long end) const {
+    Run(x.Row(first), x.stride(), y->Row(first), y->stride(), end - first);
   }
   /// y += x W, without the bias
   void Add(const float* x, long x_stride, float* y, long y_stride, long rows) const {
