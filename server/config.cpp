@@ -54,12 +54,12 @@ void CheckKernels(const std::string& name) {
 
 void CheckLimits(const ServerConfig& config) {
   constexpr double kDay = 86'400;
-  if (config.max_streams_of_peer > config.max_streams) {
+  if (config.max_streams > 0 && config.max_streams_of_peer > config.max_streams) {
     throw InvalidArgument("--max-streams-of-peer",
                           std::to_string(config.max_streams_of_peer) + " is more than " +
                               std::to_string(config.max_streams) + ", which --max-streams allows");
   }
-  CheckRange("--max-streams-of-peer", config.max_streams_of_peer, 0, 65536);
+  CheckRange("--max-streams-of-peer", config.max_streams_of_peer, 0, kMostStreams);
   CheckRange("--first-message-seconds", config.first_message_seconds, 0.1, kDay);
   CheckRange("--idle-seconds", config.idle_seconds, 0.1, kDay);
   CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
@@ -192,7 +192,7 @@ void ServerConfig::Validate() const {
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
   CheckRange("--max-waiting", max_waiting, 0, 65536);
-  CheckRange("--max-streams", max_streams, 1, 65536);
+  CheckRange("--max-streams", max_streams, 0, kMostStreams);
   CheckRange("--workers", workers, 0, 1024);
   CheckRange("--threads", threads, 1, kMaxMathThreads);
   CheckRange("--io-threads", io_threads, 1, 256);

@@ -11,6 +11,8 @@
 
 namespace choreo {
 
+inline constexpr double kMostStreams = 65'536;
+
 /// The settings of a choreod, from flags, a configuration file and the environment; only main acts
 /// on them.
 struct ServerConfig {
@@ -23,7 +25,7 @@ struct ServerConfig {
   std::string device = "auto";     ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";     ///< one of kEngineKindNames
   int max_waiting = 128;           ///< concurrent transitions of GenerateTransition, per model
-  int max_streams = 64;            ///< concurrent calls; more are refused
+  int max_streams = 0;             ///< concurrent calls; more are refused. 0: what cores carry
   int workers = 0;                 ///< on the CPU, per model; 0: one per usable core
   int threads = 1;                 ///< per matrix product; part of the fingerprint
   int io_threads = 2;              ///< for decoding files, and as many for long pieces of music
@@ -47,11 +49,12 @@ struct ServerConfig {
   double first_message_seconds = 10;  ///< limit for a call's first message
   double idle_seconds = 120;          ///< limit of a call without messages in either direction
   double unread_seconds = 60;         ///< limit for a client to take an answer
-  double max_load = 0.9;  ///< share of the engines' time that may be promised (FrameBudget)
+  double max_load = 0.85;  ///< share of the machine's time that may be promised (FrameBudget)
   double max_connection_seconds = 0;  ///< after which a connection takes no new calls; 0: no limit
 
   /// HOST:PORT of `metrics`; a port alone means this machine.
   std::string MetricsAddress() const;
+  // These need `max_streams` above 0.
   /// While another caller is there: without a setting all but an eighth, at least one.
   int MaxStreamsOfPeer() const {
     if (max_streams_of_peer > 0) return max_streams_of_peer;

@@ -48,7 +48,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
   app.add_option("--max-streams", config.max_streams,
-                 "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED).")
+                 "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED). 0: as "
+                 "many as --max-load lets the cores carry, by what a dance is measured to take.")
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
   app.add_option("--workers", config.workers,
@@ -122,8 +123,8 @@ void AddLimits(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option(
          "--max-load", config.max_load,
-         "Share of the engines' time that may be promised to calls, each by the frames that it "
-         "will take: those beyond are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
+         "Share of the cores' and engines' time that may be promised to calls, each by the frames "
+         "that it will take: those beyond are refused (RESOURCE_EXHAUSTED). Above 1: none are.")
       ->envname("CHOREO_MAX_LOAD")
       ->capture_default_str();
   app.add_option("--max-connection-seconds", config.max_connection_seconds,

@@ -145,7 +145,8 @@ class Figures {
                     {"version", CHOREO_VERSION}});
       }
     }
-    out.Begin("load", "Share of the engines' time that is promised to calls in progress.",
+    out.Begin("load",
+              "Share of the cores' and engines' time that is promised to calls in progress.",
               MetricType::Gauge);
     std::map<std::string, double> loads = serving_.frames.loads();
     for (const auto& [model, figures] : models) out.Add(loads[model], {{"model", model}});

@@ -12,18 +12,12 @@ namespace {
 /// Time to make a transition's frames, if possible.
 constexpr double kTransitionSeconds = 10;
 
-double LoadOf(const std::map<const SampleQueue*, double>& frames_per_second) {
-  double load = 0;
-  for (const auto& [model, frames] : frames_per_second) load += model->LoadOf(frames);
-  return load;
-}
-
 std::string Percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
 }  // namespace
 
 void FrameBudget::TakeDance(const void* call, const SampleQueue& model, const std::string& party) {
-  Take(call, {&model, party, model.model().fps});
+  Take(call, {&model, party, model.model().fps, true});
 }
 
 void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
@@ -32,28 +26,25 @@ void FrameBudget::TakeTransition(const void* call, const SampleQueue& model,
   const double most = std::min(shares_.of_all, shares_.of_lone_peer) / 2;
   const double load = model.LoadOf(frames_per_second);
   if (load > most) frames_per_second *= most / load;
-  Take(call, {&model, party, frames_per_second});
+  Take(call, {&model, party, frames_per_second, false});
 }
 
 void FrameBudget::Take(const void* call, Charge charge) {
-  const double of_party = MostOf(charge.party, charge.model->LoadOf(charge.frames_per_second));
+  const double of_party = MostOf(charge.party, LoadOf(charge));
   const std::lock_guard lock(mutex_);
   const auto require = [&](const std::string* party, double most) {
-    Frames frames = FramesOf(party);
-    const double taken = LoadOf(frames);
-    frames[charge.model] += charge.frames_per_second;
-    const double load = LoadOf(frames);
+    const double taken = LoadOf(party), load = LoadOf(party, &charge);
     if (taken == 0 || load <= most) return;
     throw Refused(party ? Refusal::kLoadOfPeer : Refusal::kLoad,
-                  "the engines are busy: " + (party ? *party + " has " : "calls have ") +
-                      Percent(taken) + " of their time, with this one it would be " +
-                      Percent(load) + ", of at most " + Percent(most) +
-                      (party ? " for one caller" : ""));
+                  "the server is busy: " + (party ? *party + " has " : "calls have ") +
+                      Percent(taken) + " of its time, with this one it would be " + Percent(load) +
+                      ", of at most " + Percent(most) + (party ? " for one caller" : ""));
   };
   if (shares_.of_all <= 1) {
     require(nullptr, shares_.of_all);
     require(&charge.party, of_party);
   }
+  if (!charge.dances) only_danced_ = false;
   charges_.emplace(call, std::move(charge));
 }
 
@@ -62,13 +53,40 @@ void FrameBudget::GiveBack(const void* call) noexcept {
   charges_.erase(call);
 }
 
+bool FrameBudget::OnlyDanced() {
+  const std::lock_guard lock(mutex_);
+  const bool none =
+      std::ranges::all_of(charges_, [](const auto& one) { return one.second.dances; });
+  return std::exchange(only_danced_, none) && none;
+}
+
 std::map<std::string, double> FrameBudget::loads() const {
   const std::lock_guard lock(mutex_);
   std::map<std::string, double> loads;
-  for (const auto& [model, frames] : FramesOf(nullptr)) {
-    loads[model->model().name] += model->LoadOf(frames);
-  }
+  for (const auto& [call, charge] : charges_) loads[charge.model->model().name] += LoadOf(charge);
   return loads;
+}
+
+double FrameBudget::LoadOf(const Charge& charge) const {
+  const double engine = charge.model->LoadOf(charge.frames_per_second);
+  return charge.dances && serving_ ? engine + serving_->LoadOf(charge.frames_per_second) : engine;
+}
+
+double FrameBudget::LoadOf(const std::string* party, const Charge* more) const {
+  // Sums frames before their cost: equal calls then add up exactly.
+  std::map<const SampleQueue*, double> frames;
+  double danced = 0;
+  const auto add = [&](const Charge& charge) {
+    frames[charge.model] += charge.frames_per_second;
+    if (charge.dances) danced += charge.frames_per_second;
+  };
+  for (const auto& [call, charge] : charges_) {
+    if (!party || charge.party == *party) add(charge);
+  }
+  if (more) add(*more);
+  double load = serving_ ? serving_->LoadOf(danced) : 0;
+  for (const auto& [model, of_model] : frames) load += model->LoadOf(of_model);
+  return load;
 }
 
 double FrameBudget::MostOf(const std::string& party, double cost) const {
@@ -91,7 +109,7 @@ double FrameBudget::utilisation() const {
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [call, charge] : charges_) {
-      const double load = charge.model->LoadOf(charge.frames_per_second);
+      const double load = LoadOf(charge);
       all.Add(load);
       of_party[charge.party].Add(load);
     }
@@ -101,14 +119,6 @@ double FrameBudget::utilisation() const {
     if (sum.load > 0) most = std::max(most, sum.OfMost(MostOf(party, sum.largest)));
   }
   return most;
-}
-
-FrameBudget::Frames FrameBudget::FramesOf(const std::string* party) const {
-  Frames frames;
-  for (const auto& [call, charge] : charges_) {
-    if (!party || charge.party == *party) frames[charge.model] += charge.frames_per_second;
-  }
-  return frames;
 }
 
 }  // namespace choreo

@@ -7,28 +7,30 @@
 #include <utility>
 
 #include "model/engine/sample_queue.h"
+#include "server/serving_cost.h"
 
 namespace choreo {
 
-/// Shares of the engines' time that may be promised.
+/// Shares of the machine's time that may be promised.
 struct FrameShares {
-  double of_all = 0.9;  ///< for all calls together; the rest is for unmeasured work
+  double of_all = 0.85;  ///< for all calls together; the rest is for others and for peaks
   /// To the calls of one caller: while another is there, and while none is.
-  double of_peer = 0.9, of_lone_peer = 0.9;
+  double of_peer = 0.85, of_lone_peer = 0.85;
 };
 
-/// The engines' time, promised to calls as they come: each is charged its frames at their present
-/// cost (SampleQueue::LoadOf) until it gives them back. A crowd is served as far as engines can,
-/// and the rest is refused before it begins. Models share the devices, so their times add up; a
-/// charged model outlives its calls. `party`: calls with the same one are counted together
-/// (Caller::Party). Thread-safe.
+/// The machine's time, promised to calls as they come: each is charged its frames at their present
+/// cost until it gives them back: the engines' (SampleQueue::LoadOf), and for a dance what serving
+/// it takes besides. A crowd is served as far as the machine can, and the rest is refused before it
+/// begins. Models share the devices, so their times add up; a charged model outlives its calls.
+/// `party`: calls with the same one are counted together (Caller::Party). Thread-safe.
 class FrameBudget {
  public:
   /// `has_rival`: whether another caller than this party is there. While one is, a caller also
-  /// leaves time for one call like its own.
+  /// leaves time for one call like its own. `serving`: null charges nothing for it.
   explicit FrameBudget(const FrameShares& shares,
-                       std::function<bool(const std::string& party)> has_rival = {})
-      : shares_(shares), has_rival_(std::move(has_rival)) {}
+                       std::function<bool(const std::string& party)> has_rival = {},
+                       const ServingCost* serving = nullptr)
+      : shares_(shares), has_rival_(std::move(has_rival)), serving_(serving) {}
 
   /// Charges a dance, which runs at playing speed, whenever its music comes. Throws Refused if it
   /// exceeds what is left. A lone caller is always accepted: slow engines serve one at a time. Once
@@ -41,7 +43,10 @@ class FrameBudget {
   /// Also for calls that took nothing.
   void GiveBack(const void* call) noexcept;
 
-  /// The promised share of the engines' time, by model name.
+  /// Whether nobody was charged a transition since the last call of this.
+  bool OnlyDanced();
+
+  /// The promised share of the machine's time, by model name.
   std::map<std::string, double> loads() const;
   /// The share of what may be promised that is promised: to all, or to the busiest caller. 1 as
   /// soon as one more like the largest call would be refused; 0 if nobody is refused.
@@ -52,21 +57,24 @@ class FrameBudget {
     const SampleQueue* model;
     std::string party;
     double frames_per_second;
+    bool dances;
   };
 
   void Take(const void* call, Charge charge);
-  using Frames = std::map<const SampleQueue*, double>;  // per second
+  double LoadOf(const Charge& charge) const;
 
-  // Requires mutex_. Of all calls, or of one caller's.
-  Frames FramesOf(const std::string* party) const;
+  // Requires mutex_. Of all calls, or of one caller's, and of one more.
+  double LoadOf(const std::string* party, const Charge* more = nullptr) const;
 
   // Of one caller, beside which calls of `cost` come; does not require mutex_.
   double MostOf(const std::string& party, double cost) const;
 
   const FrameShares shares_;
   const std::function<bool(const std::string& party)> has_rival_;
+  const ServingCost* const serving_;
   mutable std::mutex mutex_;
   std::map<const void*, Charge> charges_;  // by call. Lock: mutex_
+  bool only_danced_ = true;                // but for transitions still in progress. Lock: mutex_
 };
 
 }  // namespace choreo

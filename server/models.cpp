@@ -20,6 +20,7 @@ void Add(const Models::Figures& more, Models::Figures* to) {
   stats.frames += more.stats.frames;
   stats.transitions += more.stats.transitions;
   stats.failures = std::max(stats.failures, more.stats.failures);
+  stats.cpu_seconds += more.stats.cpu_seconds;
   stats.bulk_share = std::max(stats.bulk_share, more.stats.bulk_share);
   to->histograms.slice_s += more.histograms.slice_s;
   to->histograms.transition_s += more.histograms.transition_s;

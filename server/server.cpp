@@ -48,6 +48,8 @@ constexpr milliseconds kShutdownTime{1'000};
 constexpr milliseconds kWatchInterval{100};
 /// The interval at which tokens and certificate are read: a removed token works that long at most.
 constexpr milliseconds kFileInterval{500};
+/// Calls by default, at least: those that wait cost little.
+constexpr int kLeastStreams = 64;
 /// An engine is broken after this many failures in a row.
 constexpr int kBroken = 3;
 /// ResetGuard's limit, in multiples of the calls that a connection may have.
@@ -71,7 +73,7 @@ CallLimits LimitsOf(const ServerConfig& config) {
           .unread = Milliseconds(config.unread_seconds)};
 }
 
-// One caller may have the same share of the engines' time as of the calls.
+// One caller may have the same share of the time as of the calls.
 FrameShares SharesOf(const ServerConfig& config) {
   const auto share = [&config](int calls) {
     return config.max_load * std::min(1.0, double(calls) / config.max_streams);
@@ -118,13 +120,32 @@ std::vector<std::unique_ptr<SampleQueue>> MakeQueues(std::vector<Server::Sampler
   return queues;
 }
 
+SampleQueue::Options QueueingOf(const ServerConfig& config) {
+  return {.max_bulk = config.max_waiting};
+}
+
+// With as many streams as the machine carries, if the configuration leaves it open.
+ServerConfig WithStreams(ServerConfig config,
+                         const std::vector<std::unique_ptr<SampleQueue>>& queues) {
+  if (config.max_streams > 0) return config;
+  config.max_streams = std::max(kLeastStreams, config.max_streams_of_peer);
+  for (const auto& queue : queues) {
+    const double fps = queue->model().fps, load = queue->LoadOf(fps);
+    if (load <= 0) continue;  // not measured
+    const double carried = config.max_load / (load + ServingCost().LoadOf(fps));
+    config.max_streams = std::max<int>(config.max_streams, std::min(carried, kMostStreams));
+  }
+  spdlog::info("at most {} calls at once", config.max_streams);
+  return config;
+}
+
 }  // namespace
 
 struct Server::Impl {
-  Impl(const ServerConfig& config, std::vector<Samplers> models)
-      : queueing{.max_bulk = config.max_waiting},
-        serving(MakeQueues(std::move(models), queueing), LimitsOf(config), SharesOf(config),
-                config.tokens, static_cast<size_t>(config.outbox_kib) << 10,
+  Impl(const ServerConfig& given, std::vector<std::unique_ptr<SampleQueue>> queues)
+      : config(WithStreams(given, queues)),
+        serving(std::move(queues), LimitsOf(config), SharesOf(config), config.tokens,
+                static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving),
         resets(kWaitingCalls * CallsOfConnection(config)),
@@ -161,6 +182,7 @@ struct Server::Impl {
     watch.emplace(kWatchInterval, [this] {
       serving.calls.EndIdle();
       serving.models.FreeUnused();
+      serving.LookAtCost();
       UpdateHealth();
     });
     if (serving.tokens.needed() || certificate) {
@@ -222,7 +244,7 @@ struct Server::Impl {
     return true;
   }
 
-  const SampleQueue::Options queueing;
+  const ServerConfig config;
   Serving serving;
   ChoreographyService service;
   ResetGuard resets;
@@ -240,7 +262,7 @@ struct Server::Impl {
 };
 
 Server::Server(const ServerConfig& config, std::vector<Samplers> models)
-    : impl_(std::make_unique<Impl>(config, std::move(models))) {}
+    : impl_(std::make_unique<Impl>(config, MakeQueues(std::move(models), QueueingOf(config)))) {}
 
 Server::~Server() { Drain(0); }
 
@@ -254,7 +276,7 @@ int Server::calls() const { return impl_->serving.calls.count(); }
 
 bool Server::SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh) {
   if (impl_->drained) return false;
-  impl_->serving.models.Set(names, MakeQueues(std::move(fresh), impl_->queueing));
+  impl_->serving.models.Set(names, MakeQueues(std::move(fresh), QueueingOf(impl_->config)));
   impl_->UpdateHealth();
   return true;
 }

@@ -24,7 +24,8 @@ struct Serving {
           const FrameShares& shares, std::filesystem::path tokens_file, size_t outbox_limit,
           int64_t file_music_bytes, int io_threads)
       : calls(limits),
-        frames(shares, [this](const std::string& party) { return calls.HasRival(party); }),
+        frames(
+            shares, [this](const std::string& party) { return calls.HasRival(party); }, &cost),
         tokens(std::move(tokens_file)),
         outbox_bytes(outbox_limit),
         file_music(file_music_bytes),
@@ -35,7 +36,11 @@ struct Serving {
   /// A seed for requests without one.
   static uint64_t FreshSeed();
 
+  /// Looks at what serving costs. Call regularly.
+  void LookAtCost();
+
   CallRegistry calls;
+  ServingCost cost;
   FrameBudget frames;
   Tokens tokens;
   Tally tally;

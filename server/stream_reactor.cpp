@@ -71,6 +71,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void OnFrames(int64_t first_frame, std::span<const Pose> poses,
                 std::span<const Contacts> contacts) override {
     CountFrames(poses.size());
+    serving_.tally.dance_frames += poses.size();
     DanceResponse response;
     *response.mutable_frames() = wire::ToProto(first_frame, poses, contacts, encoding_);
     outbox().Send(std::move(response));

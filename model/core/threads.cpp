@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <sched.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,12 @@ std::string RequireFastBlas(const BlasInfo& blas) {
               "only the reference BLAS is installed (" + blas.path +
                   "), which is far too slow to dance in time; install a fast one: apt-get install "
                   "libopenblas0-pthread");
+}
+
+double ThreadCpuSeconds() {
+  timespec used{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 int UsableCores() {

@@ -28,6 +28,9 @@ std::string RequireFastBlas(const BlasInfo& blas);
 /// Cores that this process may use, given CPU affinity and cgroup quota; at least 1.
 int UsableCores();
 
+/// CPU time that the calling thread has used.
+double ThreadCpuSeconds();
+
 inline constexpr int kMaxMathThreads = 1024;  ///< for one matrix product
 
 /// Sets the threads per matrix product in every loaded BLAS and OpenMP runtime. Throws

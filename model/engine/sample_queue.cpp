@@ -83,6 +83,7 @@ struct SampleQueue::Impl {
   bool exit = false;                     ///< ends workers, after `stopped`. Lock: mutex
 
   std::atomic<uint64_t> frames = 0, transitions = 0;
+  std::atomic<double> cpu_seconds = 0;
   Histogram slice_seconds{Histogram::Seconds()};
   Histogram transition_seconds{Histogram::Seconds()};
   Histogram lateness_seconds{Histogram::Seconds()};
@@ -175,6 +176,7 @@ void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
   std::optional<Error> failure;
   bool more = false;
   const Clock::time_point begin = Clock::now();
+  const double cpu_begin = ThreadCpuSeconds();
   if (entry->job->Cancelled()) {
     failure.emplace(ErrorCode::kCancelled, "", "cancelled");
   } else {
@@ -186,6 +188,7 @@ void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
       if (failure->code() == ErrorCode::kInternal) worker->failures_in_a_row.fetch_add(1);
     }
     const double took = Seconds(Clock::now() - begin);
+    cpu_seconds += ThreadCpuSeconds() - cpu_begin;
     entry->taken += took;
     slice_seconds.Add(took);
   }
@@ -307,7 +310,8 @@ std::vector<std::string> SampleQueue::devices() const {
 SampleQueue::Stats SampleQueue::stats() const {
   Stats stats{.workers = static_cast<int>(impl_->workers.size()),
               .frames = impl_->frames,
-              .transitions = impl_->transitions};
+              .transitions = impl_->transitions,
+              .cpu_seconds = impl_->cpu_seconds};
   if (impl_->options.max_bulk > 0) {
     const std::lock_guard lock(impl_->bulk->mutex);
     stats.bulk_share = double(impl_->bulk->reserved) / impl_->options.max_bulk;

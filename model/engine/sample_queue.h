@@ -60,7 +60,8 @@ class SampleQueue {
     /// Consecutive failures of a worker's jobs that were not their fault; the largest of all
     /// workers.
     int failures = 0;
-    double bulk_share = 0;  ///< of max_bulk, reserved
+    double bulk_share = 0;   ///< of max_bulk, reserved
+    double cpu_seconds = 0;  ///< of the workers' threads, in slices so far
   };
   /// Measurements so far.
   struct Histograms {

@@ -23,8 +23,21 @@ TEST(ServerConfigTest, DefaultsAreValid) {
   ASSERT_TRUE(line.config);
   EXPECT_EQ(line.config->listen, "127.0.0.1:50051");
   EXPECT_EQ(line.config->max_waiting, 128);
-  EXPECT_EQ(line.config->MaxStreamsOfPeer(), 56);
-  EXPECT_EQ(line.config->MaxStreamsOfLonePeer(), 64);
+  EXPECT_EQ(line.config->max_streams, 0);
+}
+
+TEST(ServerConfigTest, OneCallerMayHaveAllButAnEighth) {
+  ServerConfig config;
+  config.max_streams = 64;
+  EXPECT_EQ(config.MaxStreamsOfPeer(), 56);
+  EXPECT_EQ(config.MaxStreamsOfLonePeer(), 64);
+}
+
+TEST(ServerConfigTest, OneCallersCallsAreAmongAll) {
+  EXPECT_TRUE(Parse({"--max-streams-of-peer", "65"}).config);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Parse({"--max-streams", "64", "--max-streams-of-peer", "65"}).exit_code, 2);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("is more than 64"), std::string::npos);
 }
 
 TEST(ServerConfigTest, SmallServersKeepAPlaceForAnotherCaller) {
@@ -131,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSetting{"--listen", "127.0.0.1:99999999999999999999"},
         BadSetting{"--max-file-music-mib", "127"}, BadSetting{"--max-network-mib", "63"},
         BadSetting{"--workers", "-1"}, BadSetting{"--workers", "many"},
-        BadSetting{"--max-streams", "-1"}, BadSetting{"--max-streams-of-peer", "65"},
+        BadSetting{"--max-streams", "-1"}, BadSetting{"--max-streams-of-peer", "65537"},
         BadSetting{"--engine", "fast"}, BadSetting{"--kernels", "avx9"}, BadSetting{"--tokens", ""},
         BadSetting{"--tls-cert", ""}, BadSetting{"--tls-client-ca", ""},
         BadSetting{"--tokens", "/tmp"}, BadSetting{"--tokens", "/dev/zero"},

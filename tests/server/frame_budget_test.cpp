@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/core/threads.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 
 namespace choreo::frame_budget_test {
+
+constexpr FrameShares kShares{.of_all = 0.9, .of_peer = 0.9, .of_lone_peer = 0.9};
 
 /// Two models with one worker each, which has time for 20 dances: 10 of both.
 class FrameBudgetTest : public ::testing::Test {
@@ -38,7 +41,7 @@ class FrameBudgetTest : public ::testing::Test {
 };
 
 TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
-  FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
+  FrameBudget budget(kShares);
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 18);
   EXPECT_NEAR(budget.loads()["fake"], 0.9, 1e-9);
   budget.GiveBack(&calls[3]);
@@ -48,7 +51,7 @@ TEST_F(FrameBudgetTest, AdmitsWhatTheEnginesCanServe) {
 }
 
 TEST_F(FrameBudgetTest, ModelsShareTheTime) {
-  FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
+  FrameBudget budget(kShares);
   for (int i = 0; i < 9; ++i) budget.TakeDance(&calls[i], *models[0], "a");
   EXPECT_EQ(TakeDances(budget, *models[1], "a", calls + 100), 9);
 }
@@ -57,7 +60,7 @@ TEST_F(FrameBudgetTest, OneAddressCannotTakeItAll) {
   FrameBudget budget({.of_all = 0.9, .of_peer = 0.45}, [](const std::string&) { return true; });
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 9);
   ExpectError(ErrorCode::kResourceExhausted,
-              "a has 45 % of their time, with this one it would be 50 %, of at most 45 %",
+              "a has 45 % of its time, with this one it would be 50 %, of at most 45 %",
               [&] { budget.TakeDance(&calls[99], *models[0], "a"); });
   EXPECT_EQ(TakeDances(budget, *models[0], "b", calls + 100), 9);
 }
@@ -91,13 +94,40 @@ TEST_F(FrameBudgetTest, UtilisationIsOneWhereTheNextIsRefused) {
 }
 
 TEST_F(FrameBudgetTest, TransitionsPayForTheirFramesUpToHalfTheBudget) {
-  FrameBudget budget({.of_all = 0.9, .of_peer = 0.9});
+  FrameBudget budget(kShares);
   budget.TakeTransition(&calls[0], *models[0], "a", 600);  // as two dances for ten seconds
   EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
   budget.TakeTransition(&calls[1], *models[0], "a", 1'000'000);
   EXPECT_NEAR(budget.loads()["fake"], 0.55, 1e-9);
   EXPECT_EQ(TakeDances(budget, *models[0], "a", calls + 100), 7);
   EXPECT_THROW(budget.TakeTransition(&calls[2], *models[0], "a", 1'000'000), Error);
+}
+
+// Serving adds to a dance half of what its sampling takes, on one core.
+TEST_F(FrameBudgetTest, DancesPayForWhatServingThemTakes) {
+  const ServingCost serving(UsableCores() * 0.5 / 600);
+  FrameBudget budget(kShares, {}, &serving);
+  budget.TakeTransition(&calls[50], *models[0], "a", 600);
+  EXPECT_NEAR(budget.loads()["fake"], 0.1, 1e-9);
+  budget.GiveBack(&calls[50]);
+  EXPECT_EQ(TakeDances(budget, *models[0], "a", calls), 12);
+  EXPECT_NEAR(budget.loads()["fake"], 0.9, 1e-9);
+}
+
+TEST_F(FrameBudgetTest, KnowsWhetherOthersThanDancesWereThere) {
+  FrameBudget budget({});
+  budget.TakeDance(&calls[0], *models[0], "a");
+  EXPECT_TRUE(budget.OnlyDanced());
+  budget.TakeTransition(&calls[1], *models[0], "a", 1);
+  budget.GiveBack(&calls[1]);
+  EXPECT_FALSE(budget.OnlyDanced());
+  EXPECT_TRUE(budget.OnlyDanced());
+  budget.TakeTransition(&calls[2], *models[0], "a", 1);
+  EXPECT_FALSE(budget.OnlyDanced());
+  EXPECT_FALSE(budget.OnlyDanced());
+  budget.GiveBack(&calls[2]);
+  EXPECT_FALSE(budget.OnlyDanced());
+  EXPECT_TRUE(budget.OnlyDanced());
 }
 
 TEST_F(FrameBudgetTest, AdmitsASingleDanceOnAnyEngine) {

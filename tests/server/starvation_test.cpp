@@ -208,7 +208,7 @@ TEST_F(StarvationTest, RefusesAtOnceWhatCannotBeServedInTime) {
   ASSERT_TRUE(first.ReadHeader());
   const grpc::Status refused = DanceToAKey().status;
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("the engines are busy: calls have"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("the server is busy: calls have"));
   EXPECT_TRUE(DetailsOf(refused).retry_info);
   first.Cancel();
 }
