@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "bench/edited_dance.h"
 #include "bench/live_dance.h"
 #include "bench/relay.h"
 #include "client/authoring/local_server.h"
@@ -30,7 +31,7 @@ struct Options {
   double seconds = 8;
   std::vector<int> streams = {1, 20, 50, 60, 200};
   std::vector<int> addresses = {1, 4};
-  std::vector<std::string> tables = {"chunks", "live", "beside", "closed", "minutes"};
+  std::vector<std::string> tables = {"chunks", "live", "beside", "edits", "closed", "minutes"};
 };
 
 double Since(Clock::time_point start) {
@@ -116,10 +117,7 @@ class Load {
 
   /// One live dance beside calls that use all capacity.
   void Beside() {
-    std::printf(
-        "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' "
-        "frames/s "
-        "|\n|---|---|---|---|---|---|---|\n");
+    PrintBesideHead();
     DanceBeside("nothing", [](const std::atomic<bool>&) { return 0; });
     for (const auto& [frames, candidates] : {std::pair(1800, 32), {600, 32}, {300, 8}}) {
       const std::string name = std::to_string(frames) + " frames, " + std::to_string(candidates) +
@@ -130,6 +128,17 @@ class Load {
     }
     DanceBeside("5,000 times 1800 frames, 32 candidates, with 1 ms each",
                 [this](const std::atomic<bool>& over) { return AskWithoutTime(5'000, over); });
+  }
+
+  /// One live dance beside others whose next key poses are dragged.
+  void Edits() {
+    PrintBesideHead();
+    DanceBeside("8 dances with 30 edits a second each", [this](const auto& over) {
+      std::atomic<int64_t> frames = 0;
+      Together(
+          8, [&](int i) { frames += DanceEdited(client_, song_, static_cast<uint64_t>(i), over); });
+      return frames.load();
+    });
   }
 
   /// Dances one after another, as fast as possible.
@@ -212,6 +221,11 @@ class Load {
   }
 
  private:
+  static void PrintBesideHead() {
+    std::printf(
+        "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' "
+        "frames/s |\n|---|---|---|---|---|---|---|\n");
+  }
   // `others` runs until shortly after the flag it gets, and returns how many frames it received.
   void DanceBeside(const std::string& name,
                    const std::function<int64_t(const std::atomic<bool>&)>& others) {
@@ -363,8 +377,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   const std::vector<std::pair<std::string, void (Load::*)()>> tables = {
       {"idle", &Load::Idle},  // first: memory freed by other tables would hide its use
-      {"chunks", &Load::Chunks}, {"live", &Load::Streams},   {"beside", &Load::Beside},
-      {"closed", &Load::Closed}, {"minutes", &Load::Minutes}};
+      {"chunks", &Load::Chunks}, {"live", &Load::Streams},  {"beside", &Load::Beside},
+      {"edits", &Load::Edits},   {"closed", &Load::Closed}, {"minutes", &Load::Minutes}};
   std::vector<std::string> names;
   for (const auto& table : tables) names.push_back(table.first);
   program.add_option("--tables", options.tables, "What to measure.")
