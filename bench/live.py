@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Measures live dances: starts a choreod and prints up to four tables.
+"""Measures live dances: starts a choreod and prints up to five tables.
 
-    live.py BIN_DIRECTORY [--songs SONG...] [--tables beats songs latency notice] [--data FOLDER --splits JSON] [--seconds 40]
+    live.py BIN_DIRECTORY [--songs SONG...] [--tables beats songs latency crowd notice] [--data FOLDER --splits JSON] [--seconds 40]
 
 beats: how often dancers hit the beats of songs that are sent as PCM, whose beats are predicted while they play, against the same
 songs sent as files. A dancer's beats are the maxima of the mean joint speed, as in the server's report. Both are scored, from second 10 on,
@@ -13,6 +13,9 @@ songs: how far apart two live dances are, that differ in their song alone: the m
 
 latency: keys each 1, 2, 4 s come 3 s ahead and are changed 1 s ahead, and music plays in real time, in pieces of 0.1 s; frames are
 granted as far ahead of what plays as the table says. Lateness is behind the piece that holds the sample a frame needs.
+
+crowd: so many such dances at once, all in this process, on the cores that the server has; how many are refused at once, and what share
+of the others' frames is more than 0.1 s late.
 
 notice: what it costs that keys come late (live_notice.py), on clips that choreo-lab prepared, as /recordings/dancedb; only with --data.
 """
@@ -30,15 +33,16 @@ import time
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "examples" / "python"))
-from choreo_client import choreography, connect, motion  # noqa: E402
+sys.path[:0] = [str(ROOT / "client" / "python"), str(ROOT / "examples" / "python")]
+from choreo_client import ChoreoError, Client, choreography  # noqa: E402
 from live_notice import notice_table  # noqa: E402
 from music import PCM, RATE, clicks  # noqa: E402
 
 FPS = 30
 FROM_SECOND = 10  # the tracker has locked by then
 SKIPPED = 30  # of each song: many begin softly
-TABLES = ["beats", "songs", "latency", "notice"]
+TABLES = ["beats", "songs", "latency", "crowd", "notice"]
+CROWDS = [8, 56]
 POSES = sorted((ROOT / "client" / "poses").glob("*.json"))
 
 
@@ -48,8 +52,8 @@ class Server:
     def __init__(self, program):
         self.process = subprocess.Popen([program, "--listen", "127.0.0.1:0", "--log-level", "warning"], stdout=subprocess.PIPE, text=True)
         address = self.process.stdout.readline().split()[-1]
-        self.stub = connect(address)
-        self.skeleton = self.stub.GetServerInfo(choreography.GetServerInfoRequest()).models[0].skeleton
+        self.client = Client(address, retry_s=0)  # those refused are counted
+        self.skeleton = self.client.info().models[0].skeleton
 
     def close(self):
         self.process.terminate()
@@ -71,7 +75,7 @@ def wav(samples):
 def key(number, frame):
     first = json.loads(POSES[number % len(POSES)].read_text())["keyframes"][0]
     x, y, z = first["root_position"]
-    pose = motion.Pose(root_position=motion.Vector3(x=x, y=y, z=z), rotations=[value for joint in first["rotations"] for value in joint])
+    pose = choreography.Pose(root_position=choreography.Vector3(x=x, y=y, z=z), rotations=[value for joint in first["rotations"] for value in joint])
     return choreography.Keyframe(id=str(frame), frame=frame, pose=pose)
 
 
@@ -93,7 +97,7 @@ def dance(server, audio_format, music, seconds, seed, keyed):
         yield {"end_of_audio": choreography.EndOfAudio()}
 
     roots, rotations, beats = [], [], []
-    for answer in server.stub.StreamDance(choreography.StreamDanceRequest(**request) for request in requests()):
+    for answer in server.client.stream_dance(requests()):
         roots += answer.frames.root_positions
         rotations += answer.frames.rotations
         if answer.event.HasField("beat"):
@@ -193,31 +197,38 @@ def songs_table(server, songs, seconds):
 
 
 class LiveDance:
-    """One dance in real time; sets `first_s`, `late_ms`, `sent` and `rejected`."""
+    """One dance in real time; sets `sent`, `rejected` and `refused`."""
 
-    def __init__(self, server, look_ahead, key_each, seconds=13):
-        self.server, self.look_ahead, self.key_each, self.seconds = server, look_ahead, key_each, seconds
-        self.samples = clicks(seconds)
-        self.pieces, self.arrivals, self.sent, self.rejected = [], [], 0, 0
+    def __init__(self, server, look_ahead, key_each, samples):
+        self.server, self.look_ahead, self.key_each, self.samples = server, look_ahead, key_each, samples
+        self.seconds = len(samples) / 2 / RATE
+        self.pieces, self.arrivals, self.sent, self.rejected, self.refused = [], [], 0, 0, False
         self.latency = 0
 
     def run(self):
         self.start = time.monotonic()
-        for answer in self.server.stub.StreamDance(self.requests()):
-            now = time.monotonic() - self.start
-            self.latency = answer.header.latency_frames or self.latency
-            self.arrivals += [now] * answer.frames.count
-            self.rejected += answer.event.HasField("keyframe_rejected")
-        self.first_s = self.arrivals[0]
-        self.late_ms = []
+        try:
+            for answer in self.server.client.stream_dance(self.requests()):
+                now = time.monotonic() - self.start
+                self.latency = answer.header.latency_frames or self.latency
+                self.arrivals += [now] * answer.frames.count
+                self.rejected += answer.event.HasField("keyframe_rejected")
+        except ChoreoError as error:
+            if error.code != "RESOURCE_EXHAUSTED" or self.arrivals:
+                raise
+            self.refused = True
+
+    def late_ms(self):
+        """Of each frame."""
+        late = []
         for frame, arrival in enumerate(self.arrivals):
             due = [at for end, at in self.pieces if end >= (frame + self.latency) / FPS]
-            self.late_ms.append(1000 * (arrival - (due or [self.pieces[-1][1]])[0]))
+            late.append(1000 * (arrival - (due or [self.pieces[-1][1]])[0]))
+        return late
 
     def requests(self):
-        request = choreography.StreamDanceRequest
         config = choreography.DanceConfig(seed=1, frames=round(self.seconds * FPS), audio_format=PCM, generate_until=0)
-        yield request(config=config)
+        yield {"config": config}
         due = queue.PriorityQueue()  # (second at which it is sent, key)
         for number in range(1, int(self.seconds / self.key_each)):
             at = number * self.key_each
@@ -230,26 +241,45 @@ class LiveDance:
             while not due.empty() and due.queue[0][0] <= played:
                 _, number, change = due.get()
                 self.sent += change
-                yield request(keyframe=key(number + 7 * change, round(number * self.key_each * FPS)))
-            yield request(generate_until=choreography.GenerateUntil(frame=round((played + self.look_ahead) * FPS)))
-            yield request(audio=choreography.Audio(data=self.samples[2 * start : 2 * (start + piece)], first_sample=start))
+                yield {"keyframe": key(number + 7 * change, round(number * self.key_each * FPS))}
+            yield {"generate_until": choreography.GenerateUntil(frame=round((played + self.look_ahead) * FPS))}
+            yield {"audio": choreography.Audio(data=self.samples[2 * start : 2 * (start + piece)], first_sample=start)}
             self.pieces.append((played, time.monotonic() - self.start))
-        yield request(end_of_audio=choreography.EndOfAudio())
-        yield request(keyframes_complete=choreography.KeyframesComplete())
+        yield {"end_of_audio": choreography.EndOfAudio()}
+        yield {"keyframes_complete": choreography.KeyframesComplete()}
+
+
+def dance_together(dances, within=0):
+    """Their begins spread over so many seconds."""
+    threads = [threading.Thread(target=one.run) for one in dances]
+    for thread in threads:
+        thread.start()
+        time.sleep(within / len(threads))
+    for thread in threads:
+        thread.join()
 
 
 def latency_table(server):
     print("\n| look-ahead s | keys each s | first frame after s | lateness p50 ms | p99 | changes 1 s ahead accepted |\n|---|---|---|---|---|---|")
     for look_ahead in (0.3, 0.5, 1, 2):
-        dances = [LiveDance(server, look_ahead, key_each) for key_each in (1, 2, 4)]
-        threads = [threading.Thread(target=one.run) for one in dances]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
+        samples = clicks(13)
+        dances = [LiveDance(server, look_ahead, key_each, samples) for key_each in (1, 2, 4)]
+        dance_together(dances)
         for one in dances:
-            p50, p99 = numpy.percentile(one.late_ms, (50, 99))
-            print(f"| {look_ahead} | {one.key_each} | {one.first_s:.2f} | {p50:.0f} | {p99:.0f} | {one.sent - one.rejected} of {one.sent} |", flush=True)
+            p50, p99 = numpy.percentile(one.late_ms(), (50, 99))
+            print(f"| {look_ahead} | {one.key_each} | {one.arrivals[0]:.2f} | {p50:.0f} | {p99:.0f} | {one.sent - one.rejected} of {one.sent} |", flush=True)
+
+
+def crowd_table(server):
+    print("\n| Python streams | refused | frames p50 ms late | p99 | most | over 100 ms late % |\n|---|---|---|---|---|---|")
+    samples = clicks(13)
+    for count in CROWDS:
+        dances = [LiveDance(server, 0.5, 2, samples) for _ in range(count)]
+        dance_together(dances, within=2)
+        late = numpy.concatenate([one.late_ms() for one in dances])
+        figures = " | ".join(f"{value:.0f}" for value in numpy.percentile(late, (50, 99, 100)))
+        refused = sum(one.refused for one in dances)
+        print(f"| {count} | {refused} | {figures} | {100 * numpy.mean(late > 100):.2f} |", flush=True)
 
 
 def main():
@@ -271,6 +301,8 @@ def main():
             songs_table(server, options.songs, options.seconds)
         if "latency" in options.tables:
             latency_table(server)
+        if "crowd" in options.tables:
+            crowd_table(server)
         if "notice" in options.tables and options.data:
             notice_table(server, places, options.data, options.splits, options.split)
     finally:

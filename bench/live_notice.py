@@ -10,7 +10,7 @@ import json
 
 import numpy
 
-from choreo_client import choreography, motion
+from choreo_client import choreography
 
 FPS = 30
 HISTORY = 10  # frames that are given
@@ -44,10 +44,10 @@ def dance(server, clip, notice, placed, seed=1):
     frames = (len(roots) - HISTORY) // KEY_EACH * KEY_EACH + HISTORY
 
     def pose(frame, placed=True):
-        made = motion.Pose(rotations=rotations[frame].ravel().tolist())
+        made = choreography.Pose(rotations=rotations[frame].ravel().tolist())
         if placed:
             x, y, z = roots[frame].tolist()
-            made.root_position.CopyFrom(motion.Vector3(x=x, y=y, z=z))
+            made.root_position.CopyFrom(choreography.Vector3(x=x, y=y, z=z))
         return made
 
     def requests():
@@ -62,7 +62,7 @@ def dance(server, clip, notice, placed, seed=1):
         yield {"keyframes_complete": choreography.KeyframesComplete()}
 
     danced_roots, danced = [], []
-    for answer in server.stub.StreamDance(choreography.StreamDanceRequest(**request) for request in requests()):
+    for answer in server.client.stream_dance(requests()):
         assert not answer.event.HasField("keyframe_rejected"), answer
         danced_roots += answer.frames.root_positions
         danced += answer.frames.rotations
