@@ -1,37 +1,41 @@
 #pragma once
 
-#include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <span>
-#include <unsupported/Eigen/FFT>
 #include <vector>
 
 namespace choreo {
 
-/// Fourier transforms of real signals of one length, in double precision. Holds work space: use one
-/// per thread.
-class RealFourier {
+/// The power of real signals of one length by frequency, in double precision: Fourier transforms by
+/// decimation in time (Cooley and Tukey 1965), four samples or butterflies at a time. All CPUs give
+/// the same bits, and those of kissfft, which are in golden files. Holds work space: use one per
+/// thread.
+class FourierPower {
  public:
-  /// `size`: an even number of samples.
-  explicit RealFourier(size_t size) : bins_(size) {
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  }
+  /// `size`: samples, a power of two from 32 on.
+  explicit FourierPower(size_t size);
 
-  /// Returns the size / 2 + 1 bins from 0 to the Nyquist frequency of `size` samples, unscaled;
+  /// The squared magnitudes of the size / 2 + 1 bins from 0 to the Nyquist frequency, unscaled;
   /// valid until the next call.
-  std::span<std::complex<double>> Forward(std::span<const double> samples) {
-    fft_.fwd(bins_.data(), samples.data(), std::ssize(bins_));
-    return std::span(bins_).first(bins_.size() / 2 + 1);
-  }
-  /// Transforms the bins that Forward returned (the caller may have changed them) back to samples,
-  /// scaled by 1 / size.
-  void Inverse(std::span<double> samples) {
-    fft_.inv(samples.data(), bins_.data(), std::ssize(bins_));
-  }
+  std::span<const double> Of(std::span<const double> samples);
 
  private:
-  Eigen::FFT<double> fft_;
-  std::vector<std::complex<double>> bins_;
+  /// A stage that joins four transforms of `length` to each longer one, and its twiddle factors:
+  /// of the second, third and fourth, each the real parts, then the imaginary ones.
+  struct Stage {
+    size_t length;
+    std::vector<double> twiddles;
+  };
+
+  size_t half_;                   // complex numbers: the signal's samples in pairs
+  size_t block_;                  // of them, transformed at first, all blocks together
+  std::vector<uint32_t> order_;   // by place in the blocks, the number of the pair
+  std::vector<double> twiddles_;  // of the first stage of fours
+  std::vector<Stage> stages_;     // the others
+  std::vector<double> unmix_re_, unmix_im_;
+  std::vector<double> by_place_re_, by_place_im_;  // [place in a block][block]
+  std::vector<double> re_, im_, power_;
 };
 
 }  // namespace choreo

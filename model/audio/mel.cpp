@@ -78,15 +78,13 @@ MelBandsDb MelSpectrum::Decibels(std::span<const float> samples) {
   for (size_t i = 0; i < kFftSize; ++i) {
     windowed_[i] = tables.window[i] * static_cast<double>(samples[i]);
   }
-  const auto spectrum = fourier_.Forward(windowed_);
-  // From here on windowed_ holds each bin's power.
-  for (size_t bin = 0; bin < spectrum.size(); ++bin) windowed_[bin] = std::norm(spectrum[bin]);
+  const auto powers = fourier_.Of(windowed_);
   MelBandsDb db;
   for (size_t b = 0; b < db.size(); ++b) {
     const Band& band = tables.bands[b];
     double power = 0;
     for (size_t i = 0; i < band.weights.size(); ++i) {
-      power += band.weights[i] * windowed_[band.first_bin + i];
+      power += band.weights[i] * powers[band.first_bin + i];
     }
     db[b] = 10.0 * std::log10(std::max(power, 1e-10));
   }

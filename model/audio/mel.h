@@ -31,7 +31,7 @@ class MelSpectrum {
   MelBandsDb Decibels(std::span<const float> samples);
 
  private:
-  RealFourier fourier_{kFftSize};
+  FourierPower fourier_{kFftSize};
   std::vector<double> windowed_ = std::vector<double>(kFftSize);
 };
 

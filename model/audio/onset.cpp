@@ -63,19 +63,19 @@ float Mean(std::span<const float> samples) {
 
 OnsetMeter::BandsDb OnsetMeter::Decibels(std::span<const float> window) {
   const auto& tables = OnsetTables<kBands>::Shared();
-  thread_local RealFourier fourier(kOnsetWindow);
+  thread_local FourierPower fourier(kOnsetWindow);
   thread_local std::vector<double> windowed(kOnsetWindow);
   double offset = 0;
   for (size_t i = 0; i < windowed.size(); ++i) offset += tables.window[i] * double{window[i]};
   offset /= tables.window_sum;
   for (size_t i = 0; i < windowed.size(); ++i)
     windowed[i] = tables.window[i] * (double{window[i]} - offset);
-  const auto spectrum = fourier.Forward(windowed);
+  const auto powers = fourier.Of(windowed);
   constexpr double kFullScale = double{kOnsetWindow} * kOnsetWindow / 16;
   BandsDb db;
   for (size_t band = 0; band < kBands; ++band) {
     double power = 0;
-    for (size_t k = tables.first[band]; k < tables.last[band]; ++k) power += std::norm(spectrum[k]);
+    for (size_t k = tables.first[band]; k < tables.last[band]; ++k) power += powers[k];
     db[band] = 10 * std::log10(std::max(power / kFullScale, 1e-10));
   }
   return db;

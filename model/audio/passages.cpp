@@ -43,10 +43,10 @@ PassageListener::Moment PassageListener::Hear(std::span<const float> window) {
         sample * (0.5 - 0.5 * std::cos(2 * std::numbers::pi * i / kWindow));
   }
   sounds_.push_back(square > kWindow * kSilentPower);
-  const auto bins = fourier_.Forward(windowed_);
+  const auto powers = fourier_.Of(windowed_);
   Eigen::Matrix<double, kNumbers, 1> sum = Eigen::Matrix<double, kNumbers, 1>::Zero();
-  for (size_t bin = 0; bin < bins.size(); ++bin) {
-    const double power = std::norm(bins[bin]);
+  for (size_t bin = 0; bin < powers.size(); ++bin) {
+    const double power = powers[bin];
     if (chroma_of_[bin] >= 0) sum[chroma_of_[bin]] += std::sqrt(power);
     sum[kChroma + band_of_[bin]] += power;
   }

@@ -59,7 +59,7 @@ class PassageListener {
 
   PassageOptions options_;
   int64_t soonest_;  // in moments
-  RealFourier fourier_{kWindow};
+  FourierPower fourier_{kWindow};
   std::vector<double> windowed_ = std::vector<double>(kWindow);
   std::vector<int> chroma_of_, band_of_;  // by Fourier bin; -1: none
 

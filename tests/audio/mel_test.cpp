@@ -8,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "model/audio/fourier.h"
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
@@ -74,23 +73,5 @@ TEST(MelSpectrumTest, FramesAreCentred) {
 }
 
 TEST(MelSpectrumTest, RefusesInvalidSizes) { EXPECT_THROW(MelSpectrogram({}, 512), Error); }
-
-TEST(RealFourierTest, AgreesWithTheDefinitionAndInverts) {
-  RealFourier fourier(16);
-  std::vector<double> signal(16);
-  for (size_t i = 0; i < 16; ++i) signal[i] = std::cos(0.3 * static_cast<double>(i * i));
-  const auto bins = fourier.Forward(signal);
-  ASSERT_EQ(bins.size(), 9u);
-  for (size_t k = 0; k < bins.size(); ++k) {
-    std::complex<double> sum = 0;
-    for (size_t i = 0; i < 16; ++i) {
-      sum += signal[i] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k * i) / 16);
-    }
-    EXPECT_NEAR(std::abs(bins[k] - sum), 0, 1e-12);
-  }
-  std::vector<double> back(16);
-  fourier.Inverse(back);
-  for (size_t i = 0; i < 16; ++i) EXPECT_NEAR(back[i], signal[i], 1e-14);
-}
 
 }  // namespace choreo::mel_test
