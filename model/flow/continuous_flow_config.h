@@ -26,7 +26,7 @@ struct ContinuousFlowConfig {
   int steps = 3;           ///< K, network evaluations from noise to motion
   double temperature = 1;  ///< the served default, as in FlowNoise
   /// Multiplies the effect of beats and style on F (classifier-free guidance, Ho & Salimans 2022);
-  /// values other than 1 take twice the evaluations if either is given.
+  /// values other than 1 take twice the evaluations if a style is given, one less if only beats are.
   double guidance = 2;
   std::vector<std::string> styles = {};  ///< labels known from training
   /// Medians of the training clips' velocity factors, metres a frame.

@@ -116,11 +116,12 @@ class Field {
       joints_.col(i) = JointPositions(model.skeleton, pose).reshaped().cast<float>();
     }
     const bool labelled = !request.beats.empty() || request.style >= 0;
-    const double guidance = labelled ? model.config.guidance : 1;
-    AddView(request, guidance);
+    keeps_effect_ = request.style < 0;
+    guidance_ = labelled ? model.config.guidance : 1;
+    AddView(request);
     request.beats.clear();
     request.style = -1;
-    if (guidance != 1) AddView(request, 1 - guidance);
+    if (guidance_ != 1) AddView(request);
   }
 
   int steps() const { return model_.config.steps; }
@@ -134,29 +135,39 @@ class Field {
     joints_.rightCols(x.cols()) = window_.PlaceJoints(model_.skeleton, x);
     step_ = step;
     seen_ = 0;
-    f_ = Eigen::MatrixXd::Zero(z_.rows(), z_.cols());
   }
   // Evaluates the network for the next view; true while more views are left.
   bool EvaluateNext() {
     const View& view = views_[seen_];
-    f_ += view.weight * network_
+    Eigen::MatrixXd f = network_
                             .Evaluate(z_.cast<float>(), poses_, joints_, mean_, view.frames,
                                       view.conditions.col(step_))
                             .cast<double>();
-    return ++seen_ < views_.size();
+    if (views_.size() == 1) {
+      f_ = std::move(f);
+    } else if (seen_ == 0 && keeps_effect_ && step_ > 0 && step_ + 1 == steps()) {
+      f_ = f + (guidance_ - 1) * effect_;
+    } else if (seen_ == 0) {
+      f_ = std::move(f);
+      ++seen_;
+      return true;
+    } else {
+      effect_ = f_ - f;
+      f_ = guidance_ * f_ + (1 - guidance_) * f;
+    }
+    return false;
   }
   const Eigen::MatrixXd& f() const { return f_; }
 
  private:
-  // One input for the network, and the weight of its answer.
+  // One input for the network.
   struct View {
     Eigen::MatrixXf frames, conditions;
-    double weight;
   };
-  void AddView(const WindowRequest& request, double weight) {
+  void AddView(const WindowRequest& request) {
     WindowFeatures seen =
         DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window_);
-    views_.push_back({std::move(seen.frames), network_.Condition(seen.whole, times_), weight});
+    views_.push_back({std::move(seen.frames), network_.Condition(seen.whole, times_)});
   }
   double SizeAt(int step) const { return 1 / (std::cos(Angle(step)) + std::sin(Angle(step))); }
 
@@ -165,8 +176,11 @@ class Field {
   const FlowWindow& window_;
   std::vector<float> times_;  // per step
   Eigen::MatrixXf mean_, poses_, joints_;
-  std::vector<View> views_;
-  Eigen::MatrixXd z_, f_;
+  std::vector<View> views_;  // as labelled and, for guidance, without labels
+  double guidance_;
+  // Beats act alike on neighbouring steps, so the last one takes their effect from the step before.
+  bool keeps_effect_;
+  Eigen::MatrixXd z_, f_, effect_;
   int step_ = 0;
   size_t seen_ = 0;  // evaluated views
 };

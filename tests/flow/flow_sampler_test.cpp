@@ -275,7 +275,9 @@ void ExpectGuidance(WindowRequest request, FlowModelParts parts) {
     return SampleWindow(parts, network, request, {.seed = 1, .temperature = 1});
   };
   const auto twice = sample(2, 0.125F);
-  EXPECT_EQ(network.evaluations, 2 * parts.config.steps);
+  // Of beats alone, the last step takes the effect from the step before.
+  const int without = parts.config.steps - (request.style < 0 ? 1 : 0);
+  EXPECT_EQ(network.evaluations, parts.config.steps + without);
   const auto once = sample(1, 0.25F);
   EXPECT_EQ(network.evaluations, parts.config.steps);
   for (size_t i = 0; i < once.size(); ++i) EXPECT_EQ(Apart(once[i], twice[i]), 0);
