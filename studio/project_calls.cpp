@@ -147,8 +147,12 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   json file = authoring::ParseJson(text, kName);
   const authoring::Project project = authoring::ParseProject(file, kName);
   const std::optional<Song> song = TakeSong(&file, project.song, context_.most_seconds());
+  const authoring::Counts counts = !project.beats.empty()
+                                       ? authoring::CountsFrom(project.beats, project.ones)
+                                   : song ? authoring::CountsOf(song->music)
+                                          : authoring::Counts();
   authoring::DanceKeys keys;
-  keys.poses = authoring::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places);
+  keys.poses = authoring::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places, counts);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
   // An answer must fit into memory.
@@ -169,7 +173,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   const authoring::DanceLength length{.frames = *config.frames, .fps = model.fps};
   for (size_t i = 0; i < keys.poses.size(); ++i)
     authoring::FitIntoDance(length, keys.places[i], &keys.poses[i]);
-  config.controls = project.controls.Read(model, context_.server());
+  config.controls = project.controls.Read(model, context_.server(), counts);
   project.controls.RequireBegun(config.controls, length);
   client::Audio audio;
   if (song) {

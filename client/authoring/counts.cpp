@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "client/authoring/json_fields.h"
 #include "model/core/error.h"
@@ -29,13 +30,37 @@ double SecondAt(double place, std::span<const double> beats) {
   return beats[at] + (place - static_cast<double>(at)) * (beats[at + 1] - beats[at]);
 }
 
+void RequireBeats(double amount, std::span<const double> beats, const std::string& field) {
+  if (beats.size() >= 2) return;
+  throw InvalidArgument(field, InFull(amount) +
+                                   "c: counts need music that has beats; name a song (choreo "
+                                   "analyze shows its beats), or say seconds");
+}
+
 }  // namespace
 
-double Delay::After(double seconds, std::span<const double> beats, const std::string& field) const {
+Counts CountsFrom(std::vector<double> beats, std::span<const double> ones) {
+  Counts counted{std::move(beats)};
+  if (ones.empty()) return counted;
+  const auto one = std::ranges::lower_bound(counted.beats, ones.front());
+  counted.one = static_cast<size_t>(one - counted.beats.begin());
+  return counted;
+}
+
+double WrittenTime::After(double seconds, std::span<const double> beats,
+                          const std::string& field) const {
   if (!counts) return seconds + amount;
-  if (beats.size() < 2)
-    throw InvalidArgument(field, "counts need music that has beats; say seconds");
+  RequireBeats(amount, beats, field);
   return SecondAt(PlaceAmong(seconds, beats) + amount, beats);
+}
+
+double WrittenTime::In(const Counts& counted, const std::string& field) const {
+  if (!counts) return amount;
+  RequireBeats(amount, counted.beats, field);
+  const double second = SecondAt(static_cast<double>(counted.one) + amount - 1, counted.beats);
+  if (second >= 0) return second;
+  throw InvalidArgument(field, InFull(amount) + "c is before second 0; count 1 is at " +
+                                   Rounded(counted.beats[counted.one]) + " s");
 }
 
 double Stretched(double seconds, double begin, double times, std::span<const double> beats) {
@@ -44,15 +69,15 @@ double Stretched(double seconds, double begin, double times, std::span<const dou
   return SecondAt(from + times * (PlaceAmong(seconds, beats) - from), beats);
 }
 
-Delay ParseDelay(const std::string& text, const std::string& field, double least) {
-  Delay delay;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), delay.amount);
+WrittenTime ParseTime(const std::string& text, const std::string& field, double least) {
+  WrittenTime time;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), time.amount);
   std::string_view unit(end, text.data() + text.size());
   if (unit.starts_with(' ')) unit.remove_prefix(1);
-  delay.counts = unit == "c" || unit == "count" || unit == "counts";
-  const bool known = delay.counts || unit.empty() || unit == "s";
-  if (code == std::errc() && known && delay.amount >= least && delay.amount <= kMaxSeconds)
-    return delay;
+  time.counts = unit == "c" || unit == "count" || unit == "counts";
+  const bool known = time.counts || unit.empty() || unit == "s";
+  if (code == std::errc() && known && time.amount >= least && time.amount <= kMaxSeconds)
+    return time;
   throw InvalidArgument(field, '"' + text + "\" is neither seconds (2.5) nor counts (8c), from " +
                                    Rounded(least) + " on");
 }

@@ -1,19 +1,38 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
+/// Times as people write them: in seconds, or in counts of the music, which are its beats.
 namespace choreo::authoring {
 
-/// A delay in seconds, or in counts of the music, which are its beats.
-struct Delay {
+/// The beats of a song, of which one is count 1.
+struct Counts {
+  std::vector<double> beats = {};  ///< seconds, ascending
+  size_t one = 0;                  ///< index of count 1
+
+  bool operator==(const Counts&) const = default;
+};
+
+/// Counts from the first of these beats, the downbeats or the 1 of each eight, as the studio's
+/// ruler does; without any from the first beat.
+Counts CountsFrom(std::vector<double> beats, std::span<const double> ones);
+
+/// "2.5" or "8c": a moment, or a duration.
+struct WrittenTime {
   double amount = 0;
   bool counts = false;
 
-  /// The time this much later than `seconds`. Counts continue at their pace before the first beat
-  /// and after the last. Throws Error(kInvalidArgument, field) for counts without two ascending
-  /// beats.
+  /// As a duration: the time this much later than `seconds`. Counts continue at their pace before
+  /// the first beat and after the last. Throws Error(kInvalidArgument, field) for counts without
+  /// two beats.
   double After(double seconds, std::span<const double> beats, const std::string& field) const;
+
+  /// As a moment: seconds as they are; of counts the second of that count. Errors as After, and for
+  /// a count before second 0.
+  double In(const Counts& counted, const std::string& field) const;
 };
 
 /// `seconds`, `times` as far from `begin`: in counts where the music has two beats or more, else in
@@ -22,6 +41,6 @@ double Stretched(double seconds, double begin, double times, std::span<const dou
 
 /// Parses "2.5" as seconds; "8c", "8 counts" as counts. Throws Error(kInvalidArgument, field) for
 /// anything else, and for less than `least` or more than kMaxSeconds.
-Delay ParseDelay(const std::string& text, const std::string& field, double least = 0);
+WrittenTime ParseTime(const std::string& text, const std::string& field, double least = 0);
 
 }  // namespace choreo::authoring

@@ -67,12 +67,12 @@ DanceKeys ByTime(DanceKeys keys, double fps) {
 }
 
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
-                        const Skeleton& skeleton) {
+                        const Skeleton& skeleton, const Counts& counts) {
   DanceKeys read;
   std::map<std::string, std::string> place_of;  // by id
   for (const std::string& source : sources) {
     std::vector<std::string> places;
-    std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places);
+    std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places, counts);
     for (size_t i = 0; i < keys.size(); ++i) {
       const std::string& place = places[i];
       const auto [same, is_new] = place_of.emplace(keys[i].id, place);

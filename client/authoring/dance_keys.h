@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 #include "model/core/grid.h"
 
@@ -48,7 +49,7 @@ DanceKeys ByTime(DanceKeys keys, double fps);
 /// as ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
 /// duplicate id.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
-                        const Skeleton& skeleton);
+                        const Skeleton& skeleton, const Counts& counts = {});
 
 /// Translates an error about "keyframes[i]", numbered as sent, to the place where the key was
 /// written; returns other errors unchanged.

@@ -77,7 +77,7 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   if (value.contains("after")) {
     const json& after = value["after"];
     dancer.after =
-        ParseDelay(after.is_string() ? after.get<std::string>() : after.dump(), field + ".after");
+        ParseTime(after.is_string() ? after.get<std::string>() : after.dump(), field + ".after");
   }
   if (value.contains("seed")) {
     if (!value["seed"].is_number_unsigned()) {

@@ -21,7 +21,7 @@ struct Dancer {
   Eigen::Vector2d place = {0, 0};  ///< x and z of the stage where her own dance has its origin
   double facing = 0;               ///< degrees that her dance is turned: 90 is along x
   bool mirrored = false;           ///< left is right
-  std::optional<Delay> after =
+  std::optional<WrittenTime> after =
       {};  ///< she does everything this much later, and stands still before
   std::optional<uint64_t> seed = {};
   std::string style = {};

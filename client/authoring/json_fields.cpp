@@ -177,7 +177,12 @@ void CheckFileMembers(const json& file, const std::string& name,
   if (file.is_object()) RefuseOthers(file, name + ":", members, described);
 }
 
-Moment ParseMoment(const json& value, const std::string& field) {
+WrittenTime JsonTime(const json& value, const std::string& field) {
+  if (value.is_string()) return ParseTime(value.get<std::string>(), field);
+  return {.amount = JsonNumber(value, field)};
+}
+
+Moment ParseMoment(const json& value, const std::string& field, const Counts& counts) {
   if (value.contains("time") == value.contains("frame")) {
     throw InvalidArgument(field + ".time", value.contains("time")
                                                ? "stands beside frame; only one may be there"
@@ -193,7 +198,7 @@ Moment ParseMoment(const json& value, const std::string& field) {
     moment.frame = value["frame"].get<int64_t>();
     return moment;
   }
-  moment.time_s = JsonNumber(value["time"], field + ".time");
+  moment.time_s = JsonTime(value["time"], field + ".time").In(counts, field + ".time");
   if (!(moment.time_s >= 0))
     throw InvalidArgument(field + ".time", Shown(value["time"]) + " s is before 0");
   if (moment.time_s > kMaxSeconds)
@@ -209,9 +214,9 @@ void CheckInADance(double seconds, const std::string& field) {
   throw InvalidArgument(field, message.str());
 }
 
-void AppendFrame(const json& value, const std::string& field, double fps,
+void AppendFrame(const json& value, const std::string& field, double fps, const Counts& counts,
                  std::vector<int64_t>* frames) {
-  const Moment moment = ParseMoment(value, field);
+  const Moment moment = ParseMoment(value, field, counts);
   const int64_t frame = moment.frame.value_or(std::llround(moment.time_s * fps));
   const std::string when = field + (moment.frame ? ".frame" : ".time");
   const double seconds = static_cast<double>(frame) / fps;

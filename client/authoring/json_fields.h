@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "model/core/hand_pose.h"
 #include "model/core/limits.h"
 
@@ -61,16 +62,20 @@ void CheckFileMembers(const nlohmann::json& file, const std::string& name,
                       std::initializer_list<std::string_view> members,
                       const std::string& described);
 
-/// A time: `time`, in seconds, or `frame`, exactly one of them.
+/// A time of JSON: a number of seconds, or as ParseTime.
+WrittenTime JsonTime(const nlohmann::json& value, const std::string& field);
+
+/// A time: `time`, in seconds or counts, or `frame`, exactly one of them.
 struct Moment {
   double time_s = 0;
   std::optional<int64_t> frame = {};
 };
-Moment ParseMoment(const nlohmann::json& value, const std::string& field);
+Moment ParseMoment(const nlohmann::json& value, const std::string& field,
+                   const Counts& counts = {});
 
 /// Appends the frame, at `fps`, of a point in time: after those before it, within the longest
 /// dance.
 void AppendFrame(const nlohmann::json& value, const std::string& field, double fps,
-                 std::vector<int64_t>* frames);
+                 const Counts& counts, std::vector<int64_t>* frames);
 
 }  // namespace choreo::authoring

@@ -45,7 +45,7 @@ KeyPose ParseNamed(const json& value, const std::string& field, const Skeleton& 
 }
 
 KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& skeleton,
-                 size_t number) {
+                 const Counts& counts, size_t number) {
   CheckMembers(value, field,
                {"id", "time", "frame", "hold", "hit", "hands", "pose", "place", "facing", "joints",
                 "root_position", "rotations", "smpl_poses", "smpl_trans", "poses", "trans"},
@@ -73,7 +73,7 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
     }
   }
   if (value.contains("hands")) key.hands = JsonHands(value["hands"], field + ".hands");
-  const Moment moment = ParseMoment(value, field);
+  const Moment moment = ParseMoment(value, field, counts);
   key.time_s = moment.time_s;
   key.frame = moment.frame;
   if (value.contains("joints")) ReadJoints(value["joints"], field + ".joints", skeleton, &key);
@@ -93,7 +93,8 @@ double ParseSeconds(std::string_view text, const std::string& source) {
 }
 
 std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view times,
-                                    const std::string& source, const Skeleton& skeleton) {
+                                    const std::string& source, const Skeleton& skeleton,
+                                    const Counts& counts) {
   const Motion motion = ReadMotionNoting(path, skeleton);
   const double duration = Duration(motion);
   std::vector<KeyPose> keys;
@@ -112,7 +113,9 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
     // A motion's rotations may have wound up through any number of turns.
     MakeContinuous(key.pose, {{}, Eigen::Matrix3Xd::Zero(3, key.pose.rotations.cols())});
     key.time_s =
-        from.size() == item.size() ? at : ParseSeconds(item.substr(from.size() + 1), source);
+        from.size() == item.size()
+            ? at
+            : ParseTime(std::string(item.substr(from.size() + 1)), source).In(counts, source);
     if (item.size() == times.size()) return keys;
     times.remove_prefix(item.size() + 1);
   }
@@ -160,7 +163,8 @@ std::vector<KeyPose> Holding(KeyPose* key, double seconds, const std::string& fi
 }
 
 std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
-                                  const Skeleton& skeleton, std::vector<std::string>* places) {
+                                  const Skeleton& skeleton, std::vector<std::string>* places,
+                                  const Counts& counts) {
   const json file = ParseJson(text, name);
   const json& list = ListIn(file, name, "keyframes");
   std::vector<KeyPose> keys;
@@ -168,14 +172,16 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
   if (places) places->clear();
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string field = name + ":keyframes[" + std::to_string(i) + "]";
-    keys.push_back(ParseKey(list[i], field, skeleton, i + 1));
+    keys.push_back(ParseKey(list[i], field, skeleton, counts, i + 1));
     if (!ids.insert(keys.back().id).second) {
       throw InvalidArgument(field + ".id",
                             "\"" + keys.back().id + "\" stands for an earlier key already");
     }
     if (list[i].contains("hold")) {
       if (!list[i].contains("time")) throw InvalidArgument(field + kHold, "goes with time");
-      const double seconds = JsonNumber(list[i]["hold"], field + kHold);
+      const double from = keys.back().time_s;
+      const double seconds =
+          JsonTime(list[i]["hold"], field + kHold).After(from, counts.beats, field + kHold) - from;
       std::ranges::copy(Holding(&keys.back(), seconds, field + kHold), std::back_inserter(keys));
     }
     if (!places) continue;
@@ -206,10 +212,10 @@ std::filesystem::path FileOf(const std::string& source) {
 }
 
 std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
-                              std::vector<std::string>* places) {
+                              std::vector<std::string>* places, const Counts& counts) {
   if (source.starts_with('{')) {
     const std::string name = ParseJson(source, "keyframes").value("name", "keyframes");
-    return ParseKeyFile(source, name, skeleton, places);
+    return ParseKeyFile(source, name, skeleton, places, counts);
   }
   const std::string file = FileOf(source);
   const bool chooses = file.size() < source.size();
@@ -217,7 +223,8 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
   std::vector<std::string> own_places;
   if (!places) places = &own_places;
   if (!IsMotionFile(file)) {
-    std::vector<KeyPose> keys = ParseKeyFile(ReadText(file, "key file"), file, skeleton, places);
+    std::vector<KeyPose> keys =
+        ParseKeyFile(ReadText(file, "key file"), file, skeleton, places, counts);
     if (chooses) KeepOne(chosen, file, &keys, places);
     return keys;
   }
@@ -225,7 +232,7 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
     throw InvalidArgument(source,
                           "is a motion: say which poses of it, as in " + source + "@1.2,3.4");
   }
-  std::vector<KeyPose> keys = ReadMotionKeys(file, chosen, source, skeleton);
+  std::vector<KeyPose> keys = ReadMotionKeys(file, chosen, source, skeleton, counts);
   places->clear();
   for (size_t i = 0; i < keys.size(); ++i)
     places->push_back(source + ":keyframes[" + std::to_string(i) + "]");

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 
 /// Reads key poses that people write.
@@ -19,11 +20,13 @@ inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
 /// files may describe themselves; within a key they are errors.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:keyframes[i].MEMBER, naming value and limit.
-/// `name`: the file's. `places`, if given, becomes the place of each key in the file:
-/// NAME:keyframes[i], for keys that hold a pose NAME:keyframes[i].hold.
+/// `name`: the file's. `counts`: those of the music, for times in counts. `places`, if given,
+/// becomes the place of each key in the file: NAME:keyframes[i], for keys that hold a pose
+/// NAME:keyframes[i].hold.
 std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::string& name,
                                           const Skeleton& skeleton,
-                                          std::vector<std::string>* places = nullptr);
+                                          std::vector<std::string>* places = nullptr,
+                                          const Counts& counts = {});
 
 /// Keys that hold the pose of this one for `seconds`, so close together that the dancer only
 /// settles between them; uses its time, not its frame. Unless it says how it is hit, the dancer now
@@ -48,9 +51,10 @@ std::filesystem::path FileOf(const std::string& source);
 ///   keys.json@ID           one key of it, with those that hold it
 ///   walk.bvh@1.2,3.4       the poses of a motion file (formats/motion_file.h) at these seconds,
 ///                          each at the same second of the dance
-///   walk.npz@1.2=4,3.4=8   the pose at 1.2 s at second 4 of the dance, that at 3.4 s at second 8
+///   walk.npz@1.2=4,3.4=9c  the pose at 1.2 s at second 4 of the dance, that at 3.4 s on count 9
 /// Errors and `places` as above; Error(kNotFound) for a file that is not there.
 std::vector<client::KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleton,
-                                      std::vector<std::string>* places = nullptr);
+                                      std::vector<std::string>* places = nullptr,
+                                      const Counts& counts = {});
 
 }  // namespace choreo::authoring

@@ -31,6 +31,10 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   return music;
 }
 
+Counts CountsOf(const Music& music) {
+  return CountsFrom(music.track.Seconds(), music.track.DownbeatSeconds());
+}
+
 std::vector<double> BeatsBefore(const Music& music, double seconds) {
   std::vector<double> beats = music.track.Seconds();
   std::erase_if(beats, [seconds](double beat) { return beat >= seconds; });

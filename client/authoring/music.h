@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/authoring/music_beats.h"
 #include "client/authoring/music_file.h"
 #include "client/choreo_client.h"
@@ -30,6 +31,9 @@ struct Music {
 Music ReadMusic(const std::filesystem::path& path,
                 double seconds = std::numeric_limits<double>::infinity(), double start = 0,
                 const BeatOptions& beats = {});
+
+/// The counts of the whole song.
+Counts CountsOf(const Music& music);
 
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);

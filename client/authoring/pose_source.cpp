@@ -10,11 +10,11 @@
 
 namespace choreo::authoring {
 
-NamedPose ReadPose(const std::string& source, const Skeleton& skeleton) {
+NamedPose ReadPose(const std::string& source, const Skeleton& skeleton, const Counts& counts) {
   const bool is_file = source.find_first_of(".@/") != std::string::npos;
   if (is_file) {
     std::vector<std::string> places;
-    const std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places);
+    const std::vector<client::KeyPose> keys = ReadKeys(source, skeleton, &places, counts);
     const auto held = std::ranges::count_if(places, IsHeld);
     const auto poses = std::ssize(places) - held;
     if (poses == 1) return {keys.front(), true, {keys.begin() + 1, keys.end()}};

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 
 namespace choreo::authoring {
@@ -17,7 +18,7 @@ struct NamedPose {
 
 /// A pose by its name in the library, or a source for ReadKeys (key_file.h): a key file with one
 /// pose, KEYS.json@ID, or MOTION@SECOND. Errors as theirs; Error(kInvalidArgument) for a source
-/// with several poses.
-NamedPose ReadPose(const std::string& source, const Skeleton& skeleton);
+/// with several poses. `counts`: those of the music, for times in counts.
+NamedPose ReadPose(const std::string& source, const Skeleton& skeleton, const Counts& counts = {});
 
 }  // namespace choreo::authoring

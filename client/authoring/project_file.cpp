@@ -49,7 +49,9 @@ void TakeBeats(const json& list, int bar, const std::string& field, Project* pro
                                     std::to_string(kMaxBeatsInBar) + ", as in [12.5, 1]");
     }
     out.push_back(JsonNumber(beat[0], at));
-    if ((beat[1].get<int>() - 1) % bar == 0) project->downbeats.push_back(out.back());
+    const int count = beat[1].get<int>();
+    if ((count - 1) % bar == 0) project->downbeats.push_back(out.back());
+    if (count == 1) project->ones.push_back(out.back());
   }
   CheckBeats(out, field);
 }

@@ -20,6 +20,7 @@ struct Project {
   std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
   /// Of the song, seconds; none: as they are found. Downbeats are beats, too.
   std::vector<double> beats = {}, downbeats = {};
+  std::vector<double> ones = {};  ///< downbeats that begin an eight
   WrittenControls controls = {};  ///< no velocities where all are 1
   bool has_dancers = false;       ///< several, whom ReadDancers reads (dancers.h)
 };

@@ -46,7 +46,7 @@ bool IsWithinLimits(double value, bool speeds) {
 /// Collects the values asked for, part by part.
 class Asked {
  public:
-  explicit Asked(double fps) : fps_(fps) {}
+  Asked(double fps, const Counts& counts) : fps_(fps), counts_(counts) {}
 
   /// PART=VALUE
   void AddConstant(const std::string& source) {
@@ -81,7 +81,7 @@ class Asked {
     std::array<std::vector<double>, kBodyParts> read;
     for (size_t i = 0; i < points.size(); ++i) {
       const std::string field = name + ":" + list_name + "[" + std::to_string(i) + "]";
-      AppendFrame(points[i], field, fps_, &frames_);
+      AppendFrame(points[i], field, fps_, counts_, &frames_);
       if (points[i].size() < 2) throw InvalidArgument(field, "names no part of the body");
       for (const auto& [member, value] : points[i].items()) {
         if (member == "time" || member == "frame") continue;
@@ -140,6 +140,7 @@ class Asked {
   }
 
   const double fps_;
+  const Counts& counts_;
   std::optional<bool> speeds_;                                         // false: multipliers
   std::vector<int64_t> frames_;                                        // the file's points
   std::array<std::optional<std::vector<double>>, kBodyParts> values_;  // one, or one per point
@@ -150,8 +151,9 @@ class Asked {
 bool IsVelocityFile(const std::string& source) { return source.ends_with(".json"); }
 
 ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
-                                               const std::string& reference, double fps) {
-  Asked asked(fps);
+                                               const std::string& reference, double fps,
+                                               const Counts& counts) {
+  Asked asked(fps, counts);
   for (const std::string& source : sources) {
     if (IsVelocityFile(source)) {
       asked.AddFile(source);

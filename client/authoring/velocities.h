@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 
 namespace choreo::authoring {
@@ -14,10 +15,12 @@ bool IsVelocityFile(const std::string& source);
 /// which one may be a file; multipliers and centimetres exclude each other. Interpolates between a
 /// file's points and holds the nearest outside. `reference`: what multipliers refer to; empty: the
 /// model's first. Models run at `fps`.
+/// `counts`: those of the music, for times in counts.
 ///
 /// Throws Error(kInvalidArgument) whose field is "velocity_factors", "velocity_factors.reference"
 /// or NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
 ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
-                                               const std::string& reference, double fps);
+                                               const std::string& reference, double fps,
+                                               const Counts& counts = {});
 
 }  // namespace choreo::authoring

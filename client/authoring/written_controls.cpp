@@ -29,7 +29,8 @@ void RequireControl(size_t row, const std::string& field, const client::ModelDes
 
 }  // namespace
 
-ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps) {
+ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
+                                       const Counts& counts) {
   const nlohmann::json file = ParseJson(text, name);
   const nlohmann::json& list = ListIn(file, name, "points");
   CheckFileMembers(file, name, {"points", "about"}, "a path file has points and perhaps about");
@@ -46,7 +47,7 @@ ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string&
       if (!point.contains(axis)) throw InvalidArgument(field + "." + axis, "is missing");
       return JsonNumber(point[axis], field + "." + axis);
     };
-    AppendFrame(point, field, fps, &path.frames);
+    AppendFrame(point, field, fps, counts, &path.frames);
     path.points.emplace_back(coordinate("x"), coordinate("z"));
     if (point.contains("y") != list[0].contains("y")) {
       throw InvalidArgument(field + ".y", "must be in all points or in none");
@@ -65,16 +66,17 @@ void WrittenControls::Follow(const WrittenControls& project) {
 }
 
 ControlRequest WrittenControls::Read(const client::ModelDescription& model,
-                                     const client::ServerDescription& server) const {
+                                     const client::ServerDescription& server,
+                                     const Counts& counts) const {
   ControlRequest controls;
   if (!path.empty() || !path_text.empty()) {
     RequireControl(kRootPath, NameOf(kRootPath), model, server);
     controls.root_path = ParsePathFile(path.empty() ? path_text : ReadText(path, "path file"),
-                                       PathName(), model.fps);
+                                       PathName(), model.fps, counts);
   }
   if (!velocities.empty()) {
     RequireControl(kVelocityFactors, velocity_name, model, server);
-    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps);
+    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps, counts);
   } else if (!reference.empty()) {
     throw InvalidArgument("velocity_factors.reference", "there is no velocity that it could be of");
   }

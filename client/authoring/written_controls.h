@@ -5,16 +5,19 @@
 #include <vector>
 
 #include "client/authoring/dance_keys.h"
+#include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 
 /// The controls of a dance as people write them down.
 namespace choreo::authoring {
 
 /// A path file, JSON, as docs/song.md describes it; times up to an hour. A smooth curve leads
-/// through its points. Models run at `fps`.
+/// through its points. Models run at `fps`. `counts`: those of the music, for times in
+/// counts.
 ///
 /// Throws Error(kInvalidArgument) whose field is NAME:points[i].MEMBER, naming value and limit.
-ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps);
+ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
+                                       const Counts& counts = {});
 
 /// What every dance takes. Errors name the place in a file, or a control as the API does.
 struct WrittenControls {
@@ -31,7 +34,7 @@ struct WrittenControls {
   /// is not there, and Error(kInvalidArgument) for a control that the model does not have, naming
   /// those of the server that do.
   ControlRequest Read(const client::ModelDescription& model,
-                      const client::ServerDescription& server) const;
+                      const client::ServerDescription& server, const Counts& counts = {}) const;
   /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
   /// begins after the end of a dance, which it is not meant for.
   void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;

@@ -30,20 +30,25 @@ struct AnalyzeOptions {
   authoring::BeatOptions beats;
   std::optional<int64_t> suggest_keys;
   std::optional<uint64_t> seed;
-  double from_s = 0;
-  double until_s = std::numeric_limits<double>::infinity();
+  std::string from, until;  // times (counts.h); or empty
 };
 
-void CheckPart(const authoring::Music& music, const AnalyzeOptions& options) {
+/// The seconds from --from to --until.
+std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOptions& options) {
+  const authoring::Counts counts = authoring::CountsOf(music);
+  const auto second = [&](const char* option, const std::string& time, double usual) {
+    return time.empty() ? usual : authoring::ParseTime(time, option).In(counts, option);
+  };
+  const double from = second("--from", options.from, 0);
+  const double until = second("--until", options.until, std::numeric_limits<double>::infinity());
   const auto seconds = [](double value) { return InFull(value) + " s"; };
-  if (options.from_s >= options.until_s) {
-    throw InvalidArgument(
-        "--from", seconds(options.from_s) + " is not before --until, " + seconds(options.until_s));
-  }
-  if (options.from_s >= music.audio.seconds()) {
-    throw InvalidArgument("--from", seconds(options.from_s) + " is after the song's end at " +
+  if (from >= until)
+    throw InvalidArgument("--from", seconds(from) + " is not before --until, " + seconds(until));
+  if (from >= music.audio.seconds()) {
+    throw InvalidArgument("--from", seconds(from) + " is after the song's end at " +
                                         Rounded(music.audio.seconds()) + " s");
   }
+  return {from, until};
 }
 
 /// A beat, and the library's pose for it.
@@ -53,10 +58,10 @@ struct ProposedKey {
 };
 
 std::vector<ProposedKey> Propose(const authoring::Music& music, const AnalyzeOptions& options) {
-  CheckPart(music, options);
+  const auto [from, until] = PartOf(music, options);
   const std::vector<SuggestedKey> keys =
       SuggestKeys(music.track, music.onset_strength, music.passages,
-                  {*options.suggest_keys, options.from_s, options.until_s, "--suggest-keys"});
+                  {*options.suggest_keys, from, until, "--suggest-keys"});
   std::vector<double> times;
   for (const SuggestedKey& key : keys) times.push_back(key.time_s);
   const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(Skeleton::Smpl24());
@@ -66,6 +71,11 @@ std::vector<ProposedKey> Propose(const authoring::Music& music, const AnalyzeOpt
   for (size_t i = 0; i < keys.size(); ++i)
     proposed.push_back({keys[i], authoring::IdOfKey(i + 1, poses[drawn[i]]), poses[drawn[i]].id});
   return proposed;
+}
+
+/// The count of a beat, as authoring::Counts.
+int64_t CountOf(const authoring::Music& music, size_t beat) {
+  return static_cast<int64_t>(beat) - static_cast<int64_t>(authoring::CountsOf(music).one) + 1;
 }
 
 /// In the order of Phrase.
@@ -93,6 +103,7 @@ void PrintJson(const authoring::Music& music, const std::optional<std::vector<Pr
     for (const auto& [on, id, pose] : *keys) {
       json["suggested_keys"].push_back({{"time_s", on.time_s},
                                         {"beat", on.beat},
+                                        {"count", CountOf(music, on.beat)},
                                         {"strength", on.strength},
                                         {"begins", Begins(on)}});
       json["keyframes"].push_back({{"id", id}, {"time", on.time_s}, {"pose", pose}});
@@ -129,10 +140,13 @@ void PrintStretches(const BeatTrack& track) {
 
 void PrintText(const authoring::Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
   const int channels = music.audio.channels;
-  std::printf("%.2f s at %d Hz, %d channel%s; %.1f beats a minute, %zu beats, %zu bars of %d\n",
+  std::printf("%.2f s at %d Hz, %d channel%s; %.1f beats a minute, %zu beats, %zu bars of %d",
               music.audio.seconds(), music.audio.sample_rate, channels, channels == 1 ? "" : "s",
               music.track.tempo_bpm, music.track.frames.size(),
               music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
+  const auto [beats, one] = authoring::CountsOf(music);
+  if (!beats.empty()) std::printf(", count 1 at %.3f s", beats[one]);
+  std::printf("\n");
   PrintStretches(music.track);
   for (const Passage& passage : music.passages)
     std::printf("%9.3f s  to %.3f s comes back as from %.3f s\n", passage.from, passage.to,
@@ -140,8 +154,9 @@ void PrintText(const authoring::Music& music, const std::optional<std::vector<Pr
   if (!keys) return;
   std::printf("key poses would sit well at\n");
   for (const auto& [on, id, pose] : *keys)
-    std::printf("%9.3f s  beat %zu, strength %.2f, begins %s: %s\n", on.time_s, on.beat,
-                on.strength, Begins(on), pose.c_str());
+    std::printf("%9.3f s  count %lld, strength %.2f, begins %s: %s\n", on.time_s,
+                static_cast<long long>(CountOf(music, on.beat)), on.strength, Begins(on),
+                pose.c_str());
 }
 
 void Run(const AnalyzeOptions& options) {
@@ -195,11 +210,15 @@ void AddAnalyzeCommand(CLI::App& program) {
               "passages begin, eights and bars, and a pose of the library for each: the same where "
               "a passage returns. With --json they are a file for `choreo dance --keyframes`.")
           ->check(WholeNumberFrom(1, 1'000'000));
-  command->add_option("--from", options->from_s, "Second from which on keys are suggested.")
-      ->check(TimeInSeconds())
+  command
+      ->add_option("--from", options->from,
+                   "Second, or count (9c), from which on keys are suggested. The first downbeat is "
+                   "1c.")
+      ->check(TimeOrCount())
       ->needs(suggest);
-  command->add_option("--until", options->until_s, "Second up to which keys are suggested.")
-      ->check(TimeInSeconds())
+  command
+      ->add_option("--until", options->until, "Second, or count, up to which keys are suggested.")
+      ->check(TimeOrCount())
       ->needs(suggest);
   AddSeed(*command, options->seed, "Another seed suggests other poses. Default: 0.")
       ->needs(suggest);

@@ -42,12 +42,15 @@ void TakeProject(DanceOptions* options) {
   const bool others = options->beats.beats || options->beats.hint.tempo_bpm;
   if (!others && file_of(options->song) == file_of(project.song)) {
     for (const auto& [beats, of_dance] : {std::pair(&project.beats, &options->project_beats),
-                                          {&project.downbeats, &options->project_downbeats}}) {
+                                          {&project.downbeats, &options->project_downbeats},
+                                          {&project.ones, &options->project_ones}}) {
       for (const double beat : *beats)
         if (beat >= options->song_start_s) of_dance->push_back(beat - options->song_start_s);
     }
     authoring::ChangeBeats(options->beats, options->song_start_s, &options->project_beats,
                            &options->project_downbeats);
+    if (options->beats != authoring::BeatOptions())
+      options->project_ones = options->project_downbeats;
   }
   if (!options->seconds) options->seconds = project.seconds;
   if (!options->seed) options->seed = project.seed;
@@ -138,7 +141,8 @@ void AddDanceCommand(CLI::App& program) {
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses: a JSON key file, or one key of it (keys.json@ID), or poses of a motion "
               "file, as in walk.bvh@1.2,3.4 (at these seconds) or walk.bvh@1.2=4 (the pose at 1.2 "
-              "s at second 4 of the dance). May be given more than once. none: no key at all. "
+              "s at second 4 of the dance; =9c: on count 9 of the song, whose first downbeat is "
+              "1). May be given more than once. none: no key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
   AddAllowBends(*command, options->allow_bends);
   command

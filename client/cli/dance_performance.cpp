@@ -45,6 +45,13 @@ double ChooseSeconds(const DanceOptions& options, const authoring::Music& music)
   return std::min(*options.seconds, song);
 }
 
+authoring::Counts CountsOf(const DanceOptions& options,
+                           const std::optional<authoring::Music>& music) {
+  if (!options.project_beats.empty())
+    return authoring::CountsFrom(options.project_beats, options.project_ones);
+  return music ? authoring::CountsOf(*music) : authoring::Counts();
+}
+
 authoring::DanceKeys ChooseKeys(const DanceOptions& options,
                                 const std::optional<authoring::Music>& music, double seconds,
                                 const authoring::DanceLength& length,
@@ -57,7 +64,8 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
               << " s, the least";
       throw InvalidArgument("--seconds", message.str());
     }
-    authoring::DanceKeys keys = authoring::ReadDanceKeys(options.keys, length, model.skeleton);
+    authoring::DanceKeys keys =
+        authoring::ReadDanceKeys(options.keys, length, model.skeleton, CountsOf(options, music));
     if (!options.allow_bends) authoring::RefuseBends(keys, model.skeleton);
     return keys;
   }
@@ -111,6 +119,24 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
   return dance;
 }
 
+Asked AskedFor(const DanceOptions& options, const client::Header& header,
+               const client::DanceConfig& config) {
+  Asked asked{.model = header.model,
+              .seed = header.seed,
+              .temperature = options.temperature,
+              .music_dynamics = options.music_dynamics,
+              .variation = options.variation,
+              .style = options.style};
+  if (options.song.empty() || options.song == "-") return asked;
+  asked.song = options.song;
+  asked.song_start_s = options.song_start_s;
+  if (!options.project_beats.empty() || options.beats != authoring::BeatOptions()) {
+    asked.beats = config.music_beats;
+    asked.downbeats = config.music_downbeats;
+  }
+  return asked;
+}
+
 }  // namespace
 
 Performance Perform(const DanceOptions& options, const std::optional<authoring::Music>& music,
@@ -121,7 +147,8 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   const bool is_seed_for_model = options.seed && !options.keys.empty();
   NoteDeterministic(model, {{"--seed", is_seed_for_model},
                             {"--temperature", options.temperature.value_or(0) != 0}});
-  const ControlRequest controls = options.controls.Read(model, connection.server());
+  const ControlRequest controls =
+      options.controls.Read(model, connection.server(), CountsOf(options, music));
   const double seconds =
       music ? ChooseSeconds(options, *music) : ChooseSilentSeconds(options, controls, model);
   if (music && !model.takes_music) {
@@ -156,6 +183,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   for (size_t i = 0; i < written.keys.size(); ++i)
     written.keys[i].holds = authoring::HeldKey(keys, i);
+  written.asked = AskedFor(options, dance.header, config);
   written.warnings = faults;
   written.warnings.insert(written.warnings.end(), dance.warnings.begin(), dance.warnings.end());
   written.beat_hit_chance = BeatHitChance(config.music_beats, length.frames, model.fps);

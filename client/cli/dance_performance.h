@@ -22,7 +22,8 @@ struct DanceOptions {
   authoring::BeatOptions beats;
   std::vector<std::string> keys;
   std::string project;
-  std::vector<double> project_beats, project_downbeats;  ///< seconds of the dance
+  /// Seconds of the dance; `project_ones` begin an eight.
+  std::vector<double> project_beats, project_downbeats, project_ones;
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;

@@ -1,7 +1,7 @@
 #include <limits>
 #include <memory>
 
-#include "client/authoring/json_fields.h"
+#include "client/authoring/counts.h"
 #include "client/authoring/key_file.h"
 #include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
@@ -22,17 +22,36 @@ constexpr double kMaxStretch = 4;
 
 bool EditsKeys(const EditOptions& options) {
   return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
-         !options.repeats.empty() || !options.stretches.empty() || options.loop;
+         !options.repeats.empty() || !options.stretches.empty() || !options.mirrored.empty() ||
+         options.loop;
 }
 
 bool EditsWhole(const EditOptions& options) {
-  return options.from_s || options.until_s || options.mirror || !options.join.empty();
+  return !options.from.empty() || !options.until.empty() || options.mirror || !options.join.empty();
 }
 
-void CheckTime(const char* option, double at_s) {
-  if (at_s >= 0 && at_s <= authoring::kMaxSeconds) return;
-  throw InvalidArgument(option,
-                        InFull(at_s) + " s is not in [0, " + InFull(authoring::kMaxSeconds) + "]");
+/// What is no time, and counts without a song, are told before a server is asked or started.
+void CheckTime(const char* option, const std::string& time, const EditOptions& options) {
+  if (time.empty()) return;
+  const authoring::WrittenTime parsed = authoring::ParseTime(time, option);
+  if (options.song.empty()) parsed.In({}, option);
+}
+
+void CheckTimes(const EditOptions& options) {
+  const auto check = [&](const char* option, const std::string& time) {
+    CheckTime(option, time, options);
+  };
+  for (const std::string& time : options.at) check("--at", time);
+  for (const auto& [id, time] : options.moves) check("--move", time);
+  for (const auto& [from, until, later] : options.repeats)
+    for (const std::string& time : {from, until, later}) check("--repeat", time);
+  for (const auto& [from, until, times] : options.stretches)
+    for (const std::string& time : {from, until}) check("--stretch", time);
+  for (const auto& [from, until] : options.mirrored)
+    for (const std::string& time : {from, until}) check("--mirror-phrase", time);
+  check("--hold", options.hold);
+  check("--from", options.from);
+  check("--until", options.until);
 }
 
 /// Edits that need the report, which names the keys.
@@ -40,18 +59,12 @@ void CheckReported(const EditOptions& options) {
   for (const auto& [option, given] : {std::pair("--move", !options.moves.empty()),
                                       {"--remove", !options.removed.empty()},
                                       {"--repeat", !options.repeats.empty()},
-                                      {"--stretch", !options.stretches.empty()}}) {
+                                      {"--stretch", !options.stretches.empty()},
+                                      {"--mirror-phrase", !options.mirrored.empty()}}) {
     if (given && options.report.empty())
       throw InvalidArgument(option, "needs --report, which names the keys");
   }
-  for (const auto& [id, at_s] : options.moves) CheckTime("--move", at_s);
-  for (const auto& [from_s, until_s, later] : options.repeats) {
-    CheckTime("--repeat", from_s);
-    CheckTime("--repeat", until_s);
-  }
-  for (const auto& [from_s, until_s, times] : options.stretches) {
-    CheckTime("--stretch", from_s);
-    CheckTime("--stretch", until_s);
+  for (const auto& [from, until, times] : options.stretches) {
     if (!(times >= 1 / kMaxStretch && times <= kMaxStretch) || times == 1) {
       throw InvalidArgument("--stretch", InFull(times) + " times, must be " +
                                              InFull(1 / kMaxStretch) + " to " +
@@ -80,9 +93,9 @@ void CheckMarkers(const EditOptions& options) {
   }
   if (options.marks.empty() && options.unmarked.empty())
     throw InvalidArgument("--mark", "is missing, and so is --unmark: nothing is to be changed");
-  for (const auto& [id, at_s] : options.marks) {
+  for (const auto& [id, time] : options.marks) {
     if (id.empty()) throw InvalidArgument("--mark", "has an empty name");
-    authoring::CheckInADance(at_s, "--mark");
+    authoring::ParseTime(time, "--mark");
   }
   RequireExtension("--out", options.out, ".json");
   RequireOutputs({{"--out", options.out}}, {{"dance", options.dance}});
@@ -93,22 +106,25 @@ void CheckOptions(const EditOptions& options) {
     throw InvalidArgument("--mark", "goes with a project, and " + options.dance + " is none");
   if (!EditsKeys(options) && !EditsWhole(options)) {
     throw InvalidArgument("--key",
-                          "is missing, and so are --move, --remove, --repeat, --stretch, --loop, "
-                          "--from, --until, --mirror and --join: nothing is to be changed");
+                          "is missing, and so are --move, --remove, --repeat, --stretch, "
+                          "--mirror-phrase, --loop, --from, --until, --mirror and --join: nothing "
+                          "is to be changed");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
     throw InvalidArgument(
         "--key",
-        "and --move, --remove, --repeat, --stretch, --loop go in a command of their own, "
-        "after --from, --until, --mirror, --join, which change the whole dance");
+        "and --move, --remove, --repeat, --stretch, --mirror-phrase, --loop go in a command of "
+        "their own, after --from, --until, --mirror, --join, which change the whole dance");
   }
   CheckReported(options);
-  if (options.keys.size() != options.at_s.size()) {
-    throw InvalidArgument("--at", std::to_string(options.at_s.size()) + " times for " +
+  CheckTimes(options);
+  if (options.keys.size() != options.at.size()) {
+    throw InvalidArgument("--at", std::to_string(options.at.size()) + " times for " +
                                       std::to_string(options.keys.size()) +
                                       " keys; each --key needs one");
   }
-  if (options.hold_s && options.keys.empty()) throw InvalidArgument("--hold", "goes with --key");
+  if (!options.hold.empty() && options.keys.empty())
+    throw InvalidArgument("--hold", "goes with --key");
   if (!options.hands.empty() && options.keys.empty() && options.moves.empty())
     throw InvalidArgument("--hands", "goes with --key and --move");
   RequireWrittenMotionFile(options.out);
@@ -140,13 +156,17 @@ void Run(const EditOptions& options) {
   EditSession session(options, connection);
   try {
     for (const std::string& id : options.removed) session.RemoveKey(id);
-    for (const auto& [id, at_s] : options.moves) session.MoveKey(id, at_s);
-    for (const auto& [from_s, until_s, times] : options.stretches)
-      session.Stretch(from_s, until_s, times);
-    for (const auto& [from_s, until_s, later] : options.repeats)
-      session.Repeat(from_s, until_s, later);
+    for (const auto& [id, time] : options.moves)
+      session.MoveKey(id, session.Second("--move", time));
+    for (const auto& [from, until, times] : options.stretches)
+      session.Stretch(session.Second("--stretch", from), session.Second("--stretch", until), times);
+    for (const auto& [from, until, later] : options.repeats)
+      session.Repeat(session.Second("--repeat", from), session.Second("--repeat", until), later);
+    for (const auto& [from, until] : options.mirrored)
+      session.MirrorPhrase(session.Second("--mirror-phrase", from),
+                           session.Second("--mirror-phrase", until));
     for (size_t i = 0; i < options.keys.size(); ++i)
-      session.SetKey(options.keys[i], options.at_s[i]);
+      session.SetKey(options.keys[i], session.Second("--at", options.at[i]));
     if (options.loop) session.CloseLoop();
   } catch (const Error& error) {
     throw options.controls.InTermsOf(error);
@@ -164,8 +184,11 @@ void AddEditCommand(CLI::App& program) {
       "mirror and join whole dances.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
-      "away. A key at the frame of another one replaces it. Keys are removed first, then moved, "
-      "then stretched, then repeated, then set. Whole dances are cut first, then mirrored, then "
+      "away. A key at the frame of another one replaces it. A TIME is in seconds, or in counts of "
+      "--song: 1c is its first downbeat, 9c the next eight's 1, 9.5c the half beat after it. Keys "
+      "are removed first, then moved, "
+      "then stretched, repeated, mirrored, then set. Whole dances are cut first, then mirrored, "
+      "then "
       "joined.");
   command
       ->add_option("dance", options->dance,
@@ -176,45 +199,54 @@ void AddEditCommand(CLI::App& program) {
               "A pose of the library (kick, ...), which is set where the dancer is; or a "
               "key file with one pose, KEYS.json@ID, or MOTION@SECOND. May be given more than "
               "once, each with its --at.");
-  AddRepeated(*command, "--at", options->at_s, "Second of the dance for the key.")
-      ->check(TimeInSeconds());
+  AddRepeated(*command, "--at", options->at,
+              "TIME: the second of the dance for the key, or the count (9c).")
+      ->check(TimeOrCount());
   command
-      ->add_option("--move", options->moves,
-                   "ID TIME: a key of --report, with what holds it, and the second where it is to "
-                   "stand, as it is danced now. May be given more than once.")
+      ->add_option(
+          "--move", options->moves,
+          "ID TIME: a key of --report, with what holds it, and the second or count where it "
+          "is to stand, as it is danced now. May be given more than once.")
       ->allow_extra_args(false);
   AddRepeated(*command, "--remove", options->removed,
               "ID: a key of --report to dance on without. May be given more than once. Of several "
               "keys of one name: ID@SECOND.");
   command
-      ->add_option("--mark", options->marks,
-                   "NAME TIME: a marker to set in a project, or to move to this second, if it has "
-                   "the name already. May be given more than once.")
+      ->add_option(
+          "--mark", options->marks,
+          "NAME TIME: a marker to set in a project, or to move to this second or count, if "
+          "it has the name already. May be given more than once.")
       ->allow_extra_args(false);
   AddRepeated(*command, "--unmark", options->unmarked,
               "NAME: a marker to remove from a project. Of several of one name: NAME@SECOND.");
   command
-      ->add_option("--hold", options->hold_s,
-                   "Seconds for which the poses of --key are kept. Default: as a key file says, or "
-                   "they are passed.")
-      ->check(AboveZero());
+      ->add_option("--hold", options->hold,
+                   "Seconds, or counts (2c), for which the poses of --key are kept. Default: as a "
+                   "key file says, or they are passed.")
+      ->check(TimeOrCount());
   AddHit(*command, options->hit, "the poses of --key and --move are");
   AddHands(*command, options->hands,
            "What hands do in the poses of --key and --move, for characters that have fingers "
            "(convert --report)");
   command
       ->add_option("--repeat", options->repeats,
-                   "FROM UNTIL LATER: the keys of --report from second FROM on and before UNTIL "
-                   "once more, LATER seconds or counts of --song later (8c), moved and turned to "
+                   "FROM UNTIL LATER: the keys of --report from time FROM on and before UNTIL once "
+                   "more, LATER seconds or counts of --song later (8c), moved and turned to "
                    "where the dancer is then. Keys that stood there make way. May be given more "
                    "than once.")
       ->allow_extra_args(false);
   command
       ->add_option("--stretch", options->stretches,
-                   "FROM UNTIL TIMES: the keys of --report from second FROM on and before UNTIL, "
+                   "FROM UNTIL TIMES: the keys of --report from time FROM on and before UNTIL, "
                    "TIMES as far from FROM, in counts of --song: 2 for half time, 0.5 for double "
                    "time. They stay where they are on the floor; keys where they come make way. "
                    "May be given more than once.")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--mirror-phrase", options->mirrored,
+                   "FROM UNTIL: the keys of --report from time FROM on and before UNTIL with left "
+                   "and right exchanged, as seen from where the dancer stands and faces at the "
+                   "first of them. May be given more than once.")
       ->allow_extra_args(false);
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files and moved ones, too, where the dancer is and faces at that "
@@ -231,11 +263,11 @@ void AddEditCommand(CLI::App& program) {
                    "Default: up to the neighbouring keys of --report; 2 without it.")
       ->check(AboveZero());
   command
-      ->add_option("--from", options->from_s,
-                   "Second at which what stays of the dance begins, its second 0 from then on.")
-      ->check(TimeInSeconds());
-  command->add_option("--until", options->until_s, "Second before which it ends.")
-      ->check(TimeInSeconds());
+      ->add_option("--from", options->from,
+                   "TIME at which what stays of the dance begins, its second 0 from then on.")
+      ->check(TimeOrCount());
+  command->add_option("--until", options->until, "TIME before which it ends.")
+      ->check(TimeOrCount());
   command->add_flag("--mirror", options->mirror,
                     "Exchange left and right of body and stage: the plane x = 0 is the mirror.");
   CLI::Option* join = command->add_option(
@@ -253,16 +285,23 @@ void AddEditCommand(CLI::App& program) {
                    "Its report, whose keys --new-report takes over.")
       ->needs(join)
       ->check(CLI::ExistingFile);
-  command->add_option("--song", options->song, "Music that the dance was made to.")
-      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--song", options->song,
+                   "Music that the dance was made to. Default: the song that --report names; none: "
+                   "new frames follow no music.")
+      ->check(CLI::ExistingFile | CLI::IsMember({"none"}));
   AddSongStart(*command, options->song_start_s);
   AddBeatOptions(*command, &options->beats);
-  command->add_option("--report", options->report, "Report of the dance, which names its keys.")
+  command
+      ->add_option("--report", options->report,
+                   "Report of the dance, which names its keys, and also its song, model, seed and "
+                   "style, with which new frames are danced unless options say otherwise.")
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit, and the "
                       "warnings of its edits and of frames that stay.");
-  AddSeed(*command, options->seed, "Same seed, same edit. Default: 0. " + kOfChance);
+  AddSeed(*command, options->seed,
+          "Same seed, same edit. Default: the dance's, by --report; else 0. " + kOfChance);
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
   AddVariation(*command, options->variation);
@@ -275,6 +314,7 @@ void AddEditCommand(CLI::App& program) {
       ->required();
   options->server.AddTo(*command);
   command->callback([options, command] {
+    TakeReport(command->count("--song-start") > 0, options.get());
     CheckSongStart(*command, options->song);
     Run(*options);
   });

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 
+#include "client/authoring/counts.h"
 #include "client/authoring/json_fields.h"
+#include "client/authoring/music.h"
 #include "client/authoring/project_file.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -46,6 +49,15 @@ void Remove(const std::string& id, ordered_json* markers) {
   const std::string known = Joined(*markers, &Spoken);
   throw InvalidArgument("--unmark", "the project has no marker \"" + id + "\"; it has " +
                                         (known.empty() ? "none" : known));
+}
+
+/// The counts that the studio's ruler shows: the project's beats, or those of its song.
+authoring::Counts CountsOf(const authoring::Project& project, const EditOptions& options) {
+  if (!project.beats.empty()) return authoring::CountsFrom(project.beats, project.ones);
+  const std::string& song = options.song.empty() ? project.song : options.song;
+  if (song.empty()) return {};
+  return authoring::CountsOf(authoring::ReadMusic(song, std::numeric_limits<double>::infinity(),
+                                                  options.song_start_s, options.beats));
 }
 
 /// Sets a marker, or moves the one of this name.
@@ -90,11 +102,17 @@ bool IsProject(const EditOptions& options) { return SmallExtension(options.dance
 
 void EditMarkers(const EditOptions& options) {
   const std::string text = authoring::ReadText(options.dance, "project");
-  authoring::ParseProject(authoring::ParseJson(text, options.dance), options.dance);
+  const authoring::Project read = authoring::ReadProject(options.dance);
   auto project = ordered_json::parse(text);
   ordered_json markers = project.value(kMarkers, ordered_json::array());
   for (const std::string& id : options.unmarked) Remove(id, &markers);
-  for (const auto& [id, time_s] : options.marks) Mark(id, time_s, &markers);
+  for (const auto& [id, time] : options.marks) {
+    const authoring::WrittenTime at = authoring::ParseTime(time, "--mark");
+    const double second =
+        at.In(at.counts ? CountsOf(read, options) : authoring::Counts(), "--mark");
+    authoring::CheckInADance(second, "--mark");
+    Mark(id, second, &markers);
+  }
   if (markers.empty()) {
     project.erase(kMarkers);
   } else {

@@ -1,15 +1,99 @@
 #include "client/cli/edit_options.h"
 
+#include <functional>
+#include <iostream>
 #include <sstream>
+#include <type_traits>
+#include <utility>
 
-#include "client/authoring/music.h"
 #include "client/cli/options.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
+#include "model/core/joined.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
+namespace {
 
-client::EditOptions HowToDance(const EditOptions& options, const Connection& connection) {
+constexpr const char* kNoSong = "none";
+
+std::optional<authoring::Music> ReadSong(const EditOptions& options, double end_s) {
+  authoring::RequireSong(options.beats, options.song);
+  if (options.song.empty()) return std::nullopt;
+  return authoring::ReadMusic(options.song, end_s, options.song_start_s, options.beats);
+}
+
+authoring::Counts CountsOf(const EditOptions& options,
+                           const std::optional<authoring::Music>& music) {
+  if (!music) return {};
+  if (!options.asked.beats.empty())
+    return authoring::CountsFrom(options.asked.beats, options.asked.downbeats);
+  return authoring::CountsOf(*music);
+}
+
+/// The song that a report names, from here or from its own folder; empty if it is not there.
+std::string FindSong(const std::string& song, const std::filesystem::path& report) {
+  for (const std::filesystem::path& path :
+       {std::filesystem::path(song), report.parent_path() / song}) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) return path.string();
+  }
+  return "";
+}
+
+/// Takes the song that the report names, unless another one is asked for; returns whether it does.
+bool TakeSong(EditOptions* options) {
+  const std::string& named = options->asked.song;
+  const auto file_of = [](const std::string& song) {
+    return std::filesystem::path(song).filename();
+  };
+  if (!options->song.empty()) return !named.empty() && file_of(options->song) == file_of(named);
+  if (named.empty()) return false;
+  options->song = FindSong(named, options->report);
+  if (!options->song.empty()) return true;
+  std::cerr << "note: " << named << ", the song of " << options->report
+            << ", is not there; without --song new frames do not follow the music\n";
+  return false;
+}
+
+}  // namespace
+
+void TakeReport(bool says_start, EditOptions* options) {
+  std::vector<std::string> taken;
+  const auto take = [&](const char* name, const auto& from, auto* to, const std::string& shown) {
+    if (from == std::remove_cvref_t<decltype(from)>()) return;
+    if (*to != std::remove_cvref_t<decltype(*to)>()) return;
+    *to = from;
+    taken.push_back(std::string(name) + " " + shown);
+  };
+  const auto number = [](const auto& value) { return value ? InFull(*value) : std::string(); };
+  Asked& asked = options->asked;
+  if (!options->report.empty())
+    asked = Asked::ReadFrom(ReadReport(options->report), options->report);
+  const bool had_song = !options->song.empty();
+  if (options->song != kNoSong && TakeSong(options)) {
+    if (!had_song) taken.push_back("song " + options->song);
+    if (!says_start) options->song_start_s = asked.song_start_s;
+  }
+  if (options->song == kNoSong) options->song.clear();
+  if (options->beats != authoring::BeatOptions() || options->song.empty() || says_start)
+    asked.beats.clear();
+  take("model", asked.model, &options->model, asked.model);
+  take("seed", asked.seed, &options->seed, std::to_string(asked.seed.value_or(0)));
+  take("temperature", asked.temperature, &options->temperature, number(asked.temperature));
+  take("music dynamics", asked.music_dynamics, &options->music_dynamics,
+       number(asked.music_dynamics));
+  take("variation", asked.variation, &options->variation, number(asked.variation));
+  take("style", asked.style, &options->style, asked.style);
+  if (!taken.empty()) {
+    std::cerr << "note: as " << options->report << " says: " << Joined(taken, std::identity())
+              << '\n';
+  }
+}
+
+std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions& options,
+                                                              const Connection& connection,
+                                                              double end_s) {
   client::EditOptions edit;
   edit.model = connection.model(options.model);
   edit.seed = options.seed.value_or(0);
@@ -17,21 +101,23 @@ client::EditOptions HowToDance(const EditOptions& options, const Connection& con
   edit.music_dynamics = options.music_dynamics;
   edit.variation = options.variation;
   edit.style = options.style;
-  edit.controls = options.controls.Read(edit.model, connection.server());
-  NoteDeterministic(edit.model, {{"--seed", options.seed.has_value()},
+  const auto music = ReadSong(options, end_s);
+  const authoring::Counts counts = CountsOf(options, music);
+  if (music) {
+    edit.audio = authoring::AudioFor(music->audio, end_s);
+    edit.music_beats = counts.beats;
+    std::erase_if(edit.music_beats, [&](double beat) { return beat >= end_s; });
+    edit.music_passages = music->passages;
+    edit.music_id = music->id;
+  }
+  edit.controls = options.controls.Read(edit.model, connection.server(), counts);
+  NoteDeterministic(edit.model, {{"--seed", options.seed != options.asked.seed},
                                  {"--temperature", edit.temperature.value_or(0) != 0}});
-  return edit;
+  return {std::move(edit), counts};
 }
 
-void TakeSong(const EditOptions& options, double end_s, client::EditOptions* edit) {
-  authoring::RequireSong(options.beats, options.song);
-  if (options.song.empty()) return;
-  const authoring::Music music =
-      authoring::ReadMusic(options.song, end_s, options.song_start_s, options.beats);
-  edit->audio = authoring::AudioFor(music.audio, end_s);
-  edit->music_beats = authoring::BeatsBefore(music, end_s);
-  edit->music_passages = music.passages;
-  edit->music_id = music.id;
+authoring::Counts ReadCounts(const EditOptions& options, double end_s) {
+  return CountsOf(options, ReadSong(options, end_s));
 }
 
 KnownDance ReadKnown(const std::string& path, int64_t frames, double fps) {
@@ -47,12 +133,13 @@ KnownDance ReadKnown(const std::string& path, int64_t frames, double fps) {
                                                 std::to_string(frames) +
                                                 ": this is another dance's report");
   }
-  return {KeysOf(report, frames, path), ReadWarnings(report, path)};
+  return {KeysOf(report, frames, path), ReadWarnings(report, path), Asked::ReadFrom(report, path)};
 }
 
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
                 double fps) {
   nlohmann::ordered_json report = {{"frames", frames}, {"fps", fps}};
+  known.asked.WriteTo(&report);
   report["keyframes"] = nlohmann::ordered_json::array();
   for (const auto& [frame, key] : known.keys) report["keyframes"].push_back(key);
   report["warnings"] = WarningsJson(known.warnings);

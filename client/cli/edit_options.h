@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/authoring/music_beats.h"
+#include "client/authoring/music.h"
 #include "client/authoring/written_controls.h"
+#include "client/cli/asked.h"
 #include "client/cli/connection.h"
 #include "client/cli/report_keys.h"
 #include "client/edit.h"
@@ -21,20 +22,22 @@ struct EditOptions {
   ServerOptions server;
   std::string dance;
   std::vector<std::string> keys;
-  std::vector<double> at_s;
-  std::vector<std::pair<std::string, double>> moves;  ///< keys of the report, and seconds
-  std::vector<std::string> removed;                   ///< keys of the report
-  /// Phrases: start, end, and the delay of their repeat (counts.h).
-  std::vector<std::tuple<double, double, std::string>> repeats;
-  std::vector<std::tuple<double, double, double>> stretches;  ///< phrases: start, end, factor
-  std::optional<double> hold_s;                               ///< of `keys`
-  std::optional<double> hit;                                  ///< of `keys` and `moves`
-  std::string hands;                                          ///< the same; or empty
+  // Times are seconds or counts (counts.h).
+  std::vector<std::string> at;
+  std::vector<std::pair<std::string, std::string>> moves;  ///< keys of the report, and times
+  std::vector<std::string> removed;                        ///< keys of the report
+  /// Phrases: start, end, and the delay of their repeat.
+  std::vector<std::tuple<std::string, std::string, std::string>> repeats;
+  std::vector<std::tuple<std::string, std::string, double>> stretches;  ///< start, end, factor
+  std::vector<std::pair<std::string, std::string>> mirrored;            ///< start, end
+  std::string hold;                                                     ///< of `keys`; or empty
+  std::optional<double> hit;                                            ///< of `keys` and `moves`
+  std::string hands;                                                    ///< the same; or empty
   bool in_place = false;
   bool allow_bends = false;
   bool loop = false;
   std::optional<double> around_s;
-  std::string song;
+  std::string song;  ///< "none": not that of the report
   double song_start_s = 0;
   authoring::BeatOptions beats;
   std::string report;
@@ -49,24 +52,33 @@ struct EditOptions {
   std::string out;
 
   // For projects (edit_markers.h).
-  std::vector<std::pair<std::string, double>> marks;  ///< names and seconds
+  std::vector<std::pair<std::string, std::string>> marks;  ///< names and times
   std::vector<std::string> unmarked;
 
   // For whole dances (edit_whole.h).
-  std::optional<double> from_s, until_s;
+  std::string from, until;  ///< times; or empty
   bool mirror = false;
   std::string join, join_report;
   std::optional<double> gap_s;
+
+  Asked asked;  ///< what the report says of the dance (TakeReport)
 };
 
-/// The settings for new frames, without a song.
-client::EditOptions HowToDance(const EditOptions& options, const Connection& connection);
-/// Adds the song up to `end_s`, if there is one, for these frames.
-void TakeSong(const EditOptions& options, double end_s, client::EditOptions* edit);
+/// Fills in what the command line leaves open from the report, and says so. `says_start`: whether
+/// the command line says where the song starts.
+void TakeReport(bool says_start, EditOptions* options);
+
+/// The settings for new frames, with the song up to `end_s`, if there is one; and its counts.
+std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions& options,
+                                                              const Connection& connection,
+                                                              double end_s);
+/// The counts of the song up to `end_s`; none without a song.
+authoring::Counts ReadCounts(const EditOptions& options, double end_s);
 /// The parts of a dance's report that edits keep: its keys, by frame, and warnings.
 struct KnownDance {
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};
+  Asked asked = {};
 };
 /// Reads them from a report, for a dance of this many frames of a model at this rate. Throws
 /// Error(kInvalidArgument) whose field begins with the report's name.

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "client/authoring/counts.h"
@@ -16,6 +17,7 @@
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/mirror.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -41,19 +43,21 @@ void HoldUntil(int64_t last, int64_t before, client::KeyEdit* edit) {
 }  // namespace
 
 EditSession::EditSession(const EditOptions& options, const Connection& connection)
-    : options_(options), client_(connection.client()), edit_(HowToDance(options, connection)) {
+    : options_(options), client_(connection.client()) {
+  edit_.model = connection.model(options.model);
   longest_ = edit_.model.max_transition_frames - 1;
   if (options.around_s) CheckAround(*options.around_s);
-  CheckKeys();
   dance_ = ReadDance(options.dance, edit_.model.skeleton);
   frames_ = CountModelFrames(dance_, edit_.model);
-  options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
   if (!options.report.empty()) known_ = ReadKnown(options.report, frames_, edit_.model.fps);
-  TakeSong(options, Seconds(frames_ + (options.loop ? LoopFrames().added : 0)), &edit_);
+  const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
+  std::tie(edit_, counts_) = HowToDance(options, connection, Seconds(end));
+  options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
+  CheckKeys();
 }
 
 void EditSession::SetKey(const std::string& source, double at_s) {
-  const authoring::NamedPose named = authoring::ReadPose(source, edit_.model.skeleton);
+  const authoring::NamedPose named = authoring::ReadPose(source, edit_.model.skeleton, counts_);
   // The library's poses are known to bend correctly.
   if (named.has_place && !options_.allow_bends)
     authoring::RefuseBends({{named.key}, {source}}, edit_.model.skeleton);
@@ -68,7 +72,11 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   edit.held = named.held;
   if (!options_.hands.empty()) edit.key.hands = FindHandPose(options_.hands);
   if (options_.hit) edit.key.hit = options_.hit;
-  if (options_.hold_s) edit.held = authoring::Holding(&edit.key, *options_.hold_s, "--hold");
+  if (!options_.hold.empty()) {
+    const double until_s =
+        authoring::ParseTime(options_.hold, "--hold").After(at_s, counts_.beats, "--hold");
+    edit.held = authoring::Holding(&edit.key, until_s - at_s, "--hold");
+  }
   for (client::KeyPose& held : edit.held) {
     held.frame = Frame(at_s + held.time_s - edit.key.time_s);
     held.pose = pose;
@@ -120,9 +128,9 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
 }
 
 void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
-  const authoring::Delay delay = authoring::ParseDelay(later, "--repeat");
+  const authoring::WrittenTime delay = authoring::ParseTime(later, "--repeat");
   const auto moved = [&](double seconds) {
-    return delay.After(seconds, edit_.music_beats, "--repeat");
+    return delay.After(seconds, counts_.beats, "--repeat");
   };
   if (Frame(moved(from_s)) <= Frame(from_s))
     throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
@@ -145,8 +153,29 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   for (client::KeyEdit& edit : phrase) {
     carry(edit.key.pose);
     for (client::KeyPose& held : edit.held) carry(held.pose);
+  }
+  SetAll("--repeat", phrase);
+}
+
+void EditSession::MirrorPhrase(double from_s, double until_s) {
+  constexpr const char* kField = "--mirror-phrase";
+  std::vector<client::KeyEdit> phrase = Phrase(kField, from_s, until_s);
+  const GroundFrame axis = GroundFrame::Of(phrase.front().key.pose);
+  const auto mirror = [&](Pose& pose) {
+    pose = axis.ToWorld(Mirror(edit_.model.skeleton, axis.ToLocal(pose)));
+  };
+  for (client::KeyEdit& edit : phrase) {
+    mirror(edit.key.pose);
+    for (client::KeyPose& held : edit.held) mirror(held.pose);
+    keys_.erase(keys_.find(*edit.key.frame), keys_.upper_bound(LastFrame(edit)));
+  }
+  SetAll(kField, phrase);
+}
+
+void EditSession::SetAll(const char* field, std::span<client::KeyEdit> phrase) {
+  for (client::KeyEdit& edit : phrase) {
     const double at_s = Seconds(*edit.key.frame);
-    Set("--repeat", at_s, std::move(edit));
+    Set(field, at_s, std::move(edit));
   }
 }
 
@@ -173,7 +202,7 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
 
 void EditSession::Stretch(double from_s, double until_s, double times) {
   const auto stretched = [&](int64_t frame) {
-    return Frame(authoring::Stretched(Seconds(frame), from_s, times, edit_.music_beats));
+    return Frame(authoring::Stretched(Seconds(frame), from_s, times, counts_.beats));
   };
   std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
   const size_t count = phrase.size();
@@ -206,10 +235,7 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
                               : std::min(first, *phrase.front().key.frame - kMinKeyDistance + 1)),
       keys_.lower_bound(
           std::max({Frame(until_s), stretched(Frame(until_s)), last + int64_t{kMinKeyDistance}})));
-  for (size_t i = size_t{stays}; i < phrase.size(); ++i) {
-    const double at_s = Seconds(*phrase[i].key.frame);
-    Set("--stretch", at_s, std::move(phrase[i]));
-  }
+  SetAll("--stretch", std::span(phrase).subspan(size_t{stays}));
 }
 
 void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const {
@@ -327,12 +353,12 @@ void EditSession::Write() const {
 void EditSession::CheckKeys() const {
   std::map<int64_t, std::string> sources;  // by frame
   for (size_t i = 0; i < options_.keys.size(); ++i) {
-    const auto [same, is_new] = sources.emplace(Frame(options_.at_s[i]), options_.keys[i]);
+    const double at_s = Second("--at", options_.at[i]);
+    const auto [same, is_new] = sources.emplace(Frame(at_s), options_.keys[i]);
     if (!is_new) {
       throw InvalidArgument("--key", same->second + " and " + options_.keys[i] +
                                          " both ask for frame " + std::to_string(same->first));
     }
-    const double at_s = options_.at_s[i];
     if (same != sources.begin()) CheckDistance("--at", at_s, std::prev(same)->first, "the key");
     if (std::next(same) != sources.end())
       CheckDistance("--at", at_s, std::next(same)->first, "the key");

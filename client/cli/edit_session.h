@@ -3,9 +3,11 @@
 #include <cmath>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/cli/connection.h"
 #include "client/cli/edit_options.h"
 #include "client/edit.h"
@@ -19,6 +21,11 @@ class EditSession {
  public:
   EditSession(const EditOptions& options, const Connection& connection);
 
+  /// The second of a time as written.
+  double Second(const char* option, const std::string& time) const {
+    return authoring::ParseTime(time, option).In(counts_, option);
+  }
+
   /// Dances the two intervals around a key again. `source` as in --key.
   void SetKey(const std::string& source, double at_s);
   /// Removes a key of the report: its two intervals become one.
@@ -31,6 +38,9 @@ class EditSession {
   /// Sets the report's keys in [from_s, until_s) `times` as far from from_s, where they stand on
   /// the floor, replacing the keys there; those that would come behind the dance are left out.
   void Stretch(double from_s, double until_s, double times);
+  /// Mirrors the report's keys in [from_s, until_s), relative to where and which way the dancer
+  /// stands at the first of them.
+  void MirrorPhrase(double from_s, double until_s);
   /// Leads the last frames back to the first; after a held pose at the end, adds new ones.
   void CloseLoop();
   /// Writes the dance and its report, as the options say.
@@ -46,6 +56,8 @@ class EditSession {
   void CheckDistance(const char* field, double at_s, int64_t other, const std::string& what) const;
   /// The report's keys in [from_s, until_s), as danced, each with what holds it; at least one.
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
+  /// Sets the keys of a phrase where they now stand; the dance has no others there.
+  void SetAll(const char* field, std::span<client::KeyEdit> phrase);
   /// Throws if a pose held from one frame to another meets the next key, or the end.
   void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
   /// Removes keys of the dance from which nobody gets to a new key, held from `first` to `last`, in
@@ -84,6 +96,7 @@ class EditSession {
   const EditOptions& options_;
   const client::Client& client_;
   client::EditOptions edit_;
+  authoring::Counts counts_;  // of the song
   int64_t longest_ = 0;
   client::FinishedDance dance_;
   int64_t frames_ = 0;  // at the model's rate

@@ -39,13 +39,25 @@ class Whole {
   void Cut() {
     const double fps = dance_.motion.fps;
     const auto total = std::ssize(dance_.motion.frames);
+    const auto in_counts = [](const std::string& time) {
+      return !time.empty() && authoring::ParseTime(time, "time").counts;
+    };
+    authoring::Counts counts;
+    if (in_counts(options_.from) || in_counts(options_.until))
+      counts = ReadCounts(options_, Duration(dance_.motion));
+    const auto second = [&](const char* option, const std::string& time) {
+      return authoring::ParseTime(time, option).In(counts, option);
+    };
     // Starts on a frame of the model, as keys are on these.
-    const double start_s = std::round(options_.from_s.value_or(0) * fps_) / fps_;
+    const double start_s =
+        options_.from.empty() ? 0 : std::round(second("--from", options_.from) * fps_) / fps_;
     const int64_t first = FrameAt(start_s, fps);
     const int64_t end =
-        options_.until_s ? std::min<int64_t>(total, FrameAt(*options_.until_s, fps)) : total;
+        options_.until.empty()
+            ? total
+            : std::min<int64_t>(total, FrameAt(second("--until", options_.until), fps));
     if (first >= end) {
-      throw InvalidArgument(options_.from_s ? "--from" : "--until",
+      throw InvalidArgument(!options_.from.empty() ? "--from" : "--until",
                             "nothing of " + path_ + " is left: it ends at " +
                                 Rounded(static_cast<double>(total) / fps) +
                                 " s, and what stays is to have a frame at least");
@@ -54,6 +66,7 @@ class Whole {
     const int64_t by = std::llround(start_s * fps_);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first < by; });
     Shift(-by);
+    known_.asked = known_.asked.From(start_s);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first >= Frames(); });
     std::erase_if(known_.warnings, [&](const client::Warning& warning) {
       return warning.frame < 0 || warning.frame >= Frames();
@@ -136,20 +149,20 @@ class Whole {
   /// Dances the way to the other dance; returns where that begins.
   int64_t DanceOver(const client::FinishedDance& next) {
     const Connection connection(options_.server, options_.model);
-    client::EditOptions how = HowToDance(options_, connection);
-    if (!SameBones(how.model.skeleton, skeleton_)) {
+    const client::ModelDescription& model = connection.model(options_.model);
+    if (!SameBones(model.skeleton, skeleton_)) {
       throw InvalidArgument(path_, "is of the skeleton " + skeleton_.Describe() + ", the model \"" +
-                                       how.model.name + "\" of " + how.model.skeleton.Describe());
+                                       model.name + "\" of " + model.skeleton.Describe());
     }
     const double gap_s = options_.gap_s.value_or(kDefaultGapSeconds);
-    const int64_t gap = std::llround(gap_s * how.model.fps);
-    const int64_t most = how.model.max_transition_frames;
+    const int64_t gap = std::llround(gap_s * model.fps);
+    const int64_t most = model.max_transition_frames;
     if (gap < kMinKeyDistance || gap > most) {
       throw InvalidArgument("--gap", Rounded(gap_s) + " s, must be 0, or " +
-                                         Rounded(kMinKeyDistance / how.model.fps) + " to " +
-                                         Rounded(static_cast<double>(most) / how.model.fps) + " s");
+                                         Rounded(kMinKeyDistance / model.fps) + " to " +
+                                         Rounded(static_cast<double>(most) / model.fps) + " s");
     }
-    TakeSong(options_, Duration(dance_.motion) + gap_s, &how);
+    const auto [how, counts] = HowToDance(options_, connection, Duration(dance_.motion) + gap_s);
     const auto before = std::ssize(dance_.motion.frames) + std::ssize(next.motion.frames);
     client::EditedDance joined;
     try {
@@ -177,7 +190,7 @@ class Whole {
 
 void EditWhole(const EditOptions& options) {
   Whole whole(options, options.dance, options.report);
-  if (options.from_s || options.until_s) whole.Cut();
+  if (!options.from.empty() || !options.until.empty()) whole.Cut();
   if (options.mirror) whole.Mirror();
   if (!options.join.empty()) whole.Join({options, options.join, options.join_report});
   whole.Write();

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "client/authoring/counts.h"
 #include "client/authoring/json_fields.h"
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
@@ -44,6 +45,20 @@ CLI::Validator NumberFrom(double low, double high) {
 }
 
 CLI::Validator TimeInSeconds() { return NumberFrom(0, authoring::kMaxSeconds); }
+
+const CLI::Validator& TimeOrCount() {
+  static const CLI::Validator kCheck(
+      [](const std::string& text) -> std::string {
+        try {
+          authoring::ParseTime(text, "");
+          return {};
+        } catch (const Error& error) {
+          return error.what();
+        }
+      },
+      "");
+  return kCheck;
+}
 
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
   return NumberThat("a whole number from " + std::to_string(low) + " to " + std::to_string(high),

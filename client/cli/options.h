@@ -18,6 +18,8 @@ namespace choreo::cli {
 const CLI::Validator& AboveZero();
 /// A time, 0 to kMaxSeconds.
 CLI::Validator TimeInSeconds();
+/// A time in seconds or counts (counts.h).
+const CLI::Validator& TimeOrCount();
 
 /// A number within these limits, and a whole one.
 CLI::Validator NumberFrom(double low, double high);

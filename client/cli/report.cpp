@@ -85,6 +85,7 @@ std::string ReportJson(const WrittenDance& dance) {
   json["output_fps"] = dance.fps;
   json["seed"] = dance.header.seed;
   json["fingerprint"] = dance.header.fingerprint;
+  dance.asked.WriteTo(&json);
   json["keyframes"] = nlohmann::ordered_json::array();
   for (const WrittenKey& key : dance.keys) {
     nlohmann::ordered_json& written = json["keyframes"].emplace_back(KeyJson(key.reached));

@@ -30,7 +30,7 @@ struct TransitionOptions {
   std::string to;
   int frames = kTypicalFrames;
   std::string song;
-  double at_s = 0;
+  std::string at = "0";
   int candidates = 1;
   std::string rank_by = "quality";
   std::optional<double> hit;
@@ -103,8 +103,18 @@ void Run(const TransitionOptions& options) {
   request.config.music_dynamics = options.music_dynamics;
   request.config.variation = options.variation;
   request.config.style = options.style;
-  request.config.controls = options.controls.Read(model, connection.server());
-  request.config.first_frame = std::llround(options.at_s * model.fps);
+  const authoring::WrittenTime at = authoring::ParseTime(options.at, "--at");
+  const double seconds = options.frames / model.fps;
+  std::optional<authoring::Music> music;
+  authoring::Counts counts;
+  if (!options.song.empty()) {
+    constexpr double kAll = std::numeric_limits<double>::infinity();
+    music = authoring::ReadMusic(options.song, at.counts ? kAll : at.amount + seconds);
+    counts = authoring::CountsOf(*music);
+  }
+  const double at_s = at.In(counts, "--at");
+  request.config.controls = options.controls.Read(model, connection.server(), counts);
+  request.config.first_frame = std::llround(at_s * model.fps);
   options.controls.RequireBegun(request.config.controls,
                                 {request.config.first_frame + options.frames, model.fps});
   request.config.history = {authoring::ReadPose(options.from, model.skeleton).key.pose};
@@ -121,16 +131,15 @@ void Run(const TransitionOptions& options) {
   request.target = target.pose;
   request.target_mask = target.mask;
   request.target_hit = options.hit ? options.hit : target.hit;
-  if (!options.song.empty()) {
-    const double end_s = options.at_s + options.frames / model.fps;
-    const authoring::Music music = authoring::ReadMusic(options.song, end_s);
-    const client::Audio song = authoring::AudioFor(music.audio, end_s);
-    if (options.at_s >= authoring::Seconds(song)) {
-      throw InvalidArgument("--at", InFull(options.at_s) + " s is after the song's end at " +
+  if (music) {
+    const double end_s = at_s + seconds;
+    const client::Audio song = authoring::AudioFor(music->audio, end_s);
+    if (at_s >= authoring::Seconds(song)) {
+      throw InvalidArgument("--at", InFull(at_s) + " s is after the song's end at " +
                                         InFull(authoring::Seconds(song)) + " s");
     }
     client::SetMusic(song, model, request.config.first_frame, &request);
-    authoring::ConfigureMusic(music, end_s, &request.config);
+    authoring::ConfigureMusic(*music, end_s, &request.config);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
   ShowWarnings(result.warnings);
@@ -141,6 +150,14 @@ void Run(const TransitionOptions& options) {
     WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
     WrittenDance written = Examine(result.header, candidate.report, candidate.motion, {target});
     written.warnings = result.warnings;
+    written.asked = {.model = result.header.model,
+                     .seed = result.header.seed,
+                     .temperature = options.temperature,
+                     .music_dynamics = options.music_dynamics,
+                     .variation = options.variation,
+                     .style = options.style,
+                     .song = options.song == "-" ? "" : options.song,
+                     .song_start_s = at_s};
     std::cout << ReportText(written) << path.string() << std::endl;
     if (rank == 0 && !options.report.empty()) WriteFile(options.report, ReportJson(written));
     CheckKeys(written);
@@ -164,9 +181,10 @@ void AddTransitionCommand(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--song", options->song, "Music to move to.")->check(SongFile());
   command
-      ->add_option("--at", options->at_s,
-                   "Second of the song, path and factors at which it begins.")
-      ->check(TimeInSeconds())
+      ->add_option("--at", options->at,
+                   "Second of the song, path and factors at which it begins, or count of the song "
+                   "(9c; its first downbeat is 1c).")
+      ->check(TimeOrCount())
       ->capture_default_str();
   command
       ->add_option(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "client/cli/asked.h"
 #include "model/core/grid.h"
 #include "model/motion/kinematics.h"
 
@@ -26,6 +27,7 @@ struct WrittenKey {
 struct WrittenDance {
   client::Header header = {};
   client::Report report = {};
+  Asked asked = {};        ///< Examine leaves it empty
   int64_t frames = 0;      ///< of the file
   double fps = kModelFps;  ///< of the file
   std::vector<WrittenKey> keys = {};

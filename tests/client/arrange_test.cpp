@@ -165,6 +165,28 @@ TEST_F(ArrangeTest, RepeatsAPhraseOnItsCounts) {
              before.frames[static_cast<size_t>(keys[2])]);
 }
 
+TEST_F(ArrangeTest, MirrorsAPhraseWhereTheDancerStands) {
+  const std::vector<int64_t> keys = Keys("dance");
+  ASSERT_GE(keys.size(), 5U);
+  const Outcome outcome =
+      Edit("dance", "--mirror-phrase " + Seconds(keys[1]) + ' ' + Seconds(keys[2] + 1), "mirrored",
+           Server());
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(Keys("mirrored"), keys);
+  const Motion before = Read("dance.npz"), after = Read("mirrored.npz");
+  const auto at = [](const Motion& motion, int64_t frame) {
+    return motion.frames[static_cast<size_t>(frame)];
+  };
+  const GroundFrame axis = GroundFrame::Of(at(before, keys[1]));
+  for (size_t i = 1; i <= 2; ++i) {
+    const Pose expected = axis.ToWorld(Mirror(Body(), axis.ToLocal(at(before, keys[i]))));
+    EXPECT_LE(ComparePoses(Body(), at(after, keys[i]), expected).position_m, 0.001);
+    EXPECT_GT(ComparePoses(Body(), at(after, keys[i]), at(before, keys[i])).position_m, 0.05);
+  }
+  ExpectSame(at(after, keys[0]), at(before, keys[0]));
+  ExpectSame(at(after, keys[3]), at(before, keys[3]));
+}
+
 TEST_F(ArrangeTest, APhraseGoesInHalfTime) {
   const std::vector<int64_t> keys = Keys("dance");
   ASSERT_GE(keys.size(), 5U);
@@ -261,7 +283,8 @@ TEST_F(ArrangeTest, RefusesImpossibleArrangements) {
   };
   const std::string join = "--join " + At("dance.npz") + " --join-report " + At("dance.json");
   expect_late(join + " --gap 0.01", "--gap: 0.01 s, must be 0, or 0.067 to 60 s");
-  expect_late("--repeat 0 4 8c", "--repeat: counts need music that has beats; say seconds");
+  expect_late("--song none --repeat 0 4 8c",
+              "--repeat: 8c: counts need music that has beats; name a song");
   expect_late("--repeat 0 4 0", "--repeat: 0 is not later");
   expect_late("--repeat 0 4 soon", "--repeat: \"soon\" is neither seconds (2.5) nor counts (8c)");
   expect_late("--repeat 0.1 0.2 4", "--repeat: the report has no key from 0.1 s until 0.2 s");

@@ -122,8 +122,8 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   EXPECT_EQ(text.code, 0);
   EXPECT_EQ(std::count(text.said.begin(), text.said.end(), '\n'), 6) << text.said;
   char line[32];
-  std::snprintf(line, sizeof line, "%.3f s  beat %zu", keys[2]["time_s"].get<double>(),
-                keys[2]["beat"].get<size_t>());
+  std::snprintf(line, sizeof line, "%.3f s  count %d", keys[2]["time_s"].get<double>(),
+                keys[2]["count"].get<int>());
   EXPECT_THAT(text.said, HasSubstr(line));
 
   // The output is a key file with poses of the library.

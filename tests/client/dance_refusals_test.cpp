@@ -231,7 +231,7 @@ TEST_F(CommandTest, RefusesInvalidNumbers) {
   refused("dance --seconds nan " + At("song.wav"), "nan is not a number above 0");
   refused("dance --seed -1 " + At("song.wav"), "-1 is not a whole number from 0");
   const std::string transition = "transition --from kick --to groove -o " + At("t.npz");
-  refused(transition + " --at -1", "-1 is not a number from 0 to 1e+09");
+  refused(transition + " --at -1", "\"-1\" is neither seconds (2.5) nor counts (8c)");
   refused(transition + " --at 2", "--at: there is nothing whose second it could be");
   refused(transition + " --hit 3.1", "3.1 is not a number from 0 to 3");
   refused(transition + " -n 9999999999999", "is not a whole number from 1 to 2147483647");

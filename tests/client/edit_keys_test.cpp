@@ -3,12 +3,15 @@
 
 #include <fstream>
 
+#include "model/core/atomic_file.h"
+
 #include "tests/client/edit_fixture.h"
 
 /// Keys of a report that `choreo edit` moves, removes and keeps.
 namespace choreo::edit_keys_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -41,6 +44,63 @@ TEST_F(EditTest, MovedKeyIsOnlyAtItsNewSecond) {
   ASSERT_EQ(keys.size(), keys_.size());
   EXPECT_EQ(keys[2]["frame"], keys_[3]);
   EXPECT_EQ(keys[3]["id"], id);
+}
+
+TEST_F(EditTest, TimesAreAlsoCountsOfTheMusic) {
+  const nlohmann::json heard =
+      nlohmann::json::parse(Choreo("analyze --json " + At("song.wav")).said);
+  const double one = heard["downbeats"][0];
+  const auto with = [&](const std::string& edit) {
+    return Edit(edit + " --song " + At("song.wav") + " --report " + At("report.json") + " -o " +
+                At("new.npz"));
+  };
+  const auto expect_same = [&](const std::string& counts, const std::string& seconds) {
+    ASSERT_EQ(with(seconds).code, 0) << seconds;
+    std::filesystem::rename(folder_ / "new.npz", folder_ / "seconds.npz");
+    const Outcome outcome = with(counts);
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_EQ(ReadFile(folder_ / "new.npz"), ReadFile(folder_ / "seconds.npz"));
+  };
+  const auto at = [&](double beats) { return std::to_string(one + 0.5 * beats); };
+  expect_same("--key kick --at 9c --hold 2c", "--key kick --at " + at(8) + " --hold 1");
+  expect_same("--from 2.5c --until 9c", "--from " + at(1.5) + " --until " + at(8));
+  const Outcome without = Edit("--key kick --at 9c -o " + At("new.npz"));
+  EXPECT_EQ(without.code, 1);
+  EXPECT_THAT(without.said, HasSubstr("--at: 9c: counts need music that has beats; name a song"));
+}
+
+TEST_F(EditTest, NewFramesAreDancedAsTheReportSays) {
+  const auto edit = [&](const std::string& options) {
+    const Outcome outcome =
+        Edit("--key kick --at 3 --report " + At("report.json") + " --new-report " + At("new.json") +
+             " -o " + At("new.npz") + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return outcome.said;
+  };
+  const std::string said = edit("");
+  EXPECT_THAT(said, HasSubstr("note: as " + (folder_ / "report.json").string() + " says: song " +
+                              (folder_ / "song.wav").string() + ", model "));
+  EXPECT_THAT(said, HasSubstr(", seed 3\n"));
+  const std::string as_before = ReadFile(folder_ / "new.npz");
+  const nlohmann::json report = ReadJson(folder_ / "new.json");
+  EXPECT_EQ(report["seed"], 3) << "for the next edit";
+  EXPECT_EQ(report["song"], (folder_ / "song.wav").string());
+  EXPECT_THAT(edit(" --seed 3 --song " + At("song.wav")), Not(HasSubstr(", seed")));
+  EXPECT_EQ(ReadFile(folder_ / "new.npz"), as_before);
+  EXPECT_THAT(edit(" --song none"), Not(HasSubstr("song.wav")));
+  EXPECT_NE(ReadFile(folder_ / "new.npz"), as_before);
+
+  // A part begins later in its song.
+  ASSERT_EQ(Edit("--from 2 --report " + At("report.json") + " --new-report " + At("new.json") +
+                 " -o " + At("new.npz"))
+                .code,
+            0);
+  EXPECT_EQ(ReadJson(folder_ / "new.json")["song_start"], 2);
+
+  // A song that has moved with its report is found; else that it is not is said.
+  std::filesystem::create_directory(folder_ / "other");
+  std::filesystem::rename(folder_ / "song.wav", folder_ / "other" / "song.wav");
+  EXPECT_THAT(edit(""), HasSubstr("song.wav, the song of "));
 }
 
 TEST_F(EditTest, KeysTooNearANewOneMakeWayAndAreNamed) {

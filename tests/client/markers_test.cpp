@@ -58,6 +58,17 @@ TEST_F(MarkersTest, AreSetMovedAndRemoved) {
   EXPECT_FALSE(ReadJson(folder_ / "q.json").contains("markers"));
 }
 
+TEST_F(MarkersTest, StandOnTheProjectsCounts) {
+  json counted = project_;
+  counted["beats"] = {{0.5, 4}, {1, 5}, {1.5, 6}, {2, 7}, {2.5, 8}, {3, 1}, {3.5, 2}};
+  std::ofstream(folder_ / "c.json") << counted.dump();
+  const Outcome outcome = Edit("--mark last 3.5c --mark pickup 0.5c", "c.json");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const json markers = ReadJson(folder_ / "q.json")["markers"];
+  EXPECT_EQ(markers[1], json({{"time", 2.75}, {"name", "pickup"}}));
+  EXPECT_EQ(markers[3], json({{"time", 4.25}, {"name", "last"}}));
+}
+
 TEST_F(MarkersTest, RefusalsSayWhatIsThere) {
   ExpectRefused(Edit("--unmark chorus"),
                 "--unmark: the project has no marker \"chorus\"; it has verse@1, drop@4, drop@8");
@@ -65,6 +76,7 @@ TEST_F(MarkersTest, RefusalsSayWhatIsThere) {
                 "several markers are called \"drop\"; say which, as in drop@4");
   ExpectRefused(Edit("--mark verse 4.01"), "--mark: 4.01 s is where drop@4 stands");
   ExpectRefused(Edit("--mark x 4000"), "--mark");
+  ExpectRefused(Edit("--mark x 3c"), "--mark: 3c: counts need music that has beats");
   ExpectRefused(Edit(""), "nothing is to be changed");
   ExpectRefused(Edit("--mark x 3 --mirror"), "p.json is a project");
   std::ofstream(folder_ / "d.npz") << "no dance";

@@ -227,7 +227,7 @@ TEST(FormationTest, IsWidenedAsFarAsNeeded) {
 TEST(CountsTest, ContinueAtTheirTempo) {
   const std::vector<double> beats = {1, 1.5, 2, 3};
   const auto after = [&](const std::string& text, double seconds) {
-    return authoring::ParseDelay(text, "x").After(seconds, beats, "x");
+    return authoring::ParseTime(text, "x").After(seconds, beats, "x");
   };
   EXPECT_DOUBLE_EQ(after("2.5", 1), 3.5);
   EXPECT_DOUBLE_EQ(after("2.5 s", 1), 3.5);
@@ -237,10 +237,28 @@ TEST(CountsTest, ContinueAtTheirTempo) {
   EXPECT_DOUBLE_EQ(after("2c", 2), 4);
   EXPECT_DOUBLE_EQ(after("1c", 3.5), 4.5);
   for (const char* wrong : {"", "c", "2 bars", "-1c", "1e99", "nan"}) {
-    ExpectError(ErrorCode::kInvalidArgument, "x: ", [&] { authoring::ParseDelay(wrong, "x"); });
+    ExpectError(ErrorCode::kInvalidArgument, "x: ", [&] { authoring::ParseTime(wrong, "x"); });
   }
   ExpectError(ErrorCode::kInvalidArgument, "counts need music",
-              [] { authoring::ParseDelay("2c", "x").After(0, {}, "x"); });
+              [] { authoring::ParseTime("2c", "x").After(0, {}, "x"); });
+}
+
+TEST(CountsTest, NameMomentsAsTheRulerDoes) {
+  const std::vector<double> beats = {1, 1.5, 2, 3}, ones = {1.5};
+  const authoring::Counts counts = authoring::CountsFrom(beats, ones);
+  const auto at = [&](const std::string& text) {
+    return authoring::ParseTime(text, "x").In(counts, "x");
+  };
+  EXPECT_DOUBLE_EQ(at("1c"), 1.5);
+  EXPECT_DOUBLE_EQ(at("2.5 counts"), 2.5);
+  EXPECT_DOUBLE_EQ(at("5c"), 5);
+  EXPECT_DOUBLE_EQ(at("0c"), 1);
+  EXPECT_DOUBLE_EQ(at("2.5"), 2.5);
+  EXPECT_EQ(authoring::CountsFrom(beats, {}).one, 0U);
+  ExpectError(ErrorCode::kInvalidArgument, "x: 0c is before second 0; count 1 is at 0.3 s", [] {
+    const std::vector<double> soon = {0.3, 0.8}, one = {0.3};
+    authoring::ParseTime("0c", "x").In(authoring::CountsFrom(soon, one), "x");
+  });
 }
 
 }  // namespace choreo::dancers_test

@@ -347,6 +347,18 @@ TEST(KeyFileTest, SaysHowHardAKeyIsHit) {
               [&] { read(R"(, "hit": 4)"); });
 }
 
+TEST(KeyFileTest, TimesAreAlsoCountsOfTheMusic) {
+  const Counts counts = CountsFrom({0.5, 1, 1.5, 2}, {});
+  const std::string text =
+      R"({"keyframes": [{"time": "3c", "hold": "2 counts", "pose": "stand"}]})";
+  const auto keys = ParseKeyFile(text, "k.json", Body(), nullptr, counts);
+  EXPECT_EQ(keys.front().time_s, 1.5);
+  EXPECT_EQ(keys.back().time_s, 2.5);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "k.json:keyframes[0].time: 3c: counts need music that has beats",
+              [&] { ParseKeyFile(text, "k.json", Body()); });
+}
+
 TEST(KeyFileTest, SaysWhatHandsDo) {
   const auto read = [](const std::string& more) {
     return ParseKeyFile(R"({"keyframes": [{"time": 1, "pose": "stand")" + more + "}]}", "k.json",

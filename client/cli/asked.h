@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace choreo::cli {
+
+/// What a dance was asked for beside its keys and controls. Its report says so, for later edits.
+struct Asked {
+  std::string model = {};
+  std::optional<uint64_t> seed = {};
+  std::optional<double> temperature = {}, music_dynamics = {}, variation = {};
+  std::string style = {};
+  std::string song = {};  ///< the file as it was named
+  double song_start_s = 0;
+  /// Seconds of the dance, where they are not those that are found in the song.
+  std::vector<double> beats = {}, downbeats = {};
+
+  /// Adds it to a report.
+  void WriteTo(nlohmann::ordered_json* report) const;
+  /// From the report called `name`; reports of earlier versions say less. Throws
+  /// Error(kInvalidArgument) whose field is NAME:MEMBER.
+  static Asked ReadFrom(const nlohmann::ordered_json& report, const std::string& name);
+
+  /// For the part of the dance from this second on.
+  Asked From(double seconds) const;
+};
+
+}  // namespace choreo::cli
