@@ -52,7 +52,7 @@ void CharacterOptions::Check(const std::filesystem::path& out, bool of_motion) c
 }
 
 void CharacterOptions::Write(const std::filesystem::path& out, const Skeleton& skeleton,
-                             const Motion& motion) const {
+                             const Motion& motion, RootMotion root) const {
   const CharacterFile file(character);
   const HumanBones bones =
       file.FindBones(map.empty() ? std::vector<BoneChoice>() : ReadBoneMap(map));
@@ -70,7 +70,7 @@ void CharacterOptions::Write(const std::filesystem::path& out, const Skeleton& s
       keys.empty()
           ? CurlFingers(file.rig(), bones, *FindHandPose(hands.empty() ? "relaxed" : hands))
           : CurlFingers(file.rig(), bones, keys, std::ssize(smpl.frames), smpl.fps);
-  file.WriteDance(out, body, TransferToCharacter(smpl, body.skeleton), fingers);
+  file.WriteDance(out, body, TransferToCharacter(smpl, body.skeleton), fingers, root);
 }
 
 }  // namespace choreo::cli

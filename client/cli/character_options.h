@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "model/formats/root_motion.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -27,8 +28,8 @@ struct CharacterOptions {
   /// Writes the character with the dance (formats/character_file.h). If names tell too little,
   /// writes OUT.map.json and OUT.map.png, a suggestion, and throws Error(kInvalidArgument) naming
   /// them.
-  void Write(const std::filesystem::path& out, const Skeleton& skeleton,
-             const Motion& motion) const;
+  void Write(const std::filesystem::path& out, const Skeleton& skeleton, const Motion& motion,
+             RootMotion root = RootMotion::kPelvis) const;
 };
 
 }  // namespace choreo::cli

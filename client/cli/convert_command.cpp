@@ -1,4 +1,7 @@
+#include <map>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "client/authoring/motion_input.h"
 #include "client/cli/bone_map.h"
@@ -9,13 +12,19 @@
 #include "client/cli/output_file.h"
 #include "model/core/error.h"
 #include "model/fit/retarget.h"
+#include "model/formats/gltf.h"
 #include "model/formats/motion_file.h"
 #include "model/formats/own_arrays.h"
+#include "model/formats/root_motion.h"
 #include "model/motion/contacts.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
 namespace {
+
+const std::map<std::string, RootMotion> kRootMotions = {{"pelvis", RootMotion::kPelvis},
+                                                        {"root", RootMotion::kRoot},
+                                                        {"in-place", RootMotion::kInPlace}};
 
 struct ConvertOptions {
   std::string in;
@@ -26,6 +35,7 @@ struct ConvertOptions {
   std::string motion_map;
   BvhOptions bvh;
   CharacterOptions character;
+  std::string root_motion = "pelvis";
 
   /// The map for the motion's bones; without a character, `--map` is the motion's.
   const std::string& map() const {
@@ -53,6 +63,10 @@ void Run(const ConvertOptions& options) {
   RequireWrittenMotionFile(options.out);
   options.bvh.Check(options.out);
   options.character.Check(options.out, true);
+  const RootMotion root = kRootMotions.at(options.root_motion);
+  const bool is_glb = SmallExtension(options.out) == ".glb";
+  if (root == RootMotion::kRoot && !is_glb)
+    throw InvalidArgument("--root-motion", "root is for a .glb, not for " + options.out);
   if (!options.reading.up.empty()) ParseUp(options.reading.up);
   CheckAngles(options.reading.angles);
   RequireOutputs({{"out", options.out}}, {{"in", options.in},
@@ -66,8 +80,11 @@ void Run(const ConvertOptions& options) {
     skeleton = Skeleton::Smpl24();
   }
   if (options.fps > 0) motion = Resample(motion, options.fps);
-  if (options.character.given()) return options.character.Write(options.out, skeleton, motion);
+  if (options.character.given())
+    return options.character.Write(options.out, skeleton, motion, root);
+  if (is_glb && root == RootMotion::kRoot) return WriteGlb(options.out, skeleton, motion, root);
   const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
+  if (root == RootMotion::kInPlace) motion = InPlace(std::move(motion));
   options.bvh.Write(options.out, skeleton, motion, contacts);
 }
 
@@ -117,6 +134,12 @@ void AddConvertCommand(CLI::App& program) {
       ->check(CLI::ExistingFile);
   command->add_flag("--smpl", options->smpl,
                     "Retarget what has a skeleton of its own to SMPL's 24 joints.");
+  command
+      ->add_option("--root-motion", options->root_motion,
+                   "For game engines, what carries the dancer over the floor: pelvis (default); "
+                   "root, a joint on the floor above the pelvis (.glb, also on --character); or "
+                   "in-place, nothing: she turns and jumps where she stands.")
+      ->check(CLI::IsMember(kRootMotions));
   options->bvh.AddTo(*command);
   options->character.AddTo(*command);
   command->callback([options] { Run(*options); });

@@ -8,6 +8,7 @@
 #include "model/fit/find_bones.h"
 #include "model/fit/finger_bones.h"
 #include "model/formats/gltf_nodes.h"
+#include "model/formats/root_motion.h"
 #include "model/motion/motion.h"
 
 namespace choreo {
@@ -37,8 +38,11 @@ class CharacterFile {
   /// this file. Throws Error(kInvalidArgument) for a motion without frames, zero scales, or more
   /// than 4 GiB; Error(kInternal) if the file cannot be written. `fingers` have an angle, or one
   /// per frame.
+  /// With RootMotion::kRoot the node right above all bones has the way over the floor; throws
+  /// Error(kInvalidArgument) if there is none.
   void WriteDance(const std::filesystem::path& out, const CharacterBody& body, const Motion& motion,
-                  const std::vector<CurledBone>& fingers = {}) const;
+                  const std::vector<CurledBone>& fingers = {},
+                  RootMotion root = RootMotion::kPelvis) const;
 
  private:
   std::filesystem::path path_;

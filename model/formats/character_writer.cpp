@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
@@ -108,6 +109,38 @@ Eigen::Quaterniond Curled(const CurledBone& finger, double angle, const GltfNode
   return Eigen::AngleAxisd(sense * angle, axis.normalized()) * nodes.rest[finger.node].rotation;
 }
 
+/// The node right above all bones of a body.
+int NodeAbove(const GltfNodes& nodes, const CharacterBody& body) {
+  const auto is_below = [&](int node, int above) {
+    while (node >= 0 && node != above) node = nodes.parents[node];
+    return node >= 0;
+  };
+  for (int node = nodes.parents[body.nodes.front()]; node >= 0; node = nodes.parents[node]) {
+    if (std::ranges::all_of(body.nodes, [&](int bone) { return bone < 0 || is_below(bone, node); }))
+      return node;
+  }
+  throw InvalidArgument("nodes", "none is above all its bones, to carry them over the floor");
+}
+
+/// The track of a node that carries what is below it over the floor.
+GltfTrack CarriedOver(const std::vector<GroundFrame>& way, int node, const GltfNodes& nodes,
+                      const std::vector<Eigen::Affine3d>& rest) {
+  GltfTrack track;
+  track.node = node;
+  const int parent = nodes.parents[node];
+  const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : rest[parent];
+  const Eigen::Vector3d unscaled = nodes.rest[node].scale.cwiseInverse();
+  for (const GroundFrame& place : way) {
+    const Eigen::Affine3d moved = above.inverse() * Eigen::Translation3d(place.origin) *
+                                  Eigen::AngleAxisd(place.heading, Eigen::Vector3d::UnitY()) *
+                                  rest[node];
+    const Eigen::Matrix3d turned = moved.linear() * unscaled.asDiagonal();
+    track.AddTurn(Eigen::Quaterniond(Eigen::Affine3d(turned).rotation()));
+    track.AddPlace(moved.translation());
+  }
+  return track;
+}
+
 // Animated nodes must not have a matrix.
 void StateParts(ordered_json& node, const GltfPlacement& rest) {
   if (!node.is_object() || node.erase("matrix") == 0) return;
@@ -122,8 +155,10 @@ void StateParts(ordered_json& node, const GltfPlacement& rest) {
 }  // namespace
 
 void CharacterFile::WriteDance(const std::filesystem::path& out, const CharacterBody& body,
-                               const Motion& motion, const std::vector<CurledBone>& fingers) const {
-  RequireWritable(body.skeleton, motion);
+                               const Motion& danced, const std::vector<CurledBone>& fingers,
+                               RootMotion root) const {
+  RequireWritable(body.skeleton, danced);
+  Motion motion = root == RootMotion::kInPlace ? InPlace(danced) : danced;
   std::string bytes;
   try {
     DrivenNodes driven(nodes_, body);
@@ -132,6 +167,11 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
                                          std::to_string(motion.frames.size()) +
                                          " frames, at most " + Rounded(kMaxPlaces) +
                                          " places are written");
+    }
+    SplitMotion split;
+    if (root == RootMotion::kRoot) {
+      split = SplitAtRoot(danced);
+      motion = split.body;
     }
     std::vector<GltfTrack> tracks;
     for (const int node : body.nodes) tracks.emplace_back().node = node;
@@ -144,6 +184,9 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
       }
     }
     const std::vector<Eigen::Affine3d> rest = nodes_.PlaceAtRest();
+    if (root == RootMotion::kRoot) {
+      tracks.push_back(CarriedOver(split.way, NodeAbove(nodes_, body), nodes_, rest));
+    }
     for (const CurledBone& finger : fingers) {
       GltfTrack& track = tracks.emplace_back();
       track.node = finger.node;

@@ -6,6 +6,7 @@
 
 #include "model/formats/motion_reading.h"
 #include "model/formats/own_arrays.h"
+#include "model/formats/root_motion.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
@@ -15,10 +16,12 @@ namespace choreo {
 
 /// Writes a skeleton at rest on the floor, the doll of body/skin.h bound to it, and the motion as
 /// an animation: one rotation channel per joint and one translation channel for the root, linear.
-/// Numbers are floats. The animation's extras hold `fps`. Deterministic. Throws
+/// Numbers are floats. With RootMotion::kRoot a joint "root" on the floor, the pelvis's parent, has
+/// the way over it. The animation's extras hold `fps`. Deterministic. Throws
 /// Error(kInvalidArgument) for a motion without frames or with another joint count,
 /// Error(kInternal) if the file cannot be written.
-void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
+void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
+              RootMotion root = RootMotion::kPelvis);
 
 /// One of several dancers in a file.
 struct NamedMotion {
@@ -29,7 +32,7 @@ struct NamedMotion {
 /// each, and one animation for all. Throws as above, and Error(kInvalidArgument) for no dancers,
 /// and for motions with different rates or frame counts.
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
-              const std::vector<NamedMotion>& dancers);
+              const std::vector<NamedMotion>& dancers, RootMotion root = RootMotion::kPelvis);
 
 /// Writes a motion of SMPL's body for VRM avatars (.vrma, VRMC_vrm_animation 1.0): binary glTF with
 /// nodes, the table of human bones and the animation, without a mesh. At rest it faces +Z with arms

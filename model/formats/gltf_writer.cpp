@@ -82,8 +82,9 @@ Json AddPatch(const SkinPatch& patch, GltfBuilder* gltf) {
           {"mode", kTriangleMode}};
 }
 
-// Adds the doll's mesh and the skin's inverse rest matrices; returns their accessor.
-size_t AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
+// Adds the doll's mesh and the inverse rest matrices of the skin's joints, and of a root on the
+// floor after them; returns their accessor.
+size_t AddBody(const Skeleton& skeleton, bool has_root, GltfBuilder* gltf) {
   Json primitives = Json::array();
   for (const SkinPatch& patch : MakeSkin(skeleton)) primitives.push_back(AddPatch(patch, gltf));
   gltf->List("meshes").push_back({{"name", "body"}, {"primitives", primitives}});
@@ -94,14 +95,23 @@ size_t AddBody(const Skeleton& skeleton, GltfBuilder* gltf) {
     matrix.topRightCorner<3, 1>() = -rest.col(joint).cast<float>();
     inverse_bind.insert(inverse_bind.end(), matrix.data(), matrix.data() + matrix.size());
   }
+  const Eigen::Matrix4f root = Eigen::Matrix4f::Identity();
+  if (has_root) inverse_bind.insert(inverse_bind.end(), root.data(), root.data() + root.size());
   return gltf->Add<float>(inverse_bind, "MAT4");
 }
 
-// Adds a body bound to the joints, which are the nodes from `first` on; returns its nodes.
-Json AddSkin(const Skeleton& skeleton, size_t matrices, size_t first, const std::string& prefix,
-             GltfBuilder* gltf) {
+// Adds a body bound to the joints, which are the nodes from `first` on, and its root on the floor,
+// if it has one; returns the nodes of the scene.
+Json AddSkin(const Skeleton& skeleton, size_t matrices, size_t first, bool has_root,
+             const std::string& prefix, GltfBuilder* gltf) {
   Json joints = Json::array();
   for (int joint = 0; joint < skeleton.joints(); ++joint) joints.push_back(first + joint);
+  if (has_root) {
+    Json& nodes = gltf->List("nodes");
+    joints.push_back(nodes.size());
+    nodes.push_back({{"name", prefix + "root"}, {"children", {first}}});
+    first = nodes.size() - 1;
+  }
   Json& skins = gltf->List("skins");
   skins.push_back({{"name", prefix + skeleton.name},
                    {"skeleton", first},
@@ -125,18 +135,28 @@ void AddTracks(const Skeleton& skeleton, const Motion& motion, int first,
   }
 }
 
+void AddWay(const std::vector<GroundFrame>& way, int node, std::vector<GltfTrack>* tracks) {
+  GltfTrack& track = tracks->emplace_back();
+  track.node = node;
+  for (const GroundFrame& place : way) {
+    track.AddTurn(Eigen::Quaterniond(Eigen::AngleAxisd(place.heading, Eigen::Vector3d::UnitY())));
+    track.AddPlace(place.origin);
+  }
+}
+
 Json NewDocument() {
   return {{"asset", {{"version", "2.0"}, {"generator", "choreo"}}}, {"scene", 0}};
 }
 
 }  // namespace
 
-void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion) {
-  WriteGlb(path, skeleton, {{"", motion}});
+void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
+              RootMotion root) {
+  WriteGlb(path, skeleton, {{"", motion}}, root);
 }
 
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
-              const std::vector<NamedMotion>& dancers) {
+              const std::vector<NamedMotion>& dancers, RootMotion root) {
   if (dancers.empty()) throw InvalidArgument("dancers", "are none");
   const Motion& one = dancers.front().motion;
   for (const auto& [name, motion] : dancers) {
@@ -148,13 +168,22 @@ void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
   std::vector<GltfTrack> tracks;
   Json scene = Json::array();
   size_t matrices = 0;
+  const bool has_root = root == RootMotion::kRoot;
   for (const auto& [name, motion] : dancers) {
     const std::string prefix = name.empty() ? "" : name + ':';
     const size_t first = gltf.List("nodes").size();
     AddJoints(skeleton, &gltf, prefix);
-    if (first == 0) matrices = AddBody(skeleton, &gltf);
-    for (Json& node : AddSkin(skeleton, matrices, first, prefix, &gltf)) scene.push_back(node);
-    AddTracks(skeleton, motion, static_cast<int>(first), &tracks);
+    if (first == 0) matrices = AddBody(skeleton, has_root, &gltf);
+    const Json nodes = AddSkin(skeleton, matrices, first, has_root, prefix, &gltf);
+    scene.insert(scene.end(), nodes.begin(), nodes.end());
+    const auto pelvis = static_cast<int>(first);
+    if (has_root) {
+      const SplitMotion split = SplitAtRoot(motion);
+      AddTracks(skeleton, split.body, pelvis, &tracks);
+      AddWay(split.way, nodes.front(), &tracks);
+    } else {
+      AddTracks(skeleton, root == RootMotion::kInPlace ? InPlace(motion) : motion, pelvis, &tracks);
+    }
   }
   gltf.List("scenes").push_back({{"name", "dance"}, {"nodes", scene}});
   gltf.AddDance(one.fps, one.frames.size(), tracks);

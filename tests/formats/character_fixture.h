@@ -20,10 +20,10 @@ namespace choreo {
 class CharacterTest : public testing::Test {
  protected:
   // What the character `glb` of this folder dances, written as out.glb.
-  CharacterBody Dance(const std::string& glb) {
+  CharacterBody Dance(const std::string& glb, RootMotion root = RootMotion::kPelvis) {
     const CharacterFile file(folder_ / glb);
     CharacterBody body = MakeCharacterBody(file.FindBones(), file.places());
-    file.WriteDance(folder_ / "out.glb", body, TransferToCharacter(smpl_, body.skeleton));
+    file.WriteDance(folder_ / "out.glb", body, TransferToCharacter(smpl_, body.skeleton), {}, root);
     return body;
   }
 

@@ -71,6 +71,32 @@ TEST_F(CharacterTest, ArmaturesMayBeTurnedScaledAndFaceAnywhere) {
   }
 }
 
+TEST_F(CharacterTest, TheNodeAboveTheBonesCarriesThemOverTheFloor) {
+  WriteCharacter(folder_ / "hero.glb",
+                 {.arms_down = 45, .rolled = true, .armature_scale = 0.01, .facing = 90});
+  const CharacterBody body = Dance("hero.glb");
+  const GltfScene usual = ReadGltfScene(folder_ / "out.glb");
+  Dance("hero.glb", RootMotion::kRoot);
+  const GltfScene carried = ReadGltfScene(folder_ / "out.glb");
+  const auto pelvis = static_cast<size_t>(body.nodes[0]);
+  const auto root = static_cast<size_t>(usual.nodes.parents[pelvis]);
+  const Eigen::Affine3d rest = usual.nodes.PlaceAtRest()[root];
+  for (int64_t frame = 0; frame < usual.frames; ++frame) {
+    const auto a = usual.Frame(frame), b = carried.Frame(frame);
+    for (const int node : body.nodes) {
+      if (node < 0) continue;
+      const auto at = static_cast<size_t>(node);
+      EXPECT_LT((a[at].translation() - b[at].translation()).norm(), 1e-3)
+          << "the dance is the same";
+    }
+    EXPECT_TRUE(a[root].isApprox(rest, 1e-6));
+    const Eigen::Vector3d way = b[root] * rest.inverse() * Eigen::Vector3d::Zero();
+    EXPECT_NEAR(way.x(), b[pelvis].translation().x(), 1e-3);
+    EXPECT_NEAR(way.y(), 0, 1e-3);
+    EXPECT_NEAR(way.z(), b[pelvis].translation().z(), 1e-3);
+  }
+}
+
 TEST_F(CharacterTest, AllElseStaysByteForByte) {
   WriteCharacter(folder_ / "hero.glb", {});
   Glb hero(folder_ / "hero.glb");

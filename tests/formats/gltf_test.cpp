@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
 
 #include "model/formats/bvh.h"
+#include "model/formats/gltf_scene.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/motion/motion_fixtures.h"
@@ -81,6 +84,35 @@ TEST_F(GltfTest, HoldsTheRestBodyAndTheMotion) {
   }
   EXPECT_NEAR(low, 0, 0.02);
   EXPECT_NEAR(high, 1.8, 0.05);  // with her bun
+}
+
+TEST_F(GltfTest, ARootOnTheFloorCarriesTheDancerOrNobodyDoes) {
+  const auto scene = [&](RootMotion root) {
+    WriteGlb(folder_ / "a.glb", kSmpl, motion_, root);
+    return ReadGltfScene(folder_ / "a.glb");
+  };
+  const GltfScene usual = scene(RootMotion::kPelvis), carried = scene(RootMotion::kRoot),
+                  in_place = scene(RootMotion::kInPlace);
+  const auto root = std::ranges::find(carried.nodes.names, "root") - carried.nodes.names.begin();
+  ASSERT_LT(root, std::ssize(carried.nodes.names));
+  EXPECT_EQ(carried.nodes.parents[0], root);
+  EXPECT_EQ(Glb(folder_ / "a.glb").document["skins"][0]["joints"].size(), 24U);
+  for (int64_t frame = 0; frame < usual.frames; ++frame) {
+    const auto a = usual.Frame(frame), b = carried.Frame(frame), c = in_place.Frame(frame);
+    for (size_t joint = 0; joint < 24; ++joint) {
+      EXPECT_TRUE(a[joint].isApprox(b[joint], 1e-4)) << "the dance is the same";
+      EXPECT_TRUE(a[joint].linear().isApprox(c[joint].linear(), 1e-4));
+    }
+    const GroundFrame place = GroundFrame::Of(motion_.frames[static_cast<size_t>(frame)]);
+    const Eigen::Affine3d way = b[static_cast<size_t>(root)];
+    EXPECT_LT((way.translation() - place.origin).norm(), 1e-4);
+    EXPECT_LT((way.linear() * Eigen::Vector3d::UnitZ() -
+               Eigen::Vector3d(std::sin(place.heading), 0, std::cos(place.heading)))
+                  .norm(),
+              1e-4);
+    EXPECT_LT(std::hypot(c[0].translation().x(), c[0].translation().z()), 1e-6);
+    EXPECT_NEAR(c[0].translation().y(), a[0].translation().y(), 1e-6);
+  }
 }
 
 TEST_F(GltfTest, TheSameMotionGivesTheSameBytes) {
