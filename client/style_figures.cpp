@@ -1,5 +1,6 @@
 #include "client/style_figures.h"
 
+#include <cmath>
 #include <utility>
 
 namespace choreo::client {
@@ -13,6 +14,16 @@ std::optional<StyleFigures> FindStyleFigures(std::string_view fingerprint) {
   for (const auto& [hash, figures] : kMeasured)
     if (fingerprint.find(hash) != std::string_view::npos) return figures;
   return std::nullopt;
+}
+
+std::string DescribeStyles(std::string_view fingerprint) {
+  const auto figures = FindStyleFigures(fingerprint);
+  if (!figures) return "Whether they show was not measured.";
+  const auto percent = [](double share) { return std::to_string(std::llround(share)) + " %"; };
+  return std::string(figures->shows() ? "They show" : "They do not show") + ": in " +
+         percent(figures->recognised) +
+         " of seconds a classifier recognises the style asked for, by chance in " +
+         percent(figures->chance) + ".";
 }
 
 }  // namespace choreo::client

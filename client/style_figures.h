@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace choreo::client {
@@ -18,5 +19,9 @@ struct StyleFigures {
 /// The measurements (docs/results.md) of the shipped checkpoint in a model's fingerprint, or none.
 /// Thread-safe.
 std::optional<StyleFigures> FindStyleFigures(std::string_view fingerprint);
+
+/// For people, whether the styles of that model can be seen in its dances: "They do not show: in 7
+/// % of seconds a classifier recognises the style asked for, by chance in 6 %."
+std::string DescribeStyles(std::string_view fingerprint);
 
 }  // namespace choreo::client

@@ -46,7 +46,8 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   out["styles"] = model.styles;
   if (const auto figures = client::FindStyleFigures(model.fingerprint))
     out["styles_recognised"] = {{"percent", figures->recognised},
-                                {"chance_percent", figures->chance}};
+                                {"chance_percent", figures->chance},
+                                {"shows", figures->shows()}};
   out["velocity_references"] = nlohmann::ordered_json::array();
   for (const auto& reference : model.velocity_references)
     out["velocity_references"].push_back(ToJson(reference));
@@ -131,13 +132,7 @@ void PrintStyles(const client::ModelDescription& model) {
   for (size_t i = 0; i < model.styles.size(); ++i)
     std::printf("%s %s", i == 0 ? "" : ",", model.styles[i].c_str());
   std::printf("\n");
-  if (const auto figures = client::FindStyleFigures(model.fingerprint)) {
-    std::printf("    in %.0f %% of seconds an asked style is recognised, by chance in %.0f %%%s\n",
-                figures->recognised, figures->chance,
-                figures->shows() ? "" : ": they cannot be told apart");
-  } else {
-    std::printf("    whether they can be recognised was not measured\n");
-  }
+  std::printf("    %s\n", client::DescribeStyles(model.fingerprint).c_str());
 }
 
 void PrintServer(const client::ServerDescription& server, const InfoOptions& options) {

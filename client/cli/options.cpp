@@ -138,10 +138,9 @@ void AddModel(CLI::App& command, std::string& model) {
 
 void AddStyle(CLI::App& command, std::string& style) {
   command
-      .add_option(
-          "--style", style,
-          "How to dance, as happy or tired: a style that `choreo info` lists, with how often "
-          "it shows. Default: as it comes.")
+      .add_option("--style", style,
+                  "How to dance, as happy or tired: a style that `choreo info` lists, with "
+                  "whether they show. Default: as it comes.")
       ->check([](const std::string& name) {
         return name.empty() ? std::string("is empty; leave it out for whatever comes")
                             : std::string();

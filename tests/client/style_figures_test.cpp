@@ -18,6 +18,7 @@ TEST(StyleFigures, AreOfTheShippedCheckpoints) {
   ASSERT_TRUE(figures_of("free"));
   EXPECT_TRUE(figures_of("free")->shows());
   EXPECT_FALSE(client::FindStyleFigures("fake-1"));
+  EXPECT_EQ(client::DescribeStyles("fake-1"), "Whether they show was not measured.");
 }
 
 }  // namespace choreo::style_figures_test
