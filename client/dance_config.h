@@ -92,6 +92,8 @@ struct DanceConfig {
   std::optional<double> variation = {};
   /// For editing keys: as RemoteDance::GenerateUntil before all else; keys then grant no frames.
   std::optional<int64_t> generate_until = {};
+  /// A key that cannot be used is a KeyRejected message, instead of the end of the dance.
+  bool reject_invalid_keys = false;
   /// Beside key poses and music, for models that support them (ModelDescription::controls); from
   /// the first frame on.
   ControlRequest controls = {};

@@ -5,7 +5,8 @@ namespace choreo::client {
 void DeliveryFilter::Restart(int64_t frame, std::vector<KeyPlace> late) {
   expected_ = {late.begin(), late.end()};
   for (const KeyPlace& place : rejected_) {
-    if (place.second >= frame) expected_.insert(place);
+    // Keys without a frame are not among `late`.
+    if (place.second >= frame || place.second < 0) expected_.insert(place);
   }
 }
 

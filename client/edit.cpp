@@ -60,9 +60,14 @@ class Edit {
     return request;
   }
 
-  /// Its only candidate.
-  TransitionCandidate Generate(const TransitionRequest& request) {
+  /// Its only candidate. `leads_on`: its target is a frame of the dance, of whose pose nobody needs
+  /// to be warned.
+  TransitionCandidate Generate(const TransitionRequest& request, bool leads_on) {
     TransitionResult result = client_.GenerateTransition(request);
+    if (leads_on)
+      std::erase_if(result.warnings, [](const Warning& warning) {
+        return warning.code == Warning::Code::kKeyImpossible;
+      });
     std::move(result.warnings.begin(), result.warnings.end(), std::back_inserter(result_.warnings));
     return std::move(result.candidates.front());
   }
@@ -229,7 +234,7 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
       path.reset();
     }
     if (is_last && leads_on) request.after = work.From(to + 1);
-    danced = work.Generate(request);
+    danced = work.Generate(request, is_last && leads_on);
     part.poses.insert(part.poses.end(), danced.motion.frames.begin(), danced.motion.frames.end());
     part.contacts.insert(part.contacts.end(), danced.contacts.begin(), danced.contacts.end());
     if (is_last && leads_on) break;
@@ -331,7 +336,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
   request.target = work.pose(0);
   request.target_id = NameOfFrame(0);
   request.after = work.From(1);
-  const TransitionCandidate back = work.Generate(request);
+  const TransitionCandidate back = work.Generate(request, true);
   work.Splice({from + 1,
                {back.motion.frames.begin(), back.motion.frames.end() - 1},
                {back.contacts.begin(), back.contacts.end() - 1}},

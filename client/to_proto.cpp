@@ -58,6 +58,7 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   out.set_music_id(config.music_id);
   if (config.variation) out.set_variation(*config.variation);
   if (config.generate_until) out.set_generate_until(*config.generate_until);
+  out.set_reject_invalid_keys(config.reject_invalid_keys);
   return out;
 }
 

@@ -19,11 +19,9 @@ Field = descriptor_pb2.FieldDescriptorProto
 HEAD = """# API
 
 Written by `scripts/api_reference.py` from the comments of [proto/choreo/v1](../proto/choreo/v1); do not edit. It lists every call, message,
-field and value; … links to longer comments. For time, sizes and statuses see the top of
+field and value. For time, sizes and statuses see the top of
 [choreography.proto](../proto/choreo/v1/choreography.proto), for promises the [contract](contract.md), for clients [examples](../examples).
 """
-# Sentences about allowed values: kept from anywhere in a comment.
-RULE = re.compile(r"(Required|Default|Absent|Empty|Range|Only|Must|Needs|At (most|least)|\d[\d ]* to) ?\b")
 
 
 def described():
@@ -37,19 +35,13 @@ class Comments:
     """A file's comments by path, with the paths of descriptor.proto."""
 
     def __init__(self, file):
-        self.page = f"../proto/{file.name}"
-        self.said = {tuple(at.path): (at.leading_comments.strip(), at.span[0] + 1) for at in file.source_code_info.location}
+        self.said = {tuple(at.path): at.leading_comments.strip() for at in file.source_code_info.location}
 
     def paragraphs(self, path):
-        return [" ".join(paragraph.split()) for paragraph in self.said[path][0].split("\n\n") if paragraph.strip()]
+        return [" ".join(paragraph.split()) for paragraph in self.said[path].split("\n\n") if paragraph.strip()]
 
-    def brief(self, path):
-        """The first sentence and the rules, as a cell, with a link to the rest."""
-        text, line = self.said[path]
-        first, *others = re.split(r"(?<=\.) (?=[A-Z`(])", " ".join(text.split()))
-        rules = [sentence for sentence in others if RULE.match(sentence)]
-        more = [f"[…]({self.page}#L{line})"] if len(rules) < len(others) else []
-        return " ".join([first, *rules, *more]).replace("|", "\\|")
+    def cell(self, path):
+        return " ".join(self.said[path].split()).replace("|", "\\|")
 
 
 def link(type_name):
@@ -79,12 +71,12 @@ def service_lines(service, path, comments):
 
 def message_lines(message, path, comments):
     choices = [field.HasField("oneof_index") and not field.proto3_optional for field in message.field]
-    lines = [f"### {message.name}", "", comments.brief(path) + " One of:" * (all(choices) and any(choices)), ""]
+    lines = [f"### {message.name}", "", comments.cell(path) + " One of:" * (all(choices) and any(choices)), ""]
     if message.field:
         lines += ["| field | meaning |", "|---|---|"]
     for i, field in enumerate(message.field):
         one_of = f" (one of `{message.oneof_decl[field.oneof_index].name}`)" if choices[i] and not all(choices) else ""
-        lines.append(f"| `{field.name}`: {type_of(field)} | {comments.brief(path + (2, i))}{one_of} |")
+        lines.append(f"| `{field.name}`: {type_of(field)} | {comments.cell(path + (2, i))}{one_of} |")
     lines.append("")
     for i, nested in enumerate(message.nested_type):
         lines += message_lines(nested, path + (3, i), comments)
@@ -94,8 +86,8 @@ def message_lines(message, path, comments):
 
 
 def enum_lines(enum, path, comments):
-    lines = [f"### {enum.name}", "", comments.brief(path), "", "| value | meaning |", "|---|---|"]
-    lines += [f"| `{value.name}` | {comments.brief(path + (2, i))} |" for i, value in enumerate(enum.value)]
+    lines = [f"### {enum.name}", "", comments.cell(path), "", "| value | meaning |", "|---|---|"]
+    lines += [f"| `{value.name}` | {comments.cell(path + (2, i))} |" for i, value in enumerate(enum.value)]
     return lines + [""]
 
 

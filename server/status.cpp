@@ -70,7 +70,7 @@ std::string OneShortLine(std::string_view text) {
 }
 
 grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::string_view of_field,
-                        double retry_after) {
+                        const std::optional<Violation>& violation, double retry_after) {
   const std::string message = OneShortLine(text), field = OneShortLine(of_field);
   google::rpc::Status status;
   status.set_code(mapping.code);
@@ -82,13 +82,11 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
   if (!field.empty()) (*info.mutable_metadata())["field"] = field;
   status.add_details()->PackFrom(info);
 
-  if (!field.empty()) {
+  if (violation) {
     google::rpc::BadRequest bad_request;
-    auto* violation = bad_request.add_field_violations();
-    violation->set_field(OneShortLine(PathInMessage(std::string(of_field))));
-    // ErrorInfo has the field already.
-    const bool repeats = text.starts_with(std::string(of_field) + ": ");
-    violation->set_description(repeats ? OneShortLine(text.substr(of_field.size() + 2)) : message);
+    auto* said = bad_request.add_field_violations();
+    said->set_field(violation->field);
+    said->set_description(violation->description);
     status.add_details()->PackFrom(bad_request);
   }
   if (mapping.retry) {
@@ -104,11 +102,17 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
 }  // namespace
 
 grpc::Status ToStatus(const Error& error, double retry_after) {
-  return MakeStatus(Map(error.code()), error.what(), error.field(), retry_after);
+  const auto violation = error.field().empty() ? std::nullopt : std::optional(ViolationOf(error));
+  return MakeStatus(Map(error.code()), error.what(), error.field(), violation, retry_after);
+}
+
+Violation ViolationOf(const Error& error) {
+  // ErrorInfo has the field as the text names it.
+  return {OneShortLine(PathInMessage(error.field())), OneShortLine(error.Of("").what())};
 }
 
 grpc::Status Unauthenticated(const std::string& message) {
-  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", false}, message, "", 0);
+  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", false}, message, "", {}, 0);
 }
 
 const char* NameOf(grpc::StatusCode code) {

@@ -14,6 +14,13 @@ namespace choreo {
 /// retrying helps.
 grpc::Status ToStatus(const Error& error, double retry_after = 1);
 
+/// What is wrong with a message: the field's path in it, and a description that does not repeat it.
+/// Both are short lines.
+struct Violation {
+  std::string field, description;
+};
+Violation ViolationOf(const Error& error);
+
 /// For unknown callers. Includes ErrorInfo.
 grpc::Status Unauthenticated(const std::string& message);
 

@@ -16,6 +16,7 @@
 #include "server/read_message.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
+#include "server/status.h"
 
 namespace choreo {
 namespace {
@@ -154,6 +155,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     encoding_ = message.encoding();
     seed_ = config->seed;
     music_beats_ = config->music_beats;
+    rejects_keys_ = message.reject_invalid_keys();
     if (message.has_audio_format()) audio_ = message.audio_format();
     SendHeader(model, message, *config, config->FirstFrame());
     Adopt(std::make_shared<DanceStream>(*queue_, config, shared_from_this()));
@@ -191,7 +193,15 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
     const std::string field = stream.NextKeyframe();
-    stream.SetKey(ToKey(keyframe, queue_->model().skeleton, field), ToMoment(keyframe, field));
+    std::optional<KeyMoment> when;
+    try {
+      when = ToMoment(keyframe, field);
+      stream.SetKey(ToKey(keyframe, queue_->model().skeleton, field), *when);
+    } catch (const Error& error) {
+      if (!rejects_keys_ || error.code() != ErrorCode::kInvalidArgument) throw;
+      const auto [path, description] = ViolationOf(error);
+      stream.RejectKey(keyframe.id(), when, path, description);
+    }
   }
 
   // From the configuration; written before the stream exists.
@@ -200,6 +210,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   uint64_t seed_ = 0;
   std::optional<v1::AudioFormat> audio_;
   std::vector<double> music_beats_;
+  bool rejects_keys_ = false;  // that cannot be used, instead of ending the call
 
   // From messages.
   MusicFile file_;

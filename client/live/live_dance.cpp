@@ -48,6 +48,7 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   client::DanceConfig config = options_.config;
   config.audio = {client::AudioKind::kPcmFloat, sound.sample_rate(), sound.channels()};
   config.generate_until = 0;
+  config.reject_invalid_keys = true;
   dance_ = client_.StartDance(config);
   for (const client::KeyPose& key : options_.keys)
     SendKey(key, key.frame.value_or(FrameAt(key.time_s)));

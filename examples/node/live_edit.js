@@ -35,7 +35,7 @@ async function* requests(options, model) {
   const seconds = positive(options, 'seconds');
   const frameAt = (second) => Math.round(second * model.model_frame_rate);
   // Without generate_until here each key would settle the frames up to itself.
-  yield { config: { seed: whole(options, 'seed'), frames: frameAt(seconds), audio_format: pcm, generate_until: 0 } };
+  yield { config: { seed: whole(options, 'seed'), frames: frameAt(seconds), audio_format: pcm, generate_until: 0, reject_invalid_keys: true } };
   const waiting = edits(seconds, model);
   for await (const piece of live(clicks(seconds), positive(options, 'speed'))) {
     const played = (piece.audio.first_sample + piece.audio.data.length / 2) / sampleRate;

@@ -174,7 +174,7 @@ class Backend {
   async *#requests(dance, seed) {
     const { seconds, speed } = this.#options;
     // Without generate_until here each key would settle the frames up to itself.
-    yield { config: { seed, frames: dance.frames, audio_format: pcm, encoding: 'ROTATION_ENCODING_QUATERNION', generate_until: 0 } };
+    yield { config: { seed, frames: dance.frames, audio_format: pcm, encoding: 'ROTATION_ENCODING_QUATERNION', generate_until: 0, reject_invalid_keys: true } };
     for await (const piece of live(clicks(seconds), speed)) {
       const played = (piece.audio.first_sample + piece.audio.data.length / 2) / sampleRate;
       const before = dance.requests.splice(0); // of the keys, those that were asked for before this is settled

@@ -31,7 +31,7 @@ def edits(options, model):
 def requests(options, model):
     frames = round(options.seconds * model.model_frame_rate)
     # Without generate_until here each key would settle the frames up to itself.
-    yield {"config": choreography.DanceConfig(seed=options.seed, frames=frames, audio_format=PCM, generate_until=0)}
+    yield {"config": choreography.DanceConfig(seed=options.seed, frames=frames, audio_format=PCM, generate_until=0, reject_invalid_keys=True)}
     waiting = edits(options, model)
     for piece in live(clicks(options.seconds), options.speed):
         played = (piece.first_sample + len(piece.data) // 2) / RATE

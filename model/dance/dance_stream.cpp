@@ -76,6 +76,17 @@ void DanceStream::SetKey(const Key& key, const KeyMoment& when) {
   ++keyframes_;
 }
 
+void DanceStream::RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
+                            const std::string& field, const std::string& reason) {
+  std::lock_guard lock(messages_);
+  chain_->Apply([&](DanceScore& score) {
+    KeyRejected rejection = score.timeline.RejectInvalid(id, when, reason);
+    rejection.field = field;
+    chain_->Post(rejection);
+  });
+  ++keyframes_;
+}
+
 void DanceStream::RemoveKey(const std::string& id) {
   std::lock_guard lock(messages_);
   const std::string field = At("remove_keyframes", removals_);

@@ -60,6 +60,10 @@ class DanceStream {
   /// See Timeline. A key that comes too late causes a KeyRejected event and changes nothing.
   /// Errors name NextKeyframe().
   void SetKey(const Key& key, const KeyMoment& when);
+  /// Instead of SetKey for a key that cannot be used: a KeyRejected event says why, with the field
+  /// that is wrong, and all else goes on.
+  void RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
+                 const std::string& field, const std::string& reason);
   void RemoveKey(const std::string& id);
   /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
   /// none may come after KeysComplete, which freezes all.

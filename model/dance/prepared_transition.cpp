@@ -1,6 +1,9 @@
 #include "model/dance/prepared_transition.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "model/motion/pose_faults.h"
 
 namespace choreo {
 namespace {
@@ -8,6 +11,16 @@ namespace {
 // The energy of the music before a frame.
 double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t frame) {
   return start.music_dynamics * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
+}
+
+// Not again if the dancer is that way already, as where a pose is held.
+void WarnOfPose(const Skeleton& skeleton, const Pose& before, int64_t frame, const Target& key,
+                PreparedTransition* prepared) {
+  const std::vector<std::string> told = PoseFaults(skeleton, before, key.mask);
+  for (const std::string& fault : PoseFaults(skeleton, key.pose, key.mask)) {
+    if (std::ranges::find(told, fault) == told.end())
+      prepared->warnings.push_back(KeyImpossible(prepared->key_id, frame, fault));
+  }
 }
 
 }  // namespace
@@ -50,6 +63,8 @@ PreparedTransition PrepareTransition(const TransitionInputs& inputs) {
   spec.style = start.style;
   spec.temperature = start.temperature.value_or(static_cast<float>(model.default_temperature));
   controls.FillControls(prepared.key_id, &spec, &prepared.warnings);
+  if (spec.target)
+    WarnOfPose(model.skeleton, spec.history.back(), segment.to - 1, *spec.target, &prepared);
   return prepared;
 }
 

@@ -158,6 +158,18 @@ std::optional<KeyRejected> Timeline::Set(Key key, const KeyMoment& when, const s
   return BeforeTheDance(id, frame);
 }
 
+KeyRejected Timeline::RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
+                                    std::string reason) {
+  int64_t frame = -1;
+  try {
+    if (when) frame = Resolve(*when, "");
+  } catch (const Error&) {  // the moment is what cannot be used
+  }
+  size_t length = std::min(id.size(), kMaxIdLength);
+  while (length < id.size() && (static_cast<unsigned char>(id[length]) & 0xc0) == 0x80) --length;
+  return Reject(id.substr(0, length), frame, KeyRejected::Code::kInvalid, std::move(reason));
+}
+
 std::optional<KeyRejected> Timeline::Remove(const std::string& id, const std::string& field) {
   CheckOpen(field);
   const auto known = frame_of_.find(id);

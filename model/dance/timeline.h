@@ -88,6 +88,11 @@ class Timeline {
   /// kMaxKeys, and after Complete. The pose and `hit` must be valid (validation.h).
   std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
+  /// The answer to a key that cannot be used, for this reason; it changes nothing. `when`: none if
+  /// the message has no moment.
+  KeyRejected RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
+                            std::string reason);
+
   /// Throws Error(kNotFound) for an id that is not on the timeline, Error(kInvalidArgument) after
   /// Complete.
   std::optional<KeyRejected> Remove(const std::string& id, const std::string& field);

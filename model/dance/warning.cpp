@@ -79,6 +79,10 @@ Warning KeyOffHeight(const std::string& id, int64_t frame, double standing, doub
           Warning::Code::kKeyOffHeight};
 }
 
+Warning KeyImpossible(const std::string& id, int64_t frame, const std::string& fault) {
+  return {frame, "key \"" + id + "\": " + fault, Warning::Code::kKeyImpossible};
+}
+
 Warning PathAway(int64_t frame, double metres) {
   return {frame,
           "the root path is " + Rounded(metres) + " m from the dancer at frame " +

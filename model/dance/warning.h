@@ -22,6 +22,8 @@ Warning PathAway(int64_t frame, double metres);
 Warning KeyOffPath(const std::string& id, int64_t frame, double metres);
 /// `standing`, `height`: root heights of the standing key and of the path, metres.
 Warning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
+/// `fault`: one of PoseFaults (pose_faults.h).
+Warning KeyImpossible(const std::string& id, int64_t frame, const std::string& fault);
 /// `earliest`: the first frame that is not frozen.
 Warning ControlsTooLate(int64_t last_frame, int64_t earliest);
 Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);

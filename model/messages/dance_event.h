@@ -29,8 +29,8 @@ struct KeyReached {
   std::optional<HandPose> hands = {};
 };
 
-/// A message about a key came too late: the frames that it would change are frozen. It changed
-/// nothing. Codes have the API's numbers, here and below.
+/// A message about a key changed nothing: it came too late, as the frames that it would change are
+/// frozen, or it is invalid. Codes have the API's numbers, here and below.
 struct KeyRejected {
   enum class Code {
     kUnknown,         ///< an old server does not say
@@ -38,12 +38,14 @@ struct KeyRejected {
     kFrozen,          ///< the key of this id is in frozen frames
     kRejectedBefore,  ///< a removal of a key that had been rejected
     kAlreadyDanced,   ///< the dance resumes from a continuation after the frame
+    kInvalid,         ///< the key cannot be used; only where the client asks for this answer
   };
   std::string id = {};
-  int64_t frame = 0;           ///< the requested frame; for a removal, the key's
+  int64_t frame = 0;           ///< the requested frame, -1 if it is none; for a removal, the key's
   int64_t earliest_frame = 0;  ///< the first that a new key may have now
   std::string reason = {};
   Code code = Code::kUnknown;
+  std::string field = {};  ///< of kInvalid: the path in the message, as in BadRequest
 };
 
 /// A beat of the music to which the dance is timed.
@@ -79,6 +81,7 @@ struct Warning {
     kVelocityNotMet,      ///< at the end, `frame`: some parts missed their requested speed
     kBeatsTooLate,        ///< beats came after their frames were frozen; `frame` is the first's
     kTemperatureTooHigh,  ///< higher than the model was trained for; `frame` is the first
+    kKeyImpossible,       ///< no body can be as the key at `frame` asks
   };
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit

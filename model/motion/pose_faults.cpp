@@ -89,8 +89,6 @@ std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<
   size_t in_air = 0;  // poses since the feet left the floor
   for (size_t i = 0; i < poses.size(); ++i) {
     const TimedPose& one = poses[i];
-    for (std::string& fault : PoseFaults(skeleton, one.pose, one.mask))
-      faults.push_back({i, std::move(fault)});
     if (i > 0) {
       if (std::string fault = SpeedFault(skeleton, poses[i - 1], one); !fault.empty())
         faults.push_back({i, std::move(fault)});

@@ -35,9 +35,9 @@ struct TimedFault {
   std::string message;
 };
 
-/// The faults of poses in time: each pose's own; limbs that would be too fast ("left_hand would go
+/// The faults between poses in time: limbs that would be too fast ("left_hand would go
 /// 9.3 m/s about the body from "a" to "b"; people reach 7"); and a body in the air for longer than
-/// a jump takes. The server warns about bodies that travel too fast.
+/// a jump takes. The server warns about each pose's own faults and bodies that travel too fast.
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses);
 
 }  // namespace choreo

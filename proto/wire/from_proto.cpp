@@ -145,8 +145,12 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
     }
     case v1::Event::kKeyframeRejected: {
       const v1::KeyframeRejected& key = event.keyframe_rejected();
-      return KeyRejected{key.id(), frame, key.earliest_frame(), key.reason(),
-                         ToCode(key.code(), KeyRejected::Code::kAlreadyDanced)};
+      return KeyRejected{key.id(),
+                         frame,
+                         key.earliest_frame(),
+                         key.reason(),
+                         ToCode(key.code(), KeyRejected::Code::kInvalid),
+                         key.field()};
     }
     case v1::Event::kBeat: {
       const v1::Beat& beat = event.beat();
@@ -155,7 +159,7 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
     }
     case v1::Event::kWarning:
       return Warning{frame, event.warning().message(),
-                     ToCode(event.warning().code(), Warning::Code::kTemperatureTooHigh)};
+                     ToCode(event.warning().code(), Warning::Code::kKeyImpossible)};
     case v1::Event::EVENT_NOT_SET:
       break;
   }

@@ -7,11 +7,10 @@
 namespace choreo::wire {
 namespace {
 
-static_assert(static_cast<int>(KeyRejected::Code::kAlreadyDanced) ==
-                      v1::REJECTION_CODE_ALREADY_DANCED &&
+static_assert(static_cast<int>(KeyRejected::Code::kInvalid) == v1::REJECTION_CODE_INVALID &&
                   static_cast<int>(Beat::Source::kHeard) == v1::BEAT_SOURCE_HEARD &&
-                  static_cast<int>(Warning::Code::kTemperatureTooHigh) ==
-                      v1::WARNING_CODE_TEMPERATURE_TOO_HIGH,
+                  static_cast<int>(Warning::Code::kKeyImpossible) ==
+                      v1::WARNING_CODE_KEY_IMPOSSIBLE,
               "codes are numbered alike");
 
 void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {
@@ -34,6 +33,7 @@ void Fill(const KeyRejected& key, v1::Event* out) {
   rejected->set_earliest_frame(key.earliest_frame);
   rejected->set_reason(key.reason);
   rejected->set_code(static_cast<v1::RejectionCode>(key.code));
+  rejected->set_field(key.field);
 }
 
 void Fill(const Warning& warning, v1::Event* out) {

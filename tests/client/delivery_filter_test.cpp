@@ -66,6 +66,15 @@ TEST(DeliveryFilterTest, HidesOnlyRejectionsCausedByAResumption) {
   EXPECT_TRUE(filter.Admit(rejected("late", 80)));
 }
 
+TEST(DeliveryFilterTest, HidesRepeatedRejectionsOfKeysWithoutAFrame) {
+  const DanceEvent rejected(KeyRejected{.id = "timeless", .frame = -1});
+  DeliveryFilter filter(0);
+  EXPECT_TRUE(filter.Admit(rejected));
+  filter.Restart(60, {});
+  EXPECT_FALSE(filter.Admit(rejected));
+  EXPECT_TRUE(filter.Admit(rejected));  // sent anew
+}
+
 TEST(DeliveryFilterTest, ShowsRejectionsOfReachedKeysAfterAResumption) {
   const DanceEvent reached(KeyReached{.id = "a", .frame = 30});
   DeliveryFilter filter(0);

@@ -129,7 +129,7 @@ const told = (answers) => ({
 
 /** A dance to live music whose keys change on the way, one of them too late. Its last second waits for `goOn`. */
 async function* edited(skeleton, { goOn, frame_rate } = {}) {
-  yield { config: { seed: '5', audio_format: pcm, frames: 180, frame_rate, generate_until: 0 } };
+  yield { config: { seed: '5', audio_format: pcm, frames: 180, frame_rate, generate_until: 0, reject_invalid_keys: true } };
   const key = (id, when, turn) => ({ keyframe: { id, ...when, pose: { rotations: pose(skeleton, { head: [0, turn, 0] }).rotations } } });
   yield key('early', { frame: 30 }, 0.2);
   yield key('next', { interval_after_previous: 20 }, 0.4);
@@ -138,6 +138,8 @@ async function* edited(skeleton, { goOn, frame_rate } = {}) {
     if (second === 2) yield key('moved', { time: 3.5 }, 0.1);
     if (second === 3) yield key('moved', { time: 4 }, 0.3);
     if (second === 3) yield key('late', { frame: 20 }, 0.3);
+    if (second === 3) yield* [{ frame: 20 }, { frame: 150 }].map((when) => ({ keyframe: { id: 'bodiless', ...when, pose: { rotations: [0.1] } } }));
+    if (second === 3) yield key('timeless', { time: -1 }, 0.3);
     if (second === 5) await goOn;
     yield { generate_until: { frame: Math.round(30 * second) } };
     yield piece;
@@ -183,7 +185,16 @@ for (const frame_rate of [30, 50]) {
   test(`a dance goes on where its server is killed, bit for bit: ${frame_rate} frames a second`, async () => {
     const source = (skeleton, more) => edited(skeleton, { frame_rate, ...more });
     const whole = await undisturbed(source);
-    assert.ok(whole.some(({ event }) => event?.keyframe_rejected?.id === 'late'));
+    const refused = whole.flatMap(({ event }) => (event?.keyframe_rejected ? [[event.keyframe_rejected, Number(event.frame)]] : []));
+    assert.deepEqual(
+      refused.map(([{ id, code, field }, frame]) => [id, code, field, frame]),
+      [
+        ['late', 'REJECTION_CODE_TOO_LATE', '', 20],
+        ['bodiless', 'REJECTION_CODE_INVALID', 'keyframe.pose.rotations', 20],
+        ['bodiless', 'REJECTION_CODE_INVALID', 'keyframe.pose.rotations', 150],
+        ['timeless', 'REJECTION_CODE_INVALID', 'keyframe.time', -1],
+      ],
+    );
     const enough = (all) => all.filter((answer) => answer.continuation).length > 1 && all.at(-1).frames?.first_frame > 3.5 * frame_rate;
     const { answers, resumes } = await danceAndKill(source, enough);
     assert.equal(resumes.length, 1);

@@ -28,7 +28,7 @@ def token_line(token, name):
 
 def edited(skeleton, frame_rate=0, go_on=None):
     """A dance to live music whose keys change on the way, one of them too late. Its last second waits for `go_on`."""
-    yield {"config": choreography.DanceConfig(seed=5, audio_format=PCM, frames=180, frame_rate=frame_rate, generate_until=0)}
+    yield {"config": choreography.DanceConfig(seed=5, audio_format=PCM, frames=180, frame_rate=frame_rate, generate_until=0, reject_invalid_keys=True)}
 
     def key(turn, **fields):
         wanted = pose(skeleton, {"head": [0, turn, 0]})
@@ -37,7 +37,9 @@ def edited(skeleton, frame_rate=0, go_on=None):
 
     yield key(0.2, id="early", frame=30)
     yield key(0.4, id="next", interval_after_previous=20)
-    said = {2: [key(0.1, id="moved", time=3.5)], 3: [key(0.3, id="moved", time=4), key(0.3, id="late", frame=20)]}
+    bodiless = [{"keyframe": choreography.Keyframe(id="bodiless", frame=frame, pose={"rotations": [0.1]})} for frame in (20, 150)]
+    late = [key(0.3, id="moved", time=4), key(0.3, id="late", frame=20), *bodiless, key(0.3, id="timeless", time=-1)]
+    said = {2: [key(0.1, id="moved", time=3.5)], 3: late}
     for piece in live(clicks(6), 1000):
         yield from said.pop(piece.first_sample / RATE, [])
         if go_on and piece.first_sample == 5 * RATE:
@@ -175,7 +177,16 @@ class ClientTest(unittest.TestCase):
                     return continuations > 1 and answers[-1].frames.first_frame > 3.5 * rate
 
                 whole = undisturbed(source)
-                self.assertIn("late", [answer.event.keyframe_rejected.id for answer in whole])
+                events = [answer.event for answer in whole if answer.event.HasField("keyframe_rejected")]
+                self.assertEqual(
+                    [(event.keyframe_rejected.id, event.keyframe_rejected.code, event.keyframe_rejected.field, event.frame) for event in events],
+                    [
+                        ("late", choreography.REJECTION_CODE_TOO_LATE, "", 20),
+                        ("bodiless", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations", 20),
+                        ("bodiless", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations", 150),
+                        ("timeless", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
+                    ],
+                )
                 answers, resumes = dance_and_kill(source, is_time)
                 ((address, exact, code),) = [(resumed.address, resumed.exact, resumed.because.code) for resumed in resumes]
                 self.assertEqual((address, exact, code), (OTHER, True, "UNAVAILABLE"))

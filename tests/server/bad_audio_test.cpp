@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
                             4 * 42, 4, reinterpret_cast<const char*>(&nan), 4);
                         return Requests{MusicConfigRequest(), audio};
                       },
-                      kInvalid,
+                      kInvalidStatus,
                       "audio.data",
                       {"nan", "42"}},
         BadStreamCase{"HalfASample",
@@ -49,19 +49,19 @@ INSTANTIATE_TEST_SUITE_P(
                         audio.mutable_audio()->mutable_data()->pop_back();
                         return Requests{MusicConfigRequest(), audio};
                       },
-                      kInvalid,
+                      kInvalidStatus,
                       "audio.data",
                       {"399", "4 bytes"}},
         BadStreamCase{"WithoutFormat",
                       [](const KeyMessage&) {
                         return Requests{ConfigRequest(), AudioRequest(100, 0)};
                       },
-                      kInvalid,
+                      kInvalidStatus,
                       "audio",
                       {"config.audio_format"}},
         BadStreamCase{"None",
                       [](const KeyMessage&) { return Requests{MusicConfigRequest()}; },
-                      kInvalid,
+                      kInvalidStatus,
                       "audio",
                       {"without a sample"}},
         BadStreamCase{
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
             [](const KeyMessage&) {
               return Requests{MusicConfigRequest(), AudioRequest(0, 0), AudioRequest(0, 0)};
             },
-            kInvalid,
+            kInvalidStatus,
             "audio",
             {"without a sample"}},
         BadStreamCase{"TooLong",
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                         }
                         return requests;
                       },
-                      kInvalid,
+                      kInvalidStatus,
                       "audio.data",
                       {"600 s"}}),
     NameOf);
@@ -115,19 +115,22 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadStreamCase{"None",
                       [](const KeyMessage&) { return Requests{WithFile("")({}).front()}; },
-                      kInvalid,
+                      kInvalidStatus,
                       "audio",
                       {"0 bytes"}},
-        BadStreamCase{"Empty", WithFile(""), kInvalid, "audio", {"0 bytes"}},
-        BadStreamCase{
-            "WithoutSamples", WithFile(Files::WithoutSamples()), kInvalid, "audio", {"0 samples"}},
+        BadStreamCase{"Empty", WithFile(""), kInvalidStatus, "audio", {"0 bytes"}},
+        BadStreamCase{"WithoutSamples",
+                      WithFile(Files::WithoutSamples()),
+                      kInvalidStatus,
+                      "audio",
+                      {"0 samples"}},
         BadStreamCase{"NotAudio",
                       WithFile("<html>this is no music, but a page about it</html>"),
-                      kInvalid,
+                      kInvalidStatus,
                       "audio",
                       {"not", "WAV"}},
         BadStreamCase{
-            "NaN", WithFile(Files::WithNaN()), kInvalid, "audio.data", {"nan", "sample 77"}}),
+            "NaN", WithFile(Files::WithNaN()), kInvalidStatus, "audio.data", {"nan", "sample 77"}}),
     NameOf);
 
 class MessageLimitTest : public ServerTest {};

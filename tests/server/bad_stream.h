@@ -48,7 +48,7 @@ inline void PrintTo(const BadStreamCase& bad, std::ostream* out) { *out << bad.n
 
 class BadStreamTest : public ServerTest, public testing::WithParamInterface<BadStreamCase> {};
 
-inline constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
+inline constexpr auto kInvalidStatus = grpc::StatusCode::INVALID_ARGUMENT;
 using KeyMessage = v1::StreamDanceRequest;
 
 /// For INSTANTIATE_TEST_SUITE_P: cases are known by their names.

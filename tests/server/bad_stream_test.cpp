@@ -80,31 +80,31 @@ INSTANTIATE_TEST_SUITE_P(
     Order, BadStreamTest,
     testing::Values(BadStreamCase{"Nothing",
                                   [](const KeyMessage&) { return Requests{}; },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "config",
                                   {"missing"}},
                     BadStreamCase{"NoConfig",
                                   [](const KeyMessage& key) { return Requests{key}; },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "config",
                                   {"missing", "first"}},
                     BadStreamCase{"TwoConfigs",
                                   [](const KeyMessage&) {
                                     return Requests{ConfigRequest(), ConfigRequest()};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "config",
                                   {"once"}},
                     BadStreamCase{"EmptyMessage",
                                   [](const KeyMessage&) {
                                     return Requests{ConfigRequest(), v1::StreamDanceRequest()};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "request",
                                   {"empty"}},
                     BadStreamCase{"HalfCloseAfterConfig",
                                   [](const KeyMessage&) { return Requests{ConfigRequest()}; },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "keyframes_complete",
                                   {"no end"}},
                     BadStreamCase{"KeysAfterComplete",
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                                     v1::StreamDanceRequest config = MusicConfigRequest();
                                     return Requests{config, key, complete, key};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "keyframes[1]",
                                   {"keyframes_complete"}},
                     BadStreamCase{"NoBeats",
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
                                     beats.mutable_music_beats();
                                     return Requests{ConfigRequest(), beats};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "music_beats[0].times",
                                   {"empty"}},
                     BadStreamCase{"BeatsBackwards",
@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
                                     back.mutable_music_beats()->add_times(2.5);
                                     return Requests{ConfigRequest(), beats, back};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "music_beats[1].times[1]",
                                   {"2.5 s", "3 s"}},
                     BadStreamCase{"NoPassages",
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                                     passages.mutable_music_passages();
                                     return Requests{ConfigRequest(), passages};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "music_passages[0].passages",
                                   {"empty"}},
                     BadStreamCase{"PassageLikeLater",
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
                                     passage->set_like(4);
                                     return Requests{ConfigRequest(), passages};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "music_passages[0].passages[0].like",
                                   {"4 s", "[0, 1]"}},
                     BadStreamCase{"GenerateUntilBackwards",
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
                                     back.mutable_generate_until()->set_frame(40);
                                     return Requests{ConfigRequest(), until, back};
                                   },
-                                  kInvalid,
+                                  kInvalidStatus,
                                   "generate_until.frame",
                                   {"40", "50"}},
                     BadStreamCase{"RemovedIdThatNeverWas",
@@ -212,48 +212,48 @@ INSTANTIATE_TEST_SUITE_P(
                       {"m\\x0a\\x00\\x7f\u00e9", "fake"}},
         BadStreamCase{"FrameRate",
                       WithConfig([](auto& c) { c.set_frame_rate(121); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.frame_rate",
                       {"121", "120"}},
         BadStreamCase{"FrameRateNaN",
                       WithConfig([](auto& c) { c.set_frame_rate(std::nan("")); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.frame_rate",
                       {"nan", "120"}},
         BadStreamCase{"Temperature",
                       WithConfig([](auto& c) { c.set_temperature(-0.5); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.temperature",
                       {"-0.5", "[0, 2]"}},
         BadStreamCase{"MusicDynamics",
                       WithConfig([](auto& c) { c.set_music_dynamics(1.5); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.music_dynamics",
                       {"1.5", "[0, 1]"}},
         BadStreamCase{"Style",
                       WithConfig([](auto& c) { c.set_style("foxtrot"); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.style",
                       {"foxtrot", "calm, wild"}},
         BadStreamCase{"EndlessStyle",
                       WithConfig([](auto& c) { c.set_style(std::string(257, 'x')); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.style",
                       {"257 bytes", "at most 256"}},
         BadStreamCase{"Frames",
                       WithConfig([](auto& c) { c.set_frames(0); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.frames",
                       {"0", "108000"}},
         BadStreamCase{
             "Encoding",
             WithConfig([](auto& c) { c.set_encoding(static_cast<v1::RotationEncoding>(17)); }),
-            kInvalid,
+            kInvalidStatus,
             "config.encoding",
             {"17"}},
         BadStreamCase{"AudioEncoding",
                       WithConfig([](auto& c) { c.mutable_audio_format(); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.audio_format.encoding",
                       {"PCM_F32LE"}},
         BadStreamCase{"SampleRate",
@@ -262,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(
                         c.mutable_audio_format()->set_sample_rate(7999);
                         c.mutable_audio_format()->set_channels(1);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.audio_format.sample_rate",
                       {"7999", "8000"}},
         BadStreamCase{"Channels",
@@ -271,12 +271,12 @@ INSTANTIATE_TEST_SUITE_P(
                         c.mutable_audio_format()->set_sample_rate(44100);
                         c.mutable_audio_format()->set_channels(9);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.audio_format.channels",
                       {"9", "8"}},
         BadStreamCase{"GenerateUntil",
                       WithConfig([](auto& c) { c.set_generate_until(-1); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.generate_until",
                       {"-1", "108000"}},
         BadStreamCase{"Beats",
@@ -284,7 +284,7 @@ INSTANTIATE_TEST_SUITE_P(
                         c.add_music_beats(1);
                         c.add_music_beats(1);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.music_beats[1]",
                       {"1 s"}},
         BadStreamCase{"Downbeats",
@@ -294,7 +294,7 @@ INSTANTIATE_TEST_SUITE_P(
                         c.add_music_downbeats(1.5);
                         c.add_music_downbeats(2);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.music_downbeats[1]",
                       {"2 s", "none of the beats"}},
         BadStreamCase{"Passages",
@@ -302,12 +302,12 @@ INSTANTIATE_TEST_SUITE_P(
                         c.add_music_passages()->set_from(3);
                         c.mutable_music_passages(0)->set_to(601);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.music_passages[0].to",
                       {"601 s", "600"}},
         BadStreamCase{"Variation",
                       WithConfig([](auto& c) { c.set_variation(1.5); }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.variation",
                       {"1.5", "[0, 1]"}},
         BadStreamCase{"HistoryOfAnotherSkeleton",
@@ -316,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(
                         pose->mutable_root_position()->set_y(1);
                         pose->mutable_rotations()->Resize(3 * 23, 0.0F);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.history.poses[0].rotations",
                       {"23 joints", "24"}},
         BadStreamCase{"ContinuationOfAnotherSkeleton",
@@ -336,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(
                         FillContinuation(from);
                         from->mutable_rotations()->Truncate(3 * 10 * 23);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.continuation.rotations",
                       {"690", "720"}},
         BadStreamCase{"ShortContinuation",
@@ -344,7 +344,7 @@ INSTANTIATE_TEST_SUITE_P(
                         c.mutable_continuation()->set_skeleton("smpl24");
                         c.mutable_continuation()->add_root_positions(1);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.continuation.root_positions",
                       {"1 ", "30"}},
         BadStreamCase{"ContinuationWithHalfAStage",
@@ -353,7 +353,7 @@ INSTANTIATE_TEST_SUITE_P(
                         FillContinuation(from);
                         from->add_stage(1);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.continuation.stage",
                       {"1 ", "2"}},
         BadStreamCase{"ContinuationOnNoStage",
@@ -363,7 +363,7 @@ INSTANTIATE_TEST_SUITE_P(
                         from->add_stage(1);
                         from->add_stage(NAN);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.continuation.stage",
                       {"nan", "10000"}},
         BadStreamCase{"ContinuationFacingNowhere",
@@ -372,7 +372,7 @@ INSTANTIATE_TEST_SUITE_P(
                         FillContinuation(from);
                         from->set_front(7);
                       }),
-                      kInvalid,
+                      kInvalidStatus,
                       "config.continuation.front",
                       {"7 radians", "a turn"}}),
     NameOf);

@@ -96,6 +96,78 @@ TEST_F(StreamKeysTest, RejectionsSayWhyToPrograms) {
             answer.summary->report().keyframes(0).errors().SerializeAsString());
 }
 
+TEST_F(StreamKeysTest, InvalidKeysAreRejectedAndTheDanceGoesOnWhereThatIsAskedFor) {
+  Start();
+  const auto dance = [&](bool rejects, bool invalid) {
+    auto client = std::make_unique<DanceClient>(stub());
+    v1::DanceConfig config = Config();
+    config.set_frames(120);
+    config.set_reject_invalid_keys(rejects);
+    client->Send(config);
+    client->SendGenerateUntil(1);
+    client->SendKeyframe(Key("a", 50));
+    if (invalid) {
+      v1::Keyframe bodiless = Key("bodiless", 80);
+      bodiless.mutable_pose()->mutable_rotations()->Truncate(7);
+      client->SendKeyframe(bodiless);
+      v1::Keyframe timeless = Key("timeless", 80);
+      timeless.set_time(-1);
+      client->SendKeyframe(timeless);
+      client->SendKeyframe(Key("near", 51));
+      client->SendKeyframe(Key("behind", 120));
+      client->SendKeyframe(Key("", 90));
+    }
+    client->SendKeyframe(Key("b", 100));
+    return client;
+  };
+  const auto calm = dance(true, false), ended = dance(false, true), disturbed = dance(true, true);
+  EXPECT_EQ(ended->Finish().status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  const Answer& answer = disturbed->Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  EXPECT_EQ(answer.Join(), calm->Finish().Join()) << "they change nothing";
+  using Said = std::tuple<std::string, int64_t, std::string, std::string>;
+  std::vector<Said> said;
+  for (const v1::Event& event : answer.events) {
+    if (!event.has_keyframe_rejected()) continue;
+    const auto& rejected = event.keyframe_rejected();
+    EXPECT_EQ(rejected.code(), v1::REJECTION_CODE_INVALID);
+    said.emplace_back(rejected.id(), event.frame(), rejected.field(), rejected.reason());
+  }
+  ASSERT_EQ(said.size(), 5U);
+  EXPECT_EQ(std::get<2>(said[0]), "keyframe.pose.rotations");
+  EXPECT_EQ(said[1], Said("timeless", -1, "keyframe.time", "-1 s is not in [0, 3600]"));
+  EXPECT_EQ(said[2], Said("near", 51, "keyframe.frame",
+                          "frame 51 is closer than 2 frames to key \"a\" at 50"));
+  EXPECT_EQ(std::get<1>(said[3]), 120);
+  EXPECT_EQ(std::get<2>(said[4]), "keyframe.id");
+}
+
+TEST_F(StreamKeysTest, ImpossibleKeysAreWarnedOfOnce) {
+  Start();
+  DanceClient client(stub());
+  Begin(client);
+  for (const auto& [id, frame] : {std::pair("a", 50), {"held", 56}, {"b", 100}}) {
+    v1::Keyframe key = Key(id, frame);
+    key.mutable_pose()->set_rotations(3 * Skeleton::Smpl24().left_knee,
+                                      id[0] == 'b' ? 3.0F : -0.7F);
+    client.SendKeyframe(key);
+  }
+  const Answer& answer = client.Finish();
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  std::vector<std::pair<int64_t, std::string>> said;
+  for (const v1::Event& event : answer.events) {
+    const bool of_knee = event.warning().message().find("left_knee") != std::string::npos;
+    if (of_knee && event.warning().code() == v1::WARNING_CODE_KEY_IMPOSSIBLE)
+      said.emplace_back(event.frame(), event.warning().message());
+  }
+  EXPECT_THAT(
+      said, testing::ElementsAre(
+                testing::Pair(50,
+                              "key \"a\": left_knee bends 39.86 degrees backwards, "
+                              "further than 15"),
+                testing::Pair(100, "key \"b\": left_knee bends 170.81 degrees, further than 165")));
+}
+
 TEST_F(StreamKeysTest, EventsRepeatWhatHandsDoAndFramesDoNot) {
   Start();
   const auto dance = [&](v1::HandPose hands) {

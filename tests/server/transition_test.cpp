@@ -151,60 +151,61 @@ TEST_P(BadTransitionTest, IsNamed) {
 }
 
 using R = v1::GenerateTransitionRequest;
-constexpr auto kInvalid = grpc::StatusCode::INVALID_ARGUMENT;
+constexpr auto kInvalidStatus = grpc::StatusCode::INVALID_ARGUMENT;
 INSTANTIATE_TEST_SUITE_P(
     All, BadTransitionTest,
     testing::Values(
-        BadRequestCase{"NoConfig", [](R& r) { r.clear_config(); }, kInvalid, "config", "missing"},
-        BadRequestCase{"NoFrames", [](R& r) { r.clear_frames(); }, kInvalid, "frames", "0"},
-        BadRequestCase{"TooManyFrames", [](R& r) { r.set_frames(1801); }, kInvalid, "frames",
+        BadRequestCase{"NoConfig", [](R& r) { r.clear_config(); }, kInvalidStatus, "config",
+                       "missing"},
+        BadRequestCase{"NoFrames", [](R& r) { r.clear_frames(); }, kInvalidStatus, "frames", "0"},
+        BadRequestCase{"TooManyFrames", [](R& r) { r.set_frames(1801); }, kInvalidStatus, "frames",
                        "1800"},
-        BadRequestCase{"TooManyCandidates", [](R& r) { r.set_candidates(33); }, kInvalid,
+        BadRequestCase{"TooManyCandidates", [](R& r) { r.set_candidates(33); }, kInvalidStatus,
                        "candidates", "32"},
         BadRequestCase{"UnknownRanking", [](R& r) { r.set_rank_by(static_cast<v1::RankBy>(7)); },
-                       kInvalid, "rank_by", "7 is no RankBy; 0 to 2 are"},
+                       kInvalidStatus, "rank_by", "7 is no RankBy; 0 to 2 are"},
         BadRequestCase{"UnknownModel", [](R& r) { r.mutable_config()->set_model("nope"); },
                        grpc::StatusCode::NOT_FOUND, "config.model", "\"fake\""},
         BadRequestCase{"GenerateUntil", [](R& r) { r.mutable_config()->set_generate_until(5); },
-                       kInvalid, "config.generate_until", "StreamDance"},
+                       kInvalidStatus, "config.generate_until", "StreamDance"},
         BadRequestCase{"EmptyHistory", [](R& r) { r.mutable_config()->mutable_history(); },
-                       kInvalid, "config.history.poses", "at least 1"},
+                       kInvalidStatus, "config.history.poses", "at least 1"},
         BadRequestCase{
             "HistoryWithoutRoot",
             [](R& r) {
               *r.mutable_config()->mutable_history()->add_poses() = r.target();
               r.mutable_config()->mutable_history()->mutable_poses(0)->clear_root_position();
             },
-            kInvalid, "config.history.poses[0].root_position", "missing"},
+            kInvalidStatus, "config.history.poses[0].root_position", "missing"},
         BadRequestCase{"LongTargetId", [](R& r) { r.set_target_id(std::string(257, 'x')); },
-                       kInvalid, "target_id", "257 bytes, not 1 to 256"},
+                       kInvalidStatus, "target_id", "257 bytes, not 1 to 256"},
         BadRequestCase{"AfterWithoutTarget",
                        [](R& r) {
                          *r.add_after() = r.target();
                          r.clear_target();
                        },
-                       kInvalid, "after", "target"},
+                       kInvalidStatus, "after", "target"},
         BadRequestCase{"AfterOfAnotherSkeleton",
                        [](R& r) {
                          *r.add_after() = r.target();
                          *r.add_after() = r.target();
                          r.mutable_after(1)->mutable_rotations()->Truncate(69);
                        },
-                       kInvalid, "after[1].rotations", "23 joints"},
+                       kInvalidStatus, "after[1].rotations", "23 joints"},
         BadRequestCase{"AfterFarAway",
                        [](R& r) {
                          *r.add_after() = r.target();
                          *r.add_after() = r.target();
                          r.mutable_after(1)->mutable_root_position()->set_x(2e4);
                        },
-                       kInvalid, "after[1].root_position.x", "10000"},
+                       kInvalidStatus, "after[1].root_position.x", "10000"},
         BadRequestCase{"TooManyAfter",
                        [](R& r) {
                          for (int i = 0; i < 61; ++i) *r.add_after() = r.target();
                        },
-                       kInvalid, "after", "61 poses, more than 60"},
+                       kInvalidStatus, "after", "61 poses, more than 60"},
         BadRequestCase{"AudioWithoutFormat", [](R& r) { r.mutable_audio()->set_data("abcd"); },
-                       kInvalid, "audio", "config.audio_format"},
+                       kInvalidStatus, "audio", "config.audio_format"},
         BadRequestCase{"FormatWithoutAudio",
                        [](R& r) {
                          auto* format = r.mutable_config()->mutable_audio_format();
@@ -212,34 +213,34 @@ INSTANTIATE_TEST_SUITE_P(
                          format->set_sample_rate(22050);
                          format->set_channels(1);
                        },
-                       kInvalid, "audio", "missing"},
+                       kInvalidStatus, "audio", "missing"},
         BadRequestCase{"MaskedToNothing",
                        [](R& r) {
                          r.mutable_target()->clear_root_position();
                          r.mutable_target_mask();
                        },
-                       kInvalid, "target_mask", "nothing"},
+                       kInvalidStatus, "target_mask", "nothing"},
         BadRequestCase{"AnIdOfNoTarget",
                        [](R& r) {
                          r.clear_target();
                          r.set_target_id("landing");
                        },
-                       kInvalid, "target_id", "no target"},
-        BadRequestCase{"HitTooHard", [](R& r) { r.set_target_hit(3.5); }, kInvalid, "target_hit",
-                       "3.5 is not in [0, 3]"},
+                       kInvalidStatus, "target_id", "no target"},
+        BadRequestCase{"HitTooHard", [](R& r) { r.set_target_hit(3.5); }, kInvalidStatus,
+                       "target_hit", "3.5 is not in [0, 3]"},
         BadRequestCase{"AHitOfNoTarget",
                        [](R& r) {
                          r.clear_target();
                          r.set_target_hit(1);
                        },
-                       kInvalid, "target_hit", "no target"},
+                       kInvalidStatus, "target_hit", "no target"},
         BadRequestCase{"NotAFile",
                        [](R& r) {
                          r.mutable_config()->mutable_audio_format()->set_encoding(
                              v1::AUDIO_ENCODING_FILE);
                          r.mutable_audio()->set_data("this is no music");
                        },
-                       kInvalid, "audio", ""}),
+                       kInvalidStatus, "audio", ""}),
     [](const auto& suite) { return std::string(suite.param.name); });
 
 }  // namespace choreo::transition_test

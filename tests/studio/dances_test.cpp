@@ -95,6 +95,7 @@ TEST_F(StudioTest, WarnsOfImpossibleKeys) {
   const Opened studio(server_.address());
   Page page(studio.port());
   LibraryPose sunk = page.welcome().poses(6);
+  sunk.set_id("sunk");
   sunk.mutable_pose()->mutable_root_position()->set_y(0.2F);
   page.Say(2, DanceRequest(90, 7));
   page.Say(2, KeyRequest(page.welcome().poses(6), 30));

@@ -113,7 +113,7 @@ TEST_F(StudioTest, ArrangesSeveralDancers) {
 
   company->clear_beats();
   EXPECT_THAT(page.Ask(request).failure().message(),
-              HasSubstr("p.json:dancers[1].after: counts need music"));
+              HasSubstr("p.json:dancers[1].after: 2c: counts need music"));
   company->mutable_dance_of()->Set(1, 3);
   EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("3 is none of the dances"));
   company->mutable_dancers()->set_data(R"({"dancers": [{"place": [0, 0], "turn": 1}]})");

@@ -27,7 +27,8 @@ export class DeliveryFilter {
    * as rejected, or as reached: `late`, each as often as it was spoken of.
    */
   restart(frame, late) {
-    this.#expected = [...late, ...this.#rejected.filter((place) => parseInt(place) >= frame)];
+    // Keys without a frame are none of `late`.
+    this.#expected = [...late, ...this.#rejected.filter((place) => parseInt(place) >= frame || parseInt(place) < 0)];
   }
 
   /** The frames without those that were told already; undefined if none is left. */

@@ -36,7 +36,8 @@ class DeliveryFilter:
     def restart(self, frame, late):
         """Another server goes on from `frame` (at the model's rate), and is told all again. Of that, it will answer the keys that
         stand before as rejected, or as reached: `late`, each as often as it was spoken of."""
-        self._expected = late + [place for place in self._rejected if place[1] >= frame]
+        # Keys without a frame are none of `late`.
+        self._expected = late + [place for place in self._rejected if place[1] >= frame or place[1] < 0]
 
     def take_frames(self, frames):
         """Cuts away the frames that were told already; False if none is left."""
