@@ -1,11 +1,14 @@
 #include "client/authoring/dancers.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "client/authoring/json_fields.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
+#include "model/motion/rotation.h"
 
 namespace choreo::authoring {
 namespace {
@@ -66,7 +69,7 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   Dancer dancer{.id = "dancer" + std::to_string(number)};
   dancer.place = PlaceOf(value["place"], field + ".place");
   if (value.contains("id")) dancer.id = IdOf(value["id"], field + ".id");
-  if (value.contains("facing"))
+  if (value.contains("facing") && !value["facing"].is_string())
     dancer.facing = NumberIn(value["facing"], field + ".facing", -kFullTurn, kFullTurn);
   if (value.contains("mirrored")) {
     if (!value["mirrored"].is_boolean())
@@ -90,6 +93,22 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   if (value.contains("keyframes"))
     dancer.keyframes = Keyframes(value["keyframes"], field + ".keyframes", folder);
   return dancer;
+}
+
+/// Whom a dancer faces by name is known once all are read.
+void FaceEachOther(const json& list, const std::string& name, std::vector<Dancer>* dancers) {
+  for (size_t i = 0; i < dancers->size(); ++i) {
+    if (!list[i].contains("facing") || !list[i]["facing"].is_string()) continue;
+    Dancer& dancer = (*dancers)[i];
+    const auto other =
+        std::ranges::find(*dancers, list[i]["facing"].get<std::string>(), &Dancer::id);
+    if (other == dancers->end() || other->id == dancer.id) {
+      throw InvalidArgument(name + ":dancers[" + std::to_string(i) + "].facing",
+                            Shown(list[i]["facing"]) + " is none of the other dancers");
+    }
+    const Eigen::Vector2d way = other->place - dancer.place;
+    dancer.facing = kDegrees * std::atan2(way.x(), way.y());
+  }
 }
 
 }  // namespace
@@ -122,6 +141,7 @@ Dancers ParseDancers(const std::string& text, const std::string& name,
       }
     }
   }
+  FaceEachOther(list, name, &read.dancers);
   return read;
 }
 

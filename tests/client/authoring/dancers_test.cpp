@@ -207,6 +207,24 @@ TEST_F(DancersTest, RefuseImpossibleRequests) {
   EXPECT_NE(DanceAll("--vmc 127.0.0.1:39539").code, 0);
 }
 
+TEST(FormationTest, DancersFaceThoseWhomTheyName) {
+  const auto read = [](const std::string& ben) {
+    return authoring::ParseDancers(R"({"dancers": [{"id": "ada", "place": [0, 1], "facing": "ben"},
+                                   {"id": "ben", "place": [2, 1], "facing": )" +
+                                       ben + "}]}",
+                                   "d.json", "");
+  };
+  const authoring::Dancers both = read("\"ada\"");
+  EXPECT_NEAR(both.dancers[0].facing, 90, 1e-9);
+  EXPECT_NEAR(both.dancers[1].facing, -90, 1e-9);
+  for (const char* nobody : {"\"ben\"", "\"cy\""}) {
+    ExpectError(
+        ErrorCode::kInvalidArgument,
+        std::string("d.json:dancers[1].facing: ") + nobody + " is none of the other dancers",
+        [&] { read(nobody); });
+  }
+}
+
 TEST(FormationTest, IsWidenedAsFarAsNeeded) {
   Motion stands{.fps = 30, .frames = std::vector<Pose>(3, RestPose(Body()))};
   std::vector<MovingBody> bodies;
