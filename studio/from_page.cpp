@@ -76,6 +76,7 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
                  static_cast<int>(format.channels())};
   }
   if (config.has_generate_until()) out.generate_until = config.generate_until();
+  out.reject_invalid_keys = config.reject_invalid_keys();
   if (config.has_seed()) out.seed = config.seed();
   if (config.has_temperature()) out.temperature = config.temperature();
   if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();

@@ -58,6 +58,8 @@ Limits LimitsOf(double song_s) {
   limits.set_usual_apart_m(authoring::kUsuallyApart);
   limits.set_usual_music_dynamics(kDefaultDynamics);
   limits.set_usual_variation(kDefaultVariation);
+  limits.set_usual_hit(authoring::kUsualHit);
+  limits.set_too_near_s(authoring::kTooNear);
   return limits;
 }
 
@@ -78,12 +80,7 @@ StudioContext::StudioContext(const client::Options& server, const std::filesyste
   }
   for (int joint = 0; joint < skeleton.joints(); ++joint)
     *welcome_.add_turns() = TurnOf(skeleton, joint);
-  if (const auto figures = client::FindStyleFigures(model().fingerprint)) {
-    StylesShown* shown = welcome_.mutable_styles_shown();
-    shown->set_percent(figures->recognised);
-    shown->set_percent_by_chance(figures->chance);
-    shown->set_shows(figures->shows());
-  }
+  welcome_.set_styles_shown(client::DescribeStyles(model().fingerprint));
   welcome_.set_body(BodyAtRest(skeleton));
   welcome_.set_reads_photos(photo_model_.is_there());
   if (song.empty()) return;

@@ -24,7 +24,6 @@ using client::KeyPose;
 using nlohmann::json;
 
 constexpr double kMinHoldSeconds = 0.1;
-constexpr double kUsualHit = 1;  // in the dancer's own time
 constexpr const char* kHold = ".hold";
 constexpr size_t kMaxNamed = 8;  // keys named in a message
 

@@ -14,7 +14,11 @@ namespace choreo::authoring {
 /// Seconds between the keys that hold a pose, at least: between nearer ones arms and legs tremble,
 /// between farther ones they wander.
 inline constexpr double kHoldStep = 0.2;
+/// Seconds: nobody gets from one pose to another in less. A new key replaces those nearer.
+inline constexpr double kTooNear = 0.2;
 inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
+/// How hard a held key is hit, unless it says so: in the dancer's own time.
+inline constexpr double kUsualHit = 1;
 
 /// A key file, JSON, as in docs/poses.md. Ignores unknown members of the outermost object, so that
 /// files may describe themselves; within a key they are errors.
@@ -29,8 +33,8 @@ std::vector<client::KeyPose> ParseKeyFile(std::string_view text, const std::stri
                                           const Counts& counts = {});
 
 /// Keys that hold the pose of this one for `seconds`, so close together that the dancer only
-/// settles between them; uses its time, not its frame. Unless it says how it is hit, the dancer now
-/// comes to rest in it (hit 1). Throws Error(kInvalidArgument, field) for a
+/// settles between them; uses its time, not its frame. Unless it says how it is hit, it is hit at
+/// kUsualHit: the dancer comes to rest in it. Throws Error(kInvalidArgument, field) for a
 /// time of less than 0.1 or more than 60 s.
 std::vector<client::KeyPose> Holding(client::KeyPose* key, double seconds,
                                      const std::string& field);

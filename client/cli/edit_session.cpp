@@ -23,8 +23,7 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kAround = 2;       // seconds; default reach of an edit
-constexpr double kTooNear_s = 0.2;  // a dancer cannot get from one pose to another in less
+constexpr double kAround = 2;  // seconds; default reach of an edit
 
 int64_t LastFrame(const client::KeyEdit& edit) {
   return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
@@ -254,7 +253,7 @@ void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64
 }
 
 void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
-  const int64_t near = Frame(kTooNear_s);
+  const int64_t near = Frame(authoring::kTooNear);
   auto key = keys_.upper_bound(std::max<int64_t>(0, first - near));
   while (key != keys_.end() && key->first < last + near) {
     const bool between = key->first > first && key->first <= last;  // CheckRoom refuses that
@@ -263,8 +262,8 @@ void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
       continue;
     }
     std::cerr << "note: key \"" << IdAt(key->first) << "\" at " << Rounded(Seconds(key->first))
-              << " s makes way for \"" << id << "\": it is less than " << Rounded(kTooNear_s)
-              << " s away\n";
+              << " s makes way for \"" << id << "\": it is less than "
+              << Rounded(authoring::kTooNear) << " s away\n";
     key = keys_.erase(key);
   }
 }

@@ -54,7 +54,7 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
   EXPECT_EQ(page.welcome().limits().key_distance(), 2);
   EXPECT_EQ(page.welcome().song().name(), "clicks.wav");
   EXPECT_NEAR(page.welcome().heard().seconds(), 4, 1e-3);
-  EXPECT_FALSE(page.welcome().has_styles_shown());  // nobody measured the fake model's
+  EXPECT_EQ(page.welcome().styles_shown(), "Whether they show was not measured.");
 }
 
 // Its last request is still running, and can't be stopped.

@@ -166,6 +166,16 @@ export function removePartner(nth: number) {
   changeAll(left.length > 1 ? left : []);
 }
 
+/// Turns each dancer to the nearest other one, as they begin.
+export function faceEachOther() {
+  const { dancers } = project.value;
+  const away = (a: Partner, b: Partner) => Math.hypot(b.x - a.x, b.z - a.z);
+  changeAll(dancers.map((one) => {
+    const [other] = dancers.filter((partner) => partner !== one).sort((a, b) => away(one, a) - away(one, b));
+    return { ...one, facing: Math.round((Math.atan2(other.x - one.x, other.z - one.z) * 180) / Math.PI) };
+  }));
+}
+
 /// Adds a dancer beside the others, on alternating sides; the first call makes the present dancer one of two.
 export function addPartner() {
   const { dancers } = project.value;

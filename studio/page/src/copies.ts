@@ -5,7 +5,7 @@ import { heading, turned } from './body';
 import type { Triple } from './body';
 import { onPath } from './floor_path';
 import { edit } from './history';
-import { freeFrame, keyOf } from './keys';
+import { freeFrame, isTooNear, keyOf } from './keys';
 import { dancer } from './link';
 import { freeId, sorted } from './project';
 import type { Key } from './project';
@@ -48,9 +48,8 @@ export const pasteKeys = () => void (canPaste.value && set(copied.value, Math.ro
 export function duplicateKey() {
   const key = keyOf(selectedKey.value);
   if (!key || live.value) return;
-  const near = 5; // frames
   const now = Math.round(audio.currentTime * dancer.fps);
-  const isTaken = (frame: number) => project.value.keys.some((other) => Math.abs(other.frame - frame) <= near);
+  const isTaken = (frame: number) => project.value.keys.some((other) => isTooNear(other.frame, frame));
   const next = beats.value.list.map(({ time }) => Math.round(time * dancer.fps)).find((frame) => frame > key.frame && !isTaken(frame));
   set([key], isTaken(now) ? next ?? now + 15 : now);
 }

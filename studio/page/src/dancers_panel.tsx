@@ -57,7 +57,10 @@ export function DancersPanel() {
       {partners.length === 0 && <p class="small">One dances. Others dance with her: mirrored, counts later, or otherwise.</p>}
       {partners.map((partner, nth) => <PartnerFields key={partner.id} partner={partner} nth={nth} />)}
       <Distance />
-      <div class="row"><button disabled={!value} onClick={studio.addPartner}>Add a dancer</button></div>
+      <div class="row">
+        <button disabled={!value} onClick={studio.addPartner}>Add a dancer</button>
+        {partners.length > 1 && <button title="Turn each to the one nearest to her, as they begin" onClick={studio.faceEachOther}>Face to face</button>}
+      </div>
     </section>
   );
 }

@@ -3,14 +3,12 @@ import { limits } from './limits';
 import type { Key } from './project';
 import * as studio from './studio';
 
-const usual = 1;
-
 export function HitTool({ item }: { item: Key }) {
   const set = (hit: number | null) => studio.hitKey(item.id, hit);
   return (
     <>
       <label class="check" title="Else she dances through it">
-        <input type="checkbox" checked={item.hit !== null} onChange={(event) => set(event.currentTarget.checked ? usual : null)} />
+        <input type="checkbox" checked={item.hit !== null} onChange={(event) => set(event.currentTarget.checked ? limits.usualHit : null)} />
         Come to rest in it
       </label>
       {item.hit !== null && (

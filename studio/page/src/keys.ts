@@ -16,8 +16,10 @@ import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
 import type { Moment } from './state';
 
-const one = 5; // frames: a pose that is set so near a key takes its place
 const reach = 15; // frames within which a key that finds its place taken looks for another
+
+/// Whether a pose that is set at one frame takes the place of a key at the other.
+export const isTooNear = (a: number, b: number) => Math.abs(a - b) < limits.tooNearS * dancer.fps;
 
 /// Key poses of the library on the song's beats: a dance to begin with.
 export async function compose() {
@@ -52,7 +54,7 @@ export function freeFrame(keys: Key[], frame: number): number | null {
 /// The key in whose place a pose comes that is set at a frame: the nearest, where one is as good as there.
 export function keyNear(frame: number): Key | undefined {
   const away = (key: Key) => Math.abs(key.frame - frame);
-  const near = live.value ? [] : project.value?.keys.filter((key) => away(key) <= one) ?? [];
+  const near = live.value ? [] : project.value?.keys.filter((key) => isTooNear(key.frame, frame)) ?? [];
   return near.sort((a, b) => away(a) - away(b))[0];
 }
 

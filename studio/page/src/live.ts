@@ -71,7 +71,7 @@ export const startLive = () => work(async () => {
   live.value = { project: { ...asked, ...wishes(before), path: asked.path, seed: before.seed }, motion, beats: [] };
   call = wire.open(
     { case: 'dance', value: { request: { case: 'config', value: {
-      ...how(live.value.project), generateUntil: 0n,
+      ...how(live.value.project), generateUntil: 0n, rejectInvalidKeys: true,
       audioFormat: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 },
     } } } },
     { heard: ({ response }) => response.case === 'dance' && hearOf(response.value.response, motion), failed },
@@ -101,7 +101,7 @@ function hearOf(said: Said, motion: Motion) {
     else if (event.case === 'keyframeRejected') {
       const { id, reason } = event.value;
       if (live.value) keep(live.value.project.keys.filter((key) => key.id !== id));
-      tell(`${id} came too late: ${reason}`);
+      tell(`${id} is refused: ${reason}`);
     }
   }
 }

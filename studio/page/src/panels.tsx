@@ -68,7 +68,7 @@ function StylePanel() {
         <option value="">as it comes</option>
         {styles.map((style) => <option key={style} value={style}>{style}</option>)}
       </select>
-      {shown && <p class="small">{shown.shows ? 'R' : 'They cannot be told apart: r'}ecognised in {Math.round(shown.percent)} % of seconds, by chance in {Math.round(shown.percentByChance)} %.</p>}
+      <p class="small">{shown}</p>
     </section>
   );
 }

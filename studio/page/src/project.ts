@@ -99,7 +99,7 @@ export const trimmed = (keys: Key[], frames: number, fps: number) =>
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
     const steps = Math.round(key.hold / (limits.holdStepS * fps));
-    const hit = key.hit ?? (steps > 0 ? 1 : null); // who holds a pose comes to rest in it
+    const hit = key.hit ?? (steps > 0 ? limits.usualHit : null); // who holds a pose comes to rest in it
     return [{ ...key, hold: 0, hit }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
   });
 }

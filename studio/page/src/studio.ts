@@ -8,7 +8,7 @@ import { stopLive } from './live';
 import { begin, complain, isUnsaved, live, moment, song, tell, welcome, work } from './state';
 
 export * from './beats';
-export { addPartner, cast, changePartner, formation, removePartner, shirtNumber, workOnDanceOf } from './company';
+export { addPartner, cast, changePartner, faceEachOther, formation, removePartner, shirtNumber, workOnDanceOf } from './company';
 export * from './copies';
 export * from './files';
 export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_path';
