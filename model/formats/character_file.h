@@ -38,8 +38,8 @@ class CharacterFile {
   /// this file. Throws Error(kInvalidArgument) for a motion without frames, zero scales, or more
   /// than 4 GiB; Error(kInternal) if the file cannot be written. `fingers` have an angle, or one
   /// per frame.
-  /// With RootMotion::kRoot the node right above all bones has the way over the floor; throws
-  /// Error(kInvalidArgument) if there is none.
+  /// With RootMotion::kRoot the node right above all bones has the way over the floor, or one that
+  /// is added above the pelvis. Throws Error(kInvalidArgument) if no one node is above the bones.
   void WriteDance(const std::filesystem::path& out, const CharacterBody& body, const Motion& motion,
                   const std::vector<CurledBone>& fingers = {},
                   RootMotion root = RootMotion::kPelvis) const;

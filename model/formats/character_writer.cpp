@@ -109,31 +109,49 @@ Eigen::Quaterniond Curled(const CurledBone& finger, double angle, const GltfNode
   return Eigen::AngleAxisd(sense * angle, axis.normalized()) * nodes.rest[finger.node].rotation;
 }
 
-/// The node right above all bones of a body.
+/// The node right above all bones of a body; -1 if there is none, as the pelvis is the topmost.
 int NodeAbove(const GltfNodes& nodes, const CharacterBody& body) {
   const auto is_below = [&](int node, int above) {
     while (node >= 0 && node != above) node = nodes.parents[node];
     return node >= 0;
   };
-  for (int node = nodes.parents[body.nodes.front()]; node >= 0; node = nodes.parents[node]) {
-    if (std::ranges::all_of(body.nodes, [&](int bone) { return bone < 0 || is_below(bone, node); }))
-      return node;
-  }
+  const auto is_above_all = [&](int node) {
+    return std::ranges::all_of(body.nodes,
+                               [&](int bone) { return bone < 0 || is_below(bone, node); });
+  };
+  const int pelvis = body.nodes.front();
+  for (int node = nodes.parents[pelvis]; node >= 0; node = nodes.parents[node])
+    if (is_above_all(node)) return node;
+  if (nodes.parents[pelvis] < 0 && is_above_all(pelvis)) return -1;
   throw InvalidArgument("nodes", "none is above all its bones, to carry them over the floor");
 }
 
-/// The track of a node that carries what is below it over the floor.
+/// Adds a node above the topmost one of the scenes; returns it.
+int AddNodeAbove(int topmost, GltfBuilder* gltf) {
+  ordered_json& nodes = gltf->List("nodes");
+  const size_t above = nodes.size();
+  nodes.push_back({{"name", "root"}, {"children", {topmost}}});
+  for (ordered_json& scene : gltf->List("scenes")) {
+    for (ordered_json& top : scene["nodes"])
+      if (top == topmost) top = above;
+  }
+  return static_cast<int>(above);
+}
+
+/// The track of a node that carries what is below it over the floor; -1: of one that is added.
 GltfTrack CarriedOver(const std::vector<GroundFrame>& way, int node, const GltfNodes& nodes,
                       const std::vector<Eigen::Affine3d>& rest) {
   GltfTrack track;
   track.node = node;
-  const int parent = nodes.parents[node];
+  const int parent = node < 0 ? -1 : nodes.parents[node];
   const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : rest[parent];
-  const Eigen::Vector3d unscaled = nodes.rest[node].scale.cwiseInverse();
+  const Eigen::Affine3d at_rest = node < 0 ? Eigen::Affine3d::Identity() : rest[node];
+  const GltfPlacement local = node < 0 ? GltfPlacement() : nodes.rest[node];
+  const Eigen::Vector3d unscaled = local.scale.cwiseInverse();
   for (const GroundFrame& place : way) {
     const Eigen::Affine3d moved = above.inverse() * Eigen::Translation3d(place.origin) *
                                   Eigen::AngleAxisd(place.heading, Eigen::Vector3d::UnitY()) *
-                                  rest[node];
+                                  at_rest;
     const Eigen::Matrix3d turned = moved.linear() * unscaled.asDiagonal();
     track.AddTurn(Eigen::Quaterniond(Eigen::Affine3d(turned).rotation()));
     track.AddPlace(moved.translation());
@@ -184,9 +202,9 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
       }
     }
     const std::vector<Eigen::Affine3d> rest = nodes_.PlaceAtRest();
-    if (root == RootMotion::kRoot) {
-      tracks.push_back(CarriedOver(split.way, NodeAbove(nodes_, body), nodes_, rest));
-    }
+    const int above = root == RootMotion::kRoot ? NodeAbove(nodes_, body) : -1;
+    const size_t carried = tracks.size();
+    if (root == RootMotion::kRoot) tracks.push_back(CarriedOver(split.way, above, nodes_, rest));
     for (const CurledBone& finger : fingers) {
       GltfTrack& track = tracks.emplace_back();
       track.node = finger.node;
@@ -197,6 +215,8 @@ void CharacterFile::WriteDance(const std::filesystem::path& out, const Character
     for (const GltfTrack& track : tracks) {
       if (track.node >= 0) StateParts(added.List("nodes")[track.node], nodes_.rest[track.node]);
     }
+    if (root == RootMotion::kRoot && above < 0)
+      tracks[carried].node = AddNodeAbove(body.nodes.front(), &added);
     added.AddDance(motion.fps, motion.frames.size(), tracks);
     bytes = added.Join(chunks.others);
   } catch (const Error& error) {

@@ -97,6 +97,20 @@ TEST_F(CharacterTest, TheNodeAboveTheBonesCarriesThemOverTheFloor) {
   }
 }
 
+TEST_F(CharacterTest, APelvisWithoutANodeAboveItGetsOneThatCarriesIt) {
+  WriteGlb(folder_ / "hero.glb", Smpl(), smpl_);
+  const CharacterBody body = Dance("hero.glb");
+  const GltfScene usual = ReadGltfScene(folder_ / "out.glb");
+  Dance("hero.glb", RootMotion::kRoot);
+  const GltfScene carried = ReadGltfScene(folder_ / "out.glb");
+  EXPECT_EQ(carried.nodes.names.back(), "root");
+  const auto pelvis = static_cast<size_t>(body.nodes[0]);
+  EXPECT_EQ(carried.nodes.parents[pelvis] + 1, std::ssize(carried.nodes.names));
+  for (int64_t frame = 0; frame < usual.frames; ++frame) {
+    EXPECT_TRUE(usual.Frame(frame)[pelvis].isApprox(carried.Frame(frame)[pelvis], 1e-4));
+  }
+}
+
 TEST_F(CharacterTest, AllElseStaysByteForByte) {
   WriteCharacter(folder_ / "hero.glb", {});
   Glb hero(folder_ / "hero.glb");
