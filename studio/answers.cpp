@@ -121,11 +121,13 @@ Response MakePhotoPose(const StudioContext& context, const File& landmarks) {
   return response;
 }
 
-Response ReadKeys(const StudioContext& context, const File& file) {
+Response ReadKeys(const StudioContext& context, const KeyFile& keys) {
+  const File& file = keys.file();
+  const authoring::Counts counts = CountsIn(keys);
   Response response;
   response.mutable_keyframes();
   for (const client::KeyPose& key :
-       authoring::ParseKeyFile(file.data(), file.name(), context.model().skeleton))
+       authoring::ParseKeyFile(file.data(), file.name(), context.model().skeleton, nullptr, counts))
     *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   return response;
 }

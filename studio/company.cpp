@@ -27,7 +27,7 @@ void Keep(const google::protobuf::RepeatedPtrField<File>& files, const ScratchFo
 
 /// A dancer's own keys, of these files or in her own text.
 void DescribeKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
-                  const Skeleton& skeleton, StageDancer* said) {
+                  const Skeleton& skeleton, const authoring::Counts& counts, StageDancer* said) {
   said->set_has_keys(!dancer.keyframes.empty());
   for (const std::string& source : authoring::KeySources(dancer.keyframes)) {
     const bool is_text = source.starts_with('{');
@@ -38,7 +38,7 @@ void DescribeKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
                   "has keys of " + dancer.id + ": open it together with the project");
     }
     try {
-      for (const client::KeyPose& key : authoring::ReadKeys(kept, skeleton))
+      for (const client::KeyPose& key : authoring::ReadKeys(kept, skeleton, nullptr, counts))
         *said->add_keys() = client::ToProto(key);
     } catch (const Error& error) {
       std::string message = error.what();
@@ -50,7 +50,7 @@ void DescribeKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
 }
 
 void Describe(const authoring::Dancers& stage, const ScratchFolder& folder,
-              const Skeleton& skeleton, Formation* formation) {
+              const Skeleton& skeleton, const authoring::Counts& counts, Formation* formation) {
   formation->set_apart(stage.apart);
   for (const authoring::Dancer& dancer : stage.dancers) {
     StageDancer* said = formation->add_dancers();
@@ -63,7 +63,7 @@ void Describe(const authoring::Dancers& stage, const ScratchFolder& folder,
     said->set_in_counts(dancer.after && dancer.after->counts);
     if (dancer.seed) said->set_seed(*dancer.seed);
     said->set_style(dancer.style);
-    DescribeKeys(dancer, folder, skeleton, said);
+    DescribeKeys(dancer, folder, skeleton, counts, said);
   }
 }
 
@@ -105,7 +105,7 @@ Response FormCompany(const StudioContext& context, const Company& request) {
   Keep(request.key_files(), folder);
   Response response;
   Formation* formation = response.mutable_formation();
-  Describe(stage, folder, skeleton, formation);
+  Describe(stage, folder, skeleton, CountsIn(request), formation);
   if (request.dances().empty()) return response;
 
   const std::vector<double> beats(request.beats().begin(), request.beats().end());

@@ -2,8 +2,10 @@
 
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 #include "client/edit.h"
+#include "model/audio/format.h"
 #include "studio/studio.pb.h"
 
 /// The page's messages (of choreo.v1) as the client library's structs, the inverse of ToProto in
@@ -20,5 +22,14 @@ client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request
 /// The samples of all pieces, in order.
 std::vector<float> SamplesOf(const v1::Audio& audio);
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);
+
+/// The counts of the music, of a message with its beats and ones.
+template <typename Message>
+authoring::Counts CountsIn(const Message& message) {
+  const std::vector<double> ones(message.ones().begin(), message.ones().end());
+  const std::vector<double> beats(message.beats().begin(), message.beats().end());
+  CheckBeats(beats, "beats");
+  return authoring::CountsFrom(beats, ones);
+}
 
 }  // namespace choreo::studio

@@ -41,9 +41,10 @@ void RequireBeats(double amount, std::span<const double> beats, const std::strin
 
 Counts CountsFrom(std::vector<double> beats, std::span<const double> ones) {
   Counts counted{std::move(beats)};
-  if (ones.empty()) return counted;
+  if (ones.empty() || counted.beats.empty()) return counted;
   const auto one = std::ranges::lower_bound(counted.beats, ones.front());
-  counted.one = static_cast<size_t>(one - counted.beats.begin());
+  counted.one =
+      std::min(static_cast<size_t>(one - counted.beats.begin()), counted.beats.size() - 1);
   return counted;
 }
 

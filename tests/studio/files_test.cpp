@@ -206,6 +206,16 @@ TEST_F(StudioTest, FitsTheBodyToAPhotosLandmarks) {
   const Pose pose =
       authoring::ParseLandmarkPose(landmarks, "beach.jpg", studio.context().model().skeleton);
   EXPECT_EQ(seen.pose().pose().SerializeAsString(), client::ToProto(pose).SerializeAsString());
+
+  // Times in counts are those of the page's beats.
+  Request counted;
+  counted.mutable_keys()->mutable_file()->set_name("mine.json");
+  counted.mutable_keys()->mutable_file()->set_data(
+      R"({"keyframes": [{"time": "3c", "pose": "kick"}]})");
+  EXPECT_THAT(page.Ask(counted).failure().message(), HasSubstr("time: 3c: counts need music"));
+  for (const double beat : {0.5, 1.0, 1.5, 2.0}) counted.mutable_keys()->add_beats(beat);
+  counted.mutable_keys()->add_ones(1);
+  EXPECT_EQ(page.Ask(counted).keyframes().keyframes(0).time(), 2);
   for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
     request.mutable_landmarks()->set_data(bad);
     EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("beach.jpg")) << bad;
@@ -228,8 +238,8 @@ TEST_F(StudioTest, DescribesJointAxesAndReadsKeyFiles) {
   const std::string text =
       R"({"keyframes": [{"time": 2, "joints": {"left_elbow": 60}}, {"time": 1, "pose": "kick", "hold": 0.1}]})";
   Request request;
-  request.mutable_keys()->set_name("mine.json");
-  request.mutable_keys()->set_data(text);
+  request.mutable_keys()->mutable_file()->set_name("mine.json");
+  request.mutable_keys()->mutable_file()->set_data(text);
   const Response answer = page.Ask(request);
   ASSERT_TRUE(answer.has_keyframes()) << answer.failure().message();
   const std::vector<client::KeyPose> keys = authoring::ParseKeyFile(text, "mine.json", skeleton);
@@ -240,7 +250,7 @@ TEST_F(StudioTest, DescribesJointAxesAndReadsKeyFiles) {
   }
   EXPECT_EQ(answer.keyframes().keyframes(0).mask().joints_size(), 1);
   for (const char* bad : {"", "[]", "{", R"({"keyframes": [{}]})", "\xff"}) {
-    request.mutable_keys()->set_data(bad);
+    request.mutable_keys()->mutable_file()->set_data(bad);
     EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("mine.json")) << bad;
   }
 }

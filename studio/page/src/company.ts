@@ -3,6 +3,7 @@ import { computed, effect, signal } from '@preact/signals';
 import { beats } from './beats';
 import type { Clip, Formation } from './generated/studio/studio_pb';
 import { later } from './counts';
+import type { Counts } from './counts';
 import { readKey } from './dancer';
 import { change, note } from './history';
 import { limits } from './limits';
@@ -127,8 +128,8 @@ function secondsLater({ after, inCounts }: Partner): number {
 }
 
 /// The dancers of a project file; `keyFiles`: those that it names.
-export async function readCompany(name: string, data: Uint8Array, keyFiles: Asked[]): Promise<{ dancers: Partner[]; apart: number }> {
-  const answer = await wire.ask({ case: 'company', value: { dancers: { name, data }, keyFiles } });
+export async function readCompany(name: string, data: Uint8Array, keyFiles: Asked[], counts: Counts): Promise<{ dancers: Partner[]; apart: number }> {
+  const answer = await wire.ask({ case: 'company', value: { dancers: { name, data }, keyFiles, ...counts } });
   if (answer.case !== 'formation') throw new Error(`${name} has no dancers.`);
   const dancers = answer.value.dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style, hasKeys, keys }): Partner => ({
     id, x, z, facing, mirrored, after, inCounts: inCounts || after === 0, seed: seed === undefined ? null : Number(seed), style,

@@ -14,6 +14,9 @@ const gap = 1.6; // intervals; longer ones are pauses
 /// Beats in an eight: two bars, of four or three.
 export const eight = (bar: number) => bar * Math.max(1, Math.floor(8 / bar));
 export const isDownbeat = ({ count }: Beat, bar: number) => count > 0 && (count - 1) % bar === 0;
+/// Beats as the program takes them: seconds, and those that begin an eight.
+export type Counts = { beats: number[]; ones: number[] };
+export const countsOf = (beats: Beats): Counts => ({ beats: timesOf(beats), ones: beats.list.filter(({ count }) => count === 1).map(({ time }) => time) });
 /// A time as stored in projects.
 const kept = (seconds: number) => Math.round(seconds * 1e4) / 1e4;
 const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];

@@ -1,4 +1,6 @@
 // Opening files, dropped or chosen, and saving.
+import { beats } from './beats';
+import { countsOf } from './counts';
 import { film, fps, height, width } from './film';
 import type { Kind, Painter } from './film';
 import { readCompany, writeCompany } from './company';
@@ -73,9 +75,10 @@ async function openProject(name: string, bytes: Uint8Array, keyFiles: Asked[]) {
   const model = { fps: dancer.fps, styles: welcome.value!.model!.styles };
   const text = new TextDecoder().decode(bytes);
   const read = fromJson(text, name, model, (words) => said.push(words));
-  const answer = await wire.ask({ case: 'keys', value: { name, data: bytes } });
+  const counts = countsOf(read.beats ?? beats.value);
+  const answer = await wire.ask({ case: 'keys', value: { file: { name, data: bytes }, ...counts } });
   if (answer.case !== 'keyframes') return;
-  if (text.includes('"dancers"')) Object.assign(read, await readCompany(name, bytes, keyFiles));
+  if (text.includes('"dancers"')) Object.assign(read, await readCompany(name, bytes, keyFiles, counts));
   read.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
   if (song.value) read.seconds = song.value.heard.seconds;
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
