@@ -9,7 +9,7 @@ import { test } from 'node:test';
 const page = new URL('../../../studio/page/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', page))('esbuild');
 
-const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, positionM: 10000, dancers: 64,
+const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, usualHit: 1, tooNearS: 0.2, positionM: 10000, dancers: 64,
   stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3 };
 
 /// A module of the page, with all that it imports, and the program's limits.
