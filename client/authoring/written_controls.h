@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "client/authoring/dance_keys.h"
 #include "client/authoring/counts.h"
+#include "client/authoring/dance_keys.h"
 #include "client/choreo_client.h"
 
 /// The controls of a dance as people write them down.
