@@ -301,7 +301,7 @@ TEST_F(MotionKeysTest, TakesTheShortestWayAfterAnyNumberOfTurns) {
 
 TEST_F(MotionKeysTest, RefusesInvalidTimes) {
   for (const char* times : {"", "x", "1,", "-1", "1.2x", "1=", "nan"}) {
-    ExpectError(ErrorCode::kInvalidArgument, "is not a time, 0 to 1e+09 seconds",
+    ExpectError(ErrorCode::kInvalidArgument, path_ + "@" + times,
                 [&] { ReadKeys(path_ + "@" + times, Body()); });
   }
   ExpectError(ErrorCode::kInvalidArgument, "second 3.5 is after the motion's end at 3",
