@@ -6,11 +6,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "client/authoring/json_fields.h"
 #include "client/cli/options.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
+#include "model/motion/resample.h"
 
 namespace choreo::cli {
 namespace {
@@ -39,6 +41,14 @@ std::string FindSong(const std::string& song, const std::filesystem::path& repor
     if (std::filesystem::is_regular_file(path, error)) return path.string();
   }
   return "";
+}
+
+/// Whether a dance of so many frames at `fps` has as many at the file's rate as the file: its last
+/// ones may be missing, as they are after the file's last frame.
+bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, double fps) {
+  if (!authoring::IsFrameNumber(frames)) return false;
+  const double after_s = (frames.get<double>() - 1) / fps - Duration(file);
+  return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
 }
 
 /// Takes the song that the report names, unless another one is asked for; returns whether it does.
@@ -120,7 +130,7 @@ authoring::Counts ReadCounts(const EditOptions& options, double end_s) {
   return CountsOf(options, ReadSong(options, end_s));
 }
 
-KnownDance ReadKnown(const std::string& path, int64_t frames, double fps) {
+KnownDance ReadKnown(const std::string& path, int64_t frames, double fps, const Motion& file) {
   const auto report = ReadReport(path);
   if (report["fps"] != fps) {
     std::ostringstream message;
@@ -128,12 +138,15 @@ KnownDance ReadKnown(const std::string& path, int64_t frames, double fps) {
     throw InvalidArgument(path + ":fps", message.str());
   }
   // Older edits wrote no count.
-  if (report.contains("frames") && report["frames"] != frames) {
+  if (report.contains("frames") && report["frames"] != frames &&
+      !IsShortenedTo(file, report["frames"], fps)) {
     throw InvalidArgument(path + ":frames", report["frames"].dump() + ", but the dance has " +
                                                 std::to_string(frames) +
                                                 ": this is another dance's report");
   }
-  return {KeysOf(report, frames, path), ReadWarnings(report, path), Asked::ReadFrom(report, path)};
+  const int64_t missing = report.contains("frames") ? report["frames"].get<int64_t>() - frames : 0;
+  return {KeysOf(report, frames, path, missing), ReadWarnings(report, path),
+          Asked::ReadFrom(report, path)};
 }
 
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,

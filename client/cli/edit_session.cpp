@@ -48,7 +48,8 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   if (options.around_s) CheckAround(*options.around_s);
   dance_ = ReadDance(options.dance, edit_.model.skeleton);
   frames_ = CountModelFrames(dance_, edit_.model);
-  if (!options.report.empty()) known_ = ReadKnown(options.report, frames_, edit_.model.fps);
+  if (!options.report.empty())
+    known_ = ReadKnown(options.report, frames_, edit_.model.fps, dance_.motion);
   const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
   std::tie(edit_, counts_) = HowToDance(options, connection, Seconds(end));
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});

@@ -33,7 +33,7 @@ class Whole {
     dance_ = std::move(dance);
     if (report.empty()) return;
     fps_ = ReadReport(report)["fps"].get<double>();
-    known_ = ReadKnown(report, Frames(), fps_);
+    known_ = ReadKnown(report, Frames(), fps_, dance_.motion);
   }
 
   void Cut() {

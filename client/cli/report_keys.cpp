@@ -21,17 +21,20 @@ bool HoldsAnother(const nlohmann::ordered_json& key) {
   return key.contains(kHolds) && key[kHolds].is_string();
 }
 
-ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name) {
+ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name,
+                  int64_t missing) {
   ReportKeys keys;
   for (const auto& key : report["keyframes"]) {
     const auto frame = key["frame"].get<int64_t>();
-    if (frame >= frames) {
+    if (frame - missing >= frames) {
       throw InvalidArgument(name + ":keyframes",
                             IdOf(key) + " stands at frame " + std::to_string(frame) +
                                 ", but the dance has " + std::to_string(frames) +
                                 ": it is the report of another one");
     }
-    keys[frame] = key;
+    const int64_t known = std::min(frame, frames - 1);
+    keys[known] = key;
+    keys[known]["frame"] = known;
   }
   return keys;
 }

@@ -14,9 +14,11 @@ namespace choreo::cli {
 /// The keys of a dance as in its report (ReportJson), by frame, while the dance is edited.
 using ReportKeys = std::map<int64_t, nlohmann::ordered_json>;
 
-/// The keys of the report called `name`, for a dance of this many frames. Throws
-/// Error(kInvalidArgument) for a later one.
-ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name);
+/// The keys of the report called `name`, for a dance of this many frames, of which `missing` more
+/// are lost in its file: keys there stand at the last frame. Throws Error(kInvalidArgument) for a
+/// later one.
+ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name,
+                  int64_t missing = 0);
 
 /// Frames of the key called `id`, or ID@SECOND if several are, and of those after it that hold its
 /// pose, in order. Throws Error(kInvalidArgument) with this field unless there is exactly one.

@@ -130,6 +130,32 @@ TEST_F(EditTest, AnotherDancesReportIsRefused) {
   EXPECT_THAT(outcome.said, HasSubstr("another dance's report"));
 }
 
+TEST_F(EditTest, ADanceAtAnotherRateIsEditedByItsReport) {
+  for (const std::string fps : {"24", "25", "50", "12"}) {
+    SCOPED_TRACE(fps);
+    Outcome outcome = Choreo("dance " + At("song.wav") + Server() + "--fps " + fps + " -o " +
+                             At("rate.bvh") + " --report " + At("rate.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    nlohmann::json report = ReadJson(folder_ / "rate.json");
+    auto& last = report["keyframes"].back();
+    last["frame"] = report["frames"].get<int>() - 1;
+    std::ofstream(folder_ / "rate.json") << report.dump();
+    const std::string edit = "edit " + At("rate.bvh") + Server() + "-o " + At("new.bvh") +
+                             " --new-report " + At("new.json");
+    outcome = Choreo(edit + " --key kick --at 3 --report " + At("rate.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    const nlohmann::json edited = ReadJson(folder_ / "new.json");
+    EXPECT_EQ(edited["keyframes"].back()["id"], last["id"]);
+    EXPECT_EQ(edited["keyframes"].back()["frame"], edited["frames"].get<int>() - 1);
+    outcome = Choreo(edit + " --from 1 --report " + At("rate.json"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    report["frames"] = report["frames"].get<int>() + 3;
+    std::ofstream(folder_ / "rate.json") << report.dump();
+    outcome = Choreo(edit + " --key kick --at 3 --report " + At("rate.json"));
+    EXPECT_THAT(outcome.said, HasSubstr("another dance's report"));
+  }
+}
+
 TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   const nlohmann::json keys = ReadJson(folder_ / "report.json")["keyframes"];
   const auto remove = [&](size_t index) {
