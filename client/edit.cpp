@@ -210,9 +210,10 @@ struct Stop {
 /// Dances from frame `from` through the stops and on to `to`, which stays unchanged if it is a
 /// frame of the dance.
 EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int64_t to,
-                         const std::string& to_id) {
+                         const std::string& to_id, const std::optional<double>& to_hit) {
   const bool leads_on = to < work.frames();
-  if (leads_on) stops.push_back({to, work.pose(to), {}, to_id.empty() ? NameOfFrame(to) : to_id});
+  if (leads_on)
+    stops.push_back({to, work.pose(to), {}, to_id.empty() ? NameOfFrame(to) : to_id, to_hit});
   Part part{from + 1, {}, {}};
   TransitionCandidate danced;
   for (size_t i = 0; i < stops.size(); ++i) {
@@ -300,7 +301,7 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
     }
   }
   CheckKeyEdit(stops.front().frame, stops.back().frame, edit.from, edit.to, work.frames());
-  return DanceThrough(work, edit.from, stops, edit.to, edit.to_id);
+  return DanceThrough(work, edit.from, stops, edit.to, edit.to_id, edit.to_hit);
 }
 
 EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
@@ -319,7 +320,7 @@ EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
   // Without a frame after it, the end is free.
   const std::vector<Stop> stops =
       gap.to == frames ? std::vector<Stop>{{.frame = frames - 1}} : std::vector<Stop>{};
-  return DanceThrough(work, gap.from, stops, gap.to, gap.to_id);
+  return DanceThrough(work, gap.from, stops, gap.to, gap.to_id, gap.to_hit);
 }
 
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,

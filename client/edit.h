@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,14 +51,16 @@ struct KeyEdit {
   /// The first unchanged frame after the last of them, at least 2 after it; the dance's frame count
   /// if that is the dance's last frame.
   int64_t to = 0;
-  std::string to_id = {};  ///< name of what is at `to` in warnings; empty: "frame N"
+  std::string to_id = {};             ///< name of what is at `to` in warnings; empty: "frame N"
+  std::optional<double> to_hit = {};  ///< how hard it is hit, as KeyPose::hit
 };
 
 /// Frames between `from` and `to`, both exclusive, to dance without a key.
 struct Gap {
   int64_t from = 0;        ///< in the dance
   int64_t to = 0;          ///< at least 2 after `from`; the dance's frame count for an open end
-  std::string to_id = {};  ///< as in KeyEdit
+  std::string to_id = {};  ///< as in KeyEdit, here and below
+  std::optional<double> to_hit = {};
 };
 
 /// The result of an edit.

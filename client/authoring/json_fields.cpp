@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "model/core/error.h"
+#include "model/core/hit.h"
 #include "model/core/json_limits.h"
 #include "model/core/rounded.h"
 
@@ -109,6 +110,13 @@ std::string Shown(const json& value) {
 double JsonNumber(const json& value, const std::string& field) {
   if (!value.is_number()) throw InvalidArgument(field, Shown(value) + " is not a number");
   return value.get<double>();
+}
+
+double JsonHit(const json& value, const std::string& field) {
+  const double hit = JsonNumber(value, field);
+  if (hit >= 0 && hit <= kMaxHit) return hit;
+  throw InvalidArgument(field, Shown(value) + " is not a number from 0 (gently) to " +
+                                   InFull(kMaxHit) + " (late and fast)");
 }
 
 HandPose JsonHands(const json& value, const std::string& field) {

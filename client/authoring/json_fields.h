@@ -35,6 +35,8 @@ void CheckInADance(double seconds, const std::string& field);
 std::string Shown(const nlohmann::json& value);
 
 double JsonNumber(const nlohmann::json& value, const std::string& field);
+/// How hard a key is hit, 0 to kMaxHit.
+double JsonHit(const nlohmann::json& value, const std::string& field);
 /// One of kHandPoseNames.
 HandPose JsonHands(const nlohmann::json& value, const std::string& field);
 

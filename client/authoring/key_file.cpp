@@ -63,14 +63,7 @@ KeyPose ParseKey(const json& value, const std::string& field, const Skeleton& sk
     }
     key.id = value["id"].get<std::string>();
   }
-  if (value.contains("hit")) {
-    key.hit = JsonNumber(value["hit"], field + ".hit");
-    if (!(*key.hit >= 0 && *key.hit <= kMaxHit)) {
-      throw InvalidArgument(field + ".hit", Shown(value["hit"]) +
-                                                " is not a number from 0 (gently) to " +
-                                                InFull(kMaxHit) + " (late and fast)");
-    }
-  }
+  if (value.contains("hit")) key.hit = JsonHit(value["hit"], field + ".hit");
   if (value.contains("hands")) key.hands = JsonHands(value["hands"], field + ".hands");
   const Moment moment = ParseMoment(value, field, counts);
   key.time_s = moment.time_s;

@@ -115,7 +115,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
     if (options_.in_place)
       key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
   }
-  edit.key.hit = options_.hit;
+  edit.key.hit = options_.hit ? options_.hit : HitOf(keys_.at(frames.front()));
   for (const int64_t frame : frames) keys_.erase(frame);
   MakeWay(frames.front() + by, frames.back() + by, edit.key.id);
   CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
@@ -188,6 +188,7 @@ std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_
     client::KeyPose danced{.id = IdAt(key->first),
                            .frame = key->first,
                            .pose = PoseAt(dance_.motion, Seconds(key->first)),
+                           .hit = HitOf(key->second),
                            .hands = HandsOf(key->second)};
     if (HoldsAnother(key->second) && !phrase.empty()) {
       phrase.back().held.push_back(std::move(danced));
@@ -279,12 +280,16 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
     CheckDistance(field, at_s + Seconds(frame - first), other,
                   keys_.contains(other) ? "the key" : "an end of the dance,");
   }
-  if (keys_.contains(edit.to)) edit.to_id = IdAt(edit.to);
+  if (keys_.contains(edit.to)) {
+    edit.to_id = IdAt(edit.to);
+    edit.to_hit = HitOf(keys_.at(edit.to));
+  }
   for (const client::KeyPose& held : edit.held) set_.insert(*held.frame);
   set_.insert(first);
   DropWarnings(edit.from, edit.to);
   WarnOfFaults(edit);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
+  MarkHit(edit.key.hit, &keys_[*edit.key.frame]);
   MarkHands(edit.key.hands, &keys_[*edit.key.frame]);
   for (const client::KeyPose& held : edit.held) {
     MarkHeld(edit.key.id, &keys_[*held.frame]);
@@ -296,7 +301,10 @@ void EditSession::Free(const std::vector<int64_t>& frames, const std::string& wh
   for (const int64_t frame : frames) keys_.erase(frame);
   client::Gap gap{.from = Before(frames.front()),
                   .to = frames.back() == frames_ - 1 ? frames_ : After(frames.back())};
-  if (keys_.contains(gap.to)) gap.to_id = IdAt(gap.to);
+  if (keys_.contains(gap.to)) {
+    gap.to_id = IdAt(gap.to);
+    gap.to_hit = HitOf(keys_.at(gap.to));
+  }
   if (gap.to - gap.from > longest_) {
     throw InvalidArgument("--around", "without the key " + Rounded(Seconds(gap.to - gap.from)) +
                                           " s are danced at once, the model's most are " +

@@ -90,6 +90,7 @@ std::string ReportJson(const WrittenDance& dance) {
   for (const WrittenKey& key : dance.keys) {
     nlohmann::ordered_json& written = json["keyframes"].emplace_back(KeyJson(key.reached));
     if (!key.holds.empty()) MarkHeld(key.holds, &written);
+    MarkHit(key.hit, &written);
     MarkHands(key.hands, &written);
     written["output_frame"] = key.frame;
     written["on_output_frame"] = key.on_frame;
@@ -158,9 +159,9 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
                             "has no id, or no frame that is a whole number from 0 to " +
                                 std::to_string(authoring::kMaxFrameNumber));
     }
-    if (key.contains("hands"))
-      authoring::JsonHands(key["hands"],
-                           path.string() + ":keyframes[" + std::to_string(i) + "].hands");
+    const std::string field = path.string() + ":keyframes[" + std::to_string(i) + "]";
+    if (key.contains("hit")) authoring::JsonHit(key["hit"], field + ".hit");
+    if (key.contains("hands")) authoring::JsonHands(key["hands"], field + ".hands");
   }
   return report;
 }

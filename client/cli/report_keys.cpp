@@ -11,6 +11,7 @@ namespace choreo::cli {
 namespace {
 
 constexpr const char* kHolds = "holds";
+constexpr const char* kHit = "hit";
 constexpr const char* kHands = "hands";
 
 std::string IdOf(const nlohmann::ordered_json& key) { return key["id"].get<std::string>(); }
@@ -75,6 +76,15 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
 std::optional<int64_t> HeldEnd(const ReportKeys& keys) {
   if (keys.empty() || !HoldsAnother(keys.rbegin()->second)) return std::nullopt;
   return keys.rbegin()->first;
+}
+
+std::optional<double> HitOf(const nlohmann::ordered_json& key) {
+  if (!key.contains(kHit)) return std::nullopt;
+  return key[kHit].get<double>();
+}
+
+void MarkHit(const std::optional<double>& hit, nlohmann::ordered_json* key) {
+  if (hit) (*key)[kHit] = *hit;
 }
 
 std::optional<HandPose> HandsOf(const nlohmann::ordered_json& key) {

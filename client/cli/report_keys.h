@@ -34,6 +34,10 @@ std::optional<int64_t> HeldEnd(const ReportKeys& keys);
 /// Marks a key as only holding the pose of this id.
 void MarkHeld(const std::string& id, nlohmann::ordered_json* key);
 
+/// How hard a key is hit, if it says so.
+std::optional<double> HitOf(const nlohmann::ordered_json& key);
+void MarkHit(const std::optional<double>& hit, nlohmann::ordered_json* key);
+
 /// What hands do at a key, if it says so.
 std::optional<HandPose> HandsOf(const nlohmann::ordered_json& key);
 void MarkHands(const std::optional<HandPose>& hands, nlohmann::ordered_json* key);

@@ -127,10 +127,11 @@ void Run(const TransitionOptions& options) {
   target.id = "target";  // as the report calls it
   // For a library pose the path sets the place.
   if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
+  if (options.hit) target.hit = options.hit;
   if (!options.hands.empty()) target.hands = FindHandPose(options.hands);
   request.target = target.pose;
   request.target_mask = target.mask;
-  request.target_hit = options.hit ? options.hit : target.hit;
+  request.target_hit = target.hit;
   if (music) {
     const double end_s = at_s + seconds;
     const client::Audio song = authoring::AudioFor(music->audio, end_s);

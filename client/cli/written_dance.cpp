@@ -19,7 +19,7 @@ WrittenKey Find(const client::Header& header, const Motion& motion, const client
                 const client::KeyReached& reached) {
   const double place = static_cast<double>(reached.frame) * header.fps / header.model_fps -
                        static_cast<double>(FirstFrameOfFile(header));
-  WrittenKey found{.reached = reached, .hands = key.hands};
+  WrittenKey found{.reached = reached, .hit = key.hit, .hands = key.hands};
   found.frame =
       std::clamp<int64_t>(std::llround(place), 0, static_cast<int64_t>(motion.frames.size()) - 1);
   found.on_frame = std::abs(place - static_cast<double>(found.frame)) < kOnFrame;

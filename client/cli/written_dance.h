@@ -20,7 +20,8 @@ struct WrittenKey {
   PoseError error = {};             ///< of that frame
   /// The id of the key whose pose it only holds, or empty. Examine leaves it empty.
   std::string holds = {};
-  std::optional<HandPose> hands = {};  ///< as in the key
+  std::optional<double> hit = {};      ///< as in the key
+  std::optional<HandPose> hands = {};  ///< the same
 };
 
 /// A written dance and facts about it.

@@ -207,6 +207,61 @@ TEST_F(EditTest, KeysSayWhatHandsDo) {
   EXPECT_THAT(outcome.said, HasSubstr("--hands: goes with --key and --move"));
 }
 
+TEST_F(EditTest, KeysKeepHowTheyAreHit) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},
+                           {"id": "b", "time": 3, "pose": "kick", "place": [0, 0], "hit": 3},
+                           {"id": "c", "time": 5, "pose": "bow", "place": [0, 0], "hold": 0.4}]})";
+  const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "--seconds 12 -o " +
+                                 At("dance.npz") + " --report " + At("report.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const auto hits = [&](const std::string& report) {
+    std::string said;
+    const nlohmann::json read = ReadJson(folder_ / report);
+    for (const auto& key : read["keyframes"])
+      said += key.contains("hit") ? key["hit"].dump() + " " : "- ";
+    return said;
+  };
+  EXPECT_EQ(hits("report.json"), "- 3.0 1.0 - - ");
+  const auto edited = [&](const std::string& edit) {
+    const Outcome done = Edit(edit + " --report " + At("report.json") + " --new-report " +
+                              At("new.json") + " -o " + At("new.npz"));
+    EXPECT_EQ(done.code, 0) << done.said;
+    return hits("new.json");
+  };
+  EXPECT_EQ(edited("--repeat 0.5 5.9 6"), "- 3.0 1.0 - - - 3.0 1.0 - - ");
+  EXPECT_EQ(edited("--mirror-phrase 2 6"), "- 3.0 1.0 - - ");
+  EXPECT_EQ(edited("--stretch 2 6 1.5"), "- 3.0 1.0 - - - ");
+  EXPECT_EQ(edited("--key dab --at 2 --hit 0"), "- 0.0 3.0 1.0 - - ");
+  EXPECT_EQ(edited("--remove c"), "- 3.0 ");
+  EXPECT_EQ(edited("--move b 2.5 --hit 2"), "- 2.0 1.0 - - ");
+  EXPECT_EQ(edited("--move b 2.5"), "- 3.0 1.0 - - ");
+
+  // They are danced so, and so is the key after the edit.
+  const std::string moved = ReadFile(folder_ / "new.npz");
+  edited("--move b 2.5 --hit 3");
+  EXPECT_EQ(ReadFile(folder_ / "new.npz"), moved);
+  nlohmann::json report = ReadJson(folder_ / "report.json");
+  const auto differs_without = [&](size_t key, const std::string& edit) {
+    edited(edit);
+    const std::string with = ReadFile(folder_ / "new.npz");
+    nlohmann::json without = report;
+    without["keyframes"][key].erase("hit");
+    std::ofstream(folder_ / "report.json") << without.dump();
+    edited(edit);
+    std::ofstream(folder_ / "report.json") << report.dump();
+    return ReadFile(folder_ / "new.npz") != with;
+  };
+  EXPECT_TRUE(differs_without(1, "--move b 2.5"));
+  EXPECT_TRUE(differs_without(1, "--key dab --at 2"));
+  EXPECT_TRUE(differs_without(1, "--remove a"));
+  report["keyframes"][1]["hit"] = 4;
+  std::ofstream(folder_ / "report.json") << report.dump();
+  const Outcome wrong = Edit("--remove b --report " + At("report.json") + " -o " + At("new.npz"));
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_THAT(wrong.said, HasSubstr("report.json:keyframes[1].hit: 4 is not a number from 0"));
+}
+
 TEST_F(EditTest, LoopKeepsAHeldEnd) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},
