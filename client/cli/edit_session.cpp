@@ -148,8 +148,8 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
   // Removes keys that are there or too near.
   const int64_t last = LastFrame(phrase.back());
-  keys_.erase(keys_.lower_bound(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1)),
-              keys_.lower_bound(std::max(Frame(moved(until_s)), last + kMinKeyDistance)));
+  ClearWay(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1),
+           std::max(Frame(moved(until_s)), last + kMinKeyDistance), {}, "repeated keys");
   for (client::KeyEdit& edit : phrase) {
     carry(edit.key.pose);
     for (client::KeyPose& held : edit.held) carry(held.pose);
@@ -206,6 +206,7 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
     return Frame(authoring::Stretched(Seconds(frame), from_s, times, counts_.beats));
   };
   std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
+  const std::vector<client::KeyEdit> unstretched = phrase;
   const size_t count = phrase.size();
   const int64_t first = *phrase.front().key.frame;
   int64_t before = -kMinKeyDistance;
@@ -231,11 +232,9 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
               << " keys would come behind the dance, and are left out\n";
   }
   const int64_t last = LastFrame(phrase.back());
-  keys_.erase(
-      keys_.lower_bound(stays ? first + 1
-                              : std::min(first, *phrase.front().key.frame - kMinKeyDistance + 1)),
-      keys_.lower_bound(
-          std::max({Frame(until_s), stretched(Frame(until_s)), last + int64_t{kMinKeyDistance}})));
+  ClearWay(stays ? first + 1 : std::min(first, *phrase.front().key.frame - kMinKeyDistance + 1),
+           std::max({Frame(until_s), stretched(Frame(until_s)), last + int64_t{kMinKeyDistance}}),
+           unstretched, "stretched keys");
   SetAll("--stretch", std::span(phrase).subspan(size_t{stays}));
 }
 
@@ -263,11 +262,32 @@ void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
       ++key;
       continue;
     }
-    std::cerr << "note: key \"" << IdAt(key->first) << "\" at " << Rounded(Seconds(key->first))
-              << " s makes way for \"" << id << "\": it is less than "
-              << Rounded(authoring::kTooNear) << " s away\n";
+    NoteWay(key->first,
+            '"' + id + "\": it is less than " + Rounded(authoring::kTooNear) + " s away");
     key = keys_.erase(key);
   }
+}
+
+void EditSession::ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,
+                           const std::string& what) {
+  std::set<int64_t> leave;
+  for (const client::KeyEdit& edit : moved) {
+    leave.insert(*edit.key.frame);
+    for (const client::KeyPose& held : edit.held) leave.insert(*held.frame);
+  }
+  const auto begin = keys_.lower_bound(first);
+  const auto stop = keys_.lower_bound(end);
+  for (auto key = begin; key != stop; ++key) {
+    if (leave.contains(key->first)) continue;
+    // One line tells of a whole held pose.
+    if (key == begin || !HoldsAnother(key->second)) NoteWay(key->first, what);
+  }
+  keys_.erase(begin, stop);
+}
+
+void EditSession::NoteWay(int64_t frame, const std::string& what) const {
+  std::cerr << "note: key \"" << IdAt(frame) << "\" at " << Rounded(Seconds(frame))
+            << " s makes way for " << what << '\n';
 }
 
 void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {

@@ -63,6 +63,10 @@ class EditSession {
   /// Removes keys of the dance from which nobody gets to a new key, held from `first` to `last`, in
   /// time, and says so.
   void MakeWay(int64_t first, int64_t last, const std::string& id);
+  /// Removes the dance's keys in [first, end) for others, and names those that are not `moved`.
+  void ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,
+                const std::string& what);
+  void NoteWay(int64_t frame, const std::string& what) const;
   /// The frame of this second; throws if it is after the dance.
   int64_t FrameInDance(const char* field, double at_s) const;
   int64_t Around() const;

@@ -119,6 +119,28 @@ TEST_F(EditTest, KeysTooNearANewOneMakeWayAndAreNamed) {
   EXPECT_THAT(ids, testing::IsSupersetOf({"kick", "dab"})) << "new keys keep each other";
 }
 
+TEST_F(EditTest, KeysInTheWayOfAPhraseAreNamed) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},
+                           {"id": "b", "time": 2, "pose": "kick", "place": [0, 0]},
+                           {"id": "c", "time": 3, "pose": "bow", "place": [0, 0], "hold": 0.4},
+                           {"id": "d", "time": 6, "pose": "dab", "place": [0, 0]}]})";
+  Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("dance.npz") +
+                           " --report " + At("report.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const std::string report = " --report " + At("report.json") + " -o " + At("new.npz");
+  outcome = Edit("--repeat 0.5 2.5 2" + report);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("note: key \"c\" at 3 s makes way for repeated keys\n"));
+  EXPECT_THAT(outcome.said,
+              Not(testing::ContainsRegex("\"[abd]\" at . s makes way|3\\.. s makes")));
+  outcome = Edit("--stretch 0.5 2.5 2" + report);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("note: key \"c\" at 3 s makes way for stretched keys\n"));
+  EXPECT_THAT(outcome.said,
+              Not(testing::ContainsRegex("\"[abd]\" at . s makes way|3\\.. s makes")));
+}
+
 TEST_F(EditTest, AnotherDancesReportIsRefused) {
   nlohmann::json report = ReadJson(folder_ / "report.json");
   report["frames"] = report["frames"].get<int>() + 30;
