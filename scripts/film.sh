@@ -17,7 +17,7 @@ dance() {
 }
 # picture NAME WIDTHxHEIGHT: a dance without sound.
 picture() {
-  "$choreo" render "$scratch/$1.npz" --report "$scratch/$1.json" --video "$scratch/$1.mp4" --size "$2"
+  "$choreo" render "$scratch/$1.npz" --report "$scratch/$1.json" --song none --video "$scratch/$1.mp4" --size "$2"
 }
 # scene NUMBER CAPTION PICTURES...: one or more dances side by side, 640 x 360.
 scene() {

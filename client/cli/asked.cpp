@@ -1,5 +1,7 @@
 #include "client/cli/asked.h"
 
+#include <iostream>
+
 #include "client/authoring/json_fields.h"
 #include "model/core/error.h"
 
@@ -20,6 +22,16 @@ void VisitMembers(Report& report, AskedFor& asked, const Visit& visit) {
   visit(report, "song_start", asked.song_start_s);
   visit(report, "music_beats", asked.beats);
   visit(report, "music_downbeats", asked.downbeats);
+}
+
+/// The song that a report names, from here or from its own folder; empty if it is not there.
+std::string FindSong(const std::string& song, const std::filesystem::path& report) {
+  for (const std::filesystem::path& path :
+       {std::filesystem::path(song), report.parent_path() / song}) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) return path.string();
+  }
+  return "";
 }
 
 struct MemberWriter {
@@ -62,6 +74,28 @@ Asked Asked::ReadFrom(const ordered_json& report, const std::string& name) {
   Asked asked;
   VisitMembers(report, asked, MemberReader{name});
   return asked;
+}
+
+bool Asked::TakeSong(const std::filesystem::path& report, bool says_start,
+                     const std::string& without, std::string* to, double* start_s) const {
+  if (*to == kNoSong) {
+    to->clear();
+    return false;
+  }
+  if (song.empty()) return false;
+  const bool takes = to->empty();
+  if (takes) {
+    *to = FindSong(song, report);
+    if (to->empty()) {
+      std::cerr << "note: " << song << ", the song of " << report.string()
+                << ", is not there; without --song " << without << '\n';
+      return false;
+    }
+  } else if (std::filesystem::path(*to).filename() != std::filesystem::path(song).filename()) {
+    return false;
+  }
+  if (!says_start) *start_s = song_start_s;
+  return takes;
 }
 
 Asked Asked::From(double seconds) const {

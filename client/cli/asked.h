@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace choreo::cli {
+
+/// As --song: no music, not that of the report either.
+inline constexpr const char* kNoSong = "none";
 
 /// What a dance was asked for beside its keys and controls. Its report says so, for later edits.
 struct Asked {
@@ -24,6 +28,13 @@ struct Asked {
   /// From the report called `name`; reports of earlier versions say less. Throws
   /// Error(kInvalidArgument) whose field is NAME:MEMBER.
   static Asked ReadFrom(const nlohmann::ordered_json& report, const std::string& name);
+
+  /// Fills in the song of a command from this, of the report called `report`, unless the command
+  /// line names one; and its start for this song, unless it says that. Looks for the file here and
+  /// beside the report. `without`: what comes of a song that is not there, which a note says.
+  /// Returns whether it filled in a song.
+  bool TakeSong(const std::filesystem::path& report, bool says_start, const std::string& without,
+                std::string* to, double* start_s) const;
 
   /// For the part of the dance from this second on.
   Asked From(double seconds) const;

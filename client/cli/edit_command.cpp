@@ -289,7 +289,7 @@ void AddEditCommand(CLI::App& program) {
       ->add_option("--song", options->song,
                    "Music that the dance was made to. Default: the song that --report names; none: "
                    "new frames follow no music.")
-      ->check(CLI::ExistingFile | CLI::IsMember({"none"}));
+      ->check(CLI::ExistingFile | CLI::IsMember({kNoSong}));
   AddSongStart(*command, options->song_start_s);
   AddBeatOptions(*command, &options->beats);
   command

@@ -17,8 +17,6 @@
 namespace choreo::cli {
 namespace {
 
-constexpr const char* kNoSong = "none";
-
 std::optional<authoring::Music> ReadSong(const EditOptions& options, double end_s) {
   authoring::RequireSong(options.beats, options.song);
   if (options.song.empty()) return std::nullopt;
@@ -33,37 +31,12 @@ authoring::Counts CountsOf(const EditOptions& options,
   return authoring::CountsOf(*music);
 }
 
-/// The song that a report names, from here or from its own folder; empty if it is not there.
-std::string FindSong(const std::string& song, const std::filesystem::path& report) {
-  for (const std::filesystem::path& path :
-       {std::filesystem::path(song), report.parent_path() / song}) {
-    std::error_code error;
-    if (std::filesystem::is_regular_file(path, error)) return path.string();
-  }
-  return "";
-}
-
 /// Whether a dance of so many frames at `fps` has as many at the file's rate as the file: its last
 /// ones may be missing, as they are after the file's last frame.
 bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, double fps) {
   if (!authoring::IsFrameNumber(frames)) return false;
   const double after_s = (frames.get<double>() - 1) / fps - Duration(file);
   return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
-}
-
-/// Takes the song that the report names, unless another one is asked for; returns whether it does.
-bool TakeSong(EditOptions* options) {
-  const std::string& named = options->asked.song;
-  const auto file_of = [](const std::string& song) {
-    return std::filesystem::path(song).filename();
-  };
-  if (!options->song.empty()) return !named.empty() && file_of(options->song) == file_of(named);
-  if (named.empty()) return false;
-  options->song = FindSong(named, options->report);
-  if (!options->song.empty()) return true;
-  std::cerr << "note: " << named << ", the song of " << options->report
-            << ", is not there; without --song new frames do not follow the music\n";
-  return false;
 }
 
 }  // namespace
@@ -80,12 +53,10 @@ void TakeReport(bool says_start, EditOptions* options) {
   Asked& asked = options->asked;
   if (!options->report.empty())
     asked = Asked::ReadFrom(ReadReport(options->report), options->report);
-  const bool had_song = !options->song.empty();
-  if (options->song != kNoSong && TakeSong(options)) {
-    if (!had_song) taken.push_back("song " + options->song);
-    if (!says_start) options->song_start_s = asked.song_start_s;
+  if (asked.TakeSong(options->report, says_start, "new frames do not follow the music",
+                     &options->song, &options->song_start_s)) {
+    taken.push_back("song " + options->song);
   }
-  if (options->song == kNoSong) options->song.clear();
   if (options->beats != authoring::BeatOptions() || options->song.empty() || says_start)
     asked.beats.clear();
   take("model", asked.model, &options->model, asked.model);

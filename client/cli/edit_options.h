@@ -80,8 +80,9 @@ struct KnownDance {
   std::vector<client::Warning> warnings = {};
   Asked asked = {};
 };
-/// Reads them from a report, for a dance of this many frames of a model at this rate, in a file that
-/// may have another rate. Throws Error(kInvalidArgument) whose field begins with the report's name.
+/// Reads them from a report, for a dance of this many frames of a model at this rate, in a file
+/// that may have another rate. Throws Error(kInvalidArgument) whose field begins with the report's
+/// name.
 KnownDance ReadKnown(const std::string& report, int64_t frames, double fps, const Motion& file);
 /// Writes them as a report, for the next edit.
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,

@@ -1,11 +1,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/authoring/motion_input.h"
 #include "client/authoring/music.h"
+#include "client/cli/asked.h"
 #include "client/cli/commands.h"
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
@@ -14,6 +16,7 @@
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/core/progress.h"
+#include "model/core/rounded.h"
 #include "model/draw/contact_sheet.h"
 #include "model/draw/video.h"
 #include "model/formats/motion_file.h"
@@ -32,6 +35,7 @@ struct RenderOptions {
   std::string report;
   ContactSheetOptions sheet;
   std::string video;
+  std::string song;  ///< "none": not that of the report
   std::string size = SizeText({});
   VideoOptions film;
 };
@@ -43,6 +47,22 @@ std::vector<double> KeyTimes(const std::string& path) {
   for (const auto& key : report["keyframes"])
     times.push_back(key.at("frame").get<double>() / report["fps"].get<double>());
   return times;
+}
+
+/// Fills in the song and its start from the report, and says so. `says_start`: whether the command
+/// line says where the song starts.
+void TakeSong(bool says_start, RenderOptions* options) {
+  const Asked asked = options->report.empty()
+                          ? Asked()
+                          : Asked::ReadFrom(ReadReport(options->report), options->report);
+  double& start_s = options->film.format.song_start_s;
+  const double said_s = start_s;
+  const bool takes =
+      asked.TakeSong(options->report, says_start, "the film is silent", &options->song, &start_s);
+  if (takes || start_s != said_s) {
+    std::cerr << "note: as " << options->report << " says: song " << options->song << " from "
+              << InFull(start_s) << " s\n";
+  }
 }
 
 /// All motions at the first one's rate.
@@ -72,6 +92,7 @@ void DrawSheet(const RenderOptions& options, const Stage& stage, const std::vect
 
 void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<double> keys) {
   VideoOptions film = options.film;
+  film.format.song = options.song;
   film.keys = std::move(keys);
   char end = 0;
   if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &film.format.width, &film.format.height,
@@ -94,13 +115,12 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<doub
 void Run(const RenderOptions& options) {
   if (options.out.empty() && options.video.empty())
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
-  if (options.video.empty() && !options.film.format.song.empty())
+  if (options.video.empty() && !options.song.empty())
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
   if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
   if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
   const Interruption interruption;  // from here on there may be an incomplete file to remove
-  std::vector<NamedFile> inputs = {{"--report", options.report},
-                                   {"--song", options.film.format.song}};
+  std::vector<NamedFile> inputs = {{"--report", options.report}, {"--song", options.song}};
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   RequireOutputs({{"--out", options.out}, {"--video", options.video}}, inputs);
   const Stage stage = ReadStage(options.motions);
@@ -127,7 +147,7 @@ void AddRenderCommand(CLI::App& program) {
   command->add_option("-o,--out", options->out, "Contact sheet to write, a PNG file.");
   command
       ->add_option("--report", options->report,
-                   "Report of the dance: its key poses are highlighted.")
+                   "Report of the dance: its key poses are highlighted, and its song is heard.")
       ->check(CLI::ExistingFile);
   command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
       ->check(WholeNumberFrom(1, kMaxSheetFrames))
@@ -139,9 +159,10 @@ void AddRenderCommand(CLI::App& program) {
   CLI::Option* video = command->add_option(
       "--video", options->video, "Video to write, an MP4 file; the program ffmpeg makes it.");
   command
-      ->add_option("--song", options->film.format.song,
-                   "The video's music: begins with the first frame, ends with the last.")
-      ->check(CLI::ExistingFile);
+      ->add_option("--song", options->song,
+                   "The video's music: begins with the first frame, ends with the last. Default: "
+                   "the song that --report names, where its dance begins; none: silence.")
+      ->check(CLI::ExistingFile | CLI::IsMember({kNoSong}));
   AddSongStart(*command, options->film.format.song_start_s);
   command->add_option("--fps", options->film.format.fps, "Frames a second of the video.")
       ->needs(video)
@@ -151,7 +172,8 @@ void AddRenderCommand(CLI::App& program) {
       ->needs(video)
       ->capture_default_str();
   command->callback([options, command] {
-    CheckSongStart(*command, options->film.format.song.string());
+    if (!options->video.empty()) TakeSong(command->count("--song-start") > 0, options.get());
+    CheckSongStart(*command, options->song);
     Run(*options);
   });
 }

@@ -232,6 +232,45 @@ TEST_F(CommandTest, RendersAVideoWithItsSong) {
   EXPECT_THAT(said, HasSubstr("stream,aac"));
 }
 
+TEST_F(CommandTest, RendersAVideoWithTheSongOfItsReport) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
+  WriteClicks(folder_ / "song.wav", 4);
+  WriteMotion(folder_ / "a.npz", Body(),
+              {.fps = 30, .frames = std::vector<Pose>(31, RestPose(Body()))});
+  std::ofstream(folder_ / "r.json")
+      << R"({"fps": 30, "keyframes": [], "song": "song.wav", "song_start": 1.3})";
+  // What the film says and its sound.
+  const auto film = [&](const std::string& options) {
+    const Outcome outcome = Choreo("render " + At("a.npz") + " --fps 15 --size 64x48 --video " +
+                                   At("a.mp4") + " " + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    const Outcome sound = Shell("ffmpeg -v error -i " + At("a.mp4") + " -map 0:a -f md5 -");
+    return std::pair(outcome.said, sound.code == 0 ? sound.said : "silence");
+  };
+  const std::string report = "--report " + At("r.json");
+  const std::string song = " --song " + At("song.wav");
+  const auto [said, later] = film(song + " --song-start 1.3");
+  const auto [plain, whole] = film(song);
+  EXPECT_NE(later, whole);
+  EXPECT_THAT(plain, testing::Not(HasSubstr("note:")));
+
+  const auto [noted, heard] = film(report);
+  EXPECT_EQ(heard, later);
+  EXPECT_THAT(noted, HasSubstr("note: as " + (folder_ / "r.json").string() + " says: song " +
+                               (folder_ / "song.wav").string() + " from 1.3 s\n"));
+  const auto [named, with_song] = film(report + song);
+  EXPECT_EQ(with_song, later);
+  EXPECT_THAT(named, HasSubstr(" from 1.3 s\n"));
+  EXPECT_EQ(film(report + song + " --song-start 0").second, whole);
+  EXPECT_EQ(film(report + " --song none").second, "silence");
+  std::filesystem::rename(folder_ / "song.wav", folder_ / "other.wav");
+  EXPECT_EQ(film(report + " --song " + At("other.wav")).second, whole) << "another song";
+  const auto [absent, silent] = film(report);
+  EXPECT_EQ(silent, "silence");
+  EXPECT_THAT(absent, HasSubstr("is not there; without --song the film is silent"));
+}
+
 TEST_F(CommandTest, DescribesTheServerAndItsPoses) {
   const nlohmann::json info = nlohmann::json::parse(Choreo("info --json" + Server()).said);
   EXPECT_EQ(info["models"][0]["name"], "fake");
