@@ -80,8 +80,10 @@ void CheckFirstKey(const EditOptions& options) {
   if (!removes && options.moves.empty()) return;
   const auto report = ReadReport(options.report);
   const ReportKeys keys = KeysOf(report, std::numeric_limits<int64_t>::max(), options.report);
-  FindKey(keys, removes ? options.removed.front() : options.moves.front().first,
-          report["fps"].get<double>(), removes ? "--remove" : "--move");
+  const std::string& id = removes ? options.removed.front() : options.moves.front().first;
+  // Only with the song's counts it is known which key ID@COUNT is.
+  if (!options.song.empty() && id.find('@') != std::string::npos) return;
+  FindKey(keys, id, report["fps"].get<double>(), removes ? "--remove" : "--move", {});
 }
 
 /// A project is edited for its markers alone: dances are edited where they are danced.
@@ -206,11 +208,12 @@ void AddEditCommand(CLI::App& program) {
       ->add_option(
           "--move", options->moves,
           "ID TIME: a key of --report, with what holds it, and the second or count where it "
-          "is to stand, as it is danced now. May be given more than once.")
+          "is to stand, as it is danced now. May be given more than once. Of several keys of one "
+          "name: ID@TIME, the nearest.")
       ->allow_extra_args(false);
   AddRepeated(*command, "--remove", options->removed,
               "ID: a key of --report to dance on without. May be given more than once. Of several "
-              "keys of one name: ID@SECOND.");
+              "keys of one name: ID@TIME, the nearest.");
   command
       ->add_option(
           "--mark", options->marks,

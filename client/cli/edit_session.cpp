@@ -88,7 +88,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
 }
 
 void EditSession::RemoveKey(const std::string& id) {
-  const std::vector<int64_t> frames = FindKey(keys_, id, edit_.model.fps, "--remove");
+  const std::vector<int64_t> frames = FindKey(keys_, id, edit_.model.fps, "--remove", counts_);
   if (frames.front() == 0) {
     throw InvalidArgument("--remove", "\"" + IdAt(0) +
                                           "\" is the first frame, where the dance begins; set "
@@ -98,7 +98,7 @@ void EditSession::RemoveKey(const std::string& id) {
 }
 
 void EditSession::MoveKey(const std::string& id, double to_s) {
-  const std::vector<int64_t> frames = FindKey(keys_, id, edit_.model.fps, "--move");
+  const std::vector<int64_t> frames = FindKey(keys_, id, edit_.model.fps, "--move", counts_);
   const int64_t by = FrameInDance("--move", to_s) - frames.front();
   if (frames.front() == 0 && by != 0) {
     throw InvalidArgument("--move", "\"" + IdAt(0) +

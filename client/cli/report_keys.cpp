@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "client/authoring/key_file.h"
 #include "model/core/error.h"
 #include "model/core/rounded.h"
 
@@ -15,6 +16,29 @@ constexpr const char* kHit = "hit";
 constexpr const char* kHands = "hands";
 
 std::string IdOf(const nlohmann::ordered_json& key) { return key["id"].get<std::string>(); }
+
+/// The key that ID@TIME means; the end if there is none.
+ReportKeys::const_iterator Nearest(const ReportKeys& keys, const std::string& id, double fps,
+                                   const std::string& field, const authoring::Counts& counts) {
+  const size_t at = id.rfind('@');
+  const auto is_meant = [&](const auto& key) {
+    return !HoldsAnother(key.second) && IdOf(key.second) == id.substr(0, at);
+  };
+  if (at == std::string::npos || std::ranges::none_of(keys, is_meant)) return keys.end();
+  const authoring::WrittenTime time = authoring::ParseTime(id.substr(at + 1), field);
+  const double second = time.In(counts, field);
+  double near = authoring::kTooNear;
+  if (time.counts)
+    near = authoring::WrittenTime{0.5, true}.After(second, counts.beats, field) - second;
+  auto nearest = keys.end();
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    const double off = std::abs(static_cast<double>(key->first) / fps - second);
+    if (!is_meant(*key) || off > near) continue;
+    near = off;
+    nearest = key;
+  }
+  return nearest;
+}
 
 }  // namespace
 
@@ -41,7 +65,7 @@ ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const st
 }
 
 std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,
-                             const std::string& field) {
+                             const std::string& field, const authoring::Counts& counts) {
   const auto second = [&](int64_t frame) { return Rounded(static_cast<double>(frame) / fps); };
   std::string known, seconds;
   std::vector<ReportKeys::const_iterator> found;
@@ -55,6 +79,10 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
     found.push_back(key);
     seconds += (seconds.empty() ? "" : ", ") + second(key->first);
     if (is_one) break;
+  }
+  if (found.empty()) {
+    if (const auto nearest = Nearest(keys, id, fps, field, counts); nearest != keys.end())
+      found.push_back(nearest);
   }
   if (found.empty()) {
     throw InvalidArgument(

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/counts.h"
 #include "model/fit/finger_bones.h"
 
 namespace choreo::cli {
@@ -20,10 +21,12 @@ using ReportKeys = std::map<int64_t, nlohmann::ordered_json>;
 ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const std::string& name,
                   int64_t missing = 0);
 
-/// Frames of the key called `id`, or ID@SECOND if several are, and of those after it that hold its
-/// pose, in order. Throws Error(kInvalidArgument) with this field unless there is exactly one.
+/// Frames of the key called `id`, or ID@TIME if several are, and of those after it that hold its
+/// pose, in order. Of ID@TIME it is the nearest, at most half a count or kTooNear (key_file.h)
+/// away. Throws Error(kInvalidArgument) with this field unless there is exactly one, and for a TIME
+/// in counts that these do not have.
 std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,
-                             const std::string& field);
+                             const std::string& field, const authoring::Counts& counts);
 
 /// Whether a key only holds another one's pose.
 bool HoldsAnother(const nlohmann::ordered_json& key);

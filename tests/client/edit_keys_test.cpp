@@ -202,6 +202,42 @@ TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   EXPECT_THAT(outcome.said, HasSubstr("--move: needs --report"));
 }
 
+TEST_F(EditTest, OneOfSeveralKeysOfANameIsTheNearest) {
+  nlohmann::json report = ReadJson(folder_ / "report.json");
+  for (auto& key : report["keyframes"]) key["id"] = "same";
+  std::ofstream(folder_ / "report.json") << report.dump();
+  const double one =
+      nlohmann::json::parse(Choreo("analyze --json " + At("song.wav")).said)["downbeats"][0];
+  // Counts are half a second long.
+  const auto count = [&](double second) { return std::to_string(1 + (second - one) * 2) + "c"; };
+  const auto remove = [&](const std::string& time) {
+    return Edit("--remove same@" + time + " --report " + At("report.json") + " --new-report " +
+                At("new.json") + " -o " + At("new.npz"));
+  };
+  const double second = static_cast<double>(keys_[2]) / 30;
+  for (const std::string& time : {Seconds(keys_[2]), std::to_string(second + 0.12),
+                                  std::to_string(second - 0.12), count(second + 0.2)}) {
+    SCOPED_TRACE(time);
+    const Outcome outcome = remove(time);
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    std::vector<size_t> left;
+    for (const nlohmann::json edited = ReadJson(folder_ / "new.json");
+         const auto& key : edited["keyframes"]) {
+      left.push_back(key["frame"]);
+    }
+    std::vector<size_t> expected = keys_;
+    expected.erase(expected.begin() + 2);
+    EXPECT_EQ(left, expected);
+  }
+  for (const std::string& time : {std::to_string(second + 0.24), count(second + 0.3)}) {
+    const Outcome outcome = remove(time);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"same@" + time));
+  }
+  EXPECT_THAT(remove("soon").said, HasSubstr("--remove: "));
+  EXPECT_THAT(remove("9c --song none").said, HasSubstr("counts need music"));
+}
+
 TEST_F(EditTest, KeysSayWhatHandsDo) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0], "hands": "open"},
