@@ -1,4 +1,4 @@
-// client/node: requests that the API does not know are refused by field, value and what is allowed. $CHOREO_SERVER names a choreod.
+// client/node: requests and options that are not known are refused by field, value and what is allowed. $CHOREO_SERVER names a choreod.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
@@ -64,6 +64,38 @@ test('a request that the API does not know is refused by its path', () =>
     const ranked = collect(client.generateTransition({ config: {}, frames: 9, rank_by: 'LIKELIHOOD' }));
     await assert.rejects(ranked, { message: "rank_by: 'LIKELIHOOD' is no RankBy; did you mean RANK_BY_LIKELIHOOD?" });
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
+  }));
+
+test('options of calls that cannot be used are named before the call', () =>
+  withClient(async (client) => {
+    const calls = [
+      (options) => client.info(options),
+      (options) => collect(client.streamDance([{ config: { frames: 9 } }], options)),
+      (options) => collect(client.generateTransition({ config: {}, frames: 9 }, options)),
+    ];
+    for (const [options, message] of [
+      [{ deadline: new Date('nonsense') }, 'deadline: Invalid Date is no date'],
+      [{ deadline: NaN }, 'deadline: NaN is no date'],
+      [{ deadline: 'soon' }, "deadline: 'soon' is no date"],
+      [{ deadline: new Date(8.64e15) }, 'deadline: +275760-09-13T00:00:00.000Z is no date within 10 000 years'],
+      [{ deadline: 500 }, 'deadline: 500 is no date of today; numbers are milliseconds since 1970, as Date.now() + 500'],
+      [{ deadlin: new Date() }, 'deadlin: no option of this call; did you mean deadline?'],
+      [{ timeout: 3 }, /^timeout: no option of this call; there are signal, deadline/],
+      [{ signal: 5 }, 'signal: 5 is no AbortSignal'],
+      ['x', /^options: 'x' is no object {signal, deadline/],
+      [null, /^options: null is no object {signal, deadline/],
+    ]) {
+      for (const call of calls) await assert.rejects(call(options), { name: 'ChoreoError', code: 'INVALID_ARGUMENT', message });
+    }
+    const [info, dance] = calls;
+    await assert.rejects(dance({ on_resume: () => {} }), { message: 'on_resume: no option of this call; did you mean onResume?' });
+    await assert.rejects(dance({ onResume: 5 }), { message: 'onResume: 5 is no function' });
+    await assert.rejects(info({ onResume: () => {} }), { message: /^onResume: no option of this call; there are signal, deadline$/ });
+    const soon = Date.now() + 60000;
+    for (const deadline of [new Date(soon), soon, Infinity, undefined, null]) {
+      for (const call of calls) await call({ deadline, signal: new AbortController().signal });
+    }
+    for (const call of calls) await assert.rejects(call({ deadline: new Date(0) }), { code: 'DEADLINE_EXCEEDED' });
   }));
 
 test('whole numbers come as numbers, text and bigints', () =>

@@ -1,4 +1,5 @@
 import { answerOf } from './answers.js';
+import { checkCall } from './call_options.js';
 import { dance } from './dance.js';
 import { Replicas } from './replicas.js';
 import { transition } from './transition.js';
@@ -15,8 +16,9 @@ export class ChoreoClient {
     this.#replicas.close();
   }
 
-  async info(options = {}) {
+  async info(given) {
     const replicas = this.#replicas;
+    const options = checkCall(given);
     const { deadline } = options;
     async function* attempt({ stub }, patience, signal) {
       yield await answerOf((callback) => stub.GetServerInfo({}, replicas.metadata(), { deadline }, callback), signal);

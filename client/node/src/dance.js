@@ -1,13 +1,15 @@
 // A dance that outlives its server: it goes on at another one from the last continuation, and the caller reads what it would have read.
 import grpc from '@grpc/grpc-js';
 import { answersOf } from './answers.js';
+import { checkCall } from './call_options.js';
 import { ChoreoError, unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { Journal } from './journal.js';
 import { DeliveryFilter } from './delivery_filter.js';
 
 /** The answers of StreamDance to `requests`. */
-export async function* dance(replicas, requests, options = {}) {
+export async function* dance(replicas, requests, given) {
+  const options = checkCall(given, ['signal', 'deadline', 'onResume']);
   const { deadline, onResume } = options;
   const journal = new Journal(requests);
   const progress = new Progress(journal, onResume);

@@ -36,8 +36,8 @@ export interface ClientOptions {
 export interface CallOptions {
   /** Ends the call, here and on the server. */
   signal?: AbortSignal;
-  /** When the call must be over, all its attempts together. */
-  deadline?: Date;
+  /** When the call must be over, all its attempts together: a date, or milliseconds since 1970. */
+  deadline?: Date | number;
 }
 
 /** A dance went on at another server. */

@@ -1,0 +1,37 @@
+// The options of one call, checked: gRPC throws what it cannot use of them from a timer, where no caller can catch it.
+import { invalid } from './error.js';
+import { hint, quoted } from './words.js';
+
+const mostAhead = 1e8 * 3600e3; // milliseconds: gRPC says deadlines as hours of 8 digits
+const firstOfOurs = Date.UTC(2000); // an earlier number was meant as milliseconds from now
+
+const checks = {
+  signal: (value) => {
+    if (typeof value.addEventListener !== 'function' || typeof value.aborted !== 'boolean') throw invalid('signal', `${quoted(value)} is no AbortSignal`);
+  },
+  deadline: (value) => {
+    const time = value instanceof Date ? value.getTime() : value;
+    if (typeof time !== 'number' || Number.isNaN(time)) throw invalid('deadline', `${quoted(value)} is no date`);
+    if (time === Infinity) return;
+    if (time - Date.now() >= mostAhead) throw invalid('deadline', `${quoted(value)} is no date within 10 000 years`);
+    if (typeof value === 'number' && time < firstOfOurs) {
+      throw invalid('deadline', `${value} is no date of today; numbers are milliseconds since 1970, as Date.now() + 500`);
+    }
+  },
+  onResume: (value) => {
+    if (typeof value !== 'function') throw invalid('onResume', `${quoted(value)} is no function`);
+  },
+};
+
+/** Those of `given` that are set. Throws ChoreoError, naming the option, for those that are none of `names`, or cannot be used. */
+export function checkCall(given = {}, names = ['signal', 'deadline']) {
+  if (typeof given !== 'object' || given === null) throw invalid('options', `${quoted(given)} is no object {${names.join(', ')}}`);
+  const options = {};
+  for (const [name, value] of Object.entries(given)) {
+    if (!names.includes(name)) throw invalid(name, `no option of this call; ${hint(name, names)}`);
+    if (value === undefined || value === null) continue;
+    checks[name](value);
+    options[name] = value;
+  }
+  return options;
+}
