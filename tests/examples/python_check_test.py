@@ -3,6 +3,7 @@ what they take. python_test.py runs it; $CHOREO_SERVER names a choreod."""
 
 import array
 import asyncio
+import functools
 import inspect
 import os
 import pathlib
@@ -121,7 +122,11 @@ class CheckTest(unittest.TestCase):
             self.assert_refused("the client is closed$", call, code="CANCELLED")
 
     def test_a_timeout_and_addresses_that_cannot_be_are_refused(self):
-        self.assert_refused("timeout: 'soon' is no number of seconds$", self.client.info, "soon")
+        for timeout in ("soon", float("nan")):
+            for call in (self.client.info, functools.partial(self.client.stream_dance, [CONFIG], None)):
+                self.assert_refused("timeout: .* is no number of seconds$", call, timeout)
+        for timeout in (1e30, float("inf")):
+            self.assertTrue(self.client.info(timeout).models)
         self.assert_refused("addresses: None is neither HOST:PORT nor", Client, None)
 
     def test_the_page_s_program_for_asyncio_dances_and_can_be_cancelled(self):

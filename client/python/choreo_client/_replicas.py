@@ -1,5 +1,6 @@
 """The servers that may be asked, one at a time, and how long to go on asking."""
 
+import math
 import numbers
 import random
 import threading
@@ -99,9 +100,10 @@ class Cancellation:
     """Ends a call, from any thread, whichever attempt it is at; and when it has to be over by itself."""
 
     def __init__(self, timeout=None):
-        if timeout is not None and not isinstance(timeout, numbers.Real):
+        if timeout is not None and (not isinstance(timeout, numbers.Real) or math.isnan(timeout)):
             raise invalid("timeout", f"{quoted(timeout)} is no number of seconds")
-        self.deadline = None if timeout is None else time.monotonic() + timeout
+        for_ever = timeout is None or timeout > threading.TIMEOUT_MAX  # which gRPC would take for the past
+        self.deadline = None if for_ever else time.monotonic() + timeout
         self._asked = threading.Event()
         self._lock = threading.Lock()
         self._call = None
