@@ -3,6 +3,7 @@ what they take. python_test.py runs it; $CHOREO_SERVER names a choreod."""
 
 import array
 import asyncio
+import concurrent.futures
 import functools
 import inspect
 import os
@@ -14,7 +15,7 @@ import time
 import typing
 import unittest
 
-from choreo_client import Answers, ChoreoError, Client, choreography, pose
+from choreo_client import Answers, ChoreoError, Client, aio, choreography, pose
 
 SKELETON = choreography.Skeleton(name="two", joint_names=["pelvis", "left_shoulder"], pelvis_height=1)
 CONFIG = {"config": {"frames": 30}}
@@ -157,8 +158,52 @@ class CheckTest(unittest.TestCase):
         while self.client.info().active_streams > 0:
             time.sleep(0.005)
 
+    def test_dances_that_wait_for_asyncio_leave_the_loop_to_others(self):
+        async def dances():
+            loop = asyncio.get_running_loop()
+            loop.set_default_executor(concurrent.futures.ThreadPoolExecutor(2))
+            waiting = [queue.SimpleQueue() for _ in range(12)]
+
+            async def frames(requests):
+                return sum([answer.frames.count async for answer in aio.stream(self.client.stream_dance(requests))])
+
+            def source(requests):
+                yield {"config": {"frames": 30, "generate_until": 0}}
+                requests.get()
+                yield {"keyframes_complete": {}}
+
+            others = [asyncio.create_task(frames(source(requests))) for requests in waiting]
+            while (await loop.run_in_executor(None, self.client.info)).active_streams < len(others):
+                await asyncio.sleep(0.005)
+            self.assertEqual(await frames([CONFIG]), 30)
+            for requests in waiting:
+                requests.put(None)
+            self.assertEqual(await asyncio.gather(*others), [30] * len(others))
+
+        asyncio.run(asyncio.wait_for(dances(), 60))
+
+    def test_asyncio_hears_of_errors_and_ends_what_nobody_reads(self):
+        async def refused():
+            return [answer async for answer in aio.stream(self.client.stream_dance([{"config": {"frames": -1}}]))]
+
+        async def leave():
+            async for answer in aio.stream(self.client.stream_dance(source())):
+                if answer.HasField("frames"):
+                    break
+
+        def source():
+            yield {"config": {"generate_until": 30}}
+            over.wait()
+
+        over = threading.Event()
+        self.addCleanup(over.set)
+        self.assert_refused("config.frames", lambda: asyncio.run(refused()))
+        asyncio.run(leave())
+        while self.client.info().active_streams > 0:
+            time.sleep(0.005)
+
     def test_public_functions_say_what_they_take_and_give(self):
-        public = [pose]
+        public = [aio.stream, pose]
         for kind in (Answers, Client):
             public += [value for name, value in vars(kind).items() if inspect.isfunction(value) and (name[0] != "_" or name == "__next__")]
         self.assertGreater(len(public), 6)
