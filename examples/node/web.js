@@ -31,29 +31,14 @@ class Refusal extends Error {
 }
 
 /**
- * The key that a page asks for, as a request. It asks for the joints alone that it names. Whatever the server would refuse is refused here: there
- * it would end the dance.
+ * The key that a page asks for, as a request; it sets the joints alone that it names. Whatever is wrong with it the page hears as an event, because
+ * of reject_invalid_keys, but for rotations that make no pose: of those pose() tells.
  */
-function keyRequest({ id, time, rotations }, { model, frames, granted, places }) {
-  const { skeleton, model_frame_rate: rate } = model;
-  if (typeof id !== 'string' || !/^.{1,64}$/.test(id)) throw new Refusal(400, `id: ${id} is no text of 1 to 64 characters`);
-  const frame = Math.round(time * rate);
-  if (!Number.isFinite(time) || frame >= frames) throw new Refusal(400, `time: ${time} is not before the end, ${frames / rate} s`);
-  if (Math.min(frame, places.get(id) ?? frame) < granted) throw new Refusal(409, `time: all before ${granted / rate} s is settled`);
-  for (const [other, place] of places) {
-    if (other !== id && Math.abs(place - frame) < 2) throw new Refusal(409, `time: ${time} is where ${other} is`);
-  }
-  const turned = Object.entries(rotations ?? {});
-  if (turned.length === 0) throw new Refusal(400, 'rotations: they turn no joint');
-  for (const [joint, turn] of turned) {
-    if (!skeleton.joint_names.includes(joint)) throw new Refusal(400, `rotations: there is no joint ${joint}`);
-    const fine = Array.isArray(turn) && turn.length === 3 && turn.every(Number.isFinite) && Math.hypot(...turn) <= 2 * Math.PI;
-    if (!fine) throw new Refusal(400, `rotations.${joint}: ${turn} is no axis times an angle up to 2 pi`);
-  }
-  places.set(id, frame);
-  const joints = turned.map(([joint]) => skeleton.joint_names.indexOf(joint)).sort((a, b) => a - b);
+function keyRequest({ id, time, rotations }, { skeleton }) {
+  const turns = rotations ?? {};
+  const joints = skeleton.joint_names.flatMap((name, joint) => (Object.hasOwn(turns, name) ? joint : []));
   // Without a root position the key stands wherever the dancer is then.
-  return { keyframe: { id, frame, pose: { rotations: pose(skeleton, rotations).rotations }, mask: { joints } } };
+  return { keyframe: { id, time, pose: { rotations: pose(skeleton, turns).rotations }, mask: { joints } } };
 }
 
 class Backend {
@@ -91,13 +76,11 @@ class Backend {
       text += piece;
       if (text.length > mostBytes) throw new Refusal(413, `more than ${mostBytes} characters`);
     }
-    let key;
     try {
-      key = Object(JSON.parse(text));
-    } catch {
-      throw new Refusal(400, 'this is no JSON');
+      dance.requests.push(keyRequest(Object(JSON.parse(text)), dance.model));
+    } catch (error) {
+      throw new Refusal(400, error.message);
     }
-    dance.requests.push(keyRequest(key, dance));
   }
 
   /**
@@ -129,9 +112,8 @@ class Backend {
   }
 
   #begin(seed) {
-    // Of its keys the requests that are still to be said, and their frames; frames before `granted` are settled. All that is told is kept, for
-    // pages that come back.
-    const dance = { id: randomUUID(), granted: 0, requests: [], places: new Map(), told: [], news: new EventEmitter(), watchers: 0, over: false };
+    // Of its keys the requests that are still to be said. All that is told is kept, for pages that come back.
+    const dance = { id: randomUUID(), requests: [], told: [], news: new EventEmitter(), watchers: 0, over: false };
     dance.stop = new AbortController();
     this.#dances.set(dance.id, dance);
     this.#dance(dance, seed);
@@ -159,7 +141,8 @@ class Backend {
         if (header) tell('dance', { id: dance.id, frame_rate: header.frame_rate, skeleton: header.skeleton });
         if (block) tell('frames', { first: Number(block.first_frame), places: short(block.root_positions), turns: short(block.rotations) });
         if (event?.keyframe_reached) tell('key', { id: event.keyframe_reached.id, time: event.time });
-        if (event?.keyframe_rejected) tell('key', { id: event.keyframe_rejected.id, refused: event.keyframe_rejected.reason });
+        const { id, field, reason } = event?.keyframe_rejected ?? {};
+        if (reason) tell('key', { id, refused: field ? `${field}: ${reason}` : reason });
         if (summary) tell('over', { frames: Number(summary.report.frames) });
       }
     } catch (error) {
@@ -177,10 +160,8 @@ class Backend {
     yield { config: { seed, frames: dance.frames, audio_format: pcm, encoding: 'ROTATION_ENCODING_QUATERNION', generate_until: 0, reject_invalid_keys: true } };
     for await (const piece of live(clicks(seconds), speed)) {
       const played = (piece.audio.first_sample + piece.audio.data.length / 2) / sampleRate;
-      const before = dance.requests.splice(0); // of the keys, those that were asked for before this is settled
-      dance.granted = Math.round((played + lookAhead) * dance.model.model_frame_rate);
-      yield* before;
-      yield { generate_until: { frame: dance.granted } };
+      yield* dance.requests.splice(0);
+      yield { generate_until: { frame: Math.round((played + lookAhead) * dance.model.model_frame_rate) } };
       yield piece;
     }
     yield { end_of_audio: {} };

@@ -66,6 +66,19 @@ test('a request that the API does not know is refused by its path', () =>
     await assert.rejects(collect(client.generateTransition()), { message: /^request: undefined is no GenerateTransitionRequest/ });
   }));
 
+test('with reject_invalid_keys a request that is wrong beside its key ends the dance, too', () =>
+  withClient(async (client) => {
+    const lenient = { config: { frames: 30, reject_invalid_keys: true } };
+    for (const [wrong, field] of [
+      [{ keyfarme: {} }, 'keyfarme'],
+      [{ end_of_audio: {}, keyframe: { id: 5 } }, 'keyframe'],
+      [{ keyframe: { id: 5 }, end_of_audio: {} }, 'keyframe.id'],
+      [{ remove_keyframe: { id: 5 } }, 'remove_keyframe.id'],
+    ]) {
+      await assert.rejects(collect(client.streamDance([lenient, wrong])), (error) => error.violations[0].field === field);
+    }
+  }));
+
 test('options of calls that cannot be used are named before the call', () =>
   withClient(async (client) => {
     const calls = [

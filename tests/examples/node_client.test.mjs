@@ -127,6 +127,22 @@ const told = (answers) => ({
   frames: answers.at(-1).summary.report.frames,
 });
 
+/** Keys that the package refuses itself, but for the third, and what is wrong with them. One would move a key that is there. */
+const badKeys = [
+  { keyframe: { id: 'moved', time: 'soon' } },
+  { keyframe: { id: 'blank', frame: 160, pose: { rotations: [0, NaN] } } },
+  { keyframe: { id: 'blank' } },
+  { keyframe: { id: 5, frame: 160 } },
+  { keyframe: 'wave' },
+];
+const refusedHere = [
+  ['moved', 'REJECTION_CODE_INVALID', 'keyframe.time', -1],
+  ['blank', 'REJECTION_CODE_INVALID', 'keyframe.pose.rotations[1]', -1],
+  ['blank', 'REJECTION_CODE_INVALID', 'keyframe', -1],
+  ['', 'REJECTION_CODE_INVALID', 'keyframe.id', -1],
+  ['', 'REJECTION_CODE_INVALID', 'keyframe', -1],
+];
+
 /** A dance to live music whose keys change on the way, one of them too late. Its last second waits for `goOn`. */
 async function* edited(skeleton, { goOn, frame_rate } = {}) {
   yield { config: { seed: '5', audio_format: pcm, frames: 180, frame_rate, generate_until: 0, reject_invalid_keys: true } };
@@ -140,6 +156,7 @@ async function* edited(skeleton, { goOn, frame_rate } = {}) {
     if (second === 3) yield key('late', { frame: 20 }, 0.3);
     if (second === 3) yield* [{ frame: 20 }, { frame: 150 }].map((when) => ({ keyframe: { id: 'bodiless', ...when, pose: { rotations: [0.1] } } }));
     if (second === 3) yield key('timeless', { time: -1 }, 0.3);
+    if (second === 3) yield* badKeys;
     if (second === 5) await goOn;
     yield { generate_until: { frame: Math.round(30 * second) } };
     yield piece;
@@ -193,8 +210,13 @@ for (const frame_rate of [30, 50]) {
         ['bodiless', 'REJECTION_CODE_INVALID', 'keyframe.pose.rotations', 20],
         ['bodiless', 'REJECTION_CODE_INVALID', 'keyframe.pose.rotations', 150],
         ['timeless', 'REJECTION_CODE_INVALID', 'keyframe.time', -1],
+        ...refusedHere,
       ],
     );
+    const reasons = refused.slice(-refusedHere.length).map(([{ reason }]) => reason);
+    assert.deepEqual(reasons.slice(0, 2), ["'soon' is no finite number", 'NaN is no finite number']);
+    assert.match(reasons[2], /^none of frame, time/);
+    assert.match(reasons[4], /^'wave' is no Keyframe, /);
     const enough = (all) => all.filter((answer) => answer.continuation).length > 1 && all.at(-1).frames?.first_frame > 3.5 * frame_rate;
     const { answers, resumes } = await danceAndKill(source, enough);
     assert.equal(resumes.length, 1);

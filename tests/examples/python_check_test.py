@@ -80,6 +80,16 @@ class CheckTest(unittest.TestCase):
         self.assert_refused(wrong, lambda: list(self.client.stream_dance(requests())))
         self.assertTrue(ended.wait(10))
 
+    def test_with_reject_invalid_keys_a_request_that_is_wrong_beside_its_key_ends_the_dance_too(self):
+        lenient = {"config": {"frames": 30, "reject_invalid_keys": True}}
+        for wrong, field in (
+            ({"keyfarme": {}}, "keyfarme"),
+            ({"end_of_audio": {}, "keyframe": {"id": 5}}, "keyframe"),
+            ({"keyframe": {"id": 5}, "end_of_audio": {}}, "keyframe.id"),
+            ({"remove_keyframe": {"id": 5}}, "remove_keyframe.id"),
+        ):
+            self.assertEqual(self.assert_refused("", self.dance, lenient, wrong).violations[0].field, field)
+
     def test_music_is_bytes_or_the_samples_that_its_encoding_says(self):
         def dance(encoding, data):
             audio_format = {"encoding": encoding, "sample_rate": 8000, "channels": 1}

@@ -26,6 +26,23 @@ def token_line(token, name):
     return f"{hashlib.sha256(token.encode()).hexdigest()} {name}\n"
 
 
+# Keys that the package refuses itself, but for the third, and what is wrong with them. One would move a key that is there.
+BAD_KEYS = [
+    {"keyframe": {"id": "moved", "time": "soon"}},
+    {"keyframe": {"id": "blank", "frame": 160, "pose": {"rotations": [0, float("nan")]}}},
+    {"keyframe": {"id": "blank"}},
+    {"keyframe": {"id": 5, "frame": 160}},
+    {"keyframe": "wave"},
+]
+REFUSED_HERE = [
+    ("moved", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
+    ("blank", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations[1]", -1),
+    ("blank", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "keyframe.id", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
+]
+
+
 def edited(skeleton, frame_rate=0, go_on=None):
     """A dance to live music whose keys change on the way, one of them too late. Its last second waits for `go_on`."""
     yield {"config": choreography.DanceConfig(seed=5, audio_format=PCM, frames=180, frame_rate=frame_rate, generate_until=0, reject_invalid_keys=True)}
@@ -38,7 +55,7 @@ def edited(skeleton, frame_rate=0, go_on=None):
     yield key(0.2, id="early", frame=30)
     yield key(0.4, id="next", interval_after_previous=20)
     bodiless = [{"keyframe": choreography.Keyframe(id="bodiless", frame=frame, pose={"rotations": [0.1]})} for frame in (20, 150)]
-    late = [key(0.3, id="moved", time=4), key(0.3, id="late", frame=20), *bodiless, key(0.3, id="timeless", time=-1)]
+    late = [key(0.3, id="moved", time=4), key(0.3, id="late", frame=20), *bodiless, key(0.3, id="timeless", time=-1), *BAD_KEYS]
     said = {2: [key(0.1, id="moved", time=3.5)], 3: late}
     for piece in live(clicks(6), 1000):
         yield from said.pop(piece.first_sample / RATE, [])
@@ -185,8 +202,12 @@ class ClientTest(unittest.TestCase):
                         ("bodiless", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations", 20),
                         ("bodiless", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations", 150),
                         ("timeless", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
+                        *REFUSED_HERE,
                     ],
                 )
+                reasons = [event.keyframe_rejected.reason for event in events[-len(REFUSED_HERE) :]]
+                for reason, pattern in zip(reasons, ("'soon' is no finite", "nan is no finite", "none of frame, time", "5 is no str", "'wave' is no Keyframe")):
+                    self.assertRegex(reason, f"^{pattern}")
                 answers, resumes = dance_and_kill(source, is_time)
                 ((address, exact, code),) = [(resumed.address, resumed.exact, resumed.because.code) for resumed in resumes]
                 self.assertEqual((address, exact, code), (OTHER, True, "UNAVAILABLE"))

@@ -101,6 +101,7 @@ class Progress {
 
   /** Another server begins. */
   restart() {
+    this.#journal.refusedKeys.restart();
     if (!this.#header) return;
     const frame = Number(this.#continuation?.frame ?? this.#header.first_frame);
     this.#filter.restart(frame, this.#journal.keysBefore(frame, this.#header.model_frame_rate));
@@ -115,8 +116,10 @@ class Progress {
         const frames = this.#filter.frames(answer.frames);
         return frames && { ...answer, frames };
       }
-      case 'event':
-        return this.#filter.event(answer.event) ? answer : undefined;
+      case 'event': {
+        const event = this.#journal.refusedKeys.event(answer.event);
+        return this.#filter.event(event) ? { ...answer, event } : undefined;
+      }
       case 'continuation':
         this.#continuation = answer.continuation;
         this.#journal.forgetMusicBefore(Number(answer.continuation.audio_from_sample), sent);

@@ -2,6 +2,7 @@
 // messages. Only music that it no longer needs is forgotten.
 import { checked } from './check.js';
 import { invalid } from './error.js';
+import { hasMoment, RefusedKeys } from './refused_keys.js';
 
 export class Journal {
   #source;
@@ -9,6 +10,7 @@ export class Journal {
   #more; // while the source is asked
   #over = false;
   #musicEnd; // of what was forgotten
+  refusedKeys = new RefusedKeys();
   /** What the source threw. */
   failure;
 
@@ -45,8 +47,13 @@ export class Journal {
 
   #checked(request) {
     try {
-      return checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
+      const fine = checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
+      this.refusedKeys.note(fine);
+      return fine;
     } catch (error) {
+      const goesOn = this.#requests[0]?.config?.reject_invalid_keys;
+      const blank = goesOn ? this.refusedKeys.blank(request, error) : undefined;
+      if (blank) return blank;
       this.close(); // the source knows nothing of it
       throw error;
     }
@@ -100,6 +107,7 @@ export class Journal {
       const id = request?.keyframe?.id ?? request?.remove_keyframe?.id;
       if (id === undefined) continue;
       if (request.keyframe) {
+        if (!hasMoment(request.keyframe)) continue; // it is nowhere
         previous = frameOf(request.keyframe, previous, rate);
         frames.set(id, previous);
       }

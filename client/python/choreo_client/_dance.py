@@ -113,6 +113,7 @@ class _Progress:
 
     def restart(self):
         """Another server begins."""
+        self._journal.refused_keys.restart()
         if self._header is not None:
             frame = self._header.first_frame if self._continuation is None else self._continuation.frame
             self._filter.restart(frame, self._journal.keys_before(frame, self._header.model_frame_rate))
@@ -126,6 +127,7 @@ class _Progress:
         if kind == "frames":
             return self._filter.take_frames(answer.frames)
         if kind == "event":
+            self._journal.refused_keys.take_event(answer.event)
             return self._filter.take_event(answer.event)
         if kind == "continuation":
             self._continuation = answer.continuation

@@ -7,6 +7,7 @@ import threading
 from . import choreography
 from ._check import checked
 from ._errors import ChoreoError, invalid
+from ._refused_keys import RefusedKeys
 from ._words import quoted
 
 _BYTES = {choreography.AUDIO_ENCODING_PCM_F32LE: 4, choreography.AUDIO_ENCODING_PCM_S16LE: 2}
@@ -23,6 +24,7 @@ class Journal:
         self._said = []  # None: forgotten
         self._over = False
         self._music_end = None  # of what was forgotten
+        self.refused_keys = RefusedKeys()
         self.failure = None  # what the source raised
 
     def at(self, index):
@@ -47,10 +49,15 @@ class Journal:
             raise
 
     def _checked(self, request):
-        encoding = self._said[0].config.audio_format.encoding if self._said else 0
+        config = self._said[0].config if self._said else choreography.DanceConfig()
         try:
-            return checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", encoding)
-        except ChoreoError:  # of which the source knows nothing
+            fine = checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", config.audio_format.encoding)
+            self.refused_keys.note(fine)
+            return fine
+        except ChoreoError as error:  # of which the source knows nothing
+            blank = self.refused_keys.blank(request, error) if config.reject_invalid_keys else None
+            if blank is not None:
+                return blank
             self._end_source()
             raise
 
@@ -100,6 +107,8 @@ class Journal:
                 continue
             key = getattr(request, kind)
             if kind == "keyframe":
+                if key.WhichOneof("when") is None:
+                    continue  # it is nowhere
                 previous = frames[key.id] = _frame_of(key, previous, rate)
             if frames.get(key.id, frame) < frame:
                 found.append((key.id, frames[key.id]))
