@@ -1,4 +1,5 @@
 // The servers that may be asked, one at a time, and how long to go on asking.
+import { setMaxListeners } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import grpc from '@grpc/grpc-js';
 import { adviceFor, cancelled, ChoreoError, unavailable } from './error.js';
@@ -80,7 +81,11 @@ function joined(signals) {
   const joint = new AbortController();
   const abort = () => joint.abort();
   const given = signals.filter(Boolean);
-  for (const signal of given) signal.addEventListener('abort', abort);
+  for (const signal of given) {
+    // As many calls as there are may wait for it: Node.js would warn of eleven.
+    if (signal instanceof EventTarget) setMaxListeners(0, signal);
+    signal.addEventListener('abort', abort);
+  }
   if (given.some(({ aborted }) => aborted)) abort();
   return { end: joint.signal, leave: () => given.forEach((signal) => signal.removeEventListener('abort', abort)) };
 }
@@ -90,8 +95,10 @@ function connected({ address, stub }, seconds, deadline = Infinity, signal) {
   const { READY, TRANSIENT_FAILURE, SHUTDOWN } = grpc.connectivityState;
   const channel = stub.getChannel();
   const end = Math.min(Date.now() + 1000 * seconds, Number(deadline));
-  return new Promise((resolve, reject) => {
-    signal.addEventListener('abort', resolve, { once: true });
+  let leave;
+  const there = new Promise((resolve, reject) => {
+    signal.addEventListener('abort', resolve);
+    leave = () => signal.removeEventListener('abort', resolve);
     const look = (late) => {
       const state = channel.getConnectivityState(true);
       if ([READY, TRANSIENT_FAILURE, SHUTDOWN].includes(state) || Date.now() >= Number(deadline)) resolve();
@@ -100,6 +107,7 @@ function connected({ address, stub }, seconds, deadline = Infinity, signal) {
     };
     look();
   });
+  return there.finally(leave);
 }
 
 /** Whoever is away is named. */
