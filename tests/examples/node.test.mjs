@@ -176,6 +176,23 @@ test('a call that waits for its connection ends where nobody wants it any more',
   }
 });
 
+test('neither many calls nor many tries leave listeners of which Node.js warns', async () => {
+  const warnings = [];
+  const hear = (warning) => warnings.push(warning.message);
+  process.on('warning', hear);
+  const { signal } = new AbortController();
+  await withClient(async (client) => {
+    const calls = Array.from({ length: 12 }, () => collect(client.streamDance([{ config: { frames: 30 } }], { signal })));
+    for (const answers of await Promise.all(calls)) assert.equal(answers.at(-1).response, 'summary');
+  });
+  const away = new ChoreoClient(Array(20).fill('127.0.0.1:1'), { retry: 0.5, firstBackoff: 0.001 }); // tries often
+  await assert.rejects(away.info(), { code: 'UNAVAILABLE' });
+  away.close();
+  await sleep(0); // warnings come on the next tick
+  process.off('warning', hear);
+  assert.deepEqual(warnings, []);
+});
+
 test('a deadline ends a call', async () => {
   await withClient(async (client) => {
     const dance = collect(client.streamDance(endless(), { deadline: new Date(Date.now() + 100) }));

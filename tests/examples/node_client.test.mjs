@@ -266,23 +266,6 @@ test('calls wait for a server, and give up in time', async () => {
   });
 });
 
-test('neither many calls nor many tries leave listeners of which Node.js warns', async () => {
-  const warnings = [];
-  const hear = (warning) => warnings.push(warning.message);
-  process.on('warning', hear);
-  const { signal } = new AbortController();
-  await withClient(other, {}, async (client) => {
-    const calls = Array.from({ length: 12 }, () => collect(client.streamDance([{ config: { frames: 30 } }], { signal })));
-    for (const answers of await Promise.all(calls)) assert.equal(answers.at(-1).response, 'summary');
-  });
-  const options = { retry: 0.5, firstBackoff: 0.001 };
-  const away = Array(20).fill('127.0.0.1:1'); // so that it is tried often
-  await assert.rejects(withClient(away, options, (client) => client.info()), { code: 'UNAVAILABLE' });
-  await sleep(0); // warnings come on the next tick
-  process.off('warning', hear);
-  assert.deepEqual(warnings, []);
-});
-
 test('calls take turns at the addresses of a list', () =>
   withServer([], (one) =>
     withServer([], (two) =>
