@@ -12,6 +12,8 @@
 namespace choreo {
 
 inline constexpr double kMostStreams = 65'536;
+/// Live dances that a core carries beside others' work (docs/operations.md): the most by default.
+inline constexpr int kStreamsPerCore = 50;
 
 /// The settings of a choreod, from flags, a configuration file and the environment; only main acts
 /// on them.
@@ -25,7 +27,7 @@ struct ServerConfig {
   std::string device = "auto";     ///< auto, cpu, or cuda:N[,N...]
   std::string engine = "auto";     ///< one of kEngineKindNames
   int max_waiting = 128;           ///< concurrent transitions of GenerateTransition, per model
-  int max_streams = 0;             ///< concurrent calls; more are refused. 0: what cores carry
+  int max_streams = 0;             ///< concurrent calls; more are refused. 0: by the cores
   int workers = 0;                 ///< on the CPU, per model; 0: one per usable core
   int threads = 1;                 ///< per matrix product; part of the fingerprint
   int io_threads = 2;              ///< for decoding files, and as many for long pieces of music

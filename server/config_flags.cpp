@@ -47,9 +47,11 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
          "candidates, not calls. Those beyond are refused (RESOURCE_EXHAUSTED).")
       ->envname("CHOREO_MAX_WAITING")
       ->capture_default_str();
-  app.add_option("--max-streams", config.max_streams,
-                 "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED). 0: as "
-                 "many as --max-load lets the cores carry, by what a dance is measured to take.")
+  app.add_option(
+         "--max-streams", config.max_streams,
+         "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED). 0: as "
+         "many as --max-load lets the cores carry, by what a dance is measured to take, but at "
+         "most 50 a core, or 64.")
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
   app.add_option("--workers", config.workers,

@@ -19,6 +19,7 @@
 
 #include "model/core/error.h"
 #include "model/core/limits.h"
+#include "model/core/threads.h"
 #include "server/certificate_files.h"
 #include "server/connection_limits.h"
 #include "server/listener.h"
@@ -124,7 +125,9 @@ SampleQueue::Options QueueingOf(const ServerConfig& config) {
   return {.max_bulk = config.max_waiting};
 }
 
-// With as many streams as the machine carries, if the configuration leaves it open.
+// With as many streams as the machine carries, if the configuration leaves it open. What is
+// measured at start depends on who else is busy then, so it never counts for more than the usual
+// number.
 ServerConfig WithStreams(ServerConfig config,
                          const std::vector<std::unique_ptr<SampleQueue>>& queues) {
   if (config.max_streams > 0) return config;
@@ -133,7 +136,8 @@ ServerConfig WithStreams(ServerConfig config,
     const double fps = queue->model().fps, load = queue->LoadOf(fps);
     if (load <= 0) continue;  // not measured
     const double carried = config.max_load / (load + ServingCost().LoadOf(fps));
-    config.max_streams = std::max<int>(config.max_streams, std::min(carried, kMostStreams));
+    config.max_streams = std::max<int>(config.max_streams,
+                                       std::min<double>(carried, UsableCores() * kStreamsPerCore));
   }
   spdlog::info("at most {} calls at once", config.max_streams);
   return config;
