@@ -122,7 +122,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kKeyframe:
         return TakeKeyframe(*stream, request.keyframe());
       case DanceRequest::kRemoveKeyframe:
-        return stream->RemoveKey(request.remove_keyframe().id());
+        return RemoveKeyframe(*stream, request.remove_keyframe().id());
       case DanceRequest::kControls:
         return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
       case DanceRequest::kMusicBeats:
@@ -201,6 +201,16 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       if (!rejects_keys_ || error.code() != ErrorCode::kInvalidArgument) throw;
       const auto [path, description] = ViolationOf(error);
       stream.RejectKey(keyframe.id(), when, path, description);
+    }
+  }
+
+  void RemoveKeyframe(DanceStream& stream, const std::string& id) {
+    try {
+      stream.RemoveKey(id);
+    } catch (const Error& error) {
+      if (!rejects_keys_ || error.code() != ErrorCode::kNotFound) throw;
+      const auto [path, description] = ViolationOf(error);
+      stream.RejectKey(id, std::nullopt, path, description);
     }
   }
 

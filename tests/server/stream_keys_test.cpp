@@ -142,6 +142,30 @@ TEST_F(StreamKeysTest, InvalidKeysAreRejectedAndTheDanceGoesOnWhereThatIsAskedFo
   EXPECT_EQ(std::get<2>(said[4]), "keyframe.id");
 }
 
+TEST_F(StreamKeysTest, RemovalsOfUnknownKeysAreRejectedWhereThatIsAskedFor) {
+  Start();
+  const auto dance = [&](bool rejects) {
+    DanceClient client(stub());
+    v1::DanceConfig config = Config();
+    config.set_frames(60);
+    config.set_reject_invalid_keys(rejects);
+    client.Send(config);
+    v1::StreamDanceRequest removal;
+    removal.mutable_remove_keyframe()->set_id("nobody");
+    client.Send(removal);
+    return client.Finish();
+  };
+  EXPECT_EQ(dance(false).status.error_code(), grpc::StatusCode::NOT_FOUND);
+  const Answer answer = dance(true);
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  const auto rejected = std::ranges::find_if(answer.events, &v1::Event::has_keyframe_rejected);
+  ASSERT_NE(rejected, answer.events.end());
+  EXPECT_EQ(rejected->frame(), -1);
+  EXPECT_EQ(rejected->keyframe_rejected().id(), "nobody");
+  EXPECT_EQ(rejected->keyframe_rejected().code(), v1::REJECTION_CODE_INVALID);
+  EXPECT_EQ(rejected->keyframe_rejected().field(), "remove_keyframe.id");
+}
+
 TEST_F(StreamKeysTest, ImpossibleKeysAreWarnedOfOnce) {
   Start();
   DanceClient client(stub());
