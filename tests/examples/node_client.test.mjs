@@ -127,13 +127,14 @@ const told = (answers) => ({
   frames: answers.at(-1).summary.report.frames,
 });
 
-/** Keys that the package refuses itself, but for the third, and what is wrong with them. One would move a key that is there. */
+/** Keys that the package refuses itself, but for the third and the last, and what is wrong with them. One would move a key that is there. */
 const badKeys = [
   { keyframe: { id: 'moved', time: 'soon' } },
   { keyframe: { id: 'blank', frame: 160, pose: { rotations: [0, NaN] } } },
   { keyframe: { id: 'blank' } },
   { keyframe: { id: 5, frame: 160 } },
   { keyframe: 'wave' },
+  { remove_keyframe: { id: 'nobody' } },
 ];
 const refusedHere = [
   ['moved', 'REJECTION_CODE_INVALID', 'keyframe.time', -1],
@@ -141,6 +142,7 @@ const refusedHere = [
   ['blank', 'REJECTION_CODE_INVALID', 'keyframe', -1],
   ['', 'REJECTION_CODE_INVALID', 'keyframe.id', -1],
   ['', 'REJECTION_CODE_INVALID', 'keyframe', -1],
+  ['nobody', 'REJECTION_CODE_INVALID', 'remove_keyframe.id', -1],
 ];
 
 /** A dance to live music whose keys change on the way, one of them too late. Its last second waits for `goOn`. */

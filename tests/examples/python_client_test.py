@@ -26,13 +26,14 @@ def token_line(token, name):
     return f"{hashlib.sha256(token.encode()).hexdigest()} {name}\n"
 
 
-# Keys that the package refuses itself, but for the third, and what is wrong with them. One would move a key that is there.
+# Keys that the package refuses itself, but for the third and the last, and what is wrong with them. One would move a key that is there.
 BAD_KEYS = [
     {"keyframe": {"id": "moved", "time": "soon"}},
     {"keyframe": {"id": "blank", "frame": 160, "pose": {"rotations": [0, float("nan")]}}},
     {"keyframe": {"id": "blank"}},
     {"keyframe": {"id": 5, "frame": 160}},
     {"keyframe": "wave"},
+    {"remove_keyframe": {"id": "nobody"}},
 ]
 REFUSED_HERE = [
     ("moved", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
@@ -40,6 +41,7 @@ REFUSED_HERE = [
     ("blank", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
     ("", choreography.REJECTION_CODE_INVALID, "keyframe.id", -1),
     ("", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
+    ("nobody", choreography.REJECTION_CODE_INVALID, "remove_keyframe.id", -1),
 ]
 
 
