@@ -24,7 +24,9 @@ void CountEmbedding::Fill(double count, std::span<float> embedding) const {
   for (size_t pair = 0; pair < rates_.size(); ++pair) {
     const double phase = count * rates_[pair];
     embedding[2 * pair] = static_cast<float>(std::sin(phase));
-    embedding[2 * pair + 1] = static_cast<float>(std::cos(phase));
+    // An odd width has no place for its last cosine.
+    if (2 * pair + 1 < embedding.size())
+      embedding[2 * pair + 1] = static_cast<float>(std::cos(phase));
   }
 }
 
