@@ -13,7 +13,7 @@ namespace {
 // The pace of time is 1 + accent * slope / kSteepest. Slopes are whole numbers and change by one a
 // frame, so that time is smooth. The offset from even time is a sum of slopes.
 constexpr int kSteepest = 4, kSlopes = 2 * kSteepest + 1;
-constexpr int kFarthest = 48, kOffsets = 2 * kFarthest + 1;
+constexpr int kFarthest = 48;  // offset searched; reached in 12 frames at the steepest slope
 constexpr float kUnreached = -std::numeric_limits<float>::infinity();
 
 size_t StateOf(int offset, int slope) {
