@@ -95,7 +95,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
       start_time_(PlaybackClock()),
       score_{*asked,
              Timeline({model_.fps, first_frame_, asked->end_frame, asked->audio.has_value(),
-                       asked->generate_until, model_.max_transition_frames}),
+                       asked->generate_until, model_.max_transition_frames, model_.sight_frames}),
              ControlTrack(model_),
              MusicBeats(model_.fps, asked->music_beats,
                         asked->continuation ? asked->continuation->last_beat : std::nullopt,

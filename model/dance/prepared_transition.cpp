@@ -36,6 +36,9 @@ PreparedTransition PrepareTransition(const TransitionInputs& inputs) {
     spec.target = Target{segment.key->pose, segment.key->mask};
     prepared.request.hit = segment.key->hit;
     prepared.key_id = segment.key->id;
+  } else if (segment.later) {
+    const Key& key = *segment.later;
+    spec.later = {{key.pose, key.mask}, static_cast<int>(key.frame + 1 - segment.to)};
   }
   if (before.empty()) {
     const Pose stance =

@@ -41,6 +41,11 @@ int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest
   return from + std::clamp(longest / 2, 1, kTypicalFrames);
 }
 
+int LongestToKey(int max_transition_frames, int sight_frames) {
+  return sight_frames > 0 ? std::min(max_transition_frames, 2 * kTypicalFrames)
+                          : max_transition_frames;
+}
+
 bool Key::IsDancedAs(const Key& other) const {
   return id == other.id && frame == other.frame && pose.root_position == other.pose.root_position &&
          pose.rotations == other.pose.rotations && mask.root_position == other.mask.root_position &&
@@ -262,7 +267,8 @@ Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
   const bool is_frozen = frozen != keys_.end() && frozen->first < known.to;
   const std::optional<Key> key = is_frozen ? std::optional(frozen->second) : known.next;
   const auto next = key ? std::optional(key->frame) : std::nullopt;
-  int64_t to = TransitionEnd(frame, next, options_.max_transition_frames);
+  int64_t to = TransitionEnd(frame, next,
+                             LongestToKey(options_.max_transition_frames, options_.sight_frames));
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
     const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
@@ -271,7 +277,8 @@ Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
         *cut - frame <= options_.max_transition_frames)
       to = *cut;
   }
-  return {frame, to, is_reached ? key : std::nullopt, to};
+  const bool is_seen = next && !is_reached && IsInSight(frame, *next, options_.sight_frames);
+  return {frame, to, is_reached ? key : std::nullopt, to, is_seen ? key : std::nullopt};
 }
 
 std::deque<Timeline::Granted>::const_iterator Timeline::GrantBeyond(int64_t frame) const {
@@ -283,9 +290,10 @@ void Timeline::Settle(Plan* plan) const {
   Segment& segment = plan->segment;
   for (auto grant = GrantBeyond(plan->settled);
        grant != grants_.end() && plan->settled < segment.stop; ++grant) {
-    std::optional<Key> key = SegmentFrom(segment.from, *grant).key;
-    const bool is_same = AreDancedAlike(segment.key, key);
-    if (is_same) segment.key = std::move(key);  // its hands may be new
+    Segment again = SegmentFrom(segment.from, *grant);
+    const bool is_same =
+        AreDancedAlike(segment.key, again.key) && AreDancedAlike(segment.later, again.later);
+    if (is_same) segment.key = std::move(again.key);  // its hands may be new
     if (!is_same || grant->changed_from < segment.to) segment.stop = plan->settled;
     plan->settled = grant->to;
   }

@@ -52,12 +52,20 @@ struct Segment {
   int64_t to = 0;
   std::optional<Key> key;
   int64_t stop = to;
+  std::optional<Key> later = {};  ///< the next key in sight, if it is not reached
 };
 
 /// Where the transition that begins at `from` ends: just after the next key or, without one within
 /// `longest` frames, after about kTypicalFrames, at most half the longest. So the rest before a key
 /// is never shorter than that.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
+/// The `longest` for a model. One that sees later keys needs no long transitions, so its dances
+/// hear the music every two seconds.
+int LongestToKey(int max_transition_frames, int sight_frames);
+/// Whether a transition that begins at `from` and does not reach this key sees it.
+inline bool IsInSight(int64_t from, int64_t key, int sight_frames) {
+  return key + 1 - from <= sight_frames;
+}
 
 /// The keys of one dance, the frozen frontier, and the plan that follows from them. A transition
 /// (TransitionEnd) is planned with the keys that were known when its first frame was granted, so
@@ -78,6 +86,7 @@ class Timeline {
     /// As if by GenerateUntil before all messages; none: keys grant.
     std::optional<int64_t> granted = {};
     int max_transition_frames = kMaxTransitionFrames;  ///< the model's
+    int sight_frames = 0;                              ///< the model's
   };
   explicit Timeline(Options options);
 

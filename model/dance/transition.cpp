@@ -130,14 +130,15 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.history = CanonicalHistory(ground_, before_);
   stage_ = request.spec.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
   spec_.stage = ground_.ToLocal(stage_);
-  if (world_target_) {
-    Target& target = spec_.target.emplace(*world_target_);
-    target.pose = ground_.ToLocal(target.pose);
-    MakeContinuous(target.pose, spec_.history.back());
+  const auto to_local = [&](Target& target) {
     target.height = target.mask.root_position
                         ? std::nullopt
-                        : StandingHeight(model.skeleton, world_target_->pose, target.mask);
-  }
+                        : StandingHeight(model.skeleton, target.pose, target.mask);
+    target.pose = ground_.ToLocal(target.pose);
+    MakeContinuous(target.pose, spec_.history.back());
+  };
+  if (world_target_) to_local(spec_.target.emplace(*world_target_));
+  if (spec_.later) to_local(spec_.later->target);
   spec_.controls.ToLocal(ground_);
   for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);

@@ -19,13 +19,15 @@ constexpr double kMaxLog = 1;    // bound of the logarithm of requested over wan
 
 WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
   WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
-  if (spec.target) {
-    request.key = spec.target->pose;
-    request.mask = spec.target->mask;
-    if (spec.target->height) {
+  const Target* target = spec.target ? &*spec.target : spec.later ? &spec.later->target : nullptr;
+  if (target != nullptr) {
+    request.key = target->pose;
+    request.mask = target->mask;
+    if (target->height) {
       request.height = true;
-      request.key->root_position.y() = *spec.target->height;
+      request.key->root_position.y() = *target->height;
     }
+    if (!spec.target) request.to_key += spec.later->frames;
   }
   request.stage = spec.stage.value_or(GroundFrame());
   request.controls = spec.controls;

@@ -15,6 +15,15 @@ void CheckRows(const Eigen::MatrixXf& rows, int count, const ModelInfo& model,
                                    std::to_string(count));
 }
 
+void CheckTarget(const Target& target, const ModelInfo& model, const std::string& field) {
+  CheckJoints(model.skeleton, target.pose, field);
+  const size_t masked = target.mask.joints.size();
+  if (masked != 0 && static_cast<int>(masked) != model.skeleton.joints()) {
+    throw InvalidArgument(field + ".mask", std::to_string(masked) + " joints, must be 0 or " +
+                                               std::to_string(model.skeleton.joints()));
+  }
+}
+
 }  // namespace
 
 void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
@@ -44,14 +53,8 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
   for (size_t i = 0; i < spec.history.size(); ++i) {
     CheckJoints(model.skeleton, spec.history[i], "history[" + std::to_string(i) + "]");
   }
-  if (spec.target) {
-    CheckJoints(model.skeleton, spec.target->pose, "target");
-    const size_t masked = spec.target->mask.joints.size();
-    if (masked != 0 && static_cast<int>(masked) != model.skeleton.joints()) {
-      throw InvalidArgument("target.mask", std::to_string(masked) + " joints, must be 0 or " +
-                                               std::to_string(model.skeleton.joints()));
-    }
-  }
+  if (spec.target) CheckTarget(*spec.target, model, "target");
+  if (spec.later) CheckTarget(spec.later->target, model, "later");
   if (spec.has_audio && model.hears_music) {
     CheckRows(spec.audio_history, history, model, "audio_history");
     CheckRows(spec.audio_rows, spec.frames, model, "audio_rows");

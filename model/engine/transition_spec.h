@@ -33,6 +33,8 @@ struct ModelInfo {
   int history_frames = kHistoryFrames;  ///< tau
   int audio_features = kMfccCount;      ///< columns of MFCC rows
   int max_transition_frames = kMaxTransitionFrames;
+  /// How far ahead it sees a key that its transition does not reach (LaterTarget). 0: not at all.
+  int sight_frames = 0;
   double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
   /// Whether it reads a transition's MFCC rows, and so live must wait for all of its music. False:
@@ -51,11 +53,18 @@ struct ModelInfo {
   }
 };
 
+/// A key that is reached only after a transition.
+struct LaterTarget {
+  Target target;
+  int frames = 0;  ///< >= 1, from the transition's last frame to the key's
+};
+
 /// All inputs of a transition. All poses are in its canonical frame (motion/canonical.h).
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
-  std::optional<Target> target;  ///< none: dances to music alone
+  std::optional<Target> target;           ///< none: dances to music alone
+  std::optional<LaterTarget> later = {};  ///< only without a target; for models with sight_frames
   /// The middle of the floor area that the dance keeps to if nothing fixes its position, and where
   /// its audience is, faced if nothing fixes how she is turned. None: where the history ends and
   /// faces.

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kSeeds = 3;
 constexpr int kFrechetFrames = 60;
+constexpr int kSparse = 240;                        // frames between few keys
 constexpr double kMinRatio = 0.7, kMaxRatio = 1.4;  // relative to real motion's median speed
 
 // What a dance is told about its music.
@@ -36,6 +37,7 @@ constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, tru
 // All dances through keys, and the recorded ones that they are compared with.
 struct KeyedDances {
   LivelyDances real, locked;
+  LivelyDances sparse;  // few keys, seed 0
   std::vector<LivelyDances> seeds = std::vector<LivelyDances>(kSeeds);
   std::vector<LivelyDances> songs = std::vector<LivelyDances>(std::size(kSongs));  // seed 0
 };
@@ -77,10 +79,16 @@ KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
       all.push_back(std::move(plan));
     }
   }
+  for (LongPlan& plan : PlanKeyedDances(model, set, evaluation.options.temperature, kSparse)) {
+    plan.finished = method.finished;
+    all.push_back(std::move(plan));
+  }
   const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.sampler, all);
   for (size_t i = 0; i < all.size(); ++i) {
     const size_t repeat = i / plans.size();
-    LivelyDances& of = repeat < kSeeds ? dances.seeds[repeat] : dances.songs[repeat - kSeeds];
+    LivelyDances& of = repeat < kSeeds                       ? dances.seeds[repeat]
+                       : repeat < kSeeds + std::size(kSongs) ? dances.songs[repeat - kSeeds]
+                                                             : dances.sparse;
     of.push_back(MeasureLiveliness(model, all[i], chains[i].poses));
   }
   return dances;
@@ -102,6 +110,11 @@ void AddMovement(const KeyedDances& dances, Table* table) {
         Ratio(FiguresOf(danced, figure), FiguresOf(real, figure)), table);
   };
   add("median speed cm/s", &LivelyFigures::median_speed, 100);
+  Add("median speed, keys each 8 s cm/s", {}, {},
+      Mean(dances.sparse, &LivelyFigures::median_speed, 100),
+      Ratio(FiguresOf(dances.sparse, &LivelyFigures::median_speed),
+            FiguresOf(dances.real, &LivelyFigures::median_speed)),
+      table);
   std::vector<ClipFigure> within;
   for (size_t i = 0; i < danced.size(); ++i) {
     const double ratio = danced[i].median_speed / real[i].median_speed;

@@ -20,10 +20,14 @@ const Pose& WalkedPose(const PreparedClip& clip, int at) {
   return clip.motion.frames[static_cast<size_t>(std::min(last, std::min(phase, 2 * last - phase)))];
 }
 
-std::vector<int> KeyFrames(KeyTimes times, int frames, const std::vector<double>& beats) {
+int IntervalOf(KeyTimes times) {
+  return times == KeyTimes::kEachTwoSeconds ? kTypicalFrames : kEqualInterval;
+}
+
+std::vector<int> KeyFrames(KeyTimes times, int interval, int frames,
+                           const std::vector<double>& beats) {
   std::vector<int> keys;
   if (times == KeyTimes::kNone) return keys;
-  const int interval = times == KeyTimes::kEachTwoSeconds ? kTypicalFrames : kEqualInterval;
   for (int equal = interval - 1; equal < frames; equal += interval) {
     int frame = equal;
     if (times == KeyTimes::kOnBeats && !beats.empty()) {
@@ -58,7 +62,7 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
     plan.history = RealPoses(set, {plan.clip, plan.start}, 0, history);
     if (music) plan.audio = clip.audio.middleCols(plan.start - history, history + plan.frames);
     plan.beats = set.BeatsBetween(plan.clip, plan.start, plan.frames);
-    for (const int frame : KeyFrames(times, plan.frames, plan.beats))
+    for (const int frame : KeyFrames(times, IntervalOf(times), plan.frames, plan.beats))
       plan.keys[frame] = WalkedPose(clip, plan.start + frame);
     plan.seed = static_cast<uint64_t>(i);
     plan.temperature = options.temperature;
@@ -74,8 +78,8 @@ std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set) {
   return poses;
 }
 
-std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set,
-                                      float temperature) {
+std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set, float temperature,
+                                      int interval) {
   std::vector<LongPlan> plans;
   for (size_t clip = 0; clip < set.clips.size(); ++clip) {
     const std::vector<Pose>& poses = set.clips[clip].motion.frames;
@@ -88,7 +92,7 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
     plan.frames = spans * kTypicalFrames;
     plan.temperature = temperature;
     plan.history = RealPoses(set, {plan.clip, plan.start}, 0, model.history_frames);
-    for (const int key : KeyFrames(KeyTimes::kEachTwoSeconds, plan.frames, {}))
+    for (const int key : KeyFrames(KeyTimes::kEachTwoSeconds, interval, plan.frames, {}))
       plan.keys[key] = poses[plan.start + key];
     plans.push_back(std::move(plan));
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "model/core/grid.h"
 #include "model/evaluation/evaluation.h"
 
 namespace choreo {
@@ -24,10 +25,11 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
 /// The real motion that a long dance takes its keys from: [plan.frames] poses.
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set);
 
-/// One dance per clip through the clip's own poses every 2 s, as long as the clip but at most a
-/// minute from its middle; no music, no beats, seed 0. Skips clips below 20 s. Dances end on a key.
-std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set,
-                                      float temperature);
+/// One dance per clip through the clip's own poses, one each `interval` frames, as long as the clip
+/// but at most a minute from its middle; no music, no beats, seed 0. Skips clips below 20 s. Dances
+/// end on a pose that is a key at the usual interval.
+std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set, float temperature,
+                                      int interval = kTypicalFrames);
 
 /// Beats of one tempo, in frames, from before a dance of `frames` to after it; `phase`: position of
 /// the first after frame 0, as a part of their distance.

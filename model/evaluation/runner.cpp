@@ -20,10 +20,15 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
   TransitionRequest& request = out.request;
   TransitionSpec& spec = request.spec;
   const auto next = key == plan.keys.end() ? std::nullopt : std::optional<int64_t>(key->first);
-  const auto to = static_cast<int>(TransitionEnd(at, next, model.max_transition_frames));
+  const int longest = LongestToKey(model.max_transition_frames, model.sight_frames);
+  const auto to = static_cast<int>(TransitionEnd(at, next, longest));
   spec.frames = to - at;
   out.danced = std::min(to, plan.frames) - at;
-  if (next && *next + 1 == to) spec.target = Target{key->second, {}};
+  if (next && *next + 1 == to) {
+    spec.target = Target{key->second, {}};
+  } else if (next && IsInSight(at, *next, model.sight_frames)) {
+    spec.later = {Target{key->second, {}}, static_cast<int>(*next + 1 - to)};
+  }
   spec.history = plan.history;
   spec.stage = chain.stage;
   const auto known = std::min<std::ptrdiff_t>(at, model.history_frames);

@@ -12,6 +12,9 @@
 
 namespace choreo {
 
+/// The farthest key of training, in frames from the window's first.
+inline constexpr int kSightFrames = 192;
+
 /// The continuous flow's shape and sampling. Stored in every checkpoint.
 struct ContinuousFlowConfig {
   std::string name = "default";         ///< the model's name in servers' lists

@@ -209,7 +209,8 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   const auto level = [&](size_t part, double factor) {
     return EnergyLevel(factor, model.config.median_factors[part]);
   };
-  EnergyPrior::Known known{.key = request.key.has_value(),
+  // The way to a key beyond the window says nothing of the window's own energy.
+  EnergyPrior::Known known{.key = request.key && request.to_key == request.frames,
                            .surprise = window.surprise(),
                            .frames = request.frames,
                            .style = request.style};
@@ -217,7 +218,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   for (size_t part = 0; part < factors.size(); ++part) {
     if (factors[part] > 0) known.history[static_cast<int>(part)] = level(part, factors[part]);
   }
-  if (!request.key || !TellsLimbs(model.skeleton, request.mask)) return known;
+  if (!known.key || !TellsLimbs(model.skeleton, request.mask)) return known;
   const BodyPartWeights weights = WeighBodyParts(model.skeleton);
   const Eigen::Matrix3Xd from = JointPositions(model.skeleton, request.history.back());
   const Pose key = Masked(*request.key, request.mask, request.history.back());

@@ -49,6 +49,10 @@ void TransitionSampler::BeginWindow() {
   if (!noise.like.empty()) noise.like.erase(noise.like.begin(), noise.like.begin() + frames_);
   WindowRequest part =
       request_.Part(frames_, frames, std::span(emitted_).last(request_.history.size()), ground_);
+  if (part.key && part.to_key > kSightFrames) {  // training shows none so far away
+    part.key.reset();
+    part.turning.reset();
+  }
   if (part.FrontCounts()) {
     part.turn = FreeTurn(model_->prior, part,
                          std::min(noise.temperature, 1.0) * NumberFor(kFreeTurn, *model_, noise));

@@ -12,7 +12,7 @@ namespace choreo {
 /// away. Model and network must outlive it.
 class TransitionSampler {
  public:
-  /// `request` covers the whole transition, of at least one frame (frames == to_key if there is a
+  /// `request` covers the whole transition, of at least one frame (frames <= to_key if there is a
   /// key). The model's TurnPrior chooses the way round to the key, unless the request does.
   TransitionSampler(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
                     const FlowNoise& noise);

@@ -37,6 +37,7 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
   info.hears_music = false;  // except its beats
+  info.sight_frames = kSightFrames;
   info.default_temperature = config.temperature;
   info.max_temperature = kMaxFlowTemperature;
   info.controls = ControlNames();

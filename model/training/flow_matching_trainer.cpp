@@ -158,7 +158,7 @@ class FlowMatchingRun : public TrainingRun {
       window = to_key = std::min(std::max(frames, 30), most);
     } else if (kind < kNoKeys + kFarKeys) {
       window = std::min(72, most);
-      to_key = std::min(96 + 24 * static_cast<int>(random.Integer(0, 5)), most);
+      to_key = std::min(kSightFrames - 24 * static_cast<int>(random.Integer(0, 5)), most);
     }
     return train_.Draw(matching_->parts(), WindowsOf(options().batch, window), window, to_key,
                        variation, &random);

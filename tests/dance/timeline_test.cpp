@@ -241,6 +241,38 @@ TEST(Timeline, GapsBeyondTheLongestTransitionAreCut) {
             (std::vector<Span>{{0, 50, ""}, {50, 100, ""}, {100, 150, ""}, {150, 250, "a"}}));
 }
 
+TEST(Timeline, KeysAheadAreSeenBeforeTheyAreReached) {
+  Timeline timeline({.granted = 0, .sight_frames = 192});
+  Set(timeline, "a", AtFrame{299});
+  timeline.GenerateUntil(300);
+  std::vector<Span> spans;
+  std::vector<std::string> seen;
+  for (; timeline.Planned() != nullptr && timeline.Planned()->from < 300; timeline.Finish()) {
+    const Segment& segment = *timeline.Planned();
+    spans.push_back({segment.from, segment.to, segment.key ? segment.key->id : ""});
+    seen.push_back(segment.later ? segment.later->id : "");
+  }
+  EXPECT_EQ(spans,
+            (std::vector<Span>{{0, 60, ""}, {60, 120, ""}, {120, 180, ""}, {180, 300, "a"}}));
+  EXPECT_EQ(seen, (std::vector<std::string>{"", "", "a", ""})) << "299 is 180 frames after 120";
+}
+
+TEST(Timeline, AChangedKeyAheadStopsTransitionsThatSeeIt) {
+  Timeline timeline({.granted = 0, .sight_frames = 192});
+  Set(timeline, "far", AtFrame{300});
+  timeline.GenerateUntil(10);
+  Set(timeline, "far", AtFrame{310});
+  timeline.GenerateUntil(20);
+  EXPECT_EQ(timeline.Planned()->stop, 60) << "neither is in sight";
+  Set(timeline, "near", AtFrame{150});
+  timeline.GenerateUntil(60);
+  EXPECT_EQ(timeline.Planned()->stop, 20);
+  EXPECT_EQ(timeline.Planned()->later, std::nullopt);
+  timeline.Finish();
+  EXPECT_EQ(timeline.Planned()->to, 80);
+  EXPECT_EQ(timeline.Planned()->later->id, "near");
+}
+
 TEST(Timeline, EndsWhereTheConfigSays) {
   Timeline timeline({.end_frame = 100});
   timeline.GenerateUntil(100);

@@ -414,6 +414,19 @@ TEST(KnownOfEnergy, ContainsTheDistanceToTheKey) {
             (*still.way)[kLeftArm]);
 }
 
+// Else dances through few keys would be as slow as the mean way to them.
+TEST(KnownOfEnergy, OmitsAKeyBeyondTheWindow) {
+  const FlowModelParts parts = Parts();
+  const std::vector<Pose> history(2, RestPose(parts.skeleton));
+  WindowRequest request{
+      .frames = 30, .history = history, .key = RestPose(parts.skeleton), .to_key = 60};
+  const EnergyPrior::Known far = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
+  EXPECT_FALSE(far.key);
+  EXPECT_FALSE(far.way);
+  request.to_key = 30;
+  EXPECT_TRUE(KnownOfEnergy(parts, request, FlowWindow(parts.prior, request)).key);
+}
+
 TEST(KnownOfEnergy, OmitsDistancesThatTheMaskLeavesOpen) {
   const FlowModelParts parts = Parts();
   const Skeleton& skeleton = parts.skeleton;
