@@ -14,6 +14,11 @@ constexpr std::chrono::seconds kThere{60};
 
 const char* const kGoingAway = "the server is going away; try another one";
 
+Refused Full(int calls, int most) {
+  return {Refusal::kStreams, "the server is full: " + std::to_string(calls) +
+                                 " calls are in progress, of at most " + std::to_string(most)};
+}
+
 std::string Seconds(std::chrono::milliseconds limit) {
   const std::string text = std::to_string(std::chrono::duration<double>(limit).count());
   return text.substr(0, text.find('.') + 2) + " s";
@@ -34,6 +39,8 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
   const auto found = of_party_.find(party);
   const int calls = found == of_party_.end() ? 0 : found->second, most = MostOf(party);
   if (calls >= most) {
+    // Who may have all places lacks none of its own.
+    if (most >= limits_.calls) throw Full(calls, limits_.calls);
     throw Refused(Refusal::kStreamsOfPeer, party + " has " + std::to_string(calls) +
                                                " calls in progress, of at most " +
                                                std::to_string(most) + " for one caller");
@@ -46,11 +53,7 @@ void CallRegistry::Admit(const Call* call) {
   const std::lock_guard lock(mutex_);
   const auto at = calls_.find(call);
   if (!admitting_ || at == calls_.end()) throw Refused(Refusal::kDraining, kGoingAway);
-  if (admitted_ >= limits_.calls) {
-    throw Refused(Refusal::kStreams, "the server is full: " + std::to_string(admitted_) +
-                                         " calls are in progress, of at most " +
-                                         std::to_string(limits_.calls));
-  }
+  if (admitted_ >= limits_.calls) throw Full(admitted_, limits_.calls);
   at->second.admitted = true;
   at->second.since = Clock::now();
   ++admitted_;

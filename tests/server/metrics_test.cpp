@@ -294,7 +294,7 @@ TEST_F(MetricsTest, ShowFailedReloads) {
 TEST_F(MetricsTest, CountRefusalsByReason) {
   Start(1, [](ServerConfig& config) {
     config.metrics = "0";
-    config.max_streams = 2;
+    config.max_streams = 3;
     config.max_streams_of_peer = 2;
   });
   const auto refused = [this](const std::string& reason) {
