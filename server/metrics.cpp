@@ -6,7 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include "server/figures.h"
 #include "server/listener.h"
@@ -14,14 +19,13 @@
 namespace choreo {
 namespace {
 
-/// Requests are answered one after the other: there is one Prometheus, maybe two. (The library's
-/// own HTTP server cannot run beside LibTorch, which needs larger thread stacks than that
-/// server's.)
-constexpr int kPatienceMs = 1'000;
+/// Each connection has a thread, so that idle ones delay nobody. (The library's own HTTP server
+/// cannot run beside LibTorch, which needs larger thread stacks than that server's.)
+constexpr size_t kMostConnections = 16;
+constexpr int kPatienceMs = 5'000;
 constexpr size_t kMaxRequestBytes = 8 << 10;
 
-/// Limits the total time of one connection, so that a slow client delays neither others nor a stop
-/// for longer.
+/// Limits the total time of one connection.
 class Deadline {
  public:
   int left_ms() const {
@@ -77,10 +81,35 @@ void SendAll(int connection, std::string_view bytes) {
 struct MetricsEndpoint::Impl {
   Impl(const std::string& address, const Serving& serving_of_all)
       : serving(serving_of_all), listener(address, "--metrics") {
-    listener.Start([this](int /*listening*/, int connection) {
-      Answer(connection);
+    listener.Start([this](int /*listening*/, int connection) { Serve(connection); });
+  }
+  ~Impl() {
+    listener.Stop();
+    std::unique_lock lock(mutex);
+    LeaveAtMost(0, lock);
+  }
+
+  void Serve(int connection) {
+    std::unique_lock lock(mutex);
+    LeaveAtMost(kMostConnections - 1, lock);
+    try {
+      std::thread([this, connection] {
+        Answer(connection);
+        const std::lock_guard own(mutex);
+        std::erase(open, connection);
+        close(connection);
+        closed.notify_all();
+      }).detach();
+      open.push_back(connection);
+    } catch (const std::system_error&) {  // there are too many threads
       close(connection);
-    });
+    }
+  }
+
+  /// Ends the oldest connections.
+  void LeaveAtMost(size_t count, std::unique_lock<std::mutex>& lock) {
+    for (size_t i = 0; i + count < open.size(); ++i) shutdown(open[i], SHUT_RDWR);
+    closed.wait(lock, [&] { return open.size() <= count; });
   }
 
   void Answer(int connection) const {
@@ -100,7 +129,10 @@ struct MetricsEndpoint::Impl {
   }
 
   const Serving& serving;
-  Listener listener;  // last: its thread uses the members above
+  std::mutex mutex;
+  std::condition_variable closed;
+  std::vector<int> open;  // oldest first; lock: mutex
+  Listener listener;      // last: its thread uses the members above
 };
 
 MetricsEndpoint::MetricsEndpoint(const std::string& address, const Serving& serving)

@@ -20,6 +20,7 @@
 #include "server/refusal.h"
 #include "server/reloads.h"
 #include "tests/server/fixture.h"
+#include "tests/server/silent_connections.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/tcp_proxy.h"
 #include "tests/support/temporary_folder.h"
@@ -363,7 +364,17 @@ TEST_F(MetricsTest, DropSlowHttpClients) {
     left = poll(&waited, 1, 250) == 1 && recv(fd, &byte, 1, 0) <= 0;
   }
   close(fd);
-  EXPECT_TRUE(left) << "ten seconds, and a stop would wait for it";
+  EXPECT_TRUE(left) << "within ten seconds";
+  EXPECT_THAT(Metrics(), HasSubstr("choreo_workers"));
+}
+
+TEST_F(MetricsTest, IdleConnectionsDelayNobody) {
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
+  const std::string address = "127.0.0.1:" + std::to_string(server->metrics_port());
+  const SilentConnections few(address, 5);
+  EXPECT_THAT(Metrics(), HasSubstr("choreo_workers"));
+  EXPECT_EQ(few.Closed(), 0) << "it was not their end that let others be served";
+  const SilentConnections many(address, 200);
   EXPECT_THAT(Metrics(), HasSubstr("choreo_workers"));
 }
 

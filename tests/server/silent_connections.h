@@ -17,10 +17,10 @@
 
 namespace choreo {
 
-/// Connections that say nothing.
+/// Connections that say `greeting` and nothing more.
 class SilentConnections {
  public:
-  SilentConnections(const std::string& server, int count) {
+  SilentConnections(const std::string& server, int count, const std::string& greeting = "") {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port =
@@ -30,6 +30,7 @@ class SilentConnections {
       const int fd = socket(AF_INET, SOCK_STREAM, 0);
       EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
       fcntl(fd, F_SETFL, O_NONBLOCK);
+      EXPECT_EQ(send(fd, greeting.data(), greeting.size(), MSG_NOSIGNAL), std::ssize(greeting));
       connections_.push_back(fd);
     }
   }
