@@ -11,8 +11,8 @@ namespace {
 /// Calls per connection beyond max_streams: to refuse calls on a full server, and for health
 /// checks. Further calls wait at the client.
 constexpr int kSpareCalls = 100;
-/// Limit from accepting a connection to its HTTP/2 preface.
-constexpr int kHandshakeMs = 20'000;
+/// Limit from accepting a connection to its TLS handshake and HTTP/2's settings.
+constexpr int kHandshakeMs = 5'000;
 /// A connection without calls is closed; clients make a new one when they need it.
 constexpr int kIdleMs = 300'000;
 

@@ -202,6 +202,18 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
             << Milliseconds(alone, 0.5) << " ms and p99 " << Milliseconds(alone, 0.99) << " ms\n";
 }
 
+// Connections whose HTTP/2 never begins do not keep descriptors for long.
+TEST_F(HostileTest, HalfOpenConnectionsAreClosed) {
+  constexpr int kConnections = 100;
+  Start(1);
+  const std::string address = "127.0.0.1:" + std::to_string(server->port());
+  const SilentConnections silent(address, kConnections);
+  const SilentConnections greeting(address, kConnections, "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n");
+  ExpectEventually(
+      [&] { return silent.Closed() == kConnections && greeting.Closed() == kConnections; },
+      "the server closes them");
+}
+
 TEST_F(HostileTest, SilentConnectionsBlockNobody) {
   constexpr int kConnections = 2'000;
   RaiseDescriptorLimit();
