@@ -43,7 +43,9 @@ class Histogram {
 
   /// 0.1 ms to 5 s.
   static std::vector<double> Seconds() {
-    return {1e-4, 2.5e-4, 5e-4, 1e-3, 2.5e-3, 5e-3, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5};
+    constexpr double kFrame = 0.033;  // at 30 a second
+    return {1e-4,   2.5e-4, 5e-4, 1e-3, 2.5e-3, 5e-3, 0.01, 0.025,
+            kFrame, 0.05,   0.1,  0.25, 0.5,    1,    2.5,  5};
   }
 
  private:

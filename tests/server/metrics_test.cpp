@@ -92,6 +92,8 @@ TEST_F(MetricsTest, CountFinishedWork) {
   EXPECT_EQ(Figure("choreo_lateness_seconds_count" + of_fake), 1);
   EXPECT_EQ(Figure("choreo_workers" + of_fake), 2);
   EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_lateness_seconds_bucket{model="fake",le="+Inf"} 1)"));
+  EXPECT_THAT(Metrics(), HasSubstr(R"(choreo_lateness_seconds_bucket{model="fake",le="0.033"} )"))
+      << "a frame at 30 a second";
   EXPECT_THAT(Metrics(), HasSubstr(R"(device="fake:0")"));
 }
 
