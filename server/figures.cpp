@@ -224,6 +224,8 @@ class Figures {
   // With the names that Prometheus clients use in all languages.
   static void AddProcess(Families& out) {
     const pid_t self = getpid();
+    // Once: clocks drift, and each change of it is an alert.
+    static const double start = StartSeconds(self);
     rlimit descriptors{};
     getrlimit(RLIMIT_NOFILE, &descriptors);
     out.SetPrefix("process_");
@@ -235,7 +237,7 @@ class Figures {
         {"open_fds", "Descriptors that are open.", double(Descriptors(self))},
         {"max_fds", "Descriptors that may be open.", double(descriptors.rlim_cur)},
         {"threads", "Threads.", double(Threads(self))},
-        {"start_time_seconds", "When it began, since 1970.", StartSeconds(self)},
+        {"start_time_seconds", "When it began, since 1970.", start},
     };
     for (const auto& [name, help, value] : gauges) {
       out.Begin(name, help, MetricType::Gauge);

@@ -152,12 +152,16 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     assert.deepEqual(errorsOf(expr), [], alert);
     assert.ok(['critical', 'warning'].includes(labels.severity) && annotations.summary, alert);
     const names = [...expr.matchAll(/\bchoreo_[a-z_]+/g)].map(([name]) => name);
-    assert.ok(names.length > 0, alert);
+    assert.ok(names.length > 0 || /\b(up|process_[a-z_]+)\b/.test(expr), alert);
     [...expr.matchAll(/\bprocess_[a-z_]+/g)].forEach(([name]) => assert.ok(metricSource.includes(`"${name.slice('process_'.length)}"`), name));
     names.forEach((name) => asked.add(name));
+    [...expr.matchAll(/job="([a-z]+)"/g)].forEach(([, job]) => assert.equal(job, ofKind('Service').metadata.name, alert));
+    const refusals = readSource('server/refusal.h');
+    [...expr.matchAll(/reason!~"([a-z_|]+)"/g)].flatMap(([, reasons]) => reasons.split('|'))
+        .forEach((reason) => assert.ok(refusals.includes(`"${reason}"`), reason));
     [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
   }
-  ['choreo_streams_limit', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures',
+  ['choreo_draining', 'choreo_refused_calls_total', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures',
     'choreo_last_reload_successful', 'choreo_certificate_expiry_timestamp_seconds']
       .forEach((name) => assert.ok(asked.has(name), `nobody is woken for ${name}`));
   assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -337,6 +338,17 @@ TEST_F(MetricsTest, ShowProcessResources) {
   const double age = static_cast<double>(std::time(nullptr)) - Figure("process_start_time_seconds");
   EXPECT_GE(age, -2);
   EXPECT_LT(age, 24 * 3600);
+}
+
+// A change of it means a restart.
+TEST_F(MetricsTest, TheStartStaysTheSame) {
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
+  std::set<double> starts;
+  for (int i = 0; i < 30; ++i) {
+    starts.insert(Figure("process_start_time_seconds"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  }
+  EXPECT_EQ(starts.size(), 1U);
 }
 
 TEST_F(MetricsTest, FollowHttp) {
