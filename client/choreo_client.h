@@ -36,6 +36,9 @@ struct Options {
   bool tls = false;
   /// PEM file of the authority to trust, with `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
+  /// Whether any certificate will do, an expired one, too, with `tls`: for those who only ask
+  /// whether a server lives. Excludes `token_file`, as anybody may have answered.
+  bool any_certificate = false;
   /// PEM files of a certificate and its key, with `tls`, if the server requires one.
   std::filesystem::path client_certificate = {}, client_key = {};
   /// The name in the server's certificate, with `tls`; empty: the one in its address.

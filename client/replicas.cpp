@@ -3,6 +3,9 @@
 #include <arpa/inet.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
+#include <grpcpp/security/tls_certificate_provider.h>
+#include <grpcpp/security/tls_certificate_verifier.h>
+#include <grpcpp/security/tls_credentials_options.h>
 #include <grpcpp/support/channel_arguments.h>
 
 #include <algorithm>
@@ -28,6 +31,21 @@ constexpr const char* kTurnsAtServing = R"({
 })";
 constexpr const char* kTurns = R"({"loadBalancingConfig": [{"round_robin": {}}]})";
 
+/// For servers with any certificate.
+std::shared_ptr<grpc::ChannelCredentials> Unverified(const grpc::SslCredentialsOptions& own) {
+  namespace tls = grpc::experimental;
+  tls::TlsChannelCredentialsOptions options;
+  options.set_verify_server_certs(false);
+  options.set_check_call_host(false);
+  options.set_certificate_verifier(std::make_shared<tls::NoOpCertificateVerifier>());
+  if (!own.pem_private_key.empty()) {
+    options.set_certificate_provider(std::make_shared<tls::StaticDataCertificateProvider>(
+        std::vector{tls::IdentityKeyCertPair{own.pem_private_key, own.pem_cert_chain}}));
+    options.watch_identity_key_cert_pairs();
+  }
+  return tls::TlsCredentials(options);
+}
+
 std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
   if (options.client_certificate.empty() != options.client_key.empty()) {
     throw InvalidArgument(options.client_key.empty() ? "client_key" : "client_certificate",
@@ -42,7 +60,7 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
     return grpc::InsecureChannelCredentials();
   }
   grpc::SslCredentialsOptions files;
-  if (!options.ca_certificate.empty()) {
+  if (!options.ca_certificate.empty() && !options.any_certificate) {
     files.pem_root_certs = ReadCertificates("ca_certificate", options.ca_certificate);
   }
   if (!options.client_key.empty()) {
@@ -51,7 +69,7 @@ std::shared_ptr<grpc::ChannelCredentials> Credentials(const Options& options) {
     files.pem_private_key = std::move(own.key);
     files.pem_cert_chain = std::move(own.certificates);
   }
-  return grpc::SslCredentials(files);
+  return options.any_certificate ? Unverified(files) : grpc::SslCredentials(files);
 }
 
 /// Such traffic does not leave this machine. A name that only begins like an address is a name.
@@ -82,7 +100,10 @@ void CheckAddress(const std::string& address) {
 }
 
 void CheckToken(const Options& options) {
-  if (options.token_file.empty() || options.tls) return;
+  if (options.token_file.empty()) return;
+  if (options.any_certificate)
+    throw InvalidArgument("token_file", "no token goes to a server with any certificate");
+  if (options.tls) return;
   for (const std::string& address : options.addresses) {
     if (IsOfThisMachine(address)) continue;
     throw InvalidArgument("token_file", "a token goes to " + address + " over TLS alone");

@@ -8,9 +8,11 @@ namespace choreo::cli {
 namespace {
 
 /// Fails unless the server serves; for programs that start, watch and replace servers.
-void Run(const ServerOptions& server) {
+void Run(const ServerOptions& server, bool any_certificate) {
   client::Options options = server.ForClient();
   options.retry_s = 0;
+  options.token_file.clear();  // health needs none
+  options.any_certificate = any_certificate;
   if (!client::Client(options).IsServing()) {
     throw Error(ErrorCode::kUnavailable, options.addresses.front(), "does not serve, or no more");
   }
@@ -28,7 +30,11 @@ void AddHealthCommand(CLI::App& program) {
   command->get_option("--server")
       ->description("HOST:PORT of the choreod; default: " + client::Options().addresses.front() +
                     ".");
-  command->callback([options] { Run(*options); });
+  auto any_certificate = std::make_shared<bool>(false);
+  command->add_flag("--any-certificate", *any_certificate,
+                    "Take the server for alive whatever its certificate, an expired one, too, "
+                    "with --tls: a restart would not mend it.");
+  command->callback([options, any_certificate] { Run(*options, *any_certificate); });
 }
 
 }  // namespace choreo::cli

@@ -102,6 +102,30 @@ TEST_F(TlsTest, OnlyTrustingClientsConnect) {
   EXPECT_EQ(health.code, 0) << health.said;
 }
 
+// A restart does not mend it, so probes for life do not mind it.
+TEST_F(TlsTest, AServerWithAnExpiredCertificateIsAlive) {
+  const Certificate late = authority_.IssueExpired("late"), own = authority_.Issue("own");
+  const auto server = Start([&](ServerConfig& config) {
+    Serve(late, config);
+    config.tls_client_ca = authority_.certificate();
+  });
+  const std::string health = "health --server " + server->address() + " --tls --client-cert " +
+                             own.certificate.string() + " --client-key " + own.key.string();
+  const Outcome trusting = Choreo(health + " --ca " + authority_.certificate().string());
+  EXPECT_EQ(trusting.code, 1) << trusting.said;
+  // With another authority's file, or none; and no token goes there.
+  for (const char* ca : {"", " --ca /missing.pem --token-file /missing"}) {
+    const Outcome alive = Choreo(health + ca + " --any-certificate");
+    EXPECT_EQ(alive.code, 0) << alive.said;
+  }
+  ExpectError(ErrorCode::kInvalidArgument, "token_file: no token goes to", [&] {
+    const Client client({.addresses = {server->address()},
+                         .tls = true,
+                         .any_certificate = true,
+                         .token_file = folder_ / "token"});
+  });
+}
+
 TEST_F(TlsTest, OldVersionsAreRefused) {
   const Certificate own = authority_.Issue("own");
   const auto server = Start([&](ServerConfig& config) { Serve(own, config); });
