@@ -50,6 +50,12 @@ void ServerOptions::AddTo(CLI::App& command) {
       ->capture_default_str();
 }
 
+void ServerOptions::AddInexactResume(CLI::App& command) {
+  command.add_flag(
+      "--allow-inexact-resume", allow_inexact_resume,
+      "If the server is lost and only one of another model or build is left, go on with that.");
+}
+
 client::Options ServerOptions::ForClient() const {
   client::Options options;
   if (!addresses.empty()) options.addresses = addresses;

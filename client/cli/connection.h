@@ -21,6 +21,8 @@ struct ServerOptions {
   bool even_draining = false;
 
   void AddTo(CLI::App& command);
+  /// For commands whose dances outlive a server.
+  void AddInexactResume(CLI::App& command);
   /// Without addresses, the client's default.
   client::Options ForClient() const;
 };

@@ -182,9 +182,7 @@ void AddDanceCommand(CLI::App& program) {
   AddVmc(*command, options->vmc);
   command->get_option("--vmc")->excludes("--dancers");
   command->add_flag("--no-clobber", options->no_clobber, "Replace no motion file that is there.");
-  command->add_flag(
-      "--allow-inexact-resume", options->server.allow_inexact_resume,
-      "If the server is lost and only one of another model or build is left, go on with that.");
+  options->server.AddInexactResume(*command);
   options->server.AddTo(*command);
   command->callback([options, command] {
     if (!options->project.empty()) TakeProject(options.get());

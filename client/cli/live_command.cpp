@@ -243,6 +243,7 @@ void AddLiveCommand(CLI::App& program) {
   AddVmc(*command, options->vmc);
   command->add_option("-o,--out", options->out,
                       "FILE.npz, FILE.bvh or FILE.glb to write the dance to.");
+  options->server.AddInexactResume(*command);
   options->server.AddTo(*command);
   command->get_option("--deadline")->group("");  // is refused, with the reason
   command->callback([options, command] {

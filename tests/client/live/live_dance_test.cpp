@@ -280,6 +280,17 @@ TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
   EXPECT_THAT(outcome.said.substr(lost), HasSubstr(" s: 0 frames"));
 }
 
+TEST_F(CommandTest, ALiveDanceGoesOnInexactlyIfAsked) {
+  WriteClicks(folder_ / "song.wav", 3);
+  for (const bool asked : {false, true}) {
+    const TestServer breaks(std::make_unique<BreakingSampler>(20)), other("another build");
+    const Outcome outcome =
+        Choreo("live " + At("song.wav") + " --server " + breaks.address() + " --server " +
+               other.address() + (asked ? " --allow-inexact-resume" : "") + " </dev/null");
+    EXPECT_EQ(outcome.code == 0, asked) << outcome.said;
+  }
+}
+
 TEST_F(CommandTest, ALiveDanceEndsInOrderWhenInterrupted) {
   WriteClicks(folder_ / "song.wav", 60);
   const std::string pid_file = (folder_ / "pid").string();
