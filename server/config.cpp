@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <regex>
-#include <sstream>
 #include <string_view>
 
 #include "model/core/address.h"
@@ -17,13 +16,12 @@
 #include "model/core/joined.h"
 #include "model/core/nearest.h"
 #include "model/core/programs.h"
-#include "model/core/threads.h"
 #include "model/engine/engine_choice.h"
 #include "model/engine/transition_spec.h"
+#include "server/config_errors.h"
 #include "server/config_flags.h"
 #include "server/listener.h"
 #include "server/log.h"
-#include "server/music_file.h"
 #include "tls/pem.h"
 
 namespace choreo {
@@ -31,13 +29,6 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kLogLevels = {"trace", "debug",    "info", "warning",
                                                         "error", "critical", "off"};
-
-void CheckRange(const std::string& name, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  throw InvalidArgument(name, CLI::detail::to_string(value) + " is not in [" +
-                                  CLI::detail::to_string(least) + ", " +
-                                  CLI::detail::to_string(most) + "]");
-}
 
 void CheckAddress(const std::string& name, const std::string& address) {
   // gRPC would silently use the lowest 16 bits of a larger port.
@@ -50,22 +41,6 @@ void CheckAddress(const std::string& name, const std::string& address) {
 void CheckKernels(const std::string& name) {
   if (name.empty() || std::ranges::find(kKernelNames, name) != kKernelNames.end()) return;
   throw InvalidArgument("--kernels", '"' + name + "\" is none of " + Joined(kKernelNames));
-}
-
-void CheckLimits(const ServerConfig& config) {
-  constexpr double kDay = 86'400;
-  if (config.max_streams > 0 && config.max_streams_of_peer > config.max_streams) {
-    throw InvalidArgument("--max-streams-of-peer",
-                          std::to_string(config.max_streams_of_peer) + " is more than " +
-                              std::to_string(config.max_streams) + ", which --max-streams allows");
-  }
-  CheckRange("--max-streams-of-peer", config.max_streams_of_peer, 0, kMostStreams);
-  CheckRange("--first-message-seconds", config.first_message_seconds, 0.1, kDay);
-  CheckRange("--idle-seconds", config.idle_seconds, 0.1, kDay);
-  CheckRange("--unread-seconds", config.unread_seconds, 0.1, kDay);
-  CheckRange("--max-load", config.max_load, 0.1, 2);
-  // gRPC counts milliseconds in 32 bits.
-  CheckRange("--max-connection-seconds", config.max_connection_seconds, 0, 24 * kDay);
 }
 
 void CheckSecurity(const ServerConfig& config) {
@@ -180,32 +155,23 @@ void ServerConfig::Validate() const {
   if (!metrics.empty()) CheckAddress("--metrics", MetricsAddress());
   for (const auto& path : checkpoints) RequireRegularFile("--checkpoint", path);
   if (!models.empty() && !checkpoints.empty()) {
-    throw InvalidArgument("--models",
-                          "and --checkpoint exclude each other; put the checkpoint "
-                          "into the folder");
+    throw InvalidArgument("--models", models.string() +
+                                          " and --checkpoint exclude each other; put the "
+                                          "checkpoint into the folder");
   }
   if (!names.empty() && (!models.empty() || !checkpoints.empty()))
-    throw InvalidArgument("--model", "names one that ships; --checkpoint and --models exclude it");
+    throw InvalidArgument("--model", '"' + names.front() +
+                                         "\" is a model that ships; --checkpoint and --models "
+                                         "exclude it");
   ParseEngineKind(engine, "--engine");
   CheckKernels(kernels);
   // Existence is checked when they are used; `auto` takes whatever exists.
   if (device != "auto")
     ParseDevices(device, {.cuda_build = true, .cuda_devices = std::numeric_limits<int>::max()});
-  CheckRange("--max-waiting", max_waiting, 0, 65536);
-  CheckRange("--max-streams", max_streams, 0, kMostStreams);
-  CheckRange("--workers", workers, 0, 1024);
-  CheckRange("--threads", threads, 1, kMaxMathThreads);
-  CheckRange("--io-threads", io_threads, 1, 256);
-  CheckRange("--drain-seconds", drain_seconds, 0, 3600);
-  CheckRange("--outbox-kib", outbox_kib, 1, 65536);
-  // There must be room for one file.
-  CheckRange("--max-file-music-mib", max_file_music_mib, kMaxAudioFileBytes >> 20, 1 << 20);
-  CheckLimits(*this);
-  // There must be room for the largest message.
-  CheckRange("--max-network-mib", max_network_mib, 64, 1 << 20);
+  CheckNumbers(*this);
   CheckSecurity(*this);
   if (log_format != "text" && log_format != "json") {
-    throw InvalidArgument("--log-format", '"' + log_format + "\" is neither text nor json");
+    throw InvalidArgument("--log-format", '"' + log_format + "\" is none of text, json");
   }
   if (std::find(kLogLevels.begin(), kLogLevels.end(), log_level) == kLogLevels.end()) {
     throw InvalidArgument("--log-level", '"' + log_level +
@@ -226,9 +192,6 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
       "checking and reflection.\nEvery setting can also come from the environment or a file.",
       "choreod"};
   app.set_version_flag("--version", CHOREO_VERSION);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string(error.what()) + "; see --help";
-  });
   AddFlags(app, config);
   try {
     app.parse(argc, argv);
@@ -237,14 +200,11 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
     RequireNoEmptyFile(app);
     config.Validate();
     return {.config = std::move(config), .exit_code = 0};
-  } catch (const CLI::ConfigError& error) {  // "INI was not able to parse KEY"
-    const std::string what = error.what();
-    complain(app.get_config_ptr()->as<std::string>() + ": no setting is called \"" +
-             what.substr(what.rfind(' ') + 1) + "\"; choreod --help lists them");
+  } catch (const CLI::Success& error) {  // --help, --version
+    app.exit(error);
+    return {.config = std::nullopt, .exit_code = 0};
   } catch (const CLI::ParseError& error) {
-    std::ostringstream what;
-    if (app.exit(error, std::cout, what) == 0) return {.config = std::nullopt, .exit_code = 0};
-    complain(what.str());
+    complain(InOurWords(app, error));
   } catch (const Error& error) {
     complain(error.what());
   }

@@ -342,8 +342,7 @@ TEST_F(CommandTest, KeepsAServerForOthers) {
   EXPECT_THAT(kept.said, HasSubstr("left with 0"));
   const Outcome wrong = Shell(choreo + " serve --nonsense");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.said,
-              HasSubstr("choreod: The following argument was not expected: --nonsense"));
+  EXPECT_THAT(wrong.said, HasSubstr("choreod: no setting is called \"--nonsense\""));
   std::filesystem::remove(folder_ / "choreod");
   const Outcome absent = Shell(choreo + " serve");
   EXPECT_EQ(absent.code, 1);

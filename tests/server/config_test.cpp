@@ -37,7 +37,7 @@ TEST(ServerConfigTest, OneCallersCallsAreAmongAll) {
   EXPECT_TRUE(Parse({"--max-streams-of-peer", "65"}).config);
   testing::internal::CaptureStderr();
   EXPECT_EQ(Parse({"--max-streams", "64", "--max-streams-of-peer", "65"}).exit_code, 2);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("is more than 64"), std::string::npos);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("65 is not in [0, 64]"), std::string::npos);
 }
 
 TEST(ServerConfigTest, SmallServersKeepAPlaceForAnotherCaller) {
@@ -191,6 +191,38 @@ TEST(ServerConfigTest, ListsValidChoices) {
             "choreod: --kernels: \"avx9\" is none of portable, avx2, avx512, avx512_bf16, "
             "amx_bf16\n"
             "choreod: --engine: \"fast\" is none of auto, torch, packed, packed-bf16\n");
+}
+
+// The setting, its value, and what is allowed.
+TEST(ServerConfigTest, ErrorsAreOfOneShape) {
+  const std::string path = testing::TempDir() + "choreod_config_shape_test.toml";
+  std::ofstream(path) << "max-loud = 1\n";
+  const auto said = [](const std::vector<const char*>& arguments) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Parse(arguments).exit_code, 2);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said({"--workers", "-1"}), "choreod: --workers: -1 is not in [0, 1024]\n");
+  EXPECT_EQ(said({"--workers", "many"}),
+            "choreod: --workers: \"many\" is no whole number in [0, 1024]\n");
+  EXPECT_EQ(said({"--max-load", "much"}),
+            "choreod: --max-load: \"much\" is no number in [0.1, 2]\n");
+  EXPECT_EQ(said({"--insecure=maybe"}),
+            "choreod: --insecure: \"maybe\" is neither true nor false\n");
+  EXPECT_EQ(said({"--workers"}), "choreod: --workers: has no value\n");
+  EXPECT_EQ(said({"--workers", "1", "--workers", "2"}),
+            "choreod: --workers: 2 values are more than 1\n");
+  EXPECT_EQ(said({"--worker", "1"}),
+            "choreod: no setting is called \"--worker\"; did you mean --workers?\n");
+  EXPECT_EQ(said({"--config", path.c_str()}),
+            "choreod: " + path + ": no setting is called \"max-loud\"; did you mean max-load?\n");
+  EXPECT_EQ(said({"--config", "/nonexistent.toml"}),
+            "choreod: --config: no file /nonexistent.toml\n");
+  EXPECT_EQ(said({"--log-format", "xml"}),
+            "choreod: --log-format: \"xml\" is none of text, json\n");
+  EXPECT_EQ(
+      said({"--model", "free", "--models", "here"}),
+      "choreod: --model: \"free\" is a model that ships; --checkpoint and --models exclude it\n");
 }
 
 // The file, too.
