@@ -72,7 +72,7 @@ class ChoreographyService::InfoReactor final : public grpc::ServerUnaryReactor {
 };
 
 grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
-    grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* /*request*/,
+    grpc::CallbackServerContext* context, const v1::GetServerInfoRequest* request,
     v1::GetServerInfoResponse* response) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
@@ -90,6 +90,9 @@ grpc::ServerUnaryReactor* ChoreographyService::GetServerInfo(
                       " answers wait for your address to read them, the most there may be"));
   }
   if (status.ok()) Describe(response);
+  if (request->without_cards()) {
+    for (v1::ModelInfo& model : *response->mutable_models()) model.clear_card();
+  }
   serving_.tally.Count({.method = Tally::kInfoMethod,
                         .caller = caller,
                         .status = status,

@@ -103,7 +103,8 @@ test('options of calls that cannot be used are named before the call', () =>
     const [info, dance] = calls;
     await assert.rejects(dance({ on_resume: () => {} }), { message: 'on_resume: no option of this call; did you mean onResume?' });
     await assert.rejects(dance({ onResume: 5 }), { message: 'onResume: 5 is no function' });
-    await assert.rejects(info({ onResume: () => {} }), { message: /^onResume: no option of this call; there are signal, deadline$/ });
+    await assert.rejects(info({ onResume: () => {} }), { message: /^onResume: no option of this call; there are signal, deadline, cards$/ });
+    await assert.rejects(info({ cards: 'all' }), { message: "cards: 'all' is neither true nor false" });
     const soon = Date.now() + 60000;
     for (const deadline of [new Date(soon), soon, Infinity, undefined, null]) {
       for (const call of calls) await call({ deadline, signal: new AbortController().signal });

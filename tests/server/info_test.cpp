@@ -89,6 +89,20 @@ class BriefSampler : public FakeSampler {
 };
 
 // The server's limit is one thing, what its model can do another.
+// Old clients, which cannot ask, get them.
+TEST_F(InfoTest, CardsCanBeLeftOut) {
+  Start(1);
+  for (const bool without : {false, true}) {
+    grpc::ClientContext context;
+    v1::GetServerInfoRequest request;
+    request.set_without_cards(without);
+    v1::GetServerInfoResponse info;
+    ASSERT_TRUE(stub().GetServerInfo(&context, request, &info).ok());
+    EXPECT_EQ(info.models(0).card().empty(), without);
+    EXPECT_EQ(info.models(0).name(), "fake");
+  }
+}
+
 TEST_F(InfoTest, ReportsEachModelsLongestTransition) {
   for (const auto& [of_model, told] : {std::pair{150, 150}, {5'000, 1'800}}) {
     StartWith(std::make_unique<BriefSampler>(of_model));

@@ -18,6 +18,9 @@ const checks = {
       throw invalid('deadline', `${value} is no date of today; numbers are milliseconds since 1970, as Date.now() + 500`);
     }
   },
+  cards: (value) => {
+    if (typeof value !== 'boolean') throw invalid('cards', `${quoted(value)} is neither true nor false`);
+  },
   onResume: (value) => {
     if (typeof value !== 'function') throw invalid('onResume', `${quoted(value)} is no function`);
   },

@@ -18,10 +18,11 @@ export class ChoreoClient {
 
   async info(given) {
     const replicas = this.#replicas;
-    const options = checkCall(given);
-    const { deadline } = options;
+    const options = checkCall(given, ['signal', 'deadline', 'cards']);
+    const { deadline, cards = false } = options;
+    const request = { without_cards: !cards };
     async function* attempt({ stub }, patience, signal) {
-      yield await answerOf((callback) => stub.GetServerInfo({}, replicas.metadata(), { deadline }, callback), signal);
+      yield await answerOf((callback) => stub.GetServerInfo(request, replicas.metadata(), { deadline }, callback), signal);
     }
     for await (const answer of replicas.persist(attempt, options)) return answer;
   }

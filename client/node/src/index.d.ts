@@ -78,8 +78,8 @@ export class ChoreoClient {
   /** Ends its calls with CANCELLED, and refuses others. */
   close(): void;
 
-  /** Models, limits, devices. */
-  info(options?: CallOptions): Promise<ServerInfo>;
+  /** Models, limits, devices. `cards`: with the models' cards, JSON of some 30 KB each. */
+  info(options?: CallOptions & { cards?: boolean }): Promise<ServerInfo>;
 
   /**
    * Dances. Sends the `requests`, an iterable that may be asynchronous (music that is being played, say), as fast as the server takes them,

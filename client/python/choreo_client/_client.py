@@ -68,13 +68,15 @@ class Client:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def info(self, timeout: typing.Optional[float] = None) -> choreography.GetServerInfoResponse:
-        """Models, limits, devices: a GetServerInfoResponse. `timeout`: seconds, of all attempts together."""
+    def info(self, timeout: typing.Optional[float] = None, cards: bool = False) -> choreography.GetServerInfoResponse:
+        """Models, limits, devices: a GetServerInfoResponse. `timeout`: seconds, of all attempts together. `cards`: with the models' cards, JSON
+        of some 30 KB each."""
         until = Cancellation(timeout)
+        request = choreography.GetServerInfoRequest(without_cards=not cards)
         metadata = self._replicas.options.metadata
 
         def attempt(server, _):
-            yield server.get_server_info(choreography.GetServerInfoRequest(), timeout=until.remaining(), metadata=metadata())
+            yield server.get_server_info(request, timeout=until.remaining(), metadata=metadata())
 
         return next(self._replicas.persist(attempt, until))
 
