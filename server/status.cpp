@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "server/field_path.h"
+#include "server/key_error.h"
 
 namespace choreo {
 namespace {
@@ -69,9 +71,12 @@ std::string OneShortLine(std::string_view text) {
   return line.substr(0, head) + "..." + line.substr(tail);
 }
 
-grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::string_view of_field,
+/// For ErrorInfo, by name.
+using Metadata = std::map<std::string, std::string>;
+
+grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, const Metadata& metadata,
                         const std::optional<Violation>& violation, double retry_after) {
-  const std::string message = OneShortLine(text), field = OneShortLine(of_field);
+  const std::string message = OneShortLine(text);
   google::rpc::Status status;
   status.set_code(mapping.code);
   status.set_message(message);
@@ -79,7 +84,9 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
   google::rpc::ErrorInfo info;
   info.set_reason(mapping.reason);
   info.set_domain("choreo");
-  if (!field.empty()) (*info.mutable_metadata())["field"] = field;
+  for (const auto& [name, value] : metadata) {
+    if (!value.empty()) (*info.mutable_metadata())[name] = OneShortLine(value);
+  }
   status.add_details()->PackFrom(info);
 
   if (violation) {
@@ -103,7 +110,10 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, std::stri
 
 grpc::Status ToStatus(const Error& error, double retry_after) {
   const auto violation = error.field().empty() ? std::nullopt : std::optional(ViolationOf(error));
-  return MakeStatus(Map(error.code()), error.what(), error.field(), violation, retry_after);
+  Metadata metadata = {{"field", error.field()}};
+  if (const auto* of_key = dynamic_cast<const KeyError*>(&error))
+    metadata["keyframe_id"] = of_key->key_id();
+  return MakeStatus(Map(error.code()), error.what(), metadata, violation, retry_after);
 }
 
 Violation ViolationOf(const Error& error) {
@@ -112,7 +122,7 @@ Violation ViolationOf(const Error& error) {
 }
 
 grpc::Status Unauthenticated(const std::string& message) {
-  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", false}, message, "", {}, 0);
+  return MakeStatus({grpc::StatusCode::UNAUTHENTICATED, "TOKEN_NEEDED", false}, message, {}, {}, 0);
 }
 
 const char* NameOf(grpc::StatusCode code) {

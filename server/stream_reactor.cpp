@@ -12,6 +12,7 @@
 #include "proto/wire/continuation.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
+#include "server/key_error.h"
 #include "server/music_file.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
@@ -198,7 +199,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       when = ToMoment(keyframe, field);
       stream.SetKey(ToKey(keyframe, queue_->model().skeleton, field), *when);
     } catch (const Error& error) {
-      if (!rejects_keys_ || error.code() != ErrorCode::kInvalidArgument) throw;
+      if (!rejects_keys_ || error.code() != ErrorCode::kInvalidArgument)
+        throw KeyError(error, keyframe.id());
       const auto [path, description] = ViolationOf(error);
       stream.RejectKey(keyframe.id(), when, path, description);
     }
@@ -208,7 +210,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     try {
       stream.RemoveKey(id);
     } catch (const Error& error) {
-      if (!rejects_keys_ || error.code() != ErrorCode::kNotFound) throw;
+      if (!rejects_keys_ || error.code() != ErrorCode::kNotFound) throw KeyError(error, id);
       const auto [path, description] = ViolationOf(error);
       stream.RejectKey(id, std::nullopt, path, description);
     }

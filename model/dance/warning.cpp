@@ -18,7 +18,7 @@ Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_
                skeleton.joint_names[static_cast<size_t>(speed.joint)] + "; people reach " +
                Rounded(RequiredSpeed::kJointLimit);
   }
-  return {first_frame + frames - 1, std::move(message), Warning::Code::kIntervalTooShort};
+  return {first_frame + frames - 1, std::move(message), Warning::Code::kIntervalTooShort, id};
 }
 
 Warning InexactResume(const Continuation& continuation, const ModelInfo& model) {
@@ -45,7 +45,7 @@ Warning PathTooFast(int64_t frame, double m_per_s) {
 Warning KeyOffPath(const std::string& id, int64_t frame, double metres) {
   return {frame,
           "key \"" + id + "\" lies " + Rounded(metres) + " m off the root path; the key wins",
-          Warning::Code::kKeyOffPath};
+          Warning::Code::kKeyOffPath, id};
 }
 
 Warning ControlsTooLate(int64_t last_frame, int64_t earliest) {
@@ -76,11 +76,11 @@ Warning KeyOffHeight(const std::string& id, int64_t frame, double standing, doub
               " m, the root path has " + Rounded(height) + " m: it is " +
               Rounded(std::abs(height - standing)) +
               (height > standing ? " m in the air" : " m too low for its feet") + "; the path wins",
-          Warning::Code::kKeyOffHeight};
+          Warning::Code::kKeyOffHeight, id};
 }
 
 Warning KeyImpossible(const std::string& id, int64_t frame, const std::string& fault) {
-  return {frame, "key \"" + id + "\": " + fault, Warning::Code::kKeyImpossible};
+  return {frame, "key \"" + id + "\": " + fault, Warning::Code::kKeyImpossible, id};
 }
 
 Warning PathAway(int64_t frame, double metres) {

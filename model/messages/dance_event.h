@@ -86,6 +86,7 @@ struct Warning {
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit
   Code code = Code::kUnknown;
+  std::string key_id = {};  ///< of the key at `frame`; empty if it is about none
 };
 
 /// A Beat comes with the frame that it is in.

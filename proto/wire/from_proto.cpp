@@ -159,7 +159,8 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
     }
     case v1::Event::kWarning:
       return Warning{frame, event.warning().message(),
-                     ToCode(event.warning().code(), Warning::Code::kKeyImpossible)};
+                     ToCode(event.warning().code(), Warning::Code::kKeyImpossible),
+                     event.warning().keyframe_id()};
     case v1::Event::EVENT_NOT_SET:
       break;
   }

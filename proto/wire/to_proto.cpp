@@ -39,6 +39,7 @@ void Fill(const KeyRejected& key, v1::Event* out) {
 void Fill(const Warning& warning, v1::Event* out) {
   out->mutable_warning()->set_code(static_cast<v1::WarningCode>(warning.code));
   out->mutable_warning()->set_message(warning.message);
+  out->mutable_warning()->set_keyframe_id(warning.key_id);
 }
 
 void Fill(const Beat& beat, v1::Event* out) {

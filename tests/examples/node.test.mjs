@@ -118,8 +118,47 @@ test('errors name code, field and value', async () => {
       assert.match(error.message, /^keyframes\[0\]\.rotations\[0\]: 1000 rad/);
       return true;
     });
+    // The numbers that were sent are counted, in the encoding of their pose.
+    const quaternions = { root_position: { x: 0, y: 1, z: 0 }, encoding: 'ROTATION_ENCODING_QUATERNION' };
+    quaternions.rotations = skeleton.joint_names.flatMap((_, joint) => [0, 0, 0, joint === 5 ? 2 : 1]);
+    const turns = pose(skeleton, { [skeleton.joint_names[5]]: [0, 7, 0] });
+    const sent = [
+      [turns, 'rotations[15]'],
+      [quaternions, 'rotations[20]'],
+    ];
+    for (const [wanted, field] of sent) {
+      const requests = [{ config: {} }, { keyframe: { id: 'b', frame: 40, pose: turns } }];
+      requests.splice(1, 1, { keyframe: { id: 'a', frame: 20, pose: wanted } });
+      const of = { keyframeId: 'a', joint: 5, field: `keyframe.pose.${field}` };
+      await assert.rejects(collect(client.streamDance(requests)), ({ violations: [{ description, ...named }] }) => {
+        assert.deepEqual(named, of);
+        return true;
+      });
+      requests[0].config = { frames: 30, reject_invalid_keys: true };
+      const rejected = (await collect(client.streamDance(requests))).find(({ event }) => event?.keyframe_rejected).event.keyframe_rejected;
+      assert.deepEqual([rejected.id, rejected.field], ['a', of.field]);
+      const after = collect(client.generateTransition({ config: {}, frames: 9, target: wanted }));
+      await assert.rejects(after, ({ violations: [{ field: path }] }) => path === `target.${field}`);
+    }
+    const early = collect(client.streamDance([{ config: {} }, { keyframe: { id: 'c', frame: 'soon' } }]));
+    await assert.rejects(early, ({ violations: [{ keyframeId }] }) => keyframeId === 'c');
     const unknown = collect(client.generateTransition({ config: { model: 'nobody' }, frames: 9 }));
     await assert.rejects(unknown, { code: 'NOT_FOUND', message: /nobody/ });
+  });
+});
+
+test('warnings name their key', async () => {
+  await withClient(async (client, { skeleton }) => {
+    const key = { id: 'far', frame: 10, pose: pose(skeleton, {}, { x: 50 }) };
+    const warned = (await collect(client.streamDance([{ config: {} }, { keyframe: key }]))).filter(({ event }) => event?.warning);
+    assert.deepEqual(warned.map(({ event }) => [event.warning.keyframe_id, event.frame]), [['far', '10']]);
+  });
+});
+
+test('cards come on request', async () => {
+  await withClient(async (client, { card }) => {
+    assert.equal(card, '');
+    assert.notEqual((await client.info({ cards: true })).models[0].card, '');
   });
 });
 

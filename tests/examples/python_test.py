@@ -151,6 +151,37 @@ class PythonTest(unittest.TestCase):
         self.assertEqual(field, "keyframe.pose.rotations[0]")
         self.assertTrue(description.startswith("1000 rad"), description)
 
+    def test_errors_count_the_numbers_that_were_sent(self):
+        joints = self.client.info().models[0].skeleton.joint_names
+        quaternions = [value for joint in range(len(joints)) for value in (0, 0, 0, 2 if joint == 5 else 1)]
+        whole = {"root_position": {"y": 1}, "encoding": "ROTATION_ENCODING_QUATERNION", "rotations": quaternions}
+        turned = pose(self.client.info().models[0].skeleton, {joints[5]: [0, 7, 0]})
+        for wanted, at in ((turned, 15), (whole, 20)):
+            key = {"keyframe": {"id": "a", "frame": 20, "pose": wanted}}
+            with self.assertRaises(ChoreoError) as raised:
+                list(self.client.stream_dance([{"config": {}}, key]))
+            (violation,) = raised.exception.violations
+            named = (violation.field, violation.keyframe_id, violation.joint)
+            self.assertEqual(named, (f"keyframe.pose.rotations[{at}]", "a", 5))
+            answers = list(self.client.stream_dance([{"config": {"frames": 30, "reject_invalid_keys": True}}, key]))
+            (rejected,) = (one.event.keyframe_rejected for one in answers if one.event.HasField("keyframe_rejected"))
+            self.assertEqual((rejected.id, rejected.field), ("a", named[0]))
+            with self.assertRaises(ChoreoError) as raised:
+                list(self.client.generate_transition({"config": {}, "frames": 9, "target": wanted}))
+            self.assertEqual(raised.exception.violations[0].field, f"target.rotations[{at}]")
+        with self.assertRaises(ChoreoError) as raised:
+            list(self.client.stream_dance([{"config": {}}, {"keyframe": {"id": "c", "frame": "soon"}}]))
+        self.assertEqual(raised.exception.violations[0].keyframe_id, "c")
+
+    def test_warnings_name_their_key(self):
+        key = {"keyframe": {"id": "far", "frame": 10, "pose": pose(self.client.info().models[0].skeleton, {}, x=50)}}
+        (warning,) = (one.event for one in self.client.stream_dance([{"config": {}}, key]) if one.event.HasField("warning"))
+        self.assertEqual((warning.warning.keyframe_id, warning.frame), ("far", 10))
+
+    def test_cards_come_on_request(self):
+        self.assertEqual({model.card for model in self.client.info().models}, {""})
+        self.assertTrue(self.client.info(cards=True).models[0].card)
+
     def test_a_cancelled_call_ends_here_and_on_the_server(self):
         answers = self.client.stream_dance(silence())
         with self.assertRaises(ChoreoError) as raised:

@@ -132,7 +132,7 @@ TEST(Wire, EventsRoundTrip) {
            KeyWithHands(),
            KeyRejected{"a", 30, 33, "wrong", KeyRejected::Code::kInvalid, "keyframe.pose"},
            Beat{30, 1.25, Beat::Source::kHeard, 0.5, true},
-           Warning{30, "fast", Warning::Code::kKeyImpossible}}) {
+           Warning{30, "fast", Warning::Code::kKeyImpossible, "a"}}) {
     const v1::Event message = wire::ToProto(event, 30);
     EXPECT_EQ(message.time(), event.index() == 3 ? 1.25 : 1);
     ExpectFull(message);

@@ -329,4 +329,28 @@ TEST_F(StreamKeysTest, KeysMoveDuringTheirTransition) {
   EXPECT_EQ(plain.continuations[0].frame(), 61);
 }
 
+// So that a page can mark it.
+TEST_F(StreamKeysTest, ErrorsAndWarningsNameTheirKey) {
+  Start();
+  DanceClient bad(stub());
+  bad.Send(Config());
+  v1::Keyframe wrong = Key("wrong", 20);
+  wrong.mutable_pose()->set_rotations(0, 1000);
+  bad.SendKeyframe(wrong);
+  const Details details = DetailsOf(bad.Finish().status);
+  EXPECT_EQ(details.error_info->metadata().at("keyframe_id"), "wrong");
+
+  DanceClient far(stub());
+  far.Send(Config());
+  far.SendKeyframe(Key("near", 20));
+  far.SendKeyframe(Key("far", 30, 50));
+  std::map<v1::WarningCode, v1::Event> warnings;
+  for (const v1::Event& event : far.Finish().events) {
+    if (event.has_warning()) warnings[event.warning().code()] = event;
+  }
+  const v1::Event& warned = warnings[v1::WARNING_CODE_INTERVAL_TOO_SHORT];
+  EXPECT_EQ(warned.frame(), 30);
+  EXPECT_EQ(warned.warning().keyframe_id(), "far");
+}
+
 }  // namespace choreo::stream_keys_test

@@ -21,13 +21,13 @@ export async function answerOf(begin, signal) {
   }
 }
 
-/** Yields the answers of a call. */
-export async function* answersOf(call, signal) {
+/** Yields the answers of a call. `find(violation)`: what was sent that an error is about. */
+export async function* answersOf(call, signal, find) {
   const leave = cancelOn(signal, call);
   try {
     yield* call;
   } catch (failure) {
-    throw new ChoreoError(failure);
+    throw new ChoreoError(failure).locate(find);
   } finally {
     leave();
     call.cancel();

@@ -1,6 +1,7 @@
 // A dance that outlives its server: it goes on at another one from the last continuation, and the caller reads what it would have read.
 import grpc from '@grpc/grpc-js';
 import { answersOf } from './answers.js';
+import { asSent } from './as_sent.js';
 import { checkCall } from './call_options.js';
 import { ChoreoError, unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
@@ -25,7 +26,7 @@ export async function* dance(replicas, requests, given) {
     const sent = { count: 0 };
     say(call, journal, progress, sent);
     try {
-      for await (const answer of answersOf(call, signal)) {
+      for await (const answer of answersOf(call, signal, (violation) => journal.find(violation))) {
         const news = progress.take(answer, server.address, sent.count);
         if (!news) continue;
         if (news.frames) patience.reset();
@@ -117,7 +118,7 @@ class Progress {
         return frames && { ...answer, frames };
       }
       case 'event': {
-        const event = this.#journal.refusedKeys.event(answer.event);
+        const event = this.#journal.refusedKeys.event(this.#asSent(answer.event));
         return this.#filter.event(event) ? { ...answer, event } : undefined;
       }
       case 'continuation':
@@ -128,6 +129,14 @@ class Progress {
         return this.#takeSummary(answer);
     }
     return undefined; // of a newer version of the protocol
+  }
+
+  /** Rejected keys name what the caller has sent. */
+  #asSent(event) {
+    const rejected = event.keyframe_rejected;
+    if (!rejected?.field) return event;
+    const { field } = asSent(rejected.field, this.#journal.find({ field: rejected.field, keyframeId: rejected.id }));
+    return { ...event, keyframe_rejected: { ...rejected, field } };
   }
 
   #takeHeader(answer, address) {

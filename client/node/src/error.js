@@ -1,5 +1,6 @@
 // What may go wrong, and when it is worth while to try again.
 import grpc from '@grpc/grpc-js';
+import { asSent } from './as_sent.js';
 import { rpc } from './protos.js';
 
 /** A failed call: `code` as in 'INVALID_ARGUMENT', the server's words, and what it names. */
@@ -9,18 +10,29 @@ export class ChoreoError extends Error {
     super(failure.details || failure.message || 'the server failed without saying why');
     this.name = 'ChoreoError';
     this.code = grpc.status[failure.code] ?? 'UNKNOWN';
-    /** [{field: 'keyframe.pose.rotations', description: '69 numbers are 23 joints; ...'}] */
+    /** [{field: 'keyframe.pose.rotations', description: '69 numbers are 23 joints; ...', keyframeId: 'arms up'}] */
     this.violations = violations;
     /** Try again after so many seconds, where that may help. */
     this.retryAfter = undefined;
     for (const bytes of failure.metadata?.get('grpc-status-details-bin') ?? []) this.#read(bytes);
   }
 
+  /** Has the violations name what callers have sent: `find(violation)` is the message. */
+  locate(find) {
+    this.violations = this.violations.map((violation) => ({ ...violation, ...asSent(violation.field, find(violation)) }));
+    return this;
+  }
+
   #read(bytes) {
+    let key;
     for (const { type_url, value } of rpc.lookupType('google.rpc.Status').decode(bytes).details) {
       const type = type_url.split('/').pop();
-      if (type === 'google.rpc.BadRequest') {
-        this.violations.push(...rpc.lookupType(type).decode(value).fieldViolations);
+      if (type === 'google.rpc.ErrorInfo') {
+        const { keyframe_id: keyframeId } = rpc.lookupType(type).decode(value).metadata;
+        key = keyframeId && { keyframeId };
+      } else if (type === 'google.rpc.BadRequest') {
+        const { fieldViolations } = rpc.lookupType(type).decode(value);
+        this.violations.push(...fieldViolations.map(({ field, description }) => ({ field, description, ...key })));
       } else if (type === 'google.rpc.RetryInfo') {
         const { seconds, nanos } = rpc.lookupType(type).decode(value).retryDelay;
         this.retryAfter = Number(seconds) + 1e-9 * nanos;

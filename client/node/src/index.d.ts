@@ -59,8 +59,11 @@ export class ChoreoError extends Error {
   private constructor();
   /** As in 'INVALID_ARGUMENT'. */
   readonly code: string;
-  /** What is wrong: the field's path in the message that was sent, as in 'keyframe.pose.rotations'. */
-  readonly violations: { field: string; description: string }[];
+  /**
+   * What is wrong: the field's path in the message that was sent, as in 'keyframe.pose.rotations[48]'; of a rotation its first number, and its
+   * `joint`; and the key that it is of.
+   */
+  readonly violations: { field: string; description: string; keyframeId?: string; joint?: number }[];
   /** Try again after so many seconds, where that may help. */
   readonly retryAfter?: number;
 }

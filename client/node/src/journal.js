@@ -55,6 +55,8 @@ export class Journal {
       const blank = goesOn ? this.refusedKeys.blank(request, error) : undefined;
       if (blank) return blank;
       this.close(); // the source knows nothing of it
+      const keyframeId = request?.keyframe?.id;
+      if (typeof keyframeId === 'string') error.violations.forEach((violation) => Object.assign(violation, { keyframeId }));
       throw error;
     }
   }
@@ -65,6 +67,13 @@ export class Journal {
     this.#over = true;
     // A source that is at work ends when it is done with that.
     Promise.resolve(this.#source.return?.()).catch(() => {});
+  }
+
+  /** The latest request that may have a field: of a key, the one of that id, if it is known. */
+  find({ field, keyframeId }) {
+    const kind = field.split(/[.[]/)[0];
+    const ofKey = ({ keyframe }) => keyframeId === undefined || keyframe?.id === keyframeId;
+    return this.#requests.findLast((request) => request?.[kind] && (kind !== 'keyframe' || ofKey(request)));
   }
 
   /** Another server would need the music from this sample on alone. The present one has been told what stands before `sent`. */

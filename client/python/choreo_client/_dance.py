@@ -6,7 +6,8 @@ import threading
 import grpc
 
 from . import choreography
-from ._errors import ChoreoError, unavailable
+from ._as_sent import as_sent
+from ._errors import ChoreoError, Violation, unavailable
 from ._journal import Journal
 from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
@@ -43,7 +44,8 @@ def dance(replicas, requests, on_resume, until):
             if journal.failure is not None:
                 raise journal.failure from None
             if not progress.complete:  # else nothing of the status matters any more
-                progress.lost_because = failure if isinstance(failure, ChoreoError) else ChoreoError.of(failure)
+                ours = isinstance(failure, ChoreoError)
+                progress.lost_because = failure if ours else ChoreoError.of(failure, journal.find)
                 raise progress.lost_because from None
         finally:
             call.cancel()  # a finished one does not mind
@@ -127,6 +129,7 @@ class _Progress:
         if kind == "frames":
             return self._filter.take_frames(answer.frames)
         if kind == "event":
+            self._name_as_sent(answer.event.keyframe_rejected)
             self._journal.refused_keys.take_event(answer.event)
             return self._filter.take_event(answer.event)
         if kind == "continuation":
@@ -135,6 +138,11 @@ class _Progress:
         elif kind == "summary":
             self._take_summary(answer.summary.report)
         return kind is not None  # else of a newer version of the protocol
+
+    def _name_as_sent(self, rejected):
+        if rejected.field:
+            violation = Violation(rejected.field, rejected.reason, rejected.id)
+            rejected.field, _ = as_sent(rejected.field, self._journal.find(violation))
 
     def _take_header(self, header, address):
         if self._header is None:

@@ -3,13 +3,22 @@
 import collections
 import types
 
+from ._as_sent import as_sent
 from ._compile import ERRORS
 from ._protos import contents
 
 _rpc = types.SimpleNamespace(**contents(*ERRORS))
 
-Violation = collections.namedtuple("Violation", "field description")
-Violation.__doc__ = "What the server finds wrong: a field's path in the message that was sent, as in 'keyframe.pose.rotations', and what of it."
+
+class Violation(collections.namedtuple("Violation", "field description")):
+    """What the server finds wrong: a field's path in the message that was sent, as in 'keyframe.pose.rotations[48]', and what of it. Of a
+    rotation the field is its first number, and `joint` its joint. `keyframe_id`: the key that it is of. None where there is none."""
+
+    def __new__(cls, field, description, keyframe_id=None, joint=None):
+        violation = super().__new__(cls, field, description)
+        violation.keyframe_id, violation.joint = keyframe_id, joint
+        return violation
+
 
 
 class ChoreoError(Exception):
@@ -23,23 +32,32 @@ class ChoreoError(Exception):
         self.retry_after = retry_after
 
     @classmethod
-    def of(cls, failure):
-        """A grpc.RpcError."""
+    def of(cls, failure, find=lambda violation: None):
+        """A grpc.RpcError. `find(violation)`: the message that was sent and that it is about."""
         error = cls(failure.code().name, failure.details() or "the server failed without saying why")
         for key, value in failure.trailing_metadata() or ():
             if key == "grpc-status-details-bin":
                 error._read(value)
+        error.violations = [_located(violation, find(violation)) for violation in error.violations]
         return error
 
     def _read(self, value):
+        key = None
         for detail in _rpc.Status.FromString(value).details:
             name = detail.type_url.rpartition("/")[2]
-            if name == "google.rpc.BadRequest":
+            if name == "google.rpc.ErrorInfo":
+                key = dict(_rpc.ErrorInfo.FromString(detail.value).metadata).get("keyframe_id")
+            elif name == "google.rpc.BadRequest":
                 fields = _rpc.BadRequest.FromString(detail.value).field_violations
-                self.violations += [Violation(wrong.field, wrong.description) for wrong in fields]
+                self.violations += [Violation(wrong.field, wrong.description, key) for wrong in fields]
             elif name == "google.rpc.RetryInfo":
                 delay = _rpc.RetryInfo.FromString(detail.value).retry_delay
                 self.retry_after = delay.seconds + 1e-9 * delay.nanos
+
+
+def _located(violation, request):
+    field, joint = as_sent(violation.field, request)
+    return Violation(field, violation.description, violation.keyframe_id, joint)
 
 
 def unavailable(message):

@@ -1,12 +1,14 @@
 """What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
 messages. Only music that it no longer needs is forgotten."""
 
+import collections.abc
 import math
+import re
 import threading
 
 from . import choreography
 from ._check import checked
-from ._errors import ChoreoError, invalid
+from ._errors import ChoreoError, Violation, invalid
 from ._refused_keys import RefusedKeys
 from ._words import quoted
 
@@ -59,6 +61,10 @@ class Journal:
             if blank is not None:
                 return blank
             self._end_source()
+            key = request.get("keyframe") if isinstance(request, collections.abc.Mapping) else None
+            name = key.get("id") if isinstance(key, collections.abc.Mapping) else None
+            if isinstance(name, str):
+                error.violations = [Violation(*violation, keyframe_id=name) for violation in error.violations]
             raise
 
     def _end_source(self):
@@ -71,6 +77,16 @@ class Journal:
             self._over = True
             self._end_source()
             self._asking.release()
+
+    def find(self, violation):
+        """The latest request that may have its field: of a key, the one of that id, if it is known; or None."""
+        kind = re.match(r"\w*", violation.field)[0]
+        for request in reversed(list(self._said)):
+            if request is None or request.WhichOneof("request") != kind:
+                continue
+            if kind != "keyframe" or violation.keyframe_id in (None, request.keyframe.id):
+                return request
+        return None
 
     def forget_music_before(self, sample, sent):
         """Another server would need the music from this sample on alone. The present one has been told the first `sent` requests."""

@@ -1,8 +1,10 @@
 """A transition whose server is lost is made again by another one; what was told already is left out."""
 
+import grpc
+
 from . import choreography
 from ._check import checked, music_encoding
-from ._errors import unavailable
+from ._errors import ChoreoError, unavailable
 from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
 
@@ -32,6 +34,8 @@ def transition(replicas, request, until):
                     continue
                 complete |= answer.HasField("summary")
                 yield answer
+        except grpc.RpcError as failure:
+            raise ChoreoError.of(failure, lambda violation: asked) from None
         finally:
             call.cancel()  # a finished one does not mind
         if not complete:
