@@ -14,15 +14,22 @@ constexpr size_t kMusicChunkBytes = size_t{128} * 1024;
 }  // namespace
 
 Attempt::Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
-                 std::optional<Patience::Clock::time_point> deadline, Journal* journal,
-                 std::mutex* mutex)
+                 std::optional<Patience::Clock::time_point> deadline,
+                 const std::string& resumed_from, Journal* journal, std::mutex* mutex)
     : server_(replicas.current()), journal_(journal), mutex_(mutex) {
   replicas.Prepare(&context_);
+  if (!resumed_from.empty()) context_.AddMetadata("choreo-resumed-from", resumed_from);
   if (deadline) context_.set_deadline(*deadline);
   // Otherwise StreamDance would wait for a connection while it holds `mutex`.
   context_.set_initial_metadata_corked(true);
   stream_ = server_.stub->StreamDance(&context_);
   sender_ = std::thread([this, first] { SendLoop(first); });
+}
+
+std::string Attempt::StreamId() const {
+  const auto& headers = context_.GetServerInitialMetadata();
+  const auto id = headers.find("choreo-stream-id");
+  return id == headers.end() ? "" : std::string(id->second.data(), id->second.size());
 }
 
 Attempt::~Attempt() {
@@ -97,7 +104,8 @@ void RemoteDance::Impl::Connect() {
   if (config_.has_audio_format() && bytes_per_sample_ > 0) {
     first.mutable_config()->mutable_audio_format()->set_first_sample(journal_.first_sample());
   }
-  attempt_ = std::make_unique<Attempt>(*replicas_, first, patience_.deadline(), &journal_, &mutex_);
+  attempt_ = std::make_unique<Attempt>(*replicas_, first, patience_.deadline(), first_stream_id_,
+                                       &journal_, &mutex_);
 }
 
 std::optional<Message> RemoteDance::Impl::Next() {
@@ -189,6 +197,7 @@ Message RemoteDance::Impl::HandleHeader(const v1::Header& header) {
   fingerprint_ = header.fingerprint();
   if (!header_) {
     header_ = received;
+    first_stream_id_ = attempt_->StreamId();
     // The position of the first output frame that is not before the first frame.
     const double first =
         static_cast<double>(received.first_frame) * received.fps / received.model_fps;

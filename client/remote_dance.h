@@ -18,13 +18,17 @@ namespace choreo::client {
 /// waits for it. `mutex`, the owner's, guards the journal; the owner notifies after appending.
 class Attempt {
  public:
+  /// `resumed_from`: the StreamId of the call in which the dance began; empty: in this one.
   Attempt(const Replicas& replicas, const v1::StreamDanceRequest& first,
-          std::optional<Patience::Clock::time_point> deadline, Journal* journal, std::mutex* mutex);
+          std::optional<Patience::Clock::time_point> deadline, const std::string& resumed_from,
+          Journal* journal, std::mutex* mutex);
   ~Attempt();  ///< ends the call
   Attempt(const Attempt&) = delete;
   Attempt& operator=(const Attempt&) = delete;
 
   const Replicas::Server& server() const { return server_; }
+  /// The call's name in the server's log; after the first Read. Empty if the server tells none.
+  std::string StreamId() const;
   /// Blocks; false at the end of the call.
   bool Read(v1::StreamDanceResponse* response) { return stream_->Read(response); }
   /// After Read returned false: how the call ended.
@@ -85,6 +89,7 @@ struct RemoteDance::Impl {
   // Used by Next alone.
   std::optional<Header> header_;
   std::string fingerprint_;  // of the server that danced last
+  std::string first_stream_id_;
   std::optional<DeliveryFilter> filter_;
   std::string lost_because_;  // not empty: the next header is a resumption
   bool complete_ = false;

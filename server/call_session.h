@@ -194,6 +194,15 @@ class CallSession : public Call {
     seed_ = seed;
   }
 
+  /// Logs and counts a dance that goes on in this call. Message thread.
+  void NoteResumed(int64_t frame) {
+    ++serving_.tally.dances_resumed;
+    spdlog::info("{} {} stream {} resumes {} at frame {}", method_, caller_.peer, caller_.stream_id,
+                 caller_.resumed_from.empty() ? "a dance" : "stream " + caller_.resumed_from,
+                 frame);
+  }
+  bool IsNamedResumed() const { return !caller_.resumed_from.empty(); }
+
   /// Call the next two from the sink only: its calls come one at a time.
   void CountFrames(size_t frames) {
     if (frames_ == 0) first_frame_s_ = Elapsed();

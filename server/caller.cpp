@@ -12,13 +12,16 @@ namespace {
 // "00-TRACE-SPAN-FLAGS" (W3C Trace Context); later versions may have more after it.
 constexpr size_t kTraceDigits = 32, kSpanDigits = 16;
 constexpr size_t kTraceAt = 3, kSpanAt = kTraceAt + kTraceDigits + 1;
+constexpr size_t kStreamIdDigits = 16;
 constexpr size_t kLength = kSpanAt + kSpanDigits + 3;
 
+bool IsHexadecimal(std::string_view digits) {
+  return std::ranges::all_of(
+      digits, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
 bool IsId(std::string_view digits) {
-  const bool hex = std::all_of(digits.begin(), digits.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-  });
-  return hex && digits.find_first_not_of('0') != std::string_view::npos;
+  return IsHexadecimal(digits) && digits.find_first_not_of('0') != std::string_view::npos;
 }
 
 bool IsTraceparent(std::string_view text) {
@@ -46,9 +49,13 @@ std::string Caller::Party() const {
 
 std::string FreshStreamId() {
   std::random_device device;
-  char digits[17];
+  char digits[kStreamIdDigits + 1];
   std::snprintf(digits, sizeof digits, "%08x%08x", device(), device());
   return digits;
+}
+
+bool IsStreamId(std::string_view text) {
+  return text.size() == kStreamIdDigits && IsHexadecimal(text);
 }
 
 Caller CallerOf(const grpc::CallbackServerContext& context) {

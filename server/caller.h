@@ -16,13 +16,18 @@ struct Caller {
   std::string trace_id, span_id;
   /// For calls that dance: 16 hexadecimal digits, sent to the client as kStreamIdHeader.
   std::string stream_id = {};
+  /// Of a dance that began in another call: that one's stream_id, as the client says in
+  /// kResumedFromHeader; sent back to it.
+  std::string resumed_from = {};
 
   /// The name for calls that are counted together: the token's holder, or else an address.
   std::string Party() const;
 };
 
 inline constexpr const char* kStreamIdHeader = "choreo-stream-id";
+inline constexpr const char* kResumedFromHeader = "choreo-resumed-from";
 std::string FreshStreamId();
+bool IsStreamId(std::string_view text);
 
 /// A peer without its port.
 std::string AddressOf(const std::string& peer);

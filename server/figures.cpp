@@ -121,6 +121,10 @@ class Figures {
     out.Add(fullest);
     out.Begin("sent_frames_total", "Frames made for calls that are over.", MetricType::Counter);
     out.Add(static_cast<double>(serving_.tally.frames));
+    out.Begin("dances_resumed_total",
+              "Dances that had begun in an earlier call, mostly of a server that was lost.",
+              MetricType::Counter);
+    out.Add(static_cast<double>(serving_.tally.dances_resumed));
     out.Begin("first_frame_seconds", "From a call's begin to its first frame.",
               MetricType::Histogram);
     out.Add(serving_.tally.first_frame_s.snapshot());

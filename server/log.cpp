@@ -98,6 +98,7 @@ std::string ObjectOf(const CallRecord& call) {
   add("trace_id", call.caller.trace_id);
   add("span_id", call.caller.span_id);
   add("stream_id", call.caller.stream_id);
+  add("resumed_from", call.caller.resumed_from);
   add("model", std::string(call.model));
   if (call.seed) object["seed"] = *call.seed;
   if (call.refusal) object["refusal"] = kRefusals[static_cast<size_t>(*call.refusal)];
@@ -109,6 +110,7 @@ std::string TextOf(const CallRecord& call) {
   std::string text = std::string(call.method) + ' ' + call.caller.peer;
   if (!call.caller.holder.empty()) text += " (" + call.caller.holder + ')';
   if (!call.caller.stream_id.empty()) text += " stream " + call.caller.stream_id;
+  if (!call.caller.resumed_from.empty()) text += " from " + call.caller.resumed_from;
   if (!call.caller.trace_id.empty()) text += " trace " + call.caller.trace_id;
   text += fmt::format(": {} in {:.3f} s", NameOf(call.status.error_code()), call.seconds);
   if (call.frames > 0) {

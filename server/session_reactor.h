@@ -70,6 +70,10 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
     Caller caller = CallerOf(context);
     caller.stream_id = FreshStreamId();
     context.AddInitialMetadata(kStreamIdHeader, caller.stream_id);
+    if (const auto from = HeaderOf(context, kResumedFromHeader); IsStreamId(from)) {
+      caller.resumed_from = from;
+      context.AddInitialMetadata(kResumedFromHeader, caller.resumed_from);
+    }
     return caller;
   }
 

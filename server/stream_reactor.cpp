@@ -152,6 +152,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const ValidDance config = ToDanceConfig(message, model, Serving::FreshSeed());
     Name(model, config->seed);
     serving_.frames.TakeDance(this, *found, party());
+    if (message.has_continuation() || IsNamedResumed()) NoteResumed(config->FirstFrame());
     queue_ = found;
     encoding_ = message.encoding();
     seed_ = config->seed;

@@ -1,7 +1,12 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <iostream>
+#include <regex>
+#include <sstream>
 
 #include "client/choreo_client.h"
 #include "tests/client/test_server.h"
@@ -68,6 +73,24 @@ TEST(FailoverTest, SkipsAReplicaOfAnotherFingerprint) {
   ASSERT_EQ(danced.resumed.size(), 1U);
   EXPECT_EQ(danced.resumed[0].address, heir.address());
   EXPECT_TRUE(danced.resumed[0].exact);
+}
+
+// Whoever reads the logs follows the dance.
+TEST(FailoverTest, TheLogsNameTheCallInWhichTheDanceBegan) {
+  const auto before = spdlog::default_logger();
+  std::ostringstream log;
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "log", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  {
+    TestServer dying, heir;
+    Dance(Client(Replicas({dying.address(), heir.address()})), [&] { dying.Die(); });
+  }
+  spdlog::set_default_logger(before);
+  const std::string said = log.str();
+  std::smatch first;
+  ASSERT_TRUE(std::regex_search(said, first, std::regex(" stream ([0-9a-f]{16}): UNAVAILABLE")));
+  EXPECT_THAT(said, testing::ContainsRegex("resumes stream " + first[1].str() + " at frame"));
+  EXPECT_THAT(said, testing::HasSubstr(" from " + first[1].str() + ": OK"));
 }
 
 // The one that dies comes back meanwhile.

@@ -237,6 +237,15 @@ test('a dance whose server is killed before its first continuation goes on, too'
   assert.deepEqual(told(answers), told(await undisturbed(unkeyed)));
 });
 
+test('the log of a server that goes on with a dance names the call in which it began', () =>
+  withServer([], async ({ address, log }) => {
+    const { resumes } = await danceAndKill(unkeyed, (all) => all.at(-1).frames, address);
+    assert.equal(resumes.length, 1);
+    while (!log().includes(' from ')) await sleep(5);
+    const [, id] = /resumes stream ([0-9a-f]{16}) at frame 0/.exec(log());
+    assert.match(log(), new RegExp(` stream [0-9a-f]{16} from ${id}: OK`));
+  }));
+
 test('before its first continuation a dance begins anew on another fingerprint where that is allowed', () =>
   withServer(
     [],

@@ -5,6 +5,7 @@ import functools
 import hashlib
 import os
 import pathlib
+import re
 import tempfile
 import threading
 import time
@@ -220,6 +221,14 @@ class ClientTest(unittest.TestCase):
         answers, resumes = dance_and_kill(unkeyed, lambda answers: answers[-1].HasField("frames"))
         self.assertEqual(len(resumes), 1)
         self.assertEqual(told(answers), told(undisturbed(unkeyed)))
+
+    def test_the_log_of_a_server_that_goes_on_with_a_dance_names_the_call_in_which_it_began(self):
+        with Server() as heir:
+            dance_and_kill(unkeyed, lambda answers: answers[-1].HasField("frames"), heir.address)
+            while " from " not in heir.log():
+                time.sleep(0.005)
+            (first,) = re.findall("resumes stream ([0-9a-f]{16}) at frame 0", heir.log())
+            self.assertRegex(heir.log(), f" stream [0-9a-f]{{16}} from {first}: OK")
 
     def test_before_its_first_continuation_a_dance_begins_anew_on_another_fingerprint_where_that_is_allowed(self):
         with Server(FAKE_FINGERPRINT="another") as other:

@@ -6,16 +6,18 @@ import { join } from 'node:path';
 /** A choreod of $CHOREOD, which ends with `use`, if not before. `more`: of its environment. */
 export async function withServer(flags, use, more = {}) {
   const env = { ...process.env, ...more };
-  const server = spawn(process.env.CHOREOD, ['--listen', '127.0.0.1:0', ...flags], { env, stdio: ['ignore', 'pipe', 'inherit'] });
+  const server = spawn(process.env.CHOREOD, ['--listen', '127.0.0.1:0', ...flags], { env, stdio: ['ignore', 'pipe', 'pipe'] });
+  let log = '';
+  server.stderr.on('data', (text) => (log += text));
   const over = new Promise((resolve) => server.once('exit', resolve));
   try {
     for await (const line of createInterface({ input: server.stdout })) {
       const address = /listens on (\S+)$/.exec(line)?.[1];
       if (!address) continue;
       server.stdout.resume();
-      return await use({ address, kill: () => server.kill('SIGKILL') });
+      return await use({ address, kill: () => server.kill('SIGKILL'), log: () => log });
     }
-    throw new Error('choreod ended before it served');
+    throw new Error(`choreod ended before it served: ${log}`);
   } finally {
     server.kill('SIGKILL');
     await over;

@@ -4,6 +4,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import tempfile
 
 
 class Server:
@@ -11,7 +12,8 @@ class Server:
 
     def __init__(self, *flags, **more):
         command = [os.environ["CHOREOD"], "--listen", "127.0.0.1:0", *map(str, flags)]
-        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=os.environ | more)
+        self._log = tempfile.TemporaryFile("w+")
+        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self._log, text=True, env=os.environ | more)
 
     def __enter__(self):
         for line in self._process.stdout:
@@ -25,6 +27,11 @@ class Server:
         self.kill()
         self._process.wait()
         self._process.stdout.close()
+        self._log.close()
+
+    def log(self):
+        self._log.seek(0)
+        return self._log.read()
 
     def drain(self):
         self._process.send_signal(signal.SIGTERM)

@@ -91,7 +91,9 @@ void Answer::Take(const v1::GenerateTransitionResponse& response) {
   if (response.has_summary()) transition_summary = response.summary();
 }
 
-DanceClient::DanceClient(v1::Choreography::Stub& stub, std::optional<milliseconds> deadline) {
+DanceClient::DanceClient(v1::Choreography::Stub& stub, std::optional<milliseconds> deadline,
+                         const std::map<std::string, std::string>& headers) {
+  for (const auto& [name, value] : headers) context.AddMetadata(name, value);
   if (deadline) context.set_deadline(std::chrono::system_clock::now() + *deadline);
   stream_ = stub.StreamDance(&context);
 }

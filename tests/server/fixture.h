@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,7 +66,8 @@ struct Answer {
 class DanceClient {
  public:
   explicit DanceClient(v1::Choreography::Stub& stub,
-                       std::optional<std::chrono::milliseconds> deadline = std::nullopt);
+                       std::optional<std::chrono::milliseconds> deadline = std::nullopt,
+                       const std::map<std::string, std::string>& headers = {});
   ~DanceClient();
 
   grpc::ClientContext context;

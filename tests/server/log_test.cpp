@@ -82,6 +82,35 @@ TEST_F(LogTest, AsJsonEachLineIsAnObject) {
   EXPECT_EQ(calls[2].at("stream_id"), stream_id_);
 }
 
+// A dance that servers hand on is one in their logs.
+TEST_F(LogTest, AResumedDanceNamesTheCallInWhichItBegan) {
+  const auto before = spdlog::default_logger();
+  Start();
+  testing::internal::CaptureStderr();
+  StartLog("info", false);
+  const std::string first = "0123456789abcdef";
+  const auto dance = [&](const std::string& resumed_from) {
+    DanceClient client(stub(), std::nullopt, {{"choreo-resumed-from", resumed_from}});
+    client.Send(Config());
+    client.SendKeyframe(Key("a", 20));
+    EXPECT_TRUE(client.Finish().status.ok());
+    const auto& headers = client.context.GetServerInitialMetadata();
+    const auto echo = headers.find("choreo-resumed-from");
+    return std::pair(std::string(headers.find("choreo-stream-id")->second.data(), first.size()),
+                     echo == headers.end() ? "" : std::string(echo->second.data(), first.size()));
+  };
+  const auto [id, echo] = dance(first);
+  EXPECT_EQ(echo, first);
+  EXPECT_EQ(dance("no id of ours").second, "");
+  server.reset();
+  const std::string said = testing::internal::GetCapturedStderr();
+  StartLog("info", false);
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(said, HasSubstr(" stream " + id + " resumes stream " + first + " at frame 0"));
+  EXPECT_THAT(said, HasSubstr(" stream " + id + " from " + first + ": OK"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("no id of ours")));
+}
+
 // Linux has file names of any bytes.
 TEST_F(LogTest, JsonReplacesInvalidUtf8) {
   const auto before = spdlog::default_logger();

@@ -122,6 +122,21 @@ TEST_F(MetricsTest, ShowWorkInProgress) {
   client.Cancel();
 }
 
+TEST_F(MetricsTest, CountResumedDances) {
+  Start(1, [](ServerConfig& config) { config.metrics = "0"; });
+  DanceClient client(stub());
+  client.Send(Config());
+  client.SendKeyframe(Key("a", 20));
+  v1::DanceConfig config = Config();
+  *config.mutable_continuation() = client.Finish().continuations.at(0);
+  EXPECT_EQ(Figure("choreo_dances_resumed_total"), 0);
+  DanceClient resumed(stub());
+  resumed.Send(config);
+  resumed.SendKeyframe(Key("b", 40));
+  EXPECT_TRUE(resumed.Finish().status.ok());
+  EXPECT_EQ(Figure("choreo_dances_resumed_total"), 1);
+}
+
 // Prometheus would read a falling counter as a jump of its rate.
 TEST_F(MetricsTest, ContinueAcrossAModelReload) {
   Start(1, [](ServerConfig& config) { config.metrics = "0"; });
@@ -390,6 +405,7 @@ TEST_F(MetricsTest, IdleConnectionsDelayNobody) {
   EXPECT_EQ(few.Closed(), 0) << "it was not their end that let others be served";
   const SilentConnections many(address, 200);
   EXPECT_THAT(Metrics(), HasSubstr("choreo_workers"));
+  ExpectEventually([&] { return many.Closed() > 100; }, "the oldest ones have to go");
 }
 
 TEST_F(MetricsTest, NameATakenAddress) {

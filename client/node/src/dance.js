@@ -22,7 +22,10 @@ export async function* dance(replicas, requests, given) {
 
   async function* attempt(server, patience, signal) {
     progress.restart();
-    const call = server.stub.StreamDance(replicas.metadata(), { deadline });
+    const metadata = replicas.metadata();
+    if (progress.streamId) metadata.set('choreo-resumed-from', progress.streamId);
+    const call = server.stub.StreamDance(metadata, { deadline });
+    call.once('metadata', (told) => (progress.streamId ??= told.get('choreo-stream-id')[0]));
     const sent = { count: 0 };
     say(call, journal, progress, sent);
     try {
@@ -68,6 +71,8 @@ async function say(call, journal, progress, sent) {
 /** What has come of a dance, and how another server goes on with it. */
 class Progress {
   complete = false;
+  /** Of the first call, in its server's log. */
+  streamId;
   /** Why the last server was left. */
   lostBecause;
   #journal;

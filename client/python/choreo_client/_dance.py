@@ -32,10 +32,12 @@ def dance(replicas, requests, on_resume, until):
     def attempt(server, patience):
         progress.restart()
         saying = _Saying(journal, progress)
-        call = until.begin(server.stream_dance(iter(saying), timeout=until.remaining(), metadata=replicas.options.metadata()))
+        metadata = [*replicas.options.metadata(), *progress.resumed_from()]
+        call = until.begin(server.stream_dance(iter(saying), timeout=until.remaining(), metadata=metadata))
         saying.begin(call)
         try:
             for answer in call:
+                progress.note_call(call)
                 if progress.take(answer, server.address, saying.count):
                     if answer.HasField("frames"):
                         patience.reset()
@@ -94,6 +96,7 @@ class _Progress:
         self._journal, self._on_resume = journal, on_resume
         self._header = self._continuation = self._filter = None
         self._fingerprint = None  # of the server that danced last
+        self._stream_id = None  # of the first call, in its server's log
         self._may_differ = False
         self.complete = False
         self.lost_because = None
@@ -112,6 +115,15 @@ class _Progress:
         if self._journal.bytes_per_sample() > 0:
             again.config.audio_format.first_sample = self._journal.first_sample()
         return again
+
+    def note_call(self, call):
+        """One that has answered."""
+        if self._stream_id is None:
+            self._stream_id = dict(call.initial_metadata()).get("choreo-stream-id", "")
+
+    def resumed_from(self):
+        """Metadata that name the first call, for the logs of both servers."""
+        return [("choreo-resumed-from", self._stream_id)] if self._stream_id else []
 
     def restart(self):
         """Another server begins."""
