@@ -7,8 +7,12 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <random>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "client/authoring/local_server.h"
 #include "client/authoring/pose_library.h"
@@ -22,16 +26,43 @@ namespace choreo::client::kill_test {
 
 using authoring::LocalServer;
 
-/// Gone at once, without a word to its clients.
-void Kill(const LocalServer& server) { ASSERT_EQ(::kill(server.process(), SIGKILL), 0); }
+/// Servers of one kind, each a process.
+class Servers {
+ public:
+  Servers(const std::filesystem::path& program, int count) {
+    for (int i = 0; i < count; ++i) running_.push_back(std::make_unique<LocalServer>(program));
+    for (const auto& server : running_) addresses_.push_back(server->address());
+  }
 
-Options Patient(const std::vector<const LocalServer*>& servers) {
-  Options options;
-  for (const LocalServer* server : servers) options.addresses.push_back(server->address());
-  options.first_backoff_s = 0.01;
-  options.retry_s = 250;  // however slow the machine is
-  return options;
-}
+  /// For a client of all of them, the killed ones too.
+  Options Patient() const {
+    Options options;
+    options.addresses = addresses_;
+    options.first_backoff_s = 0.01;
+    options.retry_s = 250;  // however slow the machine is
+    options.silence_s = 0;
+    return options;
+  }
+
+  /// Kills the one that dances, at once, without a word to its clients. It need not be the first:
+  /// one that refused, because the machine was busy, was left for the next. False if none dances,
+  /// because the client has not noticed yet that it lost the last one.
+  bool KillDancing() {
+    const auto dancing = std::ranges::find_if(running_, [&](const auto& server) {
+      Options options = Patient();
+      options.addresses = {server->address()};
+      return Client(options).GetServerInfo().active_streams > 0;
+    });
+    if (dancing == running_.end()) return false;
+    ::kill((*dancing)->process(), SIGKILL);
+    running_.erase(dancing);  // returns when the process is gone, and its port is free
+    return true;
+  }
+
+ private:
+  std::vector<std::unique_ptr<LocalServer>> running_;
+  std::vector<std::string> addresses_;
+};
 
 struct Danced {
   Motion motion;
@@ -115,8 +146,7 @@ class KillTest : public testing::TestWithParam<Killings> {};
 TEST_P(KillTest, TheDanceIsTheSameToTheBit) {
   const std::filesystem::path program = FAKE_CHOREOD;
   const bool with_keys = GetParam().with_keys;
-  const LocalServer undisturbed(program);
-  const Danced wanted = DanceLive(Client(Patient({&undisturbed})), with_keys, [](int64_t) {});
+  const Danced wanted = DanceLive(Client(Servers(program, 1).Patient()), with_keys, [](int64_t) {});
   ASSERT_EQ(wanted.motion.frames.size(), 240U);
   ASSERT_EQ(wanted.reached.size(), with_keys ? 3U : 0U);
 
@@ -124,18 +154,10 @@ TEST_P(KillTest, TheDanceIsTheSameToTheBit) {
   const auto first = static_cast<int64_t>(random() % 120);
   const auto second = first + 1 + static_cast<int64_t>(random() % 110);
   SCOPED_TRACE("killed at frames " + std::to_string(first) + " and " + std::to_string(second));
-  const LocalServer a(program);
-  const LocalServer b(program);
-  const LocalServer c(program);
+  Servers servers(program, 3);
   int killed = 0;
-  const Danced danced = DanceLive(Client(Patient({&a, &b, &c})), with_keys, [&](int64_t frames) {
-    if (killed == 0 && frames >= first) {
-      Kill(a);
-      ++killed;
-    } else if (killed == 1 && frames >= second) {
-      Kill(b);
-      ++killed;
-    }
+  const Danced danced = DanceLive(Client(servers.Patient()), with_keys, [&](int64_t frames) {
+    if (killed < 2 && frames >= (killed == 0 ? first : second)) killed += servers.KillDancing();
   });
   ExpectSame(danced, wanted);
   EXPECT_EQ(killed, 2);
@@ -199,16 +221,13 @@ Danced DanceEdited(const Client& client, const std::function<void(int)>& before_
 // On the way to a key that has just been changed, too.
 TEST(KillTest, EditsWithShortLookAheadSurvive) {
   const std::filesystem::path program = FAKE_CHOREOD;
-  const LocalServer undisturbed(program);
-  const Danced wanted = DanceEdited(Client(Patient({&undisturbed})), [](int) {});
+  const Danced wanted = DanceEdited(Client(Servers(program, 1).Patient()), [](int) {});
   ASSERT_EQ(wanted.motion.frames.size(), 240U);
   EXPECT_EQ(wanted.reached, (std::vector<std::string>{"3", "5", "7"}));
-  const LocalServer a(program);
-  const LocalServer b(program);
-  const LocalServer c(program);
-  const Danced danced = DanceEdited(Client(Patient({&a, &b, &c})), [&](int piece) {
-    if (piece == 23) Kill(a);
-    if (piece == 58) Kill(b);
+  Servers servers(program, 3);
+  const Danced danced = DanceEdited(Client(servers.Patient()), [&](int piece) {
+    if (piece != 23 && piece != 58) return;
+    EXPECT_TRUE(servers.KillDancing());
   });
   ExpectSame(danced, wanted);
   EXPECT_EQ(danced.resumes, 2);
@@ -217,16 +236,14 @@ TEST(KillTest, EditsWithShortLookAheadSurvive) {
 // There is one address, and a server restarted there knows nothing of the dance.
 TEST(KillTest, RestartedServerResumes) {
   const std::filesystem::path program = FAKE_CHOREOD;
-  auto server = std::make_unique<LocalServer>(program);
-  const std::string address = server->address();
-  const Client client(Patient({server.get()}));
+  Servers servers(program, 1);
+  const Options options = servers.Patient();
+  const Client client(options);
   const Danced wanted = DanceLive(client, true, [](int64_t) {});
-  bool killed = false;
+  std::optional<LocalServer> restarted;
   const Danced danced = DanceLive(client, true, [&](int64_t frames) {
-    if (killed || frames < 100) return;
-    killed = true;
-    Kill(*server);
-    server = std::make_unique<LocalServer>(program, address);
+    if (restarted || frames < 100 || !servers.KillDancing()) return;
+    restarted.emplace(program, options.addresses[0]);
   });
   ExpectSame(danced, wanted);
   EXPECT_EQ(danced.resumes, 1);
@@ -236,14 +253,12 @@ TEST(KillTest, RestartedServerResumes) {
 TEST(KillTest, ShippedModelResumesBitForBit) {
   if (kSanitized) GTEST_SKIP() << "choreod runs LibTorch";
   const std::filesystem::path program = CHOREOD_PROGRAM;
-  const LocalServer a(program);
-  const LocalServer b(program);
-  const Danced wanted = DanceLive(Client(Patient({&b})), true, [](int64_t) {});
+  Servers servers(program, 2);
+  const Client client(servers.Patient());
+  const Danced wanted = DanceLive(client, true, [](int64_t) {});
   bool killed = false;
-  const Danced danced = DanceLive(Client(Patient({&a, &b})), true, [&](int64_t frames) {
-    if (killed || frames < 77) return;
-    killed = true;
-    Kill(a);
+  const Danced danced = DanceLive(client, true, [&](int64_t frames) {
+    if (!killed && frames >= 77) killed = servers.KillDancing();
   });
   ExpectSame(danced, wanted);
   EXPECT_EQ(danced.resumes, 1);
