@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
-#include <cmath>
 #include <iterator>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include "model/core/atomic_file.h"
@@ -14,16 +12,14 @@
 #include "model/core/npy.h"
 #include "model/fit/retarget.h"
 #include "model/formats/amass_npz.h"
+#include "model/formats/any_bvh.h"
 #include "model/formats/bvh.h"
 #include "model/formats/frame_rows.h"
 #include "model/formats/gltf.h"
 #include "model/formats/joint_arrays.h"
-#include "model/formats/motion_check.h"
-#include "model/formats/node_motion.h"
 #include "model/formats/npz.h"
 #include "model/formats/pickle.h"
 #include "model/motion/pose_limits.h"
-#include "model/motion/rotation.h"
 #include "model/motion/skeleton_json.h"
 
 namespace choreo {
@@ -98,106 +94,6 @@ void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const
     npz.SetText("skeleton", SkeletonToJson(skeleton));
   }
   npz.Write(path);
-}
-
-// The joints that move: those whose values differ between frames; if none do, those that have
-// channels.
-std::vector<bool> MovedJoints(const BvhFile& file) {
-  std::vector<bool> moves, has;
-  Eigen::Index row = 0;
-  for (const BvhJoint& joint : file.joints) {
-    bool differs = false;
-    for (size_t i = 0; i < joint.channels.size(); ++i, ++row)
-      differs = differs || file.values.row(row).maxCoeff() > file.values.row(row).minCoeff();
-    moves.push_back(differs);
-    has.push_back(!joint.channels.empty());
-  }
-  return std::ranges::find(moves, true) == moves.end() ? has : moves;
-}
-
-Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
-  NodeMotion motion{
-      .fps = file.fps(), .rests = {PlaceBvhAtRest(file)}, .count = file.frames(), .frame = {}};
-  motion.frame = [&](int64_t frame) { return PlaceBvh(file, frame); };
-  RigNodes nodes{.names = file.JointNames(),
-                 .parents = {},
-                 .places = motion.rests[0].places,
-                 .joints = std::vector<bool>(file.joints.size(), true),
-                 .moves = MovedJoints(file),
-                 .meshes = std::vector<bool>(file.joints.size())};
-  for (const BvhJoint& joint : file.joints) nodes.parents.push_back(joint.parent);
-  return FitNodes(std::move(nodes), motion, reading);
-}
-
-// Converts angles that look like radians to degrees: some exceed 1, and none exceeds a whole turn,
-// except those of a root that keeps turning slowly.
-std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
-  constexpr Eigen::Index kMinFrames = 10;  // fewer frames prove nothing
-  constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
-  if (reading.angles == "degrees" || (reading.angles.empty() && file.frames() < kMinFrames))
-    return std::nullopt;
-  BvhFile turned = file;
-  double farthest = 0, fastest = 0;
-  int spinning = 0;
-  Eigen::Index row = 0;
-  for (const BvhJoint& joint : file.joints) {
-    const bool is_root = joint.parent < 0 || joint.channels.size() > 3;
-    bool exceeds = false;
-    for (const BvhChannel channel : joint.channels) {
-      if (channel >= BvhChannel::kXRotation && channel <= BvhChannel::kZRotation) {
-        const Eigen::RowVectorXd angles = file.values.row(row);
-        const double most = angles.cwiseAbs().maxCoeff();
-        if (most < kTurn) {
-          farthest = std::max(farthest, most);
-        } else {
-          exceeds = true;
-          for (Eigen::Index frame = 1; frame < angles.size(); ++frame)
-            fastest = std::max(fastest, std::abs(angles[frame] - angles[frame - 1]));
-        }
-        turned.values.row(row) *= kDegrees;
-      }
-      ++row;
-    }
-    if (exceeds) spinning += is_root ? 1 : 2;
-  }
-  const bool may_be = farthest > kLimb && spinning <= 1 && fastest < kLimb;
-  return reading.angles == "radians" || may_be ? std::optional(std::move(turned)) : std::nullopt;
-}
-
-SkeletonMotion TakeBvh(const BvhFile& file, const Skeleton* wanted, const MotionReading& reading) {
-  const Skeleton& smpl = Skeleton::Smpl24();
-  const auto own = BvhSkeleton(file);
-  for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
-    if (known == nullptr || reading.chooses()) continue;
-    if (auto motion = BvhToMotion(file, *known)) return {*known, std::move(*motion)};
-  }
-  return {smpl, FitBvh(file, reading)};
-}
-
-SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
-                          const MotionReading& reading) {
-  BvhFile file = ReadBvh(path);
-  for (const std::string& note : file.notes) reading.Note(note);
-  if (!file.states_rate && reading.fps > 0) file.frame_time = 1 / reading.fps;
-  if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) reading.NoteRate(file.fps());
-  if (file.frames() == 0) return {Skeleton::Smpl24(), {}};
-  if (const std::optional<BvhFile> turned = FromRadians(file, reading)) {
-    if (!reading.angles.empty()) return TakeBvh(*turned, wanted, reading);
-    std::vector<std::string> notes;
-    MotionReading quietly = reading;
-    quietly.notes = &notes;
-    SkeletonMotion read = TakeBvh(*turned, wanted, quietly);
-    // A dancer who sways a little in degrees would bend knees and elbows backwards in radians.
-    if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
-      reading.Note(
-          "its angles are taken as radians, as they are so small; --angles degrees says otherwise");
-      for (const std::string& note : notes) reading.Note(note);
-      return read;
-    }
-    reading.Note(
-        "its angles are taken as degrees, though they are small; --angles radians says otherwise");
-  }
-  return TakeBvh(file, wanted, reading);
 }
 
 // A format of motion files. A new one is a new row below.
