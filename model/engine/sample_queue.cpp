@@ -35,12 +35,6 @@ Error CurrentError() {
   }
 }
 
-// How much bulk is reserved. Shared with reservations, which may outlive the queue.
-struct Bulk {
-  std::mutex mutex;
-  int reserved = 0;  ///< Lock: mutex
-};
-
 }  // namespace
 
 // One mutex guards the queue's state. It is never held during calls to jobs, except Cancelled.
@@ -55,6 +49,12 @@ struct SampleQueue::Impl {
     double taken = 0;  ///< seconds that its slices have taken so far
   };
   using Entries = std::vector<std::unique_ptr<Entry>>;
+
+  /// How much bulk is reserved. Shared with reservations, which may outlive the queue.
+  struct Bulk {
+    std::mutex mutex;
+    int reserved = 0;  ///< Lock: mutex
+  };
 
   /// One sampler, and the only thread that uses it.
   struct Worker {
@@ -265,7 +265,7 @@ void SampleQueue::SubmitBulk(std::shared_ptr<SampleJob> job) {
 }
 
 SampleQueue::Reservation SampleQueue::ReserveBulk(int transitions) {
-  const std::shared_ptr<Bulk> bulk = impl_->bulk;
+  const std::shared_ptr<Impl::Bulk> bulk = impl_->bulk;
   const int most = impl_->options.max_bulk;
   const std::lock_guard lock(bulk->mutex);
   if (bulk->reserved + transitions > most) {

@@ -6,46 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "model/flow/energy_curve.h"
-#include "model/flow/energy_prior.h"
-#include "model/flow/energy_response.h"
+#include "model/flow/flow_model.h"
 #include "model/flow/flow_window.h"
-#include "model/flow/turn_prior.h"
-#include "model/flow/window_features.h"
 
 namespace choreo {
-
-/// The network of a continuous flow, on any engine. Thread-safe.
-class FlowNetwork {
- public:
-  virtual ~FlowNetwork() = default;
-  /// The conditioning of a window (WindowFeatures::whole) at each of `times`, in [0, 1], one per
-  /// column, for Evaluate.
-  virtual Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
-                                    std::span<const float> times) const = 0;
-  /// F of one window at the time of `condition`, [dimensions, w]. `z` [dimensions, w]: the flow's
-  /// white coordinates; `poses` [dimensions, tau + w]: the history's displacements from its last
-  /// pose, then the same of z; `joints` [3 joints, tau + w]: the body's joints there, metres in the
-  /// canonical frame; `mean`: the prior's mean in the shape of `poses`; `frames`:
-  /// WindowFeatures::frames.
-  virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
-                                   const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
-                                   const Eigen::MatrixXf& frames,
-                                   const Eigen::VectorXf& condition) const = 0;
-};
-
-/// Everything that sampling a window needs besides the request.
-struct FlowModelParts {
-  Skeleton skeleton;
-  ContinuousFlowConfig config;
-  MotionPrior prior;
-  Eigen::MatrixXd mixing;  ///< [dimensions, dimensions] lower Cholesky factor of the noise's
-                           ///< correlation over dimensions
-  EnergyPrior energy = EnergyPrior();
-  TurnPrior turns = {};
-  EnergyCurve curve = {};
-  EnergyResponse response = {};
-};
 
 /// Nobody dances farther beyond the sampled way.
 inline constexpr double kMaxFlowTemperature = 1.25;
@@ -66,10 +30,6 @@ struct FlowNoise {
   /// The numbers of a frame, counted from the first.
   void Fill(int frame, std::span<float> out) const;
 };
-
-/// What a window and its request say about its energy.
-EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
-                                 const FlowWindow& window);
 
 /// Samples one window: from noise at t = 0 to motion at t = 1 along dz/dt = (2t - 1)/a z +
 /// F/sqrt(a), a = t² + (1 - t)² (flow matching, Lipman et al. 2023). With w = z/sqrt(a) and the

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/flow/window_energy.h"
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
 

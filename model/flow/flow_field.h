@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "model/flow/flow_model.h"
+#include "model/flow/flow_window.h"
+
+namespace choreo {
+
+/// The root path of the controls: which axes it fixes, and where, as residuals x and as white
+/// coordinates z, both [3, w].
+struct KnownPath {
+  KnownPath(const WindowRequest& request, const FlowWindow& window);
+
+  std::vector<int> axes;
+  Eigen::MatrixXd x, z;
+};
+
+/// F of one window at each step from noise to motion, with guidance by its labels. Model, network
+/// and window must outlive it.
+class FlowField {
+ public:
+  FlowField(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
+            const FlowWindow& window);
+
+  int steps() const { return model_.config.steps; }
+  double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
+
+  /// Moves the flow to w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
+  void MoveTo(const Eigen::MatrixXd& w, int step);
+  /// Evaluates the network for the next view; true while more views are left.
+  bool EvaluateNext();
+  const Eigen::MatrixXd& f() const { return f_; }
+
+ private:
+  // One input for the network.
+  struct View {
+    Eigen::MatrixXf frames, conditions;
+  };
+  void AddView(const WindowRequest& request);
+  double SizeAt(int step) const;
+
+  const FlowModelParts& model_;
+  const FlowNetwork& network_;
+  const FlowWindow& window_;
+  std::vector<float> times_;  // per step
+  Eigen::MatrixXf mean_, poses_, joints_;
+  std::vector<View> views_;  // as labelled and, for guidance, without labels
+  double guidance_;
+  // Beats act alike on neighbouring steps, so the last one takes their effect from the step before.
+  bool keeps_effect_;
+  Eigen::MatrixXd z_, f_, effect_;
+  int step_ = 0;
+  size_t seen_ = 0;  // evaluated views
+};
+
+}  // namespace choreo

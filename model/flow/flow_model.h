@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "model/flow/energy_curve.h"
+#include "model/flow/energy_prior.h"
+#include "model/flow/energy_response.h"
+#include "model/flow/flow_window.h"
+#include "model/flow/turn_prior.h"
+#include "model/flow/window_features.h"
+
+namespace choreo {
+
+/// The network of a continuous flow, on any engine. Thread-safe.
+class FlowNetwork {
+ public:
+  virtual ~FlowNetwork() = default;
+  /// The conditioning of a window (WindowFeatures::whole) at each of `times`, in [0, 1], one per
+  /// column, for Evaluate.
+  virtual Eigen::MatrixXf Condition(const Eigen::VectorXf& whole,
+                                    std::span<const float> times) const = 0;
+  /// F of one window at the time of `condition`, [dimensions, w]. `z` [dimensions, w]: the flow's
+  /// white coordinates; `poses` [dimensions, tau + w]: the history's displacements from its last
+  /// pose, then the same of z; `joints` [3 joints, tau + w]: the body's joints there, metres in the
+  /// canonical frame; `mean`: the prior's mean in the shape of `poses`; `frames`:
+  /// WindowFeatures::frames.
+  virtual Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf& poses,
+                                   const Eigen::MatrixXf& joints, const Eigen::MatrixXf& mean,
+                                   const Eigen::MatrixXf& frames,
+                                   const Eigen::VectorXf& condition) const = 0;
+};
+
+/// Everything that sampling a window needs besides the request.
+struct FlowModelParts {
+  Skeleton skeleton;
+  ContinuousFlowConfig config;
+  MotionPrior prior;
+  Eigen::MatrixXd mixing;  ///< [dimensions, dimensions] lower Cholesky factor of the noise's
+                           ///< correlation over dimensions
+  EnergyPrior energy = EnergyPrior();
+  TurnPrior turns = {};
+  EnergyCurve curve = {};
+  EnergyResponse response = {};
+};
+
+}  // namespace choreo

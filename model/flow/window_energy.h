@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "model/flow/energy_prior.h"
+#include "model/flow/flow_model.h"
+#include "model/flow/flow_window.h"
+
+/// How energetic a window is: what is known of it, what is sampled, and what the network must be
+/// asked for.
+namespace choreo {
+
+/// What a window and its request say about its energy.
+EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
+                                 const FlowWindow& window);
+
+/// Gives body parts without velocity factors an energy, sampled from the prior by `normals`: of the
+/// levels, [kBodyParts], and of the curves, [kBodyParts, w].
+void FillInEnergy(const FlowModelParts& model, const EnergyPrior::Levels& level_normals,
+                  const Eigen::MatrixXd& curve_normals, double temperature,
+                  const FlowWindow& window, WindowRequest* request);
+
+/// Replaces requested levels by those that make the network dance them (EnergyResponse). The mean
+/// motion, at temperature 0, needs no correction.
+void CorrectLevels(const FlowModelParts& model, double temperature, WindowRequest* request);
+
+}  // namespace choreo
