@@ -34,7 +34,7 @@ programs: build-packages  ## Install what is missing and compile choreod and cho
 	@cmake --preset $(PRESET) $(if $(wildcard $(BUILD)/build.ninja),>/dev/null,)
 	@cmake --build $(BUILD) -j $(JOBS) --target choreod choreo
 
-build: programs  ## The same, and everything else but benchmarks: choreo-lab, tests (PRESET=release|debug|asan|tsan)
+build: programs  ## The same, and everything else but benchmarks: choreo-lab, tests (PRESET=release|develop|debug|asan|tsan)
 	@cmake --build $(BUILD) -j $(JOBS)
 
 packages: build-packages  ## Install the Debian packages that are missing

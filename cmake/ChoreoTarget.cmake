@@ -2,15 +2,13 @@
 # includes from the root of the repository ("model/motion/skeleton.h").
 
 add_library(choreo_options INTERFACE)
-# GCC 12 wrongly reports overlaps in std::string's operator+ (bug 105651) and uninitialised values in CLI11's pairs, and
-# takes a source in a unity build for a header, which must not have types of anonymous namespaces.
+# GCC 12 wrongly reports overlaps in std::string's operator+ (bug 105651) and uninitialised values in CLI11's pairs.
 target_compile_options(choreo_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
 target_include_directories(choreo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
-# Sources of a target are compiled together, so many at a time: headers cost more than what is in most of them. So names that a source
-# has for itself differ within a library, and each file of tests is a namespace of its own.
+# Sources of a target are compiled together in unity builds, so many at a time: headers cost more than what is in most of them. So names
+# that a source has for itself differ within a library, and each file of tests is a namespace of its own.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 20)
 
 function(choreo_library name)
