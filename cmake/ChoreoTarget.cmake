@@ -37,12 +37,17 @@ if(CMAKE_CXX_FLAGS MATCHES "fsanitize")
   set(CHOREO_SANITIZED ON)
 endif()
 
-# choreo_test(NAME SOURCES ... LINK ...): a GoogleTest program, with each case registered in ctest. `choreo_tests` builds all.
+# choreo_test(NAME SOURCES ... LINK ... [WAITS]): a GoogleTest program, with each case registered in ctest. `choreo_tests` builds all.
+# WAITS: it mostly waits, for music in real time or for servers. Two of its cases run in place of one of others (scripts/run_tests.sh).
 add_custom_target(choreo_tests)
 function(choreo_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "WAITS" "" "SOURCES;LINK")
   choreo_executable(${name} SOURCES ${ARG_SOURCES} LINK ${ARG_LINK} GTest::gmock GTest::gtest_main)
   choreo_compile_quickly(${name})
   add_dependencies(choreo_tests ${name})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  set(processors 2)
+  if(ARG_WAITS AND NOT CHOREO_SANITIZED)
+    set(processors 1)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 PROCESSORS ${processors})
 endfunction()

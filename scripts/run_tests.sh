@@ -6,9 +6,9 @@ build=$1
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 
-# One more test than cores, because many wait: for music in real time, for servers. Each gets one BLAS thread: ctest already uses every
-# core. (nproc comes first because it obeys OMP_NUM_THREADS.)
-jobs=$(($(env -u OMP_NUM_THREADS nproc) + 1))
+# One more test than cores, or twice as many of those that mostly wait: others count as two processors (choreo_test). Each gets one BLAS
+# thread: ctest already uses every core. (nproc comes first because it obeys OMP_NUM_THREADS.)
+jobs=$((2 * ($(env -u OMP_NUM_THREADS nproc) + 1)))
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1} OPENBLAS_NUM_THREADS=${OPENBLAS_NUM_THREADS:-1}
 export TSAN_OPTIONS="suppressions=$(cd "$(dirname "$0")/.." && pwd)/tests/tsan.supp ${TSAN_OPTIONS:-}"
 # Processes of this build's programs, one per line.
