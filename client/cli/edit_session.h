@@ -15,6 +15,11 @@
 
 namespace choreo::cli {
 
+/// The last frame of a key with what holds it.
+inline int64_t LastFrame(const client::KeyEdit& edit) {
+  return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
+}
+
 /// A dance and edits of its keys, one after another. The options and the connection must outlive
 /// it.
 class EditSession {

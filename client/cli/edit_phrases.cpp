@@ -1,0 +1,157 @@
+// Edits of phrases: of all keys of a few seconds.
+#include <algorithm>
+#include <iostream>
+#include <set>
+#include <utility>
+
+#include "client/cli/edit_session.h"
+#include "client/cli/report.h"
+#include "model/core/limits.h"
+#include "model/core/rounded.h"
+#include "model/motion/mirror.h"
+#include "model/motion/resample.h"
+
+namespace choreo::cli {
+namespace {
+
+/// Holds a key until a frame, by keys as close together as those that held it for `before` frames.
+void HoldUntil(int64_t last, int64_t before, client::KeyEdit* edit) {
+  const int64_t frames = last - *edit->key.frame;
+  const auto count = static_cast<int64_t>(edit->held.size());
+  const int64_t needed = frames < kMinKeyDistance ? 0 : (frames * count + before / 2) / before;
+  edit->held.resize(static_cast<size_t>(needed), edit->held.front());
+  for (int64_t i = 0; i < needed; ++i)
+    edit->held[static_cast<size_t>(i)].frame = *edit->key.frame + frames * (i + 1) / needed;
+}
+
+}  // namespace
+
+void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
+  const authoring::WrittenTime delay = authoring::ParseTime(later, "--repeat");
+  const auto moved = [&](double seconds) {
+    return delay.After(seconds, counts_.beats, "--repeat");
+  };
+  if (Frame(moved(from_s)) <= Frame(from_s))
+    throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
+  std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);
+  const auto shift = [&](client::KeyPose& key) {
+    key.frame = FrameInDance("--repeat", moved(Seconds(*key.frame)));
+  };
+  for (client::KeyEdit& edit : phrase) {
+    shift(edit.key);
+    std::ranges::for_each(edit.held, shift);
+  }
+  const int64_t first = *phrase.front().key.frame;
+  const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
+  const GroundFrame here = Here(first);
+  const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
+  // Removes keys that are there or too near.
+  const int64_t last = LastFrame(phrase.back());
+  ClearWay(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1),
+           std::max(Frame(moved(until_s)), last + kMinKeyDistance), {}, "repeated keys");
+  for (client::KeyEdit& edit : phrase) {
+    carry(edit.key.pose);
+    for (client::KeyPose& held : edit.held) carry(held.pose);
+  }
+  SetAll("--repeat", phrase);
+}
+
+void EditSession::MirrorPhrase(double from_s, double until_s) {
+  constexpr const char* kField = "--mirror-phrase";
+  std::vector<client::KeyEdit> phrase = Phrase(kField, from_s, until_s);
+  const GroundFrame axis = GroundFrame::Of(phrase.front().key.pose);
+  const auto mirror = [&](Pose& pose) {
+    pose = axis.ToWorld(Mirror(edit_.model.skeleton, axis.ToLocal(pose)));
+  };
+  for (client::KeyEdit& edit : phrase) {
+    mirror(edit.key.pose);
+    for (client::KeyPose& held : edit.held) mirror(held.pose);
+    keys_.erase(keys_.find(*edit.key.frame), keys_.upper_bound(LastFrame(edit)));
+  }
+  SetAll(kField, phrase);
+}
+
+void EditSession::SetAll(const char* field, std::span<client::KeyEdit> phrase) {
+  for (client::KeyEdit& edit : phrase) {
+    const double at_s = Seconds(*edit.key.frame);
+    Set(field, at_s, std::move(edit));
+  }
+}
+
+std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_s,
+                                                 double until_s) const {
+  std::vector<client::KeyEdit> phrase;
+  const int64_t until = Frame(until_s);
+  for (auto key = keys_.lower_bound(Frame(from_s)); key != keys_.end() && key->first < until;
+       ++key) {
+    client::KeyPose danced{.id = IdAt(key->first),
+                           .frame = key->first,
+                           .pose = PoseAt(dance_.motion, Seconds(key->first)),
+                           .hit = HitOf(key->second),
+                           .hands = HandsOf(key->second)};
+    if (HoldsAnother(key->second) && !phrase.empty()) {
+      phrase.back().held.push_back(std::move(danced));
+    } else {
+      phrase.push_back({.key = std::move(danced)});
+    }
+  }
+  if (!phrase.empty()) return phrase;
+  throw InvalidArgument(field, "the report has no key from " + Rounded(from_s) + " s until " +
+                                   Rounded(until_s) + " s");
+}
+
+void EditSession::Stretch(double from_s, double until_s, double times) {
+  const auto stretched = [&](int64_t frame) {
+    return Frame(authoring::Stretched(Seconds(frame), from_s, times, counts_.beats));
+  };
+  std::vector<client::KeyEdit> phrase = Phrase("--stretch", from_s, until_s);
+  const std::vector<client::KeyEdit> unstretched = phrase;
+  const size_t count = phrase.size();
+  const int64_t first = *phrase.front().key.frame;
+  int64_t before = -kMinKeyDistance;
+  for (client::KeyEdit& edit : phrase) {
+    const int64_t held_to = stretched(LastFrame(edit));
+    const int64_t old = std::exchange(*edit.key.frame, stretched(*edit.key.frame));
+    if (!edit.held.empty()) HoldUntil(held_to, LastFrame(edit) - old, &edit);
+    if (*edit.key.frame - before < kMinKeyDistance) {
+      throw InvalidArgument("--stretch", InFull(times) + " sets the key \"" + edit.key.id +
+                                             "\" less than " + std::to_string(kMinKeyDistance) +
+                                             " frames after the one before it");
+    }
+    before = LastFrame(edit);
+  }
+  std::erase_if(phrase, [&](const client::KeyEdit& edit) { return LastFrame(edit) >= frames_; });
+  // One that stays begins what is danced anew.
+  const bool stays =
+      !phrase.empty() && *phrase.front().key.frame == first && phrase.front().held.empty();
+  if (phrase.size() == size_t{stays})
+    throw InvalidArgument("--stretch", InFull(times) + " leaves no key in the dance that it moves");
+  if (phrase.size() < count) {
+    std::cerr << "note: " << count - phrase.size() << " of " << count
+              << " keys would come behind the dance, and are left out\n";
+  }
+  const int64_t last = LastFrame(phrase.back());
+  ClearWay(stays ? first + 1 : std::min(first, *phrase.front().key.frame - kMinKeyDistance + 1),
+           std::max({Frame(until_s), stretched(Frame(until_s)), last + int64_t{kMinKeyDistance}}),
+           unstretched, "stretched keys");
+  SetAll("--stretch", std::span(phrase).subspan(size_t{stays}));
+}
+
+void EditSession::ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,
+                           const std::string& what) {
+  std::set<int64_t> leave;
+  for (const client::KeyEdit& edit : moved) {
+    leave.insert(*edit.key.frame);
+    for (const client::KeyPose& held : edit.held) leave.insert(*held.frame);
+  }
+  const auto begin = keys_.lower_bound(first);
+  const auto stop = keys_.lower_bound(end);
+  for (auto key = begin; key != stop; ++key) {
+    if (leave.contains(key->first)) continue;
+    // One line tells of a whole held pose.
+    if (key == begin || !HoldsAnother(key->second)) NoteWay(key->first, what);
+  }
+  keys_.erase(begin, stop);
+}
+
+}  // namespace choreo::cli
