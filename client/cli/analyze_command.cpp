@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -33,17 +34,22 @@ struct AnalyzeOptions {
   std::string from, until;  // times (counts.h); or empty
 };
 
-/// The seconds from --from to --until.
+/// The seconds from --from to --until, or to the end of the dance.
 std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOptions& options) {
   const authoring::Counts counts = authoring::CountsOf(music);
   const auto second = [&](const char* option, const std::string& time, double usual) {
     return time.empty() ? usual : authoring::ParseTime(time, option).In(counts, option);
   };
   const double from = second("--from", options.from, 0);
-  const double until = second("--until", options.until, std::numeric_limits<double>::infinity());
+  const double said = second("--until", options.until, std::numeric_limits<double>::infinity());
+  // Music is heard beyond --seconds, but a dance of that length has no keys there.
+  const double until = std::min(said, options.seconds);
   const auto seconds = [](double value) { return InFull(value) + " s"; };
-  if (from >= until)
-    throw InvalidArgument("--from", seconds(from) + " is not before --until, " + seconds(until));
+  if (from >= until) {
+    throw InvalidArgument("--from", seconds(from) + " is not before " +
+                                        (said <= options.seconds ? "--until" : "--seconds") + ", " +
+                                        seconds(until));
+  }
   if (from >= music.audio.seconds()) {
     throw InvalidArgument("--from", seconds(from) + " is after the song's end at " +
                                         Rounded(music.audio.seconds()) + " s");
@@ -144,8 +150,8 @@ void PrintText(const authoring::Music& music, const std::optional<std::vector<Pr
               music.audio.seconds(), music.audio.sample_rate, channels, channels == 1 ? "" : "s",
               music.track.tempo_bpm, music.track.frames.size(),
               music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
-  const auto [beats, one] = authoring::CountsOf(music);
-  if (!beats.empty()) std::printf(", count 1 at %.3f s", beats[one]);
+  const authoring::Counts counts = authoring::CountsOf(music);
+  if (!counts.beats.empty()) std::printf(", count 1 at %.3f s", counts.beats[counts.one]);
   std::printf("\n");
   PrintStretches(music.track);
   for (const Passage& passage : music.passages)
@@ -191,8 +197,10 @@ void AddAnalyzeCommand(CLI::App& program) {
                    "Second of the song from which on it is heard; times count from there.")
       ->check(TimeInSeconds());
   command
-      ->add_option("--seconds", options->seconds,
-                   "Hear so much of the song, and what a dance of this length hears beyond it.")
+      ->add_option(
+          "--seconds", options->seconds,
+          "Hear so much of the song, and what a dance of this length hears beyond it; keys are "
+          "suggested within it.")
       ->check(TimeInSeconds());
   AddBeatOptions(*command, &options->beats);
   command->add_flag(

@@ -163,6 +163,18 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   }
 }
 
+// Beats are heard beyond them.
+TEST_F(CommandTest, SuggestsKeysWithinTheSecondsOfADance) {
+  WriteClicks(folder_ / "song.wav", 20);
+  const std::string suggest = "analyze " + At("song.wav") + " --seconds 6 --suggest-keys ";
+  const nlohmann::json heard = nlohmann::json::parse(Choreo(suggest + "3 --json").said);
+  EXPECT_GT(heard["beats"].back().get<double>(), 6.5);
+  for (const nlohmann::json& key : heard["keyframes"]) EXPECT_LE(key["time"].get<double>(), 6);
+  EXPECT_THAT(Choreo(suggest + "9").said, HasSubstr("--suggest-keys: 9 keys, must be 1 to "));
+  EXPECT_THAT(Choreo(suggest + "1 --from 7").said,
+              HasSubstr("--from: 7 s is not before --seconds, 6 s"));
+}
+
 TEST_F(CommandTest, ConvertsAndDraws) {
   const Motion motion{.fps = 30,
                       .frames = std::vector<Pose>(31, authoring::FindLibraryPose("groove").pose)};
