@@ -30,11 +30,9 @@ double SecondAt(double place, std::span<const double> beats) {
   return beats[at] + (place - static_cast<double>(at)) * (beats[at + 1] - beats[at]);
 }
 
-void RequireBeats(double amount, std::span<const double> beats, const std::string& field) {
-  if (beats.size() >= 2) return;
-  throw InvalidArgument(field, InFull(amount) +
-                                   "c: counts need music that has beats; name a song (choreo "
-                                   "analyze shows its beats), or say seconds");
+void RequireBeats(double amount, const Counts& counted, const std::string& field) {
+  if (counted.beats.size() >= 2) return;
+  throw InvalidArgument(field, InFull(amount) + "c: " + counted.advice);
 }
 
 }  // namespace
@@ -48,16 +46,15 @@ Counts CountsFrom(std::vector<double> beats, std::span<const double> ones) {
   return counted;
 }
 
-double WrittenTime::After(double seconds, std::span<const double> beats,
-                          const std::string& field) const {
+double WrittenTime::After(double seconds, const Counts& counted, const std::string& field) const {
   if (!counts) return seconds + amount;
-  RequireBeats(amount, beats, field);
-  return SecondAt(PlaceAmong(seconds, beats) + amount, beats);
+  RequireBeats(amount, counted, field);
+  return SecondAt(PlaceAmong(seconds, counted.beats) + amount, counted.beats);
 }
 
 double WrittenTime::In(const Counts& counted, const std::string& field) const {
   if (!counts) return amount;
-  RequireBeats(amount, counted.beats, field);
+  RequireBeats(amount, counted, field);
   const double second = SecondAt(static_cast<double>(counted.one) + amount - 1, counted.beats);
   if (second >= 0) return second;
   throw InvalidArgument(field, InFull(amount) + "c is before second 0; count 1 is at " +

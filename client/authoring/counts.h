@@ -12,6 +12,10 @@ namespace choreo::authoring {
 struct Counts {
   std::vector<double> beats = {};  ///< seconds, ascending
   size_t one = 0;                  ///< index of count 1
+  /// What to do about counts where there are no two beats, for errors.
+  std::string advice =
+      "counts need music that has beats; name a song (choreo analyze shows its beats), or say "
+      "seconds";
 
   bool operator==(const Counts&) const = default;
 };
@@ -28,7 +32,7 @@ struct WrittenTime {
   /// As a duration: the time this much later than `seconds`. Counts continue at their pace before
   /// the first beat and after the last. Throws Error(kInvalidArgument, field) for counts without
   /// two beats.
-  double After(double seconds, std::span<const double> beats, const std::string& field) const;
+  double After(double seconds, const Counts& counted, const std::string& field) const;
 
   /// As a moment: seconds as they are; of counts the second of that count. Errors as After, and for
   /// a count before second 0.

@@ -58,7 +58,7 @@ int64_t FramesLater(const Dancer& dancer, std::span<const double> beats, double 
                     const std::string& field) {
   if (!dancer.after) return 0;
   const double from = beats.empty() ? 0 : beats.front();
-  const double seconds = dancer.after->After(from, beats, field) - from;
+  const double seconds = dancer.after->After(from, {{beats.begin(), beats.end()}}, field) - from;
   const int64_t later = std::llround(seconds * fps);
   if (later < frames) return later;
   throw InvalidArgument(field,

@@ -173,7 +173,7 @@ std::vector<KeyPose> ParseKeyFile(std::string_view text, const std::string& name
       if (!list[i].contains("time")) throw InvalidArgument(field + kHold, "goes with time");
       const double from = keys.back().time_s;
       const double seconds =
-          JsonTime(list[i]["hold"], field + kHold).After(from, counts.beats, field + kHold) - from;
+          JsonTime(list[i]["hold"], field + kHold).After(from, counts, field + kHold) - from;
       std::ranges::copy(Holding(&keys.back(), seconds, field + kHold), std::back_inserter(keys));
     }
     if (!places) continue;

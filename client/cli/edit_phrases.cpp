@@ -28,9 +28,7 @@ void HoldUntil(int64_t last, int64_t before, client::KeyEdit* edit) {
 
 void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
   const authoring::WrittenTime delay = authoring::ParseTime(later, "--repeat");
-  const auto moved = [&](double seconds) {
-    return delay.After(seconds, counts_.beats, "--repeat");
-  };
+  const auto moved = [&](double seconds) { return delay.After(seconds, counts_, "--repeat"); };
   if (Frame(moved(from_s)) <= Frame(from_s))
     throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
   std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);

@@ -59,7 +59,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   if (options_.hit) edit.key.hit = options_.hit;
   if (!options_.hold.empty()) {
     const double until_s =
-        authoring::ParseTime(options_.hold, "--hold").After(at_s, counts_.beats, "--hold");
+        authoring::ParseTime(options_.hold, "--hold").After(at_s, counts_, "--hold");
     edit.held = authoring::Holding(&edit.key, until_s - at_s, "--hold");
   }
   for (client::KeyPose& held : edit.held) {

@@ -9,6 +9,7 @@
 
 #include "client/authoring/dance_keys.h"
 #include "client/authoring/key_file.h"
+#include "client/authoring/music.h"
 #include "client/authoring/pose_library.h"
 #include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
@@ -74,6 +75,18 @@ void CheckOutput(const LiveCommand& options) {
 std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
   if (options.song.empty()) return live::ListenTo(options.input);
   return live::PlaySong(options.song, options.song_start_s);
+}
+
+/// The counts of a song's file, for times of its keys.
+authoring::Counts CountsFor(const LiveCommand& options, double seconds) {
+  if (options.song.empty()) {
+    return {.advice =
+                "nobody knows yet where the beats of music that is still to sound are; say "
+                "seconds, or name the song's file"};
+  }
+  if (authoring::KeySources(options.keys).empty()) return {};
+  return authoring::CountsOf(
+      authoring::ReadMusic(options.song, seconds, options.song_start_s, options.beats));
 }
 
 /// The legend of keyboard keys and their poses, as wide as a terminal.
@@ -149,8 +162,9 @@ void Run(const LiveCommand& options) {
   const double longest = std::min(dance.seconds, sound->seconds());
   const authoring::DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)),
                                       model.fps};
-  dance.keys =
-      authoring::ReadDanceKeys(authoring::KeySources(options.keys), length, model.skeleton).poses;
+  dance.keys = authoring::ReadDanceKeys(authoring::KeySources(options.keys), length, model.skeleton,
+                                        CountsFor(options, longest))
+                   .poses;
   const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(model.skeleton);
   for (const authoring::LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
 
@@ -209,7 +223,8 @@ void AddLiveCommand(CLI::App& program) {
       ->capture_default_str();
   AddRepeated(*command, "-k,--keyframes", options->keys,
               "Key poses that are known from the beginning, as `choreo dance` takes them; seconds "
-              "count from when the dance begins. none: no keys, as without this.");
+              "count from when the dance begins, counts (9c) are those of the song's file. none: "
+              "no keys, as without this.");
   command
       ->add_option("--osc", options->osc_port,
                    "UDP port for OSC messages of anybody who reaches it: /choreo/key POSE [SECONDS "

@@ -28,8 +28,7 @@ ReportKeys::const_iterator Nearest(const ReportKeys& keys, const std::string& id
   const authoring::WrittenTime time = authoring::ParseTime(id.substr(at + 1), field);
   const double second = time.In(counts, field);
   double near = authoring::kTooNear;
-  if (time.counts)
-    near = authoring::WrittenTime{0.5, true}.After(second, counts.beats, field) - second;
+  if (time.counts) near = authoring::WrittenTime{0.5, true}.After(second, counts, field) - second;
   auto nearest = keys.end();
   for (auto key = keys.begin(); key != keys.end(); ++key) {
     const double off = std::abs(static_cast<double>(key->first) / fps - second);

@@ -243,9 +243,9 @@ TEST(FormationTest, IsWidenedAsFarAsNeeded) {
 }
 
 TEST(CountsTest, ContinueAtTheirTempo) {
-  const std::vector<double> beats = {1, 1.5, 2, 3};
+  const authoring::Counts counts{{1, 1.5, 2, 3}};
   const auto after = [&](const std::string& text, double seconds) {
-    return authoring::ParseTime(text, "x").After(seconds, beats, "x");
+    return authoring::ParseTime(text, "x").After(seconds, counts, "x");
   };
   EXPECT_DOUBLE_EQ(after("2.5", 1), 3.5);
   EXPECT_DOUBLE_EQ(after("2.5 s", 1), 3.5);

@@ -235,6 +235,29 @@ TEST_F(CommandTest, ALiveDanceHasKeysOfAFileAndIsStreamed) {
   EXPECT_EQ(receiver.Stop().size(), 1 + motion.frames.size());
 }
 
+// Clicks come every half second from second 0 on.
+TEST_F(CommandTest, ALiveDanceHasKeysOnCountsOfItsSong) {
+  WriteClicks(folder_ / "song.wav", 5);
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"time": "5c", "pose": "kick", "hold": "2c"}]})";
+  const Outcome analysed = Choreo("analyze " + At("song.wav") + " --json");
+  const nlohmann::json heard = nlohmann::json::parse(analysed.said);
+  const auto one =
+      std::ranges::find(heard["beats"], heard["downbeats"][0]) - heard["beats"].begin();
+  const double fifth = heard["beats"][static_cast<size_t>(one) + 4];
+  const Outcome outcome = Choreo("live " + At("song.wav") + Server() + "-k " + At("keys.json") +
+                                 " -o " + At("d.npz") + " </dev/null");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion motion = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24());
+  const auto frame = static_cast<size_t>(std::llround(fifth * motion.fps));
+  PoseMask mask;
+  mask.root_position = false;
+  EXPECT_LT(ComparePoses(Skeleton::Smpl24(), motion.frames.at(frame),
+                         authoring::FindLibraryPose("kick").pose, mask)
+                .angle_deg,
+            0.1);
+}
+
 TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
   WriteClicks(folder_ / "song.wav", 4);
   const int port = OscReceiver().port();
@@ -336,6 +359,10 @@ TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
   EXPECT_THAT(live(At("song.wav") + " -k " + At("keys.json")).said,
               HasSubstr("keys.json:keyframes[0].time: key \"key1\" at 2 s is after the dance's "
                         "end: its last frame is at 0.97 s"));
+  std::ofstream(folder_ / "counted.json") << R"({"keyframes": [{"time": "3c", "pose": "kick"}]})";
+  EXPECT_THAT(live("--input null -k " + At("counted.json")).said,
+              HasSubstr("keyframes[0].time: 3c: nobody knows yet where the beats of music that is "
+                        "still to sound are; say seconds, or name the song's file"));
   const OscReceiver taken;
   EXPECT_THAT(live(At("song.wav") + " --osc " + std::to_string(taken.port())).said,
               HasSubstr("--osc: port "));
