@@ -95,6 +95,29 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
   return out;
 }
 
+live::LiveBeatHint FromProto(const LiveBeats& beats) {
+  const auto require = [](const char* field, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    throw InvalidArgument(field, Show(value) + " is not within " + Show(low) + " to " + Show(high));
+  };
+  live::LiveBeatHint hint;
+  if (beats.has_tempo()) {
+    require("live_beats.tempo", beats.tempo(), kSlowestHint, kFastestHint);
+    hint.beats.tempo_bpm = beats.tempo();
+  }
+  if (beats.half_time() && beats.double_time())
+    throw InvalidArgument("live_beats.double_time", "excludes half_time");
+  hint.beats.half_time = beats.half_time();
+  hint.beats.double_time = beats.double_time();
+  require("live_beats.later", beats.later(), -1, 1);
+  hint.later_s = beats.later();
+  if (beats.has_downbeat()) {
+    require("live_beats.downbeat", beats.downbeat(), 0, kMaxAudioSeconds);
+    hint.downbeat_s = beats.downbeat();
+  }
+  return hint;
+}
+
 std::vector<float> SamplesOf(const v1::Audio& audio) {
   const std::string& bytes = audio.data();
   if (bytes.size() % sizeof(float) != 0)

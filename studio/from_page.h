@@ -5,6 +5,7 @@
 #include "client/authoring/counts.h"
 #include "client/choreo_client.h"
 #include "client/edit.h"
+#include "client/live/beat_ear.h"
 #include "model/audio/format.h"
 #include "studio/studio.pb.h"
 
@@ -19,6 +20,7 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton);
+live::LiveBeatHint FromProto(const LiveBeats& beats);
 /// The samples of all pieces, in order.
 std::vector<float> SamplesOf(const v1::Audio& audio);
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton);

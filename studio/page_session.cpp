@@ -1,5 +1,8 @@
 #include "studio/page_session.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
@@ -44,6 +47,7 @@ void PageSession::Take(Request request) {
   Reap();
   try {
     if (request.has_dance()) return TakeDance(call, request.dance());
+    if (request.has_live_beats()) return TakeLiveBeats(call, request.live_beats());
     if (request.has_cancel()) return EndDance(call);
   } catch (const std::exception& error) {
     EndDance(call);
@@ -67,7 +71,7 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
   switch (request.request_case()) {
     case v1::StreamDanceRequest::kKeyframe: {
       const client::KeyPose key = FromProto(request.keyframe(), context_.model().skeleton);
-      if (found->second.is_live)
+      if (found->second.ear)
         SendFaults(call, {key});
       else
         found->second.keys.push_back(key);
@@ -78,17 +82,41 @@ void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request
     case v1::StreamDanceRequest::kControls:
       return dance.SendControls(wire::FromProto(request.controls(), "controls"));
     case v1::StreamDanceRequest::kGenerateUntil:
-      return dance.GenerateUntil(request.generate_until().frame());
+      found->second.granted = request.generate_until().frame();
+      return dance.GenerateUntil(found->second.granted);
     case v1::StreamDanceRequest::kKeyframesComplete:
       SendFaults(call, std::exchange(found->second.keys, {}));
       return dance.CompleteKeys();
     case v1::StreamDanceRequest::kAudio:
-      return dance.SendSamples(SamplesOf(request.audio()));
+      return TakeMusic(&found->second, request.audio());
     case v1::StreamDanceRequest::kEndOfAudio:
       return dance.EndAudio();
     default:
       throw InvalidArgument("dance", "beats come with the configuration");
   }
+}
+
+void PageSession::TakeMusic(Dancing* dancing, const v1::Audio& audio) {
+  const std::vector<float> samples = SamplesOf(audio);
+  // Others are refused below.
+  const bool is_sound =
+      std::ranges::all_of(samples, [](float value) { return std::isfinite(value); });
+  if (dancing->ear && is_sound) {
+    live::MusicEar::Ahead heard = dancing->ear->Hear(samples);
+    // Beats of frames that may exist already would come too late.
+    heard.beats.Keep(static_cast<double>(dancing->granted) / context_.model().fps,
+                     kMaxAudioSeconds);
+    if (!heard.beats.beats.empty())
+      dancing->dance->SendBeats(heard.beats.beats, heard.beats.downbeats);
+    if (heard.passage) dancing->dance->SendPassages(std::array{*heard.passage});
+  }
+  dancing->dance->SendSamples(samples);
+}
+
+void PageSession::TakeLiveBeats(uint32_t call, const LiveBeats& beats) {
+  const live::LiveBeatHint hint = FromProto(beats);
+  const auto found = dances_.find(call);
+  if (found != dances_.end() && found->second.ear) found->second.ear->Tell(hint);
 }
 
 void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
@@ -111,6 +139,9 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
   const bool hears = music && context_.model().takes_music;
   if (music) authoring::ConfigureMusic(music->music, music->heard.seconds(), &config);
   if (hears) config.audio = music->audio.format;
+  auto ear = is_live
+                 ? std::make_unique<live::MusicEar>(config.audio.sample_rate, config.audio.channels)
+                 : nullptr;
   auto dance = context_.client().StartDance(config);
   if (hears) {
     dance->SendSamples(music->audio.samples);
@@ -118,7 +149,8 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
   }
   // Nothing fails from here on: every remaining call has a dance.
   Dancing& dancing = dances_[call];
-  dancing.is_live = is_live;
+  dancing.ear = std::move(ear);
+  dancing.granted = config.generate_until.value_or(0);
   dancing.dance = std::move(dance);
   dancing.reader = std::jthread([this, call, &dancing] { ReadDance(call, &dancing); });
 }

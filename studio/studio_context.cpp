@@ -7,6 +7,7 @@
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
 #include "client/style_figures.h"
+#include "model/audio/beat_hint.h"
 #include "model/core/atomic_file.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"
@@ -46,6 +47,8 @@ Limits LimitsOf(double song_s) {
   Limits limits;
   limits.set_dance_s(authoring::kMaxDanceSeconds);
   limits.set_song_s(song_s);
+  limits.set_slowest_tempo(kSlowestHint);
+  limits.set_fastest_tempo(kFastestHint);
   limits.set_beats_in_bar(authoring::kMaxBeatsInBar);
   limits.set_velocity_factor(kMaxVelocityFactor);
   limits.set_hit(kMaxHit);

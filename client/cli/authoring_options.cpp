@@ -21,7 +21,7 @@ void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
   command
       .add_option("--tempo", options->hint.tempo_bpm,
                   "Rough tempo, beats a minute: beats are looked for within 6 % of it.")
-      ->check(NumberFrom(50, 200))
+      ->check(NumberFrom(kSlowestHint, kFastestHint))
       ->excludes(beats);
   CLI::Option* half =
       command.add_flag("--half-time", options->hint.half_time, "Count every second beat only.");

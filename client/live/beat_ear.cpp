@@ -12,10 +12,26 @@ constexpr double kFirstSeconds = 4, kEverySeconds = 1.5;
 
 int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 
+/// Counts from the beat nearest to frame `one`, and returns the last downbeat.
+int64_t CountAround(int64_t one, BeatTrack* track) {
+  const int64_t first = NearestBeat(*track, one);
+  CountFrom(first, track);
+  const auto last = std::find(track->in_bar.rbegin(), track->in_bar.rend(), 0).base() - 1;
+  return track->frames[static_cast<size_t>(last - track->in_bar.begin())];
+}
+
 }  // namespace
 
 // Silence precedes the music.
-BeatEar::BeatEar(const BeatHint& hint) : mono_(kOnsetWindow / 2), hint_(hint) {}
+BeatEar::BeatEar(const LiveBeatHint& hint) : mono_(kOnsetWindow / 2) { Tell(hint); }
+
+void BeatEar::Tell(const LiveBeatHint& hint) {
+  hint_ = hint;
+  kept_.reset();
+  one_.reset();
+  if (hint.downbeat_s) kept_ = one_ = Onsets(*hint.downbeat_s - hint.later_s);
+  if (asked_ > 0) asked_ -= std::min(asked_ - 1, Onsets(kEverySeconds));
+}
 
 BeatsAhead BeatEar::Hear(std::span<const float> mono) {
   mono_.insert(mono_.end(), mono.begin(), mono.end());
@@ -29,9 +45,16 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
   if (found_.valid()) {
     if (found_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
     BeatTrack track = found_.get();
-    Follow(hint_, &track, kept_);
-    if (!track.frames.empty()) kept_ = track.frames.back();
-    return PredictBeats(track, now, now + kAheadSeconds);
+    Follow(hint_.beats, &track, kept_);
+    if (track.frames.empty()) return {};
+    kept_ = track.frames.back();
+    if (one_) one_ = CountAround(*one_, &track);
+    BeatsAhead ahead =
+        PredictBeats(track, now - hint_.later_s, now - hint_.later_s + kAheadSeconds);
+    for (std::vector<double>* some : {&ahead.beats, &ahead.downbeats}) {
+      for (double& beat : *some) beat += hint_.later_s;
+    }
+    return ahead;
   }
   if (heard - asked_ < Onsets(asked_ == 0 ? kFirstSeconds : kEverySeconds)) return {};
   asked_ = heard;
@@ -40,12 +63,12 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
     onsets_.erase(onsets_.begin(), onsets_.begin() + old);
     first_ += old;
   }
-  found_ =
-      std::async(std::launch::async, [onsets = onsets_, first = first_, limits = LimitsOf(hint_)] {
-        BeatTrack track = TrackBeats(onsets, limits);
-        for (int64_t& frame : track.frames) frame += first;
-        return track;
-      });
+  found_ = std::async(std::launch::async,
+                      [onsets = onsets_, first = first_, limits = LimitsOf(hint_.beats)] {
+                        BeatTrack track = TrackBeats(onsets, limits);
+                        for (int64_t& frame : track.frames) frame += first;
+                        return track;
+                      });
   return {};
 }
 

@@ -12,6 +12,13 @@
 
 namespace choreo::live {
 
+/// What a listener says about the beats that she hears.
+struct LiveBeatHint {
+  BeatHint beats = {};
+  std::optional<double> downbeat_s = {};  ///< second of the music at which a bar began
+  double later_s = 0;  ///< by which her beats are later than those that are found
+};
+
 /// Predicts the beats of live music: finds those of its last minutes as in a whole song
 /// (TrackBeats) and extrapolates them. Works on its own thread, so the listener never waits.
 class BeatEar {
@@ -19,7 +26,10 @@ class BeatEar {
   /// How far ahead of the music it predicts, seconds: as far as transitions reach.
   static constexpr double kAheadSeconds = 5;
 
-  explicit BeatEar(const BeatHint& hint = {});
+  explicit BeatEar(const LiveBeatHint& hint = {});
+
+  /// Replaces the hint, and looks for beats anew.
+  void Tell(const LiveBeatHint& hint);
 
   /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second; none
   /// while no beat is clear.
@@ -37,8 +47,9 @@ class BeatEar {
   int64_t first_ = 0;          // index of the first of onsets_ in the music
   int64_t asked_ = 0;          // onsets received at the last search
   std::future<BeatTrack> found_;
-  BeatHint hint_;
+  LiveBeatHint hint_;
   std::optional<int64_t> kept_;  // a beat found last: half time stays on the same half
+  std::optional<int64_t> one_;   // the last downbeat, counting from the hint's
 };
 
 }  // namespace choreo::live

@@ -7,8 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "client/live/passage_ear.h"
-#include "model/audio/resample.h"
+#include "client/live/music_ear.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
 
@@ -73,10 +72,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
   int64_t samples = 0;
   double now = 0, told = 0;
   bool clock_missed = midi == nullptr;
-  Resampler resampler(sound.sample_rate(), sound.channels());
-  std::vector<float> mono;  // of this piece
-  PassageEar passages;
-  BeatEar beats(options_.beats);
+  MusicEar ear(sound.sample_rate(), sound.channels(), {.beats = options_.beats});
   while (!over_ && now < options_.seconds && observer_.go_on()) {
     const std::span<const float> piece = sound.Next();
     if (piece.empty()) break;
@@ -85,19 +81,15 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     for (const auto& source : cues) {
       for (const Cue& cue : source->Take()) Follow(cue, now);
     }
-    mono.clear();
-    resampler.Push(piece);
-    resampler.Pull(mono);
     if (midi) SendBeats({.beats = midi->Take(now), .downbeats = {}}, now);
     // It receives all music, so that it knows the beats when the clock stops.
-    BeatsAhead heard = beats.Hear(mono);
-    if (!midi || !midi->runs()) SendBeats(std::move(heard), now);
+    MusicEar::Ahead heard = ear.Hear(piece);
+    if (!midi || !midi->runs()) SendBeats(std::move(heard.beats), now);
     if (!clock_missed && (midi->runs() || now >= kClockMissedSeconds)) {
       clock_missed = true;
       if (!midi->runs()) Note("no MIDI clock was started yet; until it is, beats are heard");
     }
-    if (const std::optional<Passage> passage = passages.Hear(mono))
-      dance_->SendPassages(std::array{*passage});
+    if (heard.passage) dance_->SendPassages(std::array{*heard.passage});
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);
     dance_->SendSamples(piece);

@@ -14,11 +14,12 @@
 
 #include "client/choreo_client.h"
 #include "client/live/beat_clock.h"
-#include "client/live/beat_ear.h"
 #include "client/live/cues.h"
 #include "client/live/midi_clock.h"
 #include "client/live/pose_player.h"
 #include "client/live/sound.h"
+#include "model/audio/beat_hint.h"
+#include "model/audio/beats_ahead.h"
 #include "model/core/limits.h"
 
 namespace choreo::live {

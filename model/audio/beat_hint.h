@@ -16,6 +16,8 @@ struct BeatHint {
   bool operator==(const BeatHint&) const = default;
 };
 
+/// Tempi that a hint may name, beats a minute.
+inline constexpr double kSlowestHint = 50, kFastestHint = 200;
 inline constexpr int kDefaultBar = 4;  ///< beats, where nobody says how many
 
 /// Tempi near that of the hint.

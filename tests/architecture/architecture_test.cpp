@@ -82,7 +82,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {"client", {core, motion, messages, "tls", wire, "choreo", "google", "grpc"}},
         {live, {core, audio, motion, "client"}},
         {authoring, {core, audio, motion, fit, body, formats, "client"}},
-        {"studio", {core, audio, motion, formats, messages, wire, "client", authoring, "choreo"}},
+        {"studio", {core, audio, motion, formats, messages, wire, "client", authoring, live, "choreo"}},
         {cli, {core, audio, motion, fit, body, formats, draw, "client", live, authoring, "studio"}},
         {"bench",
          {core, audio, motion, formats, flow, engine, networks, paper_samplers, samplers, dance,

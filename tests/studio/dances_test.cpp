@@ -206,6 +206,56 @@ TEST_F(StudioTest, DancesToMusicAsItSounds) {
   EXPECT_EQ(dance(0), silent);
 }
 
+// 120 clicks a minute, of which every second one is danced to. The program needs a moment to find
+// them, so the music comes in pieces until their events show.
+TEST_F(StudioTest, LiveDancesFollowTheListenersBeats) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request config = DanceRequest(3000, 1);
+  v1::DanceConfig& asked = *config.mutable_dance()->mutable_config();
+  asked.set_generate_until(0);
+  asked.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+  asked.mutable_audio_format()->set_sample_rate(22050);
+  asked.mutable_audio_format()->set_channels(1);
+  page.Say(2, config);
+  Request beats;
+  beats.mutable_live_beats()->set_tempo(120);
+  beats.mutable_live_beats()->set_half_time(true);
+  page.Say(2, beats);
+  const std::vector<float> music = choreo::Clicks(100);
+  std::vector<double> times;
+  int64_t frames = 0;
+  bool has_downbeats = false;
+  const auto halved = [&] {
+    return times.size() > 6 && times.back() - times[times.size() - 6] > 4.9;
+  };
+  for (int piece = 0; piece < 200 && !halved(); ++piece) {
+    Request grant, sound;
+    grant.mutable_dance()->mutable_generate_until()->set_frame(15 * (piece + 1));
+    page.Say(2, grant);
+    sound.mutable_dance()->mutable_audio()->set_data(music.data() + 11025 * piece,
+                                                     11025 * sizeof(float));
+    page.Say(2, sound);
+    // The frames of the music before this piece.
+    while (frames < 15 * (piece - 2)) {
+      const Response response = page.Read();
+      ASSERT_FALSE(response.has_failure()) << response.failure().message();
+      frames += response.dance().frames().count();
+      if (!response.dance().event().has_beat()) continue;
+      times.push_back(response.dance().event().time());
+      has_downbeats = has_downbeats || response.dance().event().beat().downbeat();
+    }
+  }
+  EXPECT_TRUE(halved()) << times.size() << " beats";
+  EXPECT_TRUE(has_downbeats);
+  Request wrong;
+  wrong.mutable_live_beats()->set_tempo(20);
+  page.Say(3, wrong);
+  Response answer = page.Read();
+  while (!answer.has_failure()) answer = page.Read();
+  EXPECT_EQ(answer.failure().message(), "live_beats.tempo: 20 is not within 50 to 200");
+}
+
 TEST_F(StudioTest, RefusesInvalidMusic) {
   const Opened studio(server_.address());
   Page page(studio.port());

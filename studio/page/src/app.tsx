@@ -156,7 +156,7 @@ function useKeyboard() {
       if (event.defaultPrevented || types) return;
       const key = event.key.toLowerCase();
       if (event.key === ' ' && playsOn(at)) studio.togglePlay();
-      else if (key === 't' && !withControl && studio.shownSong.value && studio.project.value) studio.tap();
+      else if (key === 't' && !withControl && (studio.shownSong.value || studio.live.value) && studio.project.value) studio.tap();
       else if (key === 'm' && !withControl) studio.addMarker();
       else if (withControl && key === 'z') event.shiftKey ? studio.redo() : studio.undo();
       else if (withControl && key === 'd' && studio.selectedKey.value) studio.duplicateKey();

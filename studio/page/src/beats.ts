@@ -1,23 +1,28 @@
-// The beats of the song: as found by the program, or as set by the user.
+// The beats of the song: as found by the program, or as set by the user. Of live music the user says how they are to be heard.
 import { computed, signal } from '@preact/signals';
-import { counted, doubled, halved, nudged, tapped, tempo, withOne } from './counts';
+import { counted, doubled, halved, nudged, pulseOf, tapped, tempo, withOne } from './counts';
 import type { Beats } from './counts';
 import { sections } from './form';
 import { change, note } from './history';
+import { hintLive, soundingNow } from './live';
+import { liveBeats } from './live_beats';
+import { limits } from './limits';
 import { audio } from './songs';
-import { project, shownSong, tell } from './state';
+import { live, project, shownSong, tell } from './state';
 
 const none: Beats = { bar: 4, list: [] };
 const nudge = 0.01; // seconds
+const mostLater = 1; // seconds, of live beats either way
 const pause = 2500; // ms after the last tap, after which they count
 const longest = 3; // seconds from tap to tap
+const tooFew = 'Tap four beats at least.';
 
 const heardBeats = computed(() => {
   const heard = shownSong.value?.heard;
   return heard ? counted(heard.beats, heard.counts, heard.beatsInBar) : none;
 });
 
-export const beats = computed(() => project.value?.beats ?? heardBeats.value);
+export const beats = computed(() => (live.value ? liveBeats.value : project.value?.beats ?? heardBeats.value));
 
 /// Suggested beats for key poses, seconds.
 export const suggested = computed(() => {
@@ -34,36 +39,63 @@ export const form = computed(() => sections(shownSong.value?.heard.passages ?? [
 
 const length = () => shownSong.value!.heard.seconds;
 
-export const halveBeats = () => change({ beats: halved(beats.value) });
-export const doubleBeats = () => change({ beats: doubled(beats.value) });
+export function halveBeats() {
+  if (live.value) hintLive({ pace: live.value.hint.pace === 'double' ? null : 'half' });
+  else change({ beats: halved(beats.value) });
+}
+export function doubleBeats() {
+  if (live.value) hintLive({ pace: live.value.hint.pace === 'half' ? null : 'double' });
+  else change({ beats: doubled(beats.value) });
+}
 /// Moves beats by this many steps.
-export const nudgeBeats = (steps: number) => change({ beats: nudged(beats.value, nudge * steps, length()) });
+export function nudgeBeats(steps: number) {
+  if (live.value) hintLive({ later: Math.min(mostLater, Math.max(-mostLater, live.value.hint.later + nudge * steps)) });
+  else change({ beats: nudged(beats.value, nudge * steps, length()) });
+}
 /// Counting from another beat does not change the dance.
-export const countFromHere = () => note({ beats: withOne(beats.value, audio.currentTime) });
-export const hearBeats = () => change({ beats: null });
+export function countFromHere() {
+  if (live.value) hintLive({ one: soundingNow() });
+  else note({ beats: withOne(beats.value, audio.currentTime) });
+}
+export function hearBeats() {
+  if (live.value) hintLive();
+  else change({ beats: null });
+}
 
-/// Taps along with the song, in its seconds, not yet applied.
+/// Taps along with the music, in its seconds, not yet applied.
 export const taps = signal<number[]>([]);
 let waiting: ReturnType<typeof setTimeout>;
 
 /// Records a tap. The taps become the beats after a pause of the taps or the song.
 export function tap() {
-  if (audio.paused) return void audio.play().catch(() => {}); // an immediate pause rejects the promise
-  const now = audio.currentTime;
+  if (audio.paused && !live.value) return void audio.play().catch(() => {}); // an immediate pause rejects the promise
+  const now = live.value ? soundingNow() : audio.currentTime;
   const last = taps.value.at(-1) ?? now;
   taps.value = now < last || now - last > longest ? [now] : [...taps.value, now];
   clearTimeout(waiting);
-  waiting = setTimeout(applyTaps, pause / audio.playbackRate);
+  waiting = setTimeout(applyTaps, pause / (live.value ? 1 : audio.playbackRate));
 }
 
 function applyTaps() {
   clearTimeout(waiting);
   const told = taps.value;
   taps.value = [];
+  if (told.length > 0 && live.value) return tapLive(told);
   if (told.length === 0 || !shownSong.value || !project.value) return;
   const found = tapped(heardBeats.value, beats.value, told, length());
-  if (!found) return tell('Tap four beats at least.');
+  if (!found) return tell(tooFew);
   change({ beats: found });
   tell(`${Math.round(tempo(found))} beats a minute, of ${told.length} taps.`);
 }
 audio.addEventListener('pause', applyTaps);
+
+/// Beats of live music are looked for near the taps' tempo.
+function tapLive(told: number[]) {
+  const pulse = pulseOf(told);
+  if (!pulse) return tell(tooFew);
+  const tapped = 60 / pulse.period;
+  if (tapped < limits.slowestTempo || tapped > limits.fastestTempo)
+    return tell(`${Math.round(tapped)} taps a minute, must be ${limits.slowestTempo} to ${limits.fastestTempo}.`);
+  hintLive({ tempo: tapped, pace: null });
+  tell(`${Math.round(tapped)} beats a minute, of ${told.length} taps.`);
+}

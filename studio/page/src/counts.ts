@@ -40,6 +40,14 @@ export function counted(times: number[], inBar: number[], bar: number): Beats {
   return { bar: length, list };
 }
 
+/// From beats as they come one after another: a bar lasts from downbeat to downbeat.
+export function countedLive(heard: { time: number; isDown: boolean }[]): Beats {
+  let at = 0;
+  const inBar = heard.map(({ isDown }) => (at = isDown ? 1 : at && at + 1));
+  const bars = inBar.filter((count, i) => count > 0 && inBar[i + 1] === 1);
+  return counted(heard.map(({ time }) => time), inBar, bars.length ? median(bars) : usualBar);
+}
+
 /// Counts forwards and backwards from one of the beats.
 function countedFrom(times: number[], one: number, bar: number): Beats {
   const length = eight(bar);

@@ -1,8 +1,9 @@
 // Live: the dance to the microphone, while it sounds. Afterwards what was heard is the song, and the dance stays.
-import { computed, signal } from '@preact/signals';
+import { signal } from '@preact/signals';
 import { AudioEncoding } from './generated/choreo/v1/choreography_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { how, keyMessage } from './dancer';
+import { countedLive } from './counts';
 import { drawing } from './floor_path';
 import { push } from './history';
 import { dancer, skeleton, wire } from './link';
@@ -10,18 +11,18 @@ import { listen } from './microphone';
 import type { Microphone } from './microphone';
 import { Motion } from './motion';
 import { limits } from './limits';
+import { beatAfter, shownAhead } from './live_beats';
 import { emptyProject, freeId, sorted, wishes } from './project';
 import type { Key } from './project';
 import { dropSketch } from './photos';
 import { audio, hear } from './songs';
 import { chosen, complain, isConnected, live, message, moment, selectedKey, takes, tell, work } from './state';
-import type { Live } from './state';
+import type { Live, LiveHint } from './state';
 import { wav } from './wav';
 
 const lookAhead = 0.3; // seconds: what is nearer is danced already
 const ahead = 1; // seconds until a pose that is pressed, at least
 const spare = 0.07; // seconds for a piece of sound, and the way to the program and back
-const shownAhead = 8; // seconds of the timeline after now
 const lastWait = 10000; // ms for the end of the dance
 const unheard = 10; // seconds of the longest song that nobody plays live
 const name = 'microphone.wav';
@@ -43,18 +44,34 @@ export const level = signal(0);
 const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'dance' }>['value']) => wire.say(call, { case: 'dance', value });
 
 const heardSeconds = () => samples / rate;
+const sinceLast = () => Math.min(0.05, (performance.now() - last) / 1000);
+
+/// The second of the music that sounds now.
+export const soundingNow = () => heardSeconds() + sinceLast();
 
 /// Where we are: in the song, or in what the microphone hears, so far behind it that the frames are there.
 export function now(): number {
   if (!live.value) return audio.currentTime;
   if (samples === 0) return 0;
-  const since = Math.min(0.05, (performance.now() - last) / 1000);
-  return Math.max(0, heardSeconds() + since - latency - spare);
+  return Math.max(0, soundingNow() - latency - spare);
 }
 
 const update = (what: Partial<Live>) => {
   if (live.value) live.value = { ...live.value, ...what };
 };
+
+const asHeard: LiveHint = { tempo: null, pace: null, later: 0, one: null };
+/// Whether beats are danced to as they were heard.
+export const isAsHeard = () => Object.entries(asHeard).every(([name, value]) => live.value?.hint[name as keyof LiveHint] === value);
+
+/// How beats are heard from now on; without anything as they come.
+export function hintLive(said?: Partial<LiveHint>) {
+  if (!live.value) return;
+  const hint = said ? { ...live.value.hint, ...said } : asHeard;
+  const { tempo, pace, later, one } = hint;
+  update({ hint });
+  wire.say(call, { case: 'liveBeats', value: { tempo: tempo ?? undefined, halfTime: pace === 'half', doubleTime: pace === 'double', later, downbeat: one ?? undefined } });
+}
 
 export const startLive = () => work(async () => {
   if (live.value) return;
@@ -68,7 +85,7 @@ export const startLive = () => work(async () => {
   microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
   rate = microphone.rate;
   const motion = new Motion(skeleton.joints, dancer.fps);
-  live.value = { project: { ...asked, ...wishes(before), path: asked.path, seed: before.seed }, motion, beats: [] };
+  live.value = { project: { ...asked, ...wishes(before), path: asked.path, seed: before.seed }, motion, beats: [], hint: asHeard };
   call = wire.open(
     { case: 'dance', value: { request: { case: 'config', value: {
       ...how(live.value.project), generateUntil: 0n, rejectInvalidKeys: true,
@@ -96,7 +113,7 @@ function hearOf(said: Said, motion: Motion) {
   else if (said.case === 'summary') ended?.();
   else if (said.case === 'event') {
     const { event, time } = said.value;
-    if (event.case === 'beat') update({ beats: [...live.value!.beats, time] });
+    if (event.case === 'beat') update({ beats: [...live.value!.beats, { time, isDown: event.value.downbeat }] });
     else if (event.case === 'warning') tell(event.value.message);
     else if (event.case === 'keyframeRejected') {
       const { id, reason } = event.value;
@@ -128,6 +145,7 @@ export const stopLive = () => work(async () => {
   microphone = null;
   const { project, motion } = live.value;
   const keys = project.keys.filter(({ frame }) => frame < granted);
+  const heardOtherwise = !isAsHeard();
   const isWhole = !isLost && await new Promise<boolean>((resolve) => {
     ended = () => resolve(true);
     for (const key of project.keys.filter((some) => !keys.includes(some))) say({ request: { case: 'removeKeyframe', value: { id: key.id } } });
@@ -144,11 +162,12 @@ export const stopLive = () => work(async () => {
     at += piece.length;
   }
   pieces = [];
+  const beats = heardOtherwise ? countedLive(live.value.beats) : null;
   live.value = null;
   if (motion.count === 0) throw new Error('Nothing was heard that could be danced to.');
   if (isLost) await connected();
   await hear(name, wav(all, rate, 16));
-  push({ ...project, seconds: samples / rate, keys }, motion, async () => motion);
+  push({ ...project, seconds: samples / rate, keys, beats }, motion, async () => motion);
   if (!isWhole) tell('The dance ended early; what came of it stays.');
 });
 
@@ -160,22 +179,11 @@ async function connected() {
 const keep = (keys: Key[]) => update({ project: { ...live.value!.project, keys: sorted(keys) } });
 const earliest = () => granted + 3;
 
-/// Beats to come, as those that were heard go on.
-const coming = computed(() => {
-  const beats = live.value?.beats ?? [];
-  if (beats.length < 3) return [];
-  const period = (beats.at(-1)! - beats.at(-3)!) / 2;
-  return Array.from({ length: Math.min(64, Math.ceil(shownAhead / period) + 4) }, (_, i) => beats.at(-1)! + (i + 1) * period);
-});
-
-/// Those that were heard, and those that should follow.
-export const liveBeats = computed(() => [...(live.value?.beats ?? []), ...coming.value]);
-
 /// Asks for a pose: at a frame, or on a beat that comes soon. Wherever the dancer is then.
 export function addLiveKey(pose: LibraryPose, wanted: number | null) {
   const { keys } = live.value!.project;
   const soon = heardSeconds() + ahead;
-  let frame = Math.max(earliest(), wanted ?? Math.round((coming.value.find((beat) => beat >= soon) ?? soon) * dancer.fps));
+  let frame = Math.max(earliest(), wanted ?? Math.round(beatAfter(soon) * dancer.fps));
   while (keys.some((key) => Math.abs(key.frame - frame) < limits.keyDistance)) frame += limits.keyDistance;
   const { x, y, z } = pose.pose!.rootPosition!;
   const key: Key = { id: freeId(keys, pose.id), frame, pose: { root: [x, y, z], rotations: [...pose.pose!.rotations] }, hasPlace: false, asks: null, hold: 0, hit: null, hands: null };

@@ -108,8 +108,10 @@ function MusicPanel() {
 function BeatsPanel() {
   const { value } = studio.project;
   const { beats, taps } = studio;
-  if (!value || !studio.shownSong.value) return null;
+  const { live } = studio;
+  if (!value || !(studio.shownSong.value || live.value)) return null;
   const isNone = beats.value.list.length === 0;
+  const pace = live.value?.hint.pace;
   return (
     <section aria-label="Beats">
       <h2>Beats <small>{isNone ? 'none heard' : `${tempo(beats.value).toFixed(1)} a minute`}</small></h2>
@@ -118,15 +120,15 @@ function BeatsPanel() {
           {taps.value.length > 0 ? `Tap ${taps.value.length}` : 'Tap'}
         </button>
         <div class="choices" role="group" aria-label="Tempo">
-          <button disabled={isNone} title="Every second beat alone" onClick={studio.halveBeats}>Halve</button>
-          <button disabled={isNone} title="One between two beats, too" onClick={studio.doubleBeats}>Double</button>
+          <button disabled={isNone || pace === 'half'} title="Every second beat alone" onClick={studio.halveBeats}>Halve</button>
+          <button disabled={isNone || pace === 'double'} title="One between two beats, too" onClick={studio.doubleBeats}>Double</button>
         </div>
         <div class="choices" role="group" aria-label="When">
           <button disabled={isNone} aria-label="Beats 10 ms earlier" title="10 ms earlier" onClick={() => studio.nudgeBeats(-1)}>◂</button>
           <button disabled={isNone} aria-label="Beats 10 ms later" title="10 ms later" onClick={() => studio.nudgeBeats(1)}>▸</button>
         </div>
-        <button disabled={isNone} title="The beat at the playhead is the first of a bar" onClick={studio.countFromHere}>This is 1</button>
-        {value.beats && <button title="Back to the beats that were heard" onClick={studio.hearBeats}>As heard</button>}
+        <button disabled={isNone} title={live.value ? 'The beat that sounds now is the first of a bar' : 'The beat at the playhead is the first of a bar'} onClick={studio.countFromHere}>This is 1</button>
+        {(live.value ? !studio.isAsHeard() : value.beats) && <button title="Back to the beats that were heard" onClick={studio.hearBeats}>As heard</button>}
       </div>
     </section>
   );
@@ -201,7 +203,7 @@ function LivePanel() {
 }
 
 export function Panels({ stage }: { stage: Stage | null }) {
-  if (studio.live.value) return <aside class="panels" aria-label="Settings"><LivePanel /></aside>;
+  if (studio.live.value) return <aside class="panels" aria-label="Settings"><LivePanel /><BeatsPanel /></aside>;
   return (
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />

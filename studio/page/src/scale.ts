@@ -13,7 +13,7 @@ export const x = (seconds: number) => edge + seconds * zoom.value;
 export const clock = (seconds: number) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, '0')}`;
 export const seconds = () => studio.project.value?.seconds ?? 0;
 
-export const beatTimes = () => (studio.live.value ? studio.liveBeats.value : studio.beats.value.list.map(({ time }) => time));
+export const beatTimes = () => studio.beats.value.list.map(({ time }) => time);
 
 /// The frame of the nearest beat or marker, if one is near on the screen; not of the marker that is `moved`.
 export function snapped(time: number, moved?: Marker): number {

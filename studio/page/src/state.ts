@@ -28,8 +28,11 @@ export type Song = { name: string; url: string; bytes: Uint8Array; heard: SongHe
 export type Photo = { url: string; width: number; height: number; marks: { x: number; y: number; visibility: number }[] };
 /// A pose from a photo that is not a key yet.
 export type Sketch = { id: string; pose: Pose; photo: Photo };
+/// How the beats of live music are to be heard. `tempo`: about so many a minute; `pace`: half or double of them; `later`: seconds by which
+/// they are; `one`: a second at which a bar began.
+export type LiveHint = { tempo: number | null; pace: 'half' | 'double' | null; later: number; one: number | null };
 /// A live dance in progress; `beats`: those heard, seconds.
-export type Live = { project: Project; motion: Motion; beats: number[] };
+export type Live = { project: Project; motion: Motion; beats: { time: number; isDown: boolean }[]; hint: LiveHint };
 export type Take = { seed: number; motion: Motion };
 
 export const welcome = signal<Welcome | null>(null);

@@ -21,7 +21,7 @@ export { dropSketch } from './photos';
 export * from './phrases';
 export { inWords, movable, partsOf, worked } from './masks';
 export { dancer, skeleton } from './link';
-export { level, liveBeats, now, startLive, stopLive } from './live';
+export { isAsHeard, level, now, startLive, stopLive } from './live';
 export { audio } from './songs';
 export * from './state';
 export { keepTake, tryTakes, tryTheRest } from './takes';

@@ -55,7 +55,6 @@ function Wave() {
 
 /// Beats, bars and counts, as space permits.
 function Ruler() {
-  if (studio.live.value) return studio.liveBeats.value.map((beat) => <i class="beat" key={beat} style={{ left: `${x(beat)}px` }} />);
   const { bar, list } = studio.beats.value;
   const room = (60 / Math.max(tempo(studio.beats.value), 1)) * zoom.value; // pixels per beat
   return list.map((beat) => {

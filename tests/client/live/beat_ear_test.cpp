@@ -13,7 +13,7 @@ namespace choreo::live::beat_ear_test {
 /// The beats predicted from `from` s on, each before it sounds. Later predictions replace earlier
 /// ones, but all downbeats are kept.
 std::vector<double> Told(const std::vector<float>& song, double from,
-                         std::vector<double>* downbeats = nullptr, const BeatHint& hint = {}) {
+                         std::vector<double>* downbeats = nullptr, const LiveBeatHint& hint = {}) {
   BeatEar ear(hint);
   std::vector<double> told;
   constexpr size_t kPiece = 437;  // 20 ms, of whatever length
@@ -63,7 +63,7 @@ TEST(BeatEar, PredictsBeats) {
 
 TEST(BeatEar, FollowsTheHint) {
   const MadeSong song = MakeSong({.seed = 3, .seconds = 30, .tempo = {{0, 110}}});
-  const auto told = [&](const BeatHint& hint) { return Told(song.mono, 12, nullptr, hint); };
+  const auto told = [&](const BeatHint& hint) { return Told(song.mono, 12, nullptr, {hint}); };
   const std::vector<double> all = told({.tempo_bpm = 110});
   EXPECT_NEAR(TempoOf(all), 110, 2);
   const std::vector<double> half = told({.tempo_bpm = 110, .half_time = true});
@@ -71,6 +71,37 @@ TEST(BeatEar, FollowsTheHint) {
   for (size_t i = 1; i < half.size(); ++i)
     EXPECT_NEAR(half[i] - half[i - 1], 120.0 / 110, 0.1) << "another half from " << half[i];
   EXPECT_NEAR(TempoOf(told({.tempo_bpm = 110, .double_time = true})), 220, 4);
+}
+
+// The listener counts from a beat that is no downbeat as found, and hears all of them later.
+TEST(BeatEar, CountsFromTheListenersDownbeat) {
+  const MadeSong song = MakeSong({.seed = 3, .seconds = 30, .tempo = {{0, 110}}});
+  const BeatHint about{.tempo_bpm = 110};
+  std::vector<double> found, counted, later;
+  const std::vector<double> beats = Told(song.mono, 12, &found, {about});
+  Told(song.mono, 12, &counted, {.beats = about, .downbeat_s = song.downbeats[1] + 60.0 / 110});
+  const auto in_bar = [&](double beat) {
+    return std::fmod((beat - song.downbeats[0]) / (60.0 / 110) + 0.5, 4);
+  };
+  ASSERT_GT(counted.size(), 4U);
+  for (const double one : counted) EXPECT_EQ(std::floor(in_bar(one)), 1) << one;
+  const std::vector<double> nudged = Told(song.mono, 12, &later, {.beats = about, .later_s = 0.04});
+  ASSERT_EQ(nudged.size(), beats.size());
+  for (size_t i = 0; i < beats.size(); ++i) EXPECT_NEAR(nudged[i], beats[i] + 0.04, 0.02);
+}
+
+TEST(BeatEar, TakesHintsWhileItHears) {
+  const MadeSong song = MakeSong({.seed = 3, .seconds = 30, .tempo = {{0, 110}}});
+  BeatEar ear;
+  std::vector<double> last;
+  for (size_t at = 0; at < song.mono.size(); at += 441) {
+    if (at == 441 * 600) ear.Tell({{.tempo_bpm = 110, .half_time = true}});
+    const BeatsAhead ahead =
+        ear.Hear(std::span(song.mono).subspan(at, std::min<size_t>(441, song.mono.size() - at)));
+    if (!ahead.beats.empty()) last = ahead.beats;
+    ear.Wait();
+  }
+  EXPECT_NEAR(TempoOf(last), 55, 1);
 }
 
 TEST(BeatEar, DropsLateBeats) {

@@ -22,6 +22,30 @@ await inStudio(async ({ page, until, settle, message, give, host }) => {
     assert.ok((await page.evaluate(() => window.choreo.level.value)) > 0.1);
   });
 
+  await check('its beats are counted, halved, and told to be as they were heard', async () => {
+    const beats = page.getByRole('region', { name: 'Beats' });
+    const period = () => {
+      const last = window.choreo.live.value.beats.slice(-3).map(({ time }) => time);
+      return last.length > 2 ? last[2] - last[0] : 0;
+    };
+    await until(() => window.choreo.live.value.beats.some(({ isDown }) => isDown));
+    await page.locator('.beat.down').first().waitFor();
+    await beats.getByRole('button', { name: 'Halve' }).click();
+    await until(`(${period})() > 1.9`);
+    await beats.getByRole('button', { name: 'This is 1' }).click();
+    assert.notEqual(await page.evaluate(() => window.choreo.live.value.hint.one), null);
+    await beats.getByRole('button', { name: 'As heard' }).click();
+    await until(`(${period})() < 1.1`);
+    for (let i = 0; i < 5; ++i) {
+      await beats.getByRole('button', { name: 'Tap' }).click();
+      await page.waitForTimeout(500);
+    }
+    await until(() => window.choreo.live.value.hint.tempo > 50);
+    assert.match((await message()).text, /beats a minute, of 5 taps/);
+    await beats.getByRole('button', { name: 'As heard' }).click();
+    await page.evaluate(() => (window.choreo.message.value = null));
+  });
+
   await check('a pose that is pressed comes soon, and is hit', async () => {
     await page.locator('.library li button').nth(3).click();
     const { frame, id } = await page.evaluate(() => window.choreo.project.value.keys[0]);

@@ -10,7 +10,7 @@ const page = new URL('../../../studio/page/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', page))('esbuild');
 
 const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, usualHit: 1, tooNearS: 0.2, positionM: 10000, dancers: 64,
-  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3 };
+  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3, slowestTempo: 50, fastestTempo: 200 };
 
 /// A module of the page, with all that it imports, and the program's limits.
 async function load(name) {
@@ -24,7 +24,7 @@ async function load(name) {
 const { roughly, timeLeft } = await load('time_left');
 const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withHolds, withMarker } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
-const { counted, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
+const { counted, countedLive, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
 const { beatsMessage } = await load('dancer');
 const { mostUnlike, unlikeness } = await load('unlike');
@@ -170,6 +170,15 @@ test('beats are counted in eights, which begin with the first bar', () => {
   assert.equal(counts(counted([], [], 0)), '');
   assert.deepEqual([4, 3, 2, 7].map(eight), [8, 6, 8, 7]);
   assert.deepEqual([1, 4, 5].map((count) => isDownbeat({ time: 0, count }, 4)), [true, false, true]);
+});
+
+test('live beats are counted as they come, from their first downbeat on', () => {
+  const heard = (downs, count) => every(0.5, count).map((time, i) => ({ time, isDown: downs.includes(i) }));
+  assert.equal(counts(countedLive(heard([2, 6, 10], 12))), '001234567812');
+  const threes = countedLive(heard([0, 3, 6], 8));
+  assert.equal(threes.bar, 3);
+  assert.equal(counts(threes), '12345612');
+  assert.deepEqual(countedLive([]), { bar: 4, list: [] });
 });
 
 test('beats are halved, doubled and nudged, and one of them is a 1', () => {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "client/live/beat_ear.h"
+#include "client/live/passage_ear.h"
+#include "model/audio/resample.h"
+
+namespace choreo::live {
+
+/// Predicts from live music of any format what a dance is told ahead: beats and repeats.
+class MusicEar {
+ public:
+  struct Ahead {
+    BeatsAhead beats;
+    std::optional<Passage> passage;
+  };
+
+  /// Throws Error(kInvalidArgument) for formats that CheckAudioFormat refuses.
+  MusicEar(int sample_rate, int channels, const LiveBeatHint& hint = {});
+
+  /// Takes the next whole interleaved frames, all finite.
+  Ahead Hear(std::span<const float> piece);
+  void Tell(const LiveBeatHint& hint) { beats_.Tell(hint); }
+
+ private:
+  Resampler resampler_;
+  std::vector<float> mono_;  // of this piece
+  BeatEar beats_;
+  PassageEar passages_;
+};
+
+}  // namespace choreo::live

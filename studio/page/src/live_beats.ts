@@ -1,0 +1,26 @@
+// The beats of a live dance: those that were heard, and those that should follow.
+import { computed } from '@preact/signals';
+import { countedLive, eight } from './counts';
+import type { Beat, Beats } from './counts';
+import { live } from './state';
+
+export const shownAhead = 8; // seconds of the timeline after now
+
+const heard = computed(() => countedLive(live.value?.beats ?? []));
+
+/// Beats to come, as those that were heard go on.
+const coming = computed((): Beat[] => {
+  const { bar, list } = heard.value;
+  if (list.length < 3) return [];
+  const last = list.at(-1)!;
+  const period = (last.time - list.at(-3)!.time) / 2;
+  return Array.from({ length: Math.min(64, Math.ceil(shownAhead / period) + 4) }, (_, i) => ({
+    time: last.time + (i + 1) * period,
+    count: last.count && ((last.count + i) % eight(bar)) + 1,
+  }));
+});
+
+export const liveBeats = computed((): Beats => ({ bar: heard.value.bar, list: [...heard.value.list, ...coming.value] }));
+
+/// The first beat to come at or after a second; the second itself without any.
+export const beatAfter = (seconds: number) => coming.value.find(({ time }) => time >= seconds)?.time ?? seconds;
