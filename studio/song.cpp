@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/audio/suggest_keys.h"
+#include "client/authoring/proposed_keys.h"
 #include "model/core/rounded.h"
 
 namespace choreo::studio {
@@ -72,9 +72,11 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
   const int64_t count =
       std::min(Room(beats), static_cast<int64_t>(std::ceil(seconds / kSuggestedEvery)));
   if (count > 0) {
-    for (const SuggestedKey& key :
-         SuggestKeys(song.music.track, song.music.onset_strength, song.music.passages, {count}))
-      song.heard.add_suggested(key.time_s);
+    for (const authoring::ProposedKey& key : authoring::ProposeKeys(song.music, {count})) {
+      SuggestedKey* added = song.heard.add_suggested();
+      added->set_time(key.on.time_s);
+      added->set_pose(key.pose);
+    }
   }
   for (const std::string& note : song.music.audio.notes) song.heard.add_notes(note);
   const std::vector<float> peaks = Peaks(song.music.audio);

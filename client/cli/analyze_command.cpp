@@ -6,15 +6,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/choreography.h"
 #include "client/authoring/music.h"
-#include "client/authoring/pose_library.h"
+#include "client/authoring/proposed_keys.h"
 #include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "model/audio/mfcc.h"
-#include "model/audio/suggest_keys.h"
 #include "model/core/error.h"
 #include "model/core/npy.h"
 #include "model/core/rounded.h"
@@ -57,26 +55,11 @@ std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOpt
   return {from, until};
 }
 
-/// A beat, and the library's pose for it.
-struct ProposedKey {
-  SuggestedKey on;
-  std::string id, pose;
-};
-
-std::vector<ProposedKey> Propose(const authoring::Music& music, const AnalyzeOptions& options) {
+std::vector<authoring::ProposedKey> Propose(const authoring::Music& music,
+                                            const AnalyzeOptions& options) {
   const auto [from, until] = PartOf(music, options);
-  const std::vector<SuggestedKey> keys =
-      SuggestKeys(music.track, music.onset_strength, music.passages,
-                  {*options.suggest_keys, from, until, "--suggest-keys"});
-  std::vector<double> times;
-  for (const SuggestedKey& key : keys) times.push_back(key.time_s);
-  const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(Skeleton::Smpl24());
-  const std::vector<size_t> drawn =
-      authoring::DrawPoses(times, music.passages, options.seed.value_or(0), poses.size());
-  std::vector<ProposedKey> proposed;
-  for (size_t i = 0; i < keys.size(); ++i)
-    proposed.push_back({keys[i], authoring::IdOfKey(i + 1, poses[drawn[i]]), poses[drawn[i]].id});
-  return proposed;
+  return authoring::ProposeKeys(music, {*options.suggest_keys, from, until, "--suggest-keys"},
+                                options.seed.value_or(0));
 }
 
 /// The count of a beat, as authoring::Counts.
@@ -88,7 +71,8 @@ int64_t CountOf(const authoring::Music& music, size_t beat) {
 constexpr const char* kBegins[] = {"a beat", "a bar", "an eight", "a passage"};
 const char* Begins(const SuggestedKey& key) { return kBegins[static_cast<size_t>(key.begins)]; }
 
-void PrintJson(const authoring::Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
+void PrintJson(const authoring::Music& music,
+               const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   nlohmann::ordered_json json;
   json["duration_s"] = music.audio.seconds();
   json["sample_rate"] = music.audio.sample_rate;
@@ -144,7 +128,8 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
-void PrintText(const authoring::Music& music, const std::optional<std::vector<ProposedKey>>& keys) {
+void PrintText(const authoring::Music& music,
+               const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   const int channels = music.audio.channels;
   std::printf("%.2f s at %d Hz, %d channel%s; %.1f beats a minute, %zu beats, %zu bars of %d",
               music.audio.seconds(), music.audio.sample_rate, channels, channels == 1 ? "" : "s",
@@ -175,7 +160,7 @@ void Run(const AnalyzeOptions& options) {
     WriteNpy(options.features, {{rows.rows(), rows.cols()},
                                 std::vector<float>(rows.data(), rows.data() + rows.size())});
   }
-  std::optional<std::vector<ProposedKey>> keys;
+  std::optional<std::vector<authoring::ProposedKey>> keys;
   if (options.suggest_keys) keys = Propose(music, options);
   options.json ? PrintJson(music, keys) : PrintText(music, keys);
 }

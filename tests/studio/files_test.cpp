@@ -5,6 +5,7 @@
 
 #include "client/authoring/key_file.h"
 #include "client/authoring/photo_pose.h"
+#include "client/authoring/proposed_keys.h"
 #include "client/convert.h"
 #include "model/audio/made_song.h"
 #include "tests/studio/fixture.h"
@@ -22,7 +23,14 @@ TEST_F(StudioTest, AnalysesASongAndComposesOnItsBeats) {
   const Response heard = page.Ask(SongRequest("clicks.wav", Clicks(12)));
   ASSERT_TRUE(heard.has_song()) << heard.failure().message();
   EXPECT_NEAR(heard.song().tempo(), 120, 3);
-  EXPECT_EQ(heard.song().suggested_size(), 5);
+  // As `choreo analyze` proposes keys.
+  const auto proposed =
+      authoring::ProposeKeys(authoring::ReadMusic(folder_ / "clicks.wav"), {.count = 5});
+  ASSERT_EQ(heard.song().suggested_size(), 5);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(heard.song().suggested(i).time(), proposed[static_cast<size_t>(i)].on.time_s);
+    EXPECT_EQ(heard.song().suggested(i).pose(), proposed[static_cast<size_t>(i)].pose);
+  }
   EXPECT_EQ(heard.song().peaks_size(), 480);
   EXPECT_EQ(heard.song().counts_size(), heard.song().beats_size());
   EXPECT_GE(heard.song().beats_in_bar(), 2);

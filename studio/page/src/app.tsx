@@ -143,8 +143,8 @@ function Bar() {
   );
 }
 
-/// Whether Space plays while this element has the focus. On other buttons Space is a press; keys, intervals and markers react to Enter.
-const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval, .marker');
+/// Whether Space plays while this element has the focus. On other buttons Space is a press; keys, intervals, markers and suggestions react to Enter.
+const playsOn = (at: HTMLElement) => !at.matches('button') || at.matches('.key, .interval, .marker, .suggested');
 
 function useKeyboard() {
   useEffect(() => {

@@ -24,14 +24,14 @@ const heardBeats = computed(() => {
 
 export const beats = computed(() => (live.value ? liveBeats.value : project.value?.beats ?? heardBeats.value));
 
-/// Suggested beats for key poses, seconds.
-export const suggested = computed(() => {
+/// Suggested keys: a pose of the library on a beat, seconds.
+export const suggested = computed((): { time: number; pose: string }[] => {
   const all = shownSong.value?.heard.suggested ?? [];
   if (!project.value?.beats) return all;
   const near = 0.12; // seconds
   const times = beats.value.list.map(({ time }) => time);
-  const moved = all.map((wanted) => times.find((time) => Math.abs(time - wanted) < near) ?? -1);
-  return [...new Set(moved.filter((time) => time >= 0))];
+  const moved = all.map(({ time: wanted, pose }) => ({ pose, time: times.find((time) => Math.abs(time - wanted) < near) ?? -1 }));
+  return moved.filter(({ time }, i) => time >= 0 && time !== moved[i - 1]?.time);
 });
 
 /// The song's repeated sections.

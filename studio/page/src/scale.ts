@@ -21,7 +21,7 @@ export function snapped(time: number, moved?: Marker): number {
   let best = at;
   let away = snap / zoom.value;
   const marks = studio.project.value?.markers.filter((marker) => marker !== moved) ?? [];
-  for (const beat of [...marks.map(({ frame }) => frame / studio.dancer.fps), ...studio.suggested.value, ...beatTimes()]) {
+  for (const beat of [...marks.map(({ frame }) => frame / studio.dancer.fps), ...studio.suggested.value.map(({ time }) => time), ...beatTimes()]) {
     if (Math.abs(beat - at) < away) [best, away] = [beat, Math.abs(beat - at)];
   }
   return Math.round(best * studio.dancer.fps);

@@ -76,6 +76,18 @@ function Sections() {
   ));
 }
 
+/// Keys that the music suggests: pressed, they are set.
+function Suggestions() {
+  return studio.suggested.value.map(({ time, pose }) => {
+    const known = studio.welcome.value!.poses.find(({ id }) => id === pose);
+    const name = `Suggested: ${spoken(pose)} at ${clock(time)}`;
+    return known && (
+      <button class="suggested" key={time} style={{ left: `${x(time)}px` }} aria-label={name} title={`${name}. Press to set it.`}
+        onClick={() => studio.addKey(known, Math.round(time * studio.dancer.fps))} />
+    );
+  });
+}
+
 function Scrubber() {
   /// The start of the phrase being selected.
   const begun = useRef<number | null>(null);
@@ -102,7 +114,6 @@ function Scrubber() {
       <Sections />
       <Wave />
       <Ruler />
-      {studio.suggested.value.map((beat) => <i class="suggested" key={`s${beat}`} style={{ left: `${x(beat)}px` }} />)}
     </div>
   );
 }
@@ -255,6 +266,7 @@ export function Timeline({ pictureOf }: { pictureOf: (pose: Pose) => string }) {
       <div class="scroll">
         <div class="content" ref={box} style={{ width: `${2 * edge + seconds() * zoom.value}px` }}>
           <Scrubber />
+          <Suggestions />
           <div class="lane" role="group" aria-label="Key poses">
             {shown && <div class="danced" style={{ left: `${edge}px`, width: `${there * zoom.value}px` }} />}
             {shown && !studio.live.value && <Intervals />}

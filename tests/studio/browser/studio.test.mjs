@@ -75,6 +75,18 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 30 * seconds);
     assert.ok((await page.locator('.key').count()) >= 5);
     assert.ok((await page.locator('.suggested').count()) >= 4);
+    // One is a pose on a beat, which is set when it is pressed.
+    const marks = page.getByRole('button', { name: /^Suggested: / });
+    const [said, before] = [await marks.nth(1).getAttribute('aria-label'), await page.locator('.key').count()];
+    const [, pose, second] = /^Suggested: (.+) at 0:(.+)$/.exec(said);
+    await marks.nth(1).click();
+    await settle();
+    const key = await page.evaluate(() => window.choreo.project.value.keys.find(({ id }) => id === window.choreo.selectedKey.value));
+    assert.equal(key.id.replace(/[_-]/g, ' ').toLowerCase().startsWith(pose.toLowerCase()), true, `${key.id}, not ${pose}`);
+    assert.ok(Math.abs(key.frame / 30 - Number(second)) < 0.1, `at ${key.frame / 30} s, not ${second} s`);
+    await page.evaluate(() => window.choreo.undo());
+    await settle();
+    assert.equal(await page.locator('.key').count(), before);
   });
 
   // True where the page may be left without being asked.
