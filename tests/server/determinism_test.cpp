@@ -7,14 +7,27 @@
 /// a message comes, nor of where a dance was taken up.
 namespace choreo::determinism_test {
 
-class DeterminismTest : public ServerTest {
+enum class Heard {
+  kBeats,      // alone, so that a resume hears no more than its last poses did
+  kAllThereIs  // how loud it is, and a passage that returns
+};
+
+class DeterminismTest : public ServerTest, public testing::WithParamInterface<Heard> {
  protected:
-  // Its beats are known, so that little of the music is needed to go on.
+  static bool HearsAll() { return GetParam() == Heard::kAllThereIs; }
+
   static v1::DanceConfig MusicConfig(uint64_t seed) {
     v1::DanceConfig config = Config(seed);
     *config.mutable_audio_format() = MusicFormat();
     for (const double beat : {0.5, 1.0, 1.5, 2.0, 2.5}) config.add_music_beats(beat);
-    config.set_music_dynamics(0);  // so that a resume hears no more than its last poses did
+    if (!HearsAll()) {
+      config.set_music_dynamics(0);
+      return config;
+    }
+    v1::MusicPassage* passage = config.add_music_passages();
+    passage->set_from(kReturns);
+    passage->set_to(2 * kReturns);
+    config.set_variation(0.4);
     return config;
   }
   static v1::Keyframe SecondKey() { return Key("b", 70, -0.2, 0.9, 1.5F); }
@@ -43,20 +56,57 @@ class DeterminismTest : public ServerTest {
     return Generate(request);
   }
 
-  const std::string music_ = Music(3);
+  /// Three seconds, or quiet ones and three loud ones that repeat them.
+  static std::string Song() {
+    if (!HearsAll()) return Music(kReturns);
+    std::string song = Music(kReturns);
+    for (size_t at = 1; at < song.size(); at += 2) song[at] = static_cast<char>(song[at] / 16);
+    return song + Music(kReturns);
+  }
+
+  static constexpr double kReturns = 3;  // seconds
+  const std::string music_ = Song();
+  const int64_t frames_ = std::ssize(music_) / 2 / 735;
 };
 
-TEST_F(DeterminismTest, ChunksDoNotMatter) {
+INSTANTIATE_TEST_SUITE_P(, DeterminismTest, testing::Values(Heard::kBeats, Heard::kAllThereIs),
+                         [](const auto& tested) {
+                           return tested.param == Heard::kBeats ? "Beats" : "AllThereIs";
+                         });
+
+TEST_P(DeterminismTest, ChunksDoNotMatter) {
   Start();
   const Answer whole = Stream(3, 1 << 20);
   ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
-  EXPECT_EQ(whole.Join().count, 90);
+  EXPECT_EQ(whole.Join().count, frames_);
   EXPECT_TRUE(whole.Join() == Stream(3, 2 * 1237).Join());
   EXPECT_FALSE(whole.Join() == Stream(4, 1 << 20).Join()) << "the seed does nothing";
 }
 
+// What the others would not show if nothing of it were heard.
+TEST_P(DeterminismTest, AllThatIsHeardMatters) {
+  Start();
+  const auto stream = [&](const auto& change) {
+    DanceClient client(stub());
+    v1::DanceConfig config = MusicConfig(3);
+    change(&config);
+    client.Send(config);
+    client.SendAudio(music_, 0);
+    client.SendEndOfAudio();
+    client.SendKeyframesComplete();
+    return client.Finish().Join();
+  };
+  const Answer::Joined all = stream([](v1::DanceConfig*) {});
+  EXPECT_EQ(all.count, frames_);
+  EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->set_music_beats(1, 1.2); }));
+  if (!HearsAll()) return;
+  EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->set_music_dynamics(0); }));
+  EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->clear_music_passages(); }));
+  EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->set_variation(0.5); }));
+}
+
 // Each message is sent when all frames that it made possible have come; or all of them at once.
-TEST_F(DeterminismTest, TimingDoesNotMatter) {
+TEST_P(DeterminismTest, TimingDoesNotMatter) {
   Start();
   const Answer at_once = Stream(3, 2 * 735 * 7);
   ASSERT_TRUE(at_once.status.ok()) << at_once.status.error_message();
@@ -81,7 +131,7 @@ TEST_F(DeterminismTest, TimingDoesNotMatter) {
 }
 
 // Streams and transitions take turns with others of other seeds and chunks.
-TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
+TEST_P(DeterminismTest, SameBitsAloneAndAmong31Others) {
   constexpr int kCalls = 32;
   Start(/*workers=*/2);
   const Answer stream = Stream(11, 8192);
@@ -110,14 +160,14 @@ TEST_F(DeterminismTest, SameBitsAloneAndAmong31Others) {
   ExpectIdle();
 }
 
-TEST_F(DeterminismTest, ResumedDanceIsTheSame) {
+TEST_P(DeterminismTest, ResumedDanceIsTheSame) {
   Start();
   const Answer whole = Stream(21, 1 << 20);
   ASSERT_TRUE(whole.status.ok()) << whole.status.error_message();
   ASSERT_GE(whole.continuations.size(), 2U);
   const v1::Continuation& from = whole.continuations[0];
   EXPECT_EQ(from.frame(), 31);
-  EXPECT_GT(from.audio_from_sample(), 0);
+  EXPECT_EQ(from.audio_from_sample() > 0, !HearsAll());  // energy is that of half a minute
 
   DanceClient client(stub());
   v1::DanceConfig config = MusicConfig(0);
