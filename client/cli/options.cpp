@@ -152,6 +152,7 @@ Error AsTyped(const Error& error) {
       {"addresses", "--server"},
       {"beats", "--beats"},
       {"ca_certificate", "--ca"},
+      {"camera", "--camera"},
       {"client_certificate", "--client-cert"},
       {"client_key", "--client-key"},
       {"config.music_dynamics", "--music-dynamics"},

@@ -37,6 +37,7 @@ struct RenderOptions {
   std::string video;
   std::string song;  ///< "none": not that of the report
   std::string size = SizeText({});
+  std::string camera;
   VideoOptions film;
 };
 
@@ -112,13 +113,14 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<doub
   bar->Finish();
 }
 
-void Run(const RenderOptions& options) {
+void Run(RenderOptions options) {
   if (options.out.empty() && options.video.empty())
     throw InvalidArgument("--out", "is missing, and so is --video: nothing to draw");
   if (options.video.empty() && !options.song.empty())
     throw InvalidArgument("--song", "pictures have no sound; it goes with --video");
   if (!options.out.empty()) RequireExtension("--out", options.out, ".png");
   if (!options.video.empty()) RequireExtension("--video", options.video, ".mp4");
+  if (!options.camera.empty()) options.sheet.side = options.film.side = FindCamera(options.camera);
   const Interruption interruption;  // from here on there may be an incomplete file to remove
   std::vector<NamedFile> inputs = {{"--report", options.report}, {"--song", options.song}};
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
@@ -152,6 +154,13 @@ void AddRenderCommand(CLI::App& program) {
   command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
       ->check(WholeNumberFrom(1, kMaxSheetFrames))
       ->capture_default_str();
+  command
+      ->add_option("--camera", options->camera,
+                   "From where the dance is seen: front, three-quarter (from her left), side (the "
+                   "left), back, of one dancer as she faces at the beginning, of several as the "
+                   "stage does; or follow: three quarters from the front, turning with one dancer. "
+                   "Default: three-quarter; of several front.")
+      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())));
   command->add_option("--columns", options->sheet.columns, "Frames in a row.")
       ->check(WholeNumberFrom(1, kMaxSheetColumns))
       ->capture_default_str();

@@ -193,8 +193,8 @@ void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
   Picture picture{.width = options.tile_width, .height = options.tile_height, .rgb = {}};
   std::vector<FramedStage> framed;
   for (const SheetFrame& one : shown) framed.push_back({one.frame, MiddleOf(stage, one.frame)});
-  const std::vector<View> views =
-      ViewsOf(stage, framed, static_cast<double>(options.tile_width) / options.tile_height);
+  const std::vector<View> views = ViewsOf(
+      stage, framed, static_cast<double>(options.tile_width) / options.tile_height, options.side);
   for (size_t i = 0; i < shown.size(); ++i) {
     DrawFrame(FiguresAt(stage, shown[i].frame), views[i], shown[i].key ? kKeyPose : kPlain,
               picture);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ContactSheetOptions {
   int frames = 24;
   int columns = 8;
   int tile_width = 210, tile_height = 250;  ///< pixels, 16 to 4096
+  std::optional<CameraSide> side;           ///< as in ViewsOf
   /// Frame numbers to highlight. Each replaces the nearest evenly spaced frame, or is added if
   /// another key has already replaced that.
   std::vector<int64_t> key_frames;
@@ -29,9 +31,9 @@ struct ContactSheetOptions {
   std::vector<std::string> captions;
 };
 
-/// Draws dancers (stage.h) as rows of frames, in time from left to right, into a PNG. The view
-/// keeps to one side; the camera moves with the dancers over a fixed floor grid. Throws
-/// Error(kInvalidArgument) as CheckStage, for a key frame outside the motion, a caption count other
+/// Draws dancers (stage.h) as rows of frames, in time from left to right, into a PNG. The camera
+/// moves with the dancers over a fixed floor grid. Throws Error(kInvalidArgument) as CheckStage and
+/// ViewsOf, for a key frame outside the motion, a caption count other
 /// than the frame count, or sizes outside their limits; Error(kInternal) if the file cannot be
 /// written. Thread-safe.
 void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,

@@ -1,8 +1,12 @@
 #include "model/draw/stage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/error.h"
+#include "model/core/gaussian_mean.h"
+#include "model/core/joined.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
@@ -12,9 +16,44 @@ constexpr double kWidening = 1.02;  // ratio of one tried extent to the next
 constexpr float kFreeEdge = 0.02f;
 constexpr int kTriedHeight = 1000;  // pixels: for any picture
 
+double AzimuthOf(CameraSide side) {
+  switch (side) {
+    case CameraSide::kFront:
+      return 0;
+    case CameraSide::kSide:
+      return M_PI / 2;
+    case CameraSide::kBack:
+      return M_PI;
+    default:
+      return kThreeQuarters;
+  }
+}
+
+// Which way she faces in each frame, low-passed, without jumps from turn to turn.
+std::vector<double> SmoothHeadings(const Motion& motion) {
+  std::vector<double> headings;
+  for (const Pose& pose : motion.frames) {
+    const double last = headings.empty() ? 0 : headings.back();
+    headings.push_back(last + WrapAngle(Heading(ExpMap(pose.rotations.col(0))) - last));
+  }
+  const double sigma = kCameraLag * motion.fps;
+  const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
+  const int64_t end = std::ssize(headings) - 1;
+  std::vector<double> smooth;
+  for (int64_t frame = 0; frame <= end; ++frame) {
+    smooth.push_back(
+        GaussianMean(frame - reach, frame + reach, frame, sigma, 0.0, [&](int64_t near) {
+          return headings[static_cast<size_t>(std::clamp<int64_t>(near, 0, end))];
+        }));
+  }
+  return smooth;
+}
+
 // A wide stage is not a high one.
-View StageView(const FramedStage& framed, double extent) {
-  View view{.target = {framed.middle.x(), View().target.y(), framed.middle.y()}, .extent = extent};
+View StageView(const FramedStage& framed, double azimuth, double extent) {
+  View view{.target = {framed.middle.x(), View().target.y(), framed.middle.y()},
+            .azimuth = azimuth,
+            .extent = extent};
   view.target.y() = std::min(view.target.y(), StandingView({}, 0, extent).target.y());
   return view;
 }
@@ -32,14 +71,15 @@ bool IsSeen(const PlacedPart& part, const Camera& camera, const Eigen::Array2f& 
 }
 
 // The least extent that shows everybody; nearer dancers look larger.
-double FitStage(const Stage& stage, const std::vector<FramedStage>& frames, double aspect) {
+double FitStage(const Stage& stage, const std::vector<FramedStage>& frames, double azimuth,
+                double aspect) {
   const int width = std::max(1, static_cast<int>(kTriedHeight * aspect));
   const Eigen::Array2f size(width, kTriedHeight);
   double extent = 2;
   for (const FramedStage& framed : frames) {
     const std::vector<PlacedPart> figures = FiguresAt(stage, framed.frame);
     const auto fits = [&] {
-      const Camera camera(StageView(framed, extent), width, kTriedHeight);
+      const Camera camera(StageView(framed, azimuth, extent), width, kTriedHeight);
       return std::ranges::all_of(
           figures, [&](const PlacedPart& part) { return IsSeen(part, camera, size); });
     };
@@ -48,20 +88,32 @@ double FitStage(const Stage& stage, const std::vector<FramedStage>& frames, doub
   return extent;
 }
 
-// One dancer, three quarters from her front.
 std::vector<View> ViewsOfOne(const SkeletonMotion& dancer, const std::vector<FramedStage>& frames,
-                             double aspect) {
+                             double aspect, CameraSide side) {
   std::vector<FramedPose> poses;
   for (const auto& [frame, middle] : frames)
     poses.push_back({&PoseOf(dancer, frame), middle.x(), middle.y()});
-  const double azimuth = ThreeQuarterAzimuth(dancer.motion.frames.front());
+  std::vector<double> headings = {Heading(ExpMap(dancer.motion.frames.front().rotations.col(0)))};
+  if (side == CameraSide::kFollow) headings = SmoothHeadings(dancer.motion);
   const double extent = FitExtent(dancer.skeleton, poses, aspect);
   std::vector<View> views;
-  for (const FramedPose& one : poses) views.push_back(StandingView(one, azimuth, extent));
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const auto known = std::min<int64_t>(frames[i].frame, std::ssize(headings) - 1);
+    const double azimuth = WrapAngle(headings[static_cast<size_t>(known)] + AzimuthOf(side));
+    views.push_back(StandingView(poses[i], azimuth, extent));
+  }
   return views;
 }
 
 }  // namespace
+
+CameraSide FindCamera(const std::string& name) {
+  const auto found = std::ranges::find(kCameraNames, name);
+  if (found != kCameraNames.end()) return static_cast<CameraSide>(found - kCameraNames.begin());
+  throw InvalidArgument("camera",
+                        '"' + name + "\" is none of " +
+                            Joined(kCameraNames, [](const char* known) { return known; }));
+}
 
 void CheckStage(const Stage& stage) {
   if (stage.empty()) throw InvalidArgument("stage", "nobody is on it");
@@ -103,12 +155,18 @@ std::vector<PlacedPart> FiguresAt(const Stage& stage, int64_t frame) {
   return figures;
 }
 
-std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames,
-                          double aspect) {
-  if (stage.size() == 1) return ViewsOfOne(stage.front(), frames, aspect);
-  const double extent = FitStage(stage, frames, aspect);
+std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames, double aspect,
+                          std::optional<CameraSide> side) {
+  if (stage.size() == 1)
+    return ViewsOfOne(stage.front(), frames, aspect, side.value_or(CameraSide::kThreeQuarter));
+  if (side == CameraSide::kFollow) {
+    throw InvalidArgument(
+        "camera", "follow turns with one dancer, and there are " + std::to_string(stage.size()));
+  }
+  const double azimuth = AzimuthOf(side.value_or(CameraSide::kFront));
+  const double extent = FitStage(stage, frames, azimuth, aspect);
   std::vector<View> views;
-  for (const FramedStage& framed : frames) views.push_back(StageView(framed, extent));
+  for (const FramedStage& framed : frames) views.push_back(StageView(framed, azimuth, extent));
   return views;
 }
 

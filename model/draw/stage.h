@@ -1,16 +1,36 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "model/body/doll.h"
 #include "model/draw/view.h"
 #include "model/motion/skeleton_motion.h"
 
-/// Everybody in one picture. The camera follows a single dancer, seen three quarters from her
-/// front; it sees several from the front of the stage, +Z, around their middle.
+/// Everybody in one picture. The camera moves over the floor with the middle of the dancers.
 namespace choreo {
+
+/// From where dancers are seen: one from her own front, as she faces in the first frame; several
+/// from the front of the stage, +Z.
+enum class CameraSide {
+  kFront,
+  kThreeQuarter,
+  kSide,  ///< the left
+  kBack,
+  kFollow  ///< three quarters from the front, turning with a single dancer
+};
+/// In this order.
+inline constexpr std::array<const char*, 5> kCameraNames = {"front", "three-quarter", "side",
+                                                            "back", "follow"};
+/// Throws Error(kInvalidArgument) whose field is "camera" for another name.
+CameraSide FindCamera(const std::string& name);
+
+/// Smoothing of what the camera follows, seconds.
+inline constexpr double kCameraLag = 0.6;
 
 using Stage = std::vector<SkeletonMotion>;
 
@@ -28,12 +48,14 @@ Eigen::Vector2d MiddleOf(const Stage& stage, int64_t frame);
 std::vector<PlacedPart> FiguresAt(const Stage& stage, int64_t frame);
 
 /// The views of these frames, each centred on its floor position, for pictures of this aspect
-/// (width over height), wide enough for everybody.
+/// (width over height), wide enough for everybody. Default side: three quarters from the front for
+/// one dancer, the front for several. Throws Error(kInvalidArgument) whose field is "camera" if it
+/// is to follow several.
 struct FramedStage {
   int64_t frame = 0;
   Eigen::Vector2d middle;
 };
-std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames,
-                          double aspect);
+std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames, double aspect,
+                          std::optional<CameraSide> side = {});
 
 }  // namespace choreo

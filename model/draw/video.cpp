@@ -15,10 +15,9 @@
 namespace choreo {
 namespace {
 
-constexpr double kCameraLag = 0.6;  // seconds: smoothing of the camera's path
-constexpr double kKeyGlow = 0.15;   // seconds
-constexpr int kFrameShare = 90;     // a key's frame is this part of the picture's height wide
-constexpr int kSamples = 2;         // the encoder blurs any more
+constexpr double kKeyGlow = 0.15;  // seconds
+constexpr int kFrameShare = 90;    // a key's frame is this part of the picture's height wide
+constexpr int kSamples = 2;        // the encoder blurs any more
 
 // The camera follows the dancers over the floor, low-passed by a Gaussian, which looks as far ahead
 // as back.
@@ -66,8 +65,8 @@ void DrawKeyFrame(double amount, Picture* picture) {
 
 }  // namespace
 
-std::vector<View> VideoViews(const Stage& stage, double aspect) {
-  return ViewsOf(stage, Follow(stage), aspect);
+std::vector<View> VideoViews(const Stage& stage, double aspect, std::optional<CameraSide> side) {
+  return ViewsOf(stage, Follow(stage), aspect, side);
 }
 
 void DrawVideo(const Stage& source, const VideoOptions& options, const std::filesystem::path& mp4) {
@@ -78,9 +77,9 @@ void DrawVideo(const Stage& source, const VideoOptions& options, const std::file
     if (dancer.motion.fps != format.fps) dancer.motion = Resample(dancer.motion, format.fps);
   }
   const int64_t frames = CountFrames(stage);
-  VideoEncoder encoder(mp4, format, frames);
   const std::vector<View> views =
-      VideoViews(stage, static_cast<double>(format.width) / format.height);
+      VideoViews(stage, static_cast<double>(format.width) / format.height, options.side);
+  VideoEncoder encoder(mp4, format, frames);
   const auto draw = [&](int64_t frame) {
     Picture picture{.width = format.width, .height = format.height, .rgb = {}};
     DrawFrame(FiguresAt(stage, frame), views[static_cast<size_t>(frame)], {.samples = kSamples},

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "model/draw/stage.h"
@@ -16,17 +17,19 @@ struct VideoOptions {
   /// Times of key poses, seconds from the motion's first frame; a frame shows briefly around the
   /// picture.
   std::vector<double> keys;
+  std::optional<CameraSide> side;  ///< as in ViewsOf
   /// Called after each frame with the total number of frames; may be empty.
   std::function<void(int64_t frames)> on_frame;
 };
 
-/// Draws dancers (stage.h) as a video with its music. The camera keeps to one side and follows them
-/// smoothly. Interpolates if the rate differs from the motions'. Draws frames on every core; the
-/// result does not depend on their number. Throws as VideoEncoder, and Error(kInvalidArgument) as
-/// CheckStage. Thread-safe.
+/// Draws dancers (stage.h) as a video with its music. The camera follows them smoothly.
+/// Interpolates if the rate differs from the motions'. Draws frames on every core; the result does
+/// not depend on their number. Throws as VideoEncoder, and Error(kInvalidArgument) as CheckStage
+/// and ViewsOf. Thread-safe.
 void DrawVideo(const Stage& stage, const VideoOptions& options, const std::filesystem::path& mp4);
 
 /// The camera's views, one per frame.
-std::vector<View> VideoViews(const Stage& stage, double aspect);
+std::vector<View> VideoViews(const Stage& stage, double aspect,
+                             std::optional<CameraSide> side = {});
 
 }  // namespace choreo

@@ -11,9 +11,8 @@
 namespace choreo {
 namespace {
 
-constexpr double kCameraHeight = 1.6;   // metres above the floor
-constexpr double kFieldOfView = 0.45;   // vertical, radians
-constexpr double kThreeQuarters = 0.6;  // radians from the dancer's heading
+constexpr double kCameraHeight = 1.6;  // metres above the floor
+constexpr double kFieldOfView = 0.45;  // vertical, radians
 constexpr float kNear = 0.05f;
 constexpr double kBelow = 0.22;  // metres of floor below the dancer's feet
 constexpr double kAir = 1.08;

@@ -17,6 +17,8 @@ struct View {
   double extent = 2.4;
 };
 
+inline constexpr double kThreeQuarters = 0.6;  ///< radians from the dancer's heading
+
 /// The azimuth that shows a pose three quarters from its front.
 double ThreeQuarterAzimuth(const Pose& pose);
 

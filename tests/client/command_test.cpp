@@ -193,6 +193,25 @@ TEST_F(CommandTest, ConvertsAndDraws) {
   EXPECT_EQ(magic, "\x89PNG");
 }
 
+TEST_F(CommandTest, RendersFromTheSideThatIsAskedFor) {
+  WriteMotion(folder_ / "a.npz", Body(), {.fps = 30, .frames = {2, RestPose(Body())}});
+  const auto render = [&](const std::string& rest) {
+    return Choreo("render " + At("a.npz") + rest + " --frames 1 --out " + At("s.png"));
+  };
+  std::set<std::string> sheets;
+  for (const char* camera : {"", " --camera front", " --camera side", " --camera back"}) {
+    EXPECT_EQ(render(camera).code, 0) << camera;
+    sheets.insert(ReadFile(folder_ / "s.png"));
+  }
+  EXPECT_EQ(sheets.size(), 4U);
+  EXPECT_EQ(render(" --camera three-quarter").code, 0);
+  EXPECT_TRUE(sheets.contains(ReadFile(folder_ / "s.png")));
+  EXPECT_THAT(render(" --camera above").said,
+              HasSubstr("--camera: above not in {front,three-quarter,side,back,follow}"));
+  EXPECT_THAT(render(" " + At("a.npz") + " --camera follow").said,
+              HasSubstr("--camera: follow turns with one dancer, and there are 2"));
+}
+
 TEST_F(CommandTest, ConvertsBetweenAllFormats) {
   Motion motion{.fps = 25, .frames = {}};
   for (int frame = 0; frame < 20; ++frame) {

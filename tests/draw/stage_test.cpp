@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/motion/kinematics.h"
+#include "model/motion/rotation.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::stage_test {
@@ -37,6 +38,46 @@ TEST(Stage, EverybodyIsSeenFromTheFront) {
       }
     }
   }
+}
+
+/// Turns left by a quarter every second; faces +X at first.
+Stage Turning() {
+  Stage stage = {At(0, 0, 120)};
+  for (size_t i = 0; i < 120; ++i) {
+    const double heading = M_PI / 2 * (1 + static_cast<double>(i) / 30);
+    stage[0].motion.frames[i].rotations.col(0) = Eigen::Vector3d(0, WrapAngle(heading), 0);
+  }
+  return stage;
+}
+
+TEST(Stage, CamerasStandWhereTheyAreAskedFor) {
+  const Stage stage = Turning();
+  const auto azimuth = [&](std::optional<CameraSide> side, int64_t frame) {
+    return ViewsOf(stage, {{frame, {0, 0}}}, 1, side).at(0).azimuth;
+  };
+  EXPECT_NEAR(azimuth(CameraSide::kFront, 60), M_PI / 2, 1e-9);
+  EXPECT_NEAR(azimuth(CameraSide::kSide, 60), M_PI, 1e-9);
+  EXPECT_NEAR(azimuth(CameraSide::kBack, 60), -M_PI / 2, 1e-9);
+  EXPECT_NEAR(azimuth(CameraSide::kThreeQuarter, 60), M_PI / 2 + kThreeQuarters, 1e-9);
+  EXPECT_EQ(azimuth({}, 60), azimuth(CameraSide::kThreeQuarter, 60));
+  for (const int64_t frame : {56, 60, 64}) {
+    const double heading = M_PI / 2 * (1 + static_cast<double>(frame) / 30);
+    EXPECT_NEAR(WrapAngle(azimuth(CameraSide::kFollow, frame) - heading), kThreeQuarters, 0.01);
+  }
+  EXPECT_EQ(FindCamera("side"), CameraSide::kSide);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "camera: \"above\" is none of front, three-quarter, side, back, follow",
+              [] { FindCamera("above"); });
+}
+
+TEST(Stage, SeveralAreSeenFromASideOfTheStage) {
+  const Stage stage = {At(-1, 0, 2), At(1, 0, 2)};
+  const std::vector<FramedStage> frames = {{0, {0, 0}}};
+  EXPECT_NEAR(ViewsOf(stage, frames, 1, CameraSide::kBack).at(0).azimuth, M_PI, 1e-9);
+  EXPECT_LT(ViewsOf(stage, frames, 1, CameraSide::kSide).at(0).extent,
+            ViewsOf(stage, frames, 1).at(0).extent);
+  ExpectError(ErrorCode::kInvalidArgument, "camera: follow turns with one dancer",
+              [&] { ViewsOf(stage, frames, 1, CameraSide::kFollow); });
 }
 
 TEST(Stage, RefusesDancersThatFitNoPicture) {
