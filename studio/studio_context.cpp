@@ -63,6 +63,7 @@ Limits LimitsOf(double song_s) {
   limits.set_usual_variation(kDefaultVariation);
   limits.set_usual_hit(authoring::kUsualHit);
   limits.set_too_near_s(authoring::kTooNear);
+  limits.set_way_from_hold_s(authoring::kWayFromHold);
   return limits;
 }
 

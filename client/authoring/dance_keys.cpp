@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 
 #include "client/authoring/key_file.h"
@@ -14,6 +15,48 @@ namespace choreo::authoring {
 namespace {
 
 constexpr const char* kNoKeys = "none";
+
+/// The keys that hold the pose of each one, by index, of keys in order of time.
+std::map<size_t, std::vector<size_t>> HoldsOf(const DanceKeys& keys) {
+  std::map<std::string, size_t> index_of;  // by place
+  for (size_t i = 0; i < keys.places.size(); ++i) {
+    if (!IsHeld(keys.places[i])) index_of[keys.places[i]] = i;
+  }
+  std::map<size_t, std::vector<size_t>> holds;
+  for (size_t i = 0; i < keys.places.size(); ++i) {
+    if (!IsHeld(keys.places[i])) continue;
+    const auto held = index_of.find(FieldOf(keys.places[i], ""));
+    if (held != index_of.end()) holds[held->second].push_back(i);
+  }
+  return holds;
+}
+
+void EndHoldsBeforeKeys(double fps, DanceKeys* keys) {
+  const auto frame_of = [&](size_t i) { return FrameOf(keys->poses[i], fps); };
+  std::set<size_t> dropped;
+  for (const auto& [held, holding] : HoldsOf(*keys)) {
+    size_t next = held + 1;
+    while (next < keys->poses.size() && IsHeld(keys->places[next])) ++next;
+    const int64_t was = frame_of(holding.back());
+    if (next == keys->poses.size() || frame_of(next) > was) continue;
+    const int64_t most = frame_of(next) - std::llround(kWayFromHold * fps);
+    int64_t now = frame_of(held);
+    for (const size_t i : holding) {
+      if (frame_of(i) > most)
+        dropped.insert(i);
+      else
+        now = frame_of(i);
+    }
+    keys->warnings.push_back(
+        {.frame = frame_of(next),
+         .message = DescribeHoldEnd(keys->poses[held].id, now, was, keys->poses[next].id,
+                                    frame_of(next), fps)});
+  }
+  for (auto i = dropped.rbegin(); i != dropped.rend(); ++i) {
+    keys->poses.erase(keys->poses.begin() + static_cast<std::ptrdiff_t>(*i));
+    keys->places.erase(keys->places.begin() + static_cast<std::ptrdiff_t>(*i));
+  }
+}
 
 }  // namespace
 
@@ -48,6 +91,13 @@ void FitIntoDance(const DanceLength& length, const std::string& place, client::K
                         "key \"" + key->id + "\" " + DescribeAfterEnd(frame, length));
 }
 
+std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,
+                            const std::string& key, int64_t key_frame, double fps) {
+  const auto at = [&](int64_t frame) { return Rounded(static_cast<double>(frame) / fps) + " s"; };
+  return "key \"" + held + "\" is held up to " + at(now) + ", not " + at(was) + ": the key \"" +
+         key + "\" comes at " + at(key_frame);
+}
+
 std::string HeldKey(const DanceKeys& keys, size_t index) {
   if (!IsHeld(keys.places[index])) return "";
   const auto held = std::ranges::find(keys.places, FieldOf(keys.places[index], ""));
@@ -63,6 +113,7 @@ DanceKeys ByTime(DanceKeys keys, double fps) {
     sorted.poses.push_back(std::move(keys.poses[i]));
     sorted.places.push_back(std::move(keys.places[i]));
   }
+  EndHoldsBeforeKeys(fps, &sorted);
   return sorted;
 }
 

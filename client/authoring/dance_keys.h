@@ -20,6 +20,7 @@ struct DanceKeys {
   std::vector<client::KeyPose> poses;
   /// The origin of each, "keys.json:keyframes[1]" (ParseKeyFile in key_file.h).
   std::vector<std::string> places;
+  std::vector<client::Warning> warnings = {};  ///< about what ByTime changed
 };
 
 /// The length of a dance.
@@ -39,10 +40,15 @@ int64_t FrameOf(const client::KeyPose& key, double fps);
 /// Error(kInvalidArgument), whose field begins with `place`, for a later one.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
 
+/// Says that a hold, which lasted until `was`, ends at `now` because of a key; frames.
+std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,
+                            const std::string& key, int64_t key_frame, double fps);
+
 /// The id of the key whose pose this one holds; empty if it holds none.
 std::string HeldKey(const DanceKeys& keys, size_t index);
 
-/// Sorts by time, as they must be sent: an earlier key after a later one would come too late.
+/// Sorts by time, as they must be sent: an earlier key after a later one would come too late. A key
+/// that comes while another one is held ends that hold kWayFromHold before it; `warnings` says so.
 DanceKeys ByTime(DanceKeys keys, double fps);
 
 /// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws

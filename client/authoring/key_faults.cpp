@@ -36,7 +36,7 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps,
                                        const Skeleton& skeleton) {
   std::vector<TimedPose> poses;
   for (const client::KeyPose& key : keys.poses) poses.push_back(Timed(key, fps));
-  std::vector<client::Warning> warnings;
+  std::vector<client::Warning> warnings = keys.warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
     // A held pose has the faults of its first key.
     const bool is_held = !keys.places.empty() && IsHeld(keys.places[fault.pose]);

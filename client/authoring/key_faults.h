@@ -7,8 +7,9 @@
 
 namespace choreo::authoring {
 
-/// Impossible keys, as warnings at their frames: "key \"leap\" (keys.json: keyframes[2]): the body
-/// hangs 2 m above the floor; ..." (motion/pose_faults.h).
+/// What was changed in keys (ByTime), then impossible keys, as warnings at their frames: "key
+/// \"leap\" (keys.json: keyframes[2]): the body hangs 2 m above the floor; ..."
+/// (motion/pose_faults.h).
 std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
 /// Throws Error(kInvalidArgument), whose field is the key's place, for a key with an impossible

@@ -16,6 +16,9 @@ namespace choreo::authoring {
 inline constexpr double kHoldStep = 0.2;
 /// Seconds: nobody gets from one pose to another in less. A new key replaces those nearer.
 inline constexpr double kTooNear = 0.2;
+/// Seconds before a key that is set into the hold of another one, at which that hold ends: as long
+/// as people need to get there.
+inline constexpr double kWayFromHold = 0.5;
 inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
 /// How hard a held key is hit, unless it says so: in the dancer's own time.
 inline constexpr double kUsualHit = 1;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "client/authoring/counts.h"
+#include "client/authoring/dance_keys.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
 #include "client/authoring/pose_source.h"
@@ -67,9 +68,11 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     held.pose = pose;
     held.hands = edit.key.hands;
   }
+  const std::vector<client::Warning> ended = EndHold(*edit.key.frame, edit.key.id);
   MakeWay(*edit.key.frame, LastFrame(edit), edit.key.id);
   if (!edit.held.empty()) CheckRoom("--at", at_s, *edit.key.frame, *edit.held.back().frame);
   Set("--at", at_s, std::move(edit));
+  Keep(ended);
 }
 
 void EditSession::RemoveKey(const std::string& id) {
@@ -102,6 +105,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   }
   edit.key.hit = options_.hit ? options_.hit : HitOf(keys_.at(frames.front()));
   for (const int64_t frame : frames) keys_.erase(frame);
+  const std::vector<client::Warning> ended = EndHold(frames.front() + by, edit.key.id);
   MakeWay(frames.front() + by, frames.back() + by, edit.key.id);
   CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
   // The frames danced anew around the new place may not include the old one.
@@ -110,6 +114,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   };
   if (!std::ranges::all_of(frames, is_new)) Free(frames, edit.key.id + " leaves its place");
   Set("--move", to_s, std::move(edit));
+  Keep(ended);
 }
 
 void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const {
@@ -125,6 +130,25 @@ void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64
                                      IdAt(other->first) + "\" at " +
                                      Rounded(Seconds(other->first)) + " s");
   }
+}
+
+std::vector<client::Warning> EditSession::EndHold(int64_t frame, const std::string& id) {
+  const bool replaces = keys_.contains(frame) && !HoldsAnother(keys_.at(frame));
+  const auto next = replaces ? keys_.upper_bound(frame) : keys_.lower_bound(frame);
+  if (next == keys_.begin() || next == keys_.end() || !HoldsAnother(next->second)) return {};
+  auto held = std::prev(next);
+  while (held != keys_.begin() && HoldsAnother(held->second)) --held;
+  auto last = next;
+  while (std::next(last) != keys_.end() && HoldsAnother(std::next(last)->second)) ++last;
+  const int64_t way = replaces ? 0 : Frame(authoring::kWayFromHold);
+  const auto dropped = keys_.upper_bound(std::max(held->first, frame - way));
+  const client::Warning warning{
+      .frame = frame,
+      .message = authoring::DescribeHoldEnd(IdAt(held->first), std::prev(dropped)->first,
+                                            last->first, id, frame, edit_.model.fps)};
+  keys_.erase(dropped, std::next(last));
+  ShowWarnings({warning});
+  return {warning};
 }
 
 void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
@@ -201,7 +225,7 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
   }
   const auto faults = authoring::KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
   ShowWarnings(faults);
-  known_.warnings.insert(known_.warnings.end(), faults.begin(), faults.end());
+  Keep(faults);
 }
 
 EditSession::Loop EditSession::LoopFrames() const {
@@ -311,9 +335,13 @@ void EditSession::DropWarnings(int64_t from, int64_t to) {
   });
 }
 
+void EditSession::Keep(const std::vector<client::Warning>& warnings) {
+  known_.warnings.insert(known_.warnings.end(), warnings.begin(), warnings.end());
+}
+
 void EditSession::Take(client::EditedDance edited, const std::string& what) {
   ShowWarnings(edited.warnings);
-  known_.warnings.insert(known_.warnings.end(), edited.warnings.begin(), edited.warnings.end());
+  Keep(edited.warnings);
   dance_ = std::move(edited.dance);
   std::cout << what << ": frames " << edited.first_changed << " to " << edited.end_changed - 1
             << " of " << dance_.motion.frames.size() << " are new";

@@ -65,6 +65,9 @@ class EditSession {
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
   /// Throws if a pose held from one frame to another meets the next key, or the end.
   void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
+  /// Ends the hold of another key that a new key at this frame comes into, and says so; a key that
+  /// it replaces is held no more. Returns the warning, if any, for after the edit.
+  std::vector<client::Warning> EndHold(int64_t frame, const std::string& id);
   /// Removes keys of the dance from which nobody gets to a new key, held from `first` to `last`, in
   /// time, and says so.
   void MakeWay(int64_t first, int64_t last, const std::string& id);
@@ -100,6 +103,7 @@ class EditSession {
   /// Drops warnings about frames that are danced again, and about the way to `to`: in a loop also
   /// if the first frame changes.
   void DropWarnings(int64_t from, int64_t to);
+  void Keep(const std::vector<client::Warning>& warnings);
   void Take(client::EditedDance edited, const std::string& what);
 
   const EditOptions& options_;

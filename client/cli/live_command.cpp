@@ -17,6 +17,7 @@
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
+#include "client/cli/report.h"
 #include "client/live/live_dance.h"
 #include "client/live/midi_clock.h"
 #include "client/live/vmc.h"
@@ -162,9 +163,10 @@ void Run(const LiveCommand& options) {
   const double longest = std::min(dance.seconds, sound->seconds());
   const authoring::DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)),
                                       model.fps};
-  dance.keys = authoring::ReadDanceKeys(authoring::KeySources(options.keys), length, model.skeleton,
-                                        CountsFor(options, longest))
-                   .poses;
+  const authoring::DanceKeys keys = authoring::ReadDanceKeys(
+      authoring::KeySources(options.keys), length, model.skeleton, CountsFor(options, longest));
+  ShowWarnings(keys.warnings);
+  dance.keys = keys.poses;
   const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(model.skeleton);
   for (const authoring::LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;
 

@@ -115,6 +115,23 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
+// The later key wins, as an animator would have it.
+TEST_F(CommandTest, AKeyInAHoldEndsItInTimeForTheWay) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "hold": 3},
+                           {"id": "b", "time": 2, "pose": "kick"}]})";
+  const Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("d.npz") +
+                                 " --report " + At("r.json") + " --seconds 5");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const std::string said = "key \"a\" is held up to 1.4 s, not 4 s: the key \"b\" comes at 2 s";
+  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 60: " + said));
+  const nlohmann::json report = ReadJson(folder_ / "r.json");
+  EXPECT_EQ(report["warnings"][0]["message"], said);
+  std::vector<int64_t> frames;
+  for (const auto& key : report["keyframes"]) frames.push_back(key["frame"]);
+  EXPECT_EQ(frames, (std::vector<int64_t>{30, 36, 42, 60}));
+}
+
 TEST_F(CommandTest, DancesWithoutKeysOnRequest) {
   WriteClicks(folder_ / "song.wav", 3);
   const Outcome outcome =

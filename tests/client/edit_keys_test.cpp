@@ -119,6 +119,37 @@ TEST_F(EditTest, KeysTooNearANewOneMakeWayAndAreNamed) {
   EXPECT_THAT(ids, testing::IsSupersetOf({"kick", "dab"})) << "new keys keep each other";
 }
 
+TEST_F(EditTest, AKeyInAHoldEndsIt) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0], "hold": 3},
+                           {"id": "b", "time": 7, "pose": "bow", "place": [0, 0]}]})";
+  Outcome outcome = Choreo("dance -k " + At("keys.json") + Server() + "-o " + At("dance.npz") +
+                           " --report " + At("report.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const auto held_to = [&](const char* report) {
+    int64_t last = 0;
+    const nlohmann::json read = ReadJson(folder_ / report);
+    for (const auto& key : read["keyframes"])
+      if (key.value("holds", "") == "a") last = std::max(last, key["frame"].get<int64_t>());
+    return last;
+  };
+  EXPECT_EQ(held_to("report.json"), 120);
+  const std::string reports = " --report " + At("report.json") + " --new-report " + At("new.json");
+  outcome = Edit("--key kick --at 3 -o " + At("new.npz") + reports);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 90: key \"a\" is held up to 2.4 s, not 4 s: "
+                                      "the key \"kick\" comes at 3 s"));
+  EXPECT_EQ(held_to("new.json"), 72);
+  EXPECT_EQ(ReadJson(folder_ / "new.json")["warnings"][0]["frame"], 90);
+  outcome = Edit("--move b 2 -o " + At("new.npz") + reports);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("\"a\" is held up to 1.4 s, not 4 s: the key \"b\""));
+  outcome = Edit("--key kick --at 1 -o " + At("new.npz") + reports);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("\"a\" is held up to 1 s, not 4 s: the key \"kick\""));
+  EXPECT_EQ(held_to("new.json"), 0);
+}
+
 TEST_F(EditTest, KeysInTheWayOfAPhraseAreNamed) {
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},

@@ -10,7 +10,7 @@ import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { limits } from './limits';
-import { emptyProject, freeId, holdOf, sorted, spoken, wishes } from './project';
+import { emptyProject, freeId, holdOf, isInHold, sorted, spoken, wishes } from './project';
 import type { Hands, Key } from './project';
 import { audio } from './songs';
 import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
@@ -78,7 +78,14 @@ export function addKey(pose: LibraryPose, at?: number) {
   const key = onPath(project.value.path, { id: freeId(keys, pose.id), frame, pose: placed, hasPlace: true, asks: null, hold: old?.hold ?? 0, hit: old?.hit ?? null, hands: old?.hands ?? null });
   selectedKey.value = key.id;
   edit({ ...project.value, keys: sorted([...keys, key]) }, [frame]);
+  tellOfHold(keys, key);
   if (old) tell(`${spoken(key.id)} stands in place of ${spoken(old.id)} now. Undo brings that back.`);
+}
+
+/// Says that a hold ends for a key that comes in it.
+function tellOfHold(others: Key[], key: Key) {
+  const held = others.find((other) => isInHold(other, key.frame));
+  if (held) tell(`${spoken(held.id)} is held no longer than to ${limits.wayFromHoldS} s before ${spoken(key.id)}.`);
 }
 
 export const keyOf = (id: string | null) => project.value?.keys.find((key) => key.id === id);
@@ -91,6 +98,7 @@ export function moveKey(id: string, to: number) {
   const frame = freeFrame(others, to);
   if (frame === null || frame === key.frame) return;
   edit({ ...project.value, keys: sorted([...others, onPath(project.value.path, { ...key, frame })]) }, [key.frame, frame]);
+  tellOfHold(others, { ...key, frame });
 }
 
 /// Keeps its pose for so many frames, in steps of those that hold it.

@@ -91,9 +91,17 @@ export function holdOf(frames: number, fps: number) {
   return Math.round(Math.max(0, Math.floor(frames / step + 1e-9)) * step);
 }
 
-/// The keys. None is held until the next one, or past the last frame.
+/// Whether a key comes while another one is held.
+export const isInHold = (key: Key, frame: number) => key.hold > 0 && key.frame < frame && frame <= key.frame + key.hold;
+
+/// The keys. None is held until the next one, or past the last frame; one that would be held over the next ends in time for the way there, as in the
+/// program (client/authoring/dance_keys.cpp).
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
-  keys.map((key, i) => ({ ...key, hold: holdOf(Math.min(key.hold, (keys[i + 1]?.frame ?? frames - 1 + limits.keyDistance) - limits.keyDistance - key.frame), fps) }));
+  keys.map((key, i) => {
+    const next = keys[i + 1]?.frame ?? Infinity;
+    const way = isInHold(key, next) ? Math.round(limits.wayFromHoldS * fps) : limits.keyDistance;
+    return { ...key, hold: holdOf(Math.min(key.hold, next - way - key.frame, frames - 1 - key.frame), fps) };
+  });
 
 /// The keys, each followed by the repeated keys that hold its pose, as the program reads them (client/authoring/key_file.cpp).
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {

@@ -10,7 +10,7 @@ const page = new URL('../../../studio/page/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', page))('esbuild');
 
 const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, usualHit: 1, tooNearS: 0.2, positionM: 10000, dancers: 64,
-  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3, slowestTempo: 50, fastestTempo: 200 };
+  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3, slowestTempo: 50, fastestTempo: 200, wayFromHoldS: 0.5 };
 
 /// A module of the page, with all that it imports, and the program's limits.
 async function load(name) {
@@ -65,7 +65,7 @@ test('ids are free, and spoken without underscores', () => {
 });
 
 test('a held pose is a key and those that hold it, as far as the next key', () => {
-  const keys = [{ id: 'bow', frame: 30, hold: 15, hit: 3 }, { id: 'kick', frame: 40, hold: 6, hit: null }, { id: 'dab', frame: 58, hold: 9, hit: 0 }];
+  const keys = [{ id: 'bow', frame: 30, hold: 9, hit: 3 }, { id: 'kick', frame: 40, hold: 6, hit: null }, { id: 'dab', frame: 58, hold: 9, hit: 0 }];
   const all = withHeld(keys, 60, 30);
   assert.deepEqual(all.map(({ frame }) => frame), [30, 36, 40, 46, 58]);
   assert.equal(all[1].id, 'bow held 1');
@@ -73,6 +73,9 @@ test('a held pose is a key and those that hold it, as far as the next key', () =
   assert.deepEqual(all.map(({ hit }) => hit), [3, null, 1, null, 0]);
   assert.deepEqual(withHolds(all).map(({ id, hold }) => [id, hold]), [['bow', 6], ['kick', 6], ['dab', 0]]);
   assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
+  // A key that comes in the middle of a hold leaves time for the way to it.
+  const inside = [{ ...keys[0], frame: 0, hold: 90 }, { ...keys[0], frame: 60, hold: 0 }];
+  assert.deepEqual(trimmed(inside, 200, 30).map(({ hold }) => hold), [42, 0]);
 });
 
 test('keys are sorted, and no list is changed on the way', () => {
