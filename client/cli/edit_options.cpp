@@ -39,6 +39,24 @@ bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, dou
   return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
 }
 
+/// Refuses the report of a dance most of which looks otherwise.
+void CheckSketch(const std::string& path, const nlohmann::ordered_json& report, const Motion& file,
+                 double fps) {
+  const MotionSketch known = ReadSketch(report, path);
+  if (known.empty() || !report.contains("frames")) return;
+  const size_t unlike = CountUnlike(known, SketchOf(file, report["frames"].get<int64_t>(), fps));
+  if (unlike == 0) return;
+  const std::string moments =
+      std::to_string(unlike) + " of " + std::to_string(known.size()) + " moments";
+  if (2 * unlike > known.size()) {
+    throw InvalidArgument(path,
+                          "is another dance's report: this one looks otherwise at " + moments);
+  }
+  std::cerr << "note: the dance looks otherwise than " << path << " says at " << moments
+            << ": it was edited since, and what those edits set is not known; their --new-report "
+               "tells\n";
+}
+
 }  // namespace
 
 void TakeReport(bool says_start, EditOptions* options) {
@@ -115,14 +133,16 @@ KnownDance ReadKnown(const std::string& path, int64_t frames, double fps, const 
                                                 std::to_string(frames) +
                                                 ": this is another dance's report");
   }
+  CheckSketch(path, report, file, fps);
   const int64_t missing = report.contains("frames") ? report["frames"].get<int64_t>() - frames : 0;
   return {KeysOf(report, frames, path, missing), ReadWarnings(report, path),
           Asked::ReadFrom(report, path)};
 }
 
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
-                double fps) {
+                double fps, const Motion& file) {
   nlohmann::ordered_json report = {{"frames", frames}, {"fps", fps}};
+  WriteSketch(SketchOf(file, frames, fps), &report);
   known.asked.WriteTo(&report);
   report["keyframes"] = nlohmann::ordered_json::array();
   for (const auto& [frame, key] : known.keys) report["keyframes"].push_back(key);

@@ -81,11 +81,12 @@ struct KnownDance {
   Asked asked = {};
 };
 /// Reads them from a report, for a dance of this many frames of a model at this rate, in a file
-/// that may have another rate. Throws Error(kInvalidArgument) whose field begins with the report's
-/// name.
+/// that may have another rate. Notes that the dance was edited since; throws
+/// Error(kInvalidArgument) whose field begins with the report's name, also for the report of
+/// another dance.
 KnownDance ReadKnown(const std::string& report, int64_t frames, double fps, const Motion& file);
-/// Writes them as a report, for the next edit.
+/// Writes them as a report of this motion, for the next edit.
 void WriteKnown(const std::filesystem::path& path, const KnownDance& known, int64_t frames,
-                double fps);
+                double fps, const Motion& file);
 
 }  // namespace choreo::cli

@@ -256,7 +256,7 @@ void EditSession::Write() const {
               dance_.contacts.empty() ? nullptr : &dance_.contacts);
   std::cout << options_.out << std::endl;
   if (options_.new_report.empty()) return;
-  WriteKnown(options_.new_report, known_, frames_, edit_.model.fps);
+  WriteKnown(options_.new_report, known_, frames_, edit_.model.fps, dance_.motion);
 }
 
 void EditSession::CheckKeys() const {

@@ -121,7 +121,8 @@ class Whole {
     WriteMotion(options_.out, skeleton_, dance_.motion,
                 dance_.contacts.empty() ? nullptr : &dance_.contacts);
     std::cout << options_.out << std::endl;
-    if (!options_.new_report.empty()) WriteKnown(options_.new_report, known_, Frames(), fps_);
+    if (!options_.new_report.empty())
+      WriteKnown(options_.new_report, known_, Frames(), fps_, dance_.motion);
   }
 
  private:

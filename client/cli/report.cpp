@@ -14,6 +14,8 @@
 namespace choreo::cli {
 namespace {
 
+constexpr const char* kSketch = "motion_sketch";
+
 template <typename... Values>
 std::string Format(const char* format, Values... values) {
   std::string text(static_cast<size_t>(std::snprintf(nullptr, 0, format, values...)), '\0');
@@ -85,6 +87,7 @@ std::string ReportJson(const WrittenDance& dance) {
   json["output_fps"] = dance.fps;
   json["seed"] = dance.header.seed;
   json["fingerprint"] = dance.header.fingerprint;
+  WriteSketch(dance.sketch, &json);
   dance.asked.WriteTo(&json);
   json["keyframes"] = nlohmann::ordered_json::array();
   for (const WrittenKey& key : dance.keys) {
@@ -164,6 +167,18 @@ nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
     if (key.contains("hands")) authoring::JsonHands(key["hands"], field + ".hands");
   }
   return report;
+}
+
+void WriteSketch(const MotionSketch& sketch, nlohmann::ordered_json* report) {
+  (*report)[kSketch] = sketch;
+}
+
+MotionSketch ReadSketch(const nlohmann::ordered_json& report, const std::filesystem::path& path) {
+  if (!report.contains(kSketch)) return {};
+  const auto is_number = [](const auto& value) { return value.is_number(); };
+  if (!report[kSketch].is_array() || !std::ranges::all_of(report[kSketch], is_number))
+    throw InvalidArgument(path.string() + ":" + kSketch, "is not a list of numbers");
+  return report[kSketch].get<MotionSketch>();
 }
 
 std::vector<client::Warning> ReadWarnings(const nlohmann::ordered_json& report,

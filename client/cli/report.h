@@ -13,7 +13,8 @@ namespace choreo::cli {
 /// (raw_error_m), how far joints were moved on the way (correction_m), the remaining error;
 /// `holds`: the key whose pose it only holds, if any; output_... is measured at the file's nearest
 /// frame. `measured_from`: the frame from which on the rest is measured, 0 or where the last server
-/// took over. Beats are null if there are none, `part_speeds` is absent without velocity factors.
+/// took over. `motion_sketch`: a MotionSketch, by which edits know the dance. Beats are null if
+/// there are none, `part_speeds` is absent without velocity factors.
 std::string ReportJson(const WrittenDance& dance);
 
 /// One key of such a report, without what is measured in the file.
@@ -23,6 +24,11 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key);
 nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings);
 /// The same on stderr, one per line.
 void ShowWarnings(const std::vector<client::Warning>& warnings);
+
+/// The sketch in such a report; earlier versions wrote none. Throws Error(kInvalidArgument) whose
+/// field begins with the path.
+void WriteSketch(const MotionSketch& sketch, nlohmann::ordered_json* report);
+MotionSketch ReadSketch(const nlohmann::ordered_json& report, const std::filesystem::path& path);
 
 /// A report written by ReportJson, with valid fps and keyframes. Throws Error(kInvalidArgument)
 /// whose field begins with the path.

@@ -151,8 +151,11 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
       options.bvh.Write(outputs[i], skeleton, dances[i].motion, dances[i].contacts);
   }
   const std::vector<fs::path> reports = ReportsOf(stage, options.report);
-  for (size_t i = 0; i < reports.size(); ++i)
-    WriteFile(reports[i], ReportJson(Later(shared[dance_of[i]].performance.written, delays[i])));
+  for (size_t i = 0; i < reports.size(); ++i) {
+    WrittenDance written = Later(shared[dance_of[i]].performance.written, delays[i]);
+    written.sketch = SketchOf(dances[i].motion, written.report.frames, written.header.model_fps);
+    WriteFile(reports[i], ReportJson(written));
+  }
   for (const fs::path& output : outputs) std::cout << output.string() << std::endl;
   for (const Shared& dance : shared) CheckKeys(dance.performance.written);
 }

@@ -35,6 +35,7 @@ WrittenDance Examine(const client::Header& header, const client::Report& report,
   WrittenDance dance{.header = header, .report = report};
   dance.frames = static_cast<int64_t>(motion.frames.size());
   dance.fps = motion.fps;
+  dance.sketch = SketchOf(motion, report.frames, header.model_fps);
   for (const client::KeyPose& key : keys) {
     const auto reached =
         std::find_if(report.keys.begin(), report.keys.end(),

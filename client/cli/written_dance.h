@@ -6,6 +6,7 @@
 
 #include "client/choreo_client.h"
 #include "client/cli/asked.h"
+#include "client/cli/motion_sketch.h"
 #include "model/core/grid.h"
 #include "model/motion/kinematics.h"
 
@@ -31,6 +32,7 @@ struct WrittenDance {
   Asked asked = {};        ///< Examine leaves it empty
   int64_t frames = 0;      ///< of the file
   double fps = kModelFps;  ///< of the file
+  MotionSketch sketch = {};
   std::vector<WrittenKey> keys = {};
   std::vector<client::Warning> warnings = {};  ///< from the server; Examine leaves them empty
   /// The beat hit rate by chance: the share of frames within two frames of a beat. Empty without

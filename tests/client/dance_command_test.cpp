@@ -31,10 +31,10 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
   for (const auto& [member, value] : report.items()) members.push_back(member);
   EXPECT_THAT(members, testing::UnorderedElementsAre(
                            "frames", "fps", "output_frames", "output_fps", "seed", "fingerprint",
-                           "model", "song", "keyframes", "warnings", "measured_from",
-                           "log_likelihood", "beat_hit_rate", "beat_hit_chance", "beat_coverage",
-                           "skate_ratio", "support", "max_key_acceleration", "p95_acceleration",
-                           "first_frame_latency_s", "real_time_factor"));
+                           "motion_sketch", "model", "song", "keyframes", "warnings",
+                           "measured_from", "log_likelihood", "beat_hit_rate", "beat_hit_chance",
+                           "beat_coverage", "skate_ratio", "support", "max_key_acceleration",
+                           "p95_acceleration", "first_frame_latency_s", "real_time_factor"));
   EXPECT_EQ(report["frames"], 300);
   EXPECT_EQ(report["seed"], 3);
   EXPECT_EQ(report["fingerprint"], "fake-1");

@@ -172,6 +172,43 @@ TEST_F(EditTest, KeysInTheWayOfAPhraseAreNamed) {
               Not(testing::ContainsRegex("\"[abd]\" at . s makes way|3\\.. s makes")));
 }
 
+// As long as this one.
+TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
+  const auto dance = [&](const std::string& pose, const std::string& name) {
+    std::ofstream(folder_ / "keys.json")
+        << R"({"keyframes": [)"
+           R"({"id": "a", "time": 0, "place": [0, 0], "hold": 4, "pose": ")"
+        << pose << "\"}]}";
+    return Choreo("dance -k " + At("keys.json") + Server() + "-o " + At(name + ".npz") +
+                  " --report " + At(name + ".json") + " --seconds 5")
+        .code;
+  };
+  ASSERT_EQ(dance("stand", "dance"), 0);
+  ASSERT_EQ(dance("crouch", "other"), 0);
+  Outcome outcome = Edit("--key kick --at 4.5 --report " + At("other.json") + " -o " + At("n.npz"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("other.json: is another dance's report: this one looks "));
+  // In whatever format and rate, and by earlier versions.
+  ASSERT_EQ(Choreo("convert " + At("dance.npz") + " " + At("dance.bvh")).code, 0);
+  outcome = Choreo("edit " + At("dance.bvh") + Server() + "--key kick --at 4.5 --report " +
+                   At("dance.json") + " -o " + At("n.npz"));
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));
+  nlohmann::json old = ReadJson(folder_ / "other.json");
+  old.erase("motion_sketch");
+  std::ofstream(folder_ / "old.json") << old.dump();
+  outcome = Edit("--key kick --at 4.5 --report " + At("old.json") + " -o " + At("n.npz"));
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  // What other edits have set is not in the report.
+  outcome = Choreo("edit " + At("n.npz") + Server() + "--key bow --at 2 --report " +
+                   At("dance.json") + " --new-report " + At("new.json") + " -o " + At("m.npz"));
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("note: the dance looks otherwise than "));
+  outcome = Choreo("edit " + At("m.npz") + Server() + "--key dab --at 2.5 --report " +
+                   At("new.json") + " -o " + At("o.npz"));
+  EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));
+}
+
 TEST_F(EditTest, AnotherDancesReportIsRefused) {
   nlohmann::json report = ReadJson(folder_ / "report.json");
   report["frames"] = report["frames"].get<int>() + 30;

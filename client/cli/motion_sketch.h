@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/motion/motion.h"
+
+namespace choreo::cli {
+
+/// What a motion looks like, roughly: at moments spread over it a weighted sum of the angles by
+/// which joints are turned, the root's apart, radians. The same in files of any format, rate and
+/// precision.
+using MotionSketch = std::vector<double>;
+
+/// Of a dance of `frames` at `fps`, whose file may have another rate; 16 moments, or one for each
+/// frame.
+MotionSketch SketchOf(const Motion& motion, int64_t frames, double fps);
+
+/// At how many moments two sketches differ by more than rates and precision of files can make them.
+size_t CountUnlike(const MotionSketch& a, const MotionSketch& b);
+
+}  // namespace choreo::cli
