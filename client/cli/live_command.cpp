@@ -15,12 +15,14 @@
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
 #include "client/cli/interruption.h"
+#include "client/cli/live_report.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
 #include "client/cli/report.h"
 #include "client/live/live_dance.h"
 #include "client/live/midi_clock.h"
 #include "client/live/vmc.h"
+#include "model/core/atomic_file.h"
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
@@ -44,10 +46,13 @@ struct LiveCommand {
   std::optional<double> temperature;
   std::optional<double> music_dynamics;
   std::optional<double> variation;
+  std::string style;
+  authoring::WrittenControls controls;
   double fps = 0;
   std::string model;
   std::string vmc;
   std::string out;
+  std::string report;
 };
 
 void CheckBeatOptions(const authoring::BeatOptions& beats) {
@@ -64,13 +69,13 @@ void CheckBeatOptions(const authoring::BeatOptions& beats) {
   }
 }
 
-void CheckOutput(const LiveCommand& options) {
-  if (options.out.empty()) return;
-  RequireWrittenMotionFile(options.out);
-  std::vector<NamedFile> inputs = {{"song", options.song}};
+void CheckOutputs(const LiveCommand& options) {
+  if (!options.out.empty()) RequireWrittenMotionFile(options.out);
+  std::vector<NamedFile> inputs = FilesOf(options.controls);
+  inputs.push_back({"song", options.song});
   for (const std::string& keys : authoring::KeySources(options.keys))
     inputs.push_back({"--keyframes", authoring::FileOf(keys)});
-  RequireOutputs({{"--out", options.out}}, inputs);
+  RequireOutputs({{"--out", options.out}, {"--report", options.report}}, inputs);
 }
 
 std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
@@ -78,14 +83,14 @@ std::unique_ptr<live::Sound> OpenSound(const LiveCommand& options) {
   return live::PlaySong(options.song, options.song_start_s);
 }
 
-/// The counts of a song's file, for times of its keys.
+/// The counts of a song's file, for times of keys and controls.
 authoring::Counts CountsFor(const LiveCommand& options, double seconds) {
   if (options.song.empty()) {
     return {.advice =
                 "nobody knows yet where the beats of music that is still to sound are; say "
                 "seconds, or name the song's file"};
   }
-  if (authoring::KeySources(options.keys).empty()) return {};
+  if (authoring::KeySources(options.keys).empty() && FilesOf(options.controls).empty()) return {};
   return authoring::CountsOf(
       authoring::ReadMusic(options.song, seconds, options.song_start_s, options.beats));
 }
@@ -129,8 +134,19 @@ std::string Say(const live::LiveFigures& figures) {
   return line.str();
 }
 
+Asked AskedFor(const LiveCommand& options, const client::Header& header) {
+  return {.model = header.model,
+          .seed = header.seed,
+          .temperature = options.temperature,
+          .music_dynamics = options.music_dynamics,
+          .variation = options.variation,
+          .style = options.style,
+          .song = options.song,
+          .song_start_s = options.song_start_s};
+}
+
 void Run(const LiveCommand& options) {
-  CheckOutput(options);
+  CheckOutputs(options);
   CheckBeatOptions(options.beats);
   if (options.server.deadline_s > 0) {
     throw InvalidArgument("--deadline",
@@ -153,6 +169,7 @@ void Run(const LiveCommand& options) {
   dance.config.temperature = options.temperature;
   dance.config.music_dynamics = options.music_dynamics;
   dance.config.variation = options.variation;
+  dance.config.style = options.style;
   dance.beats = options.beats.hint;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;
@@ -163,8 +180,11 @@ void Run(const LiveCommand& options) {
   const double longest = std::min(dance.seconds, sound->seconds());
   const authoring::DanceLength length{std::max<int64_t>(1, std::llround(longest * model.fps)),
                                       model.fps};
-  const authoring::DanceKeys keys = authoring::ReadDanceKeys(
-      authoring::KeySources(options.keys), length, model.skeleton, CountsFor(options, longest));
+  const authoring::Counts counts = CountsFor(options, longest);
+  dance.config.controls = options.controls.Read(model, connection.server(), counts);
+  options.controls.RequireBegun(dance.config.controls, length);
+  const authoring::DanceKeys keys =
+      authoring::ReadDanceKeys(authoring::KeySources(options.keys), length, model.skeleton, counts);
   ShowWarnings(keys.warnings);
   dance.keys = keys.poses;
   const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(model.skeleton);
@@ -193,11 +213,13 @@ void Run(const LiveCommand& options) {
   };
   try {
     live.Run(*sound, cues, midi ? &*midi : nullptr);
-  } catch (const Error&) {
+  } catch (const Error& error) {
     write();  // keeps what has been danced
-    throw;
+    throw options.controls.InTermsOf(error);
   }
   write();
+  if (options.report.empty() || !live.report()) return;
+  WriteFile(options.report, ReportJson(Examine(live, keys, AskedFor(options, live.header()))));
 }
 
 }  // namespace
@@ -254,12 +276,16 @@ void AddLiveCommand(CLI::App& program) {
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
   AddVariation(*command, options->variation);
+  AddStyle(*command, options->style);
+  AddControlOptions(*command, &options->controls);
   command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));
   AddModel(*command, options->model);
   AddVmc(*command, options->vmc);
   command->add_option("-o,--out", options->out,
                       "FILE.npz, FILE.bvh or FILE.glb to write the dance to.");
+  command->add_option("--report", options->report,
+                      "JSON file to write the report to, for `choreo edit` and `render`.");
   options->server.AddInexactResume(*command);
   options->server.AddTo(*command);
   command->get_option("--deadline")->group("");  // is refused, with the reason

@@ -111,7 +111,7 @@ void LiveDance::SendBeats(BeatsAhead ahead, double now) {
 
 void LiveDance::Follow(const Cue& cue, double now) {
   if (cue.pose.empty()) return TakeBack();
-  if (sent_ >= options_.most_keys) {
+  if (std::ssize(sent_) >= options_.most_keys) {
     return Refuse("this dance has had all of the " + std::to_string(options_.most_keys) +
                   " poses that the server takes");
   }
@@ -138,7 +138,7 @@ void LiveDance::Follow(const Cue& cue, double now) {
     ++since_.keys_taken;
   }
   client::KeyPose key;
-  key.id = "cue " + std::to_string(sent_ + 1) + " " + cue.pose;
+  key.id = "cue " + std::to_string(sent_.size() + 1) + " " + cue.pose;
   key.frame = FrameAt(at);
   key.pose = pose->second;
   key.mask.root_position = false;  // wherever the dancer is then
@@ -149,7 +149,17 @@ void LiveDance::SendKey(const client::KeyPose& key, int64_t frame) {
   dance_->SendKey(key);
   keys_[frame] = key.id;
   asked_.push_back(frame);
-  ++sent_;
+  sent_.push_back(key);
+}
+
+std::vector<client::KeyPose> LiveDance::DancedKeys() const {
+  std::vector<client::KeyPose> danced;
+  if (!report_) return danced;
+  for (const client::KeyReached& reached : report_->keys) {
+    const auto is_it = [&](const client::KeyPose& key) { return key.id == reached.id; };
+    danced.push_back(*std::ranges::find_if(sent_, is_it));
+  }
+  return danced;
 }
 
 void LiveDance::Refuse(const std::string& reason) {
@@ -217,15 +227,21 @@ void LiveDance::Take(const client::Message& message) {
     TakeFrames(*block);
   } else if (const auto* warning = std::get_if<client::Warning>(&message)) {
     Note("frame " + std::to_string(warning->frame) + ": " + warning->message);
+    warnings_.push_back(*warning);
   } else if (const auto* rejected = std::get_if<client::KeyRejected>(&message)) {
     Note("key " + rejected->id + " was refused: " + rejected->reason);
     const std::lock_guard lock(mutex_);
     ++since_.keys_refused;
   } else if (const auto* resumed = std::get_if<client::Resumed>(&message)) {
     Note("lost the server (" + resumed->reason + "); " + resumed->address + " goes on");
+  } else if (const auto* report = std::get_if<client::Report>(&message)) {
+    report_ = *report;
   } else {
     const std::lock_guard lock(mutex_);
-    if (const auto* beat = std::get_if<client::Beat>(&message)) clock_.Hear(*beat);
+    if (const auto* beat = std::get_if<client::Beat>(&message)) {
+      clock_.Hear(*beat);
+      beats_.push_back(*beat);
+    }
     since_.keys_danced += std::holds_alternative<client::KeyReached>(message);
   }
 }

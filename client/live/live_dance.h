@@ -72,6 +72,12 @@ class LiveDance {
   const client::Header& header() const { return header_; }
   const Motion& motion() const { return motion_; }
   const std::vector<Contacts>& contacts() const { return contacts_; }
+  /// The rest of what the server said, its report once the dance has ended in order.
+  const std::vector<client::Beat>& beats() const { return beats_; }
+  const std::vector<client::Warning>& warnings() const { return warnings_; }
+  const std::optional<client::Report>& report() const { return report_; }
+  /// The keys that were danced, in order of time.
+  std::vector<client::KeyPose> DancedKeys() const;
 
  private:
   // On the thread of Run.
@@ -101,11 +107,14 @@ class LiveDance {
   std::map<int64_t, std::string> keys_;  // by frame: ids of keys sent and not taken back
   std::vector<int64_t> asked_;           // their frames, in the order of requests
   int64_t granted_ = 0;
-  int sent_ = 0;  // keys, including those taken back
+  std::vector<client::KeyPose> sent_;  // including those taken back
 
   client::Header header_;
   Motion motion_;
   std::vector<Contacts> contacts_;
+  std::vector<client::Beat> beats_;
+  std::vector<client::Warning> warnings_;
+  std::optional<client::Report> report_;
   std::exception_ptr failure_;
   std::unique_ptr<PosePlayer> player_;
   std::atomic<bool> over_ = false;

@@ -258,6 +258,36 @@ TEST_F(CommandTest, ALiveDanceHasKeysOnCountsOfItsSong) {
             0.1);
 }
 
+TEST_F(CommandTest, ALiveDanceHasAStyleAPathAndAReport) {
+  WriteClicks(folder_ / "song.wav", 4);
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "k", "time": 1, "pose": "kick", "hold": 0.4}]})";
+  std::ofstream(folder_ / "path.json") << R"({"points": [{"time": 2, "x": 0, "z": 0},
+                                                         {"time": 3.5, "x": 1, "z": 0}]})";
+  const TestServer server(std::make_unique<ControlledSampler>());
+  const std::string there = " --server " + server.address() + " ";
+  const auto live = [&](const std::string& rest) {
+    return Choreo("live " + At("song.wav") + there + rest + " </dev/null");
+  };
+  const Outcome outcome = live("-k " + At("keys.json") + " --style wild --path " + At("path.json") +
+                               " -o " + At("d.npz") + " --report " + At("r.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion motion = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24());
+  EXPECT_NEAR(motion.frames.at(104).root_position.x(), 1, 0.1);
+  const nlohmann::json report = ReadJson(folder_ / "r.json");
+  EXPECT_EQ(report["frames"], motion.frames.size());
+  EXPECT_EQ(report["style"], "wild");
+  ASSERT_EQ(report["keyframes"].size(), 3U);
+  EXPECT_EQ(report["keyframes"][0]["id"], "k");
+  EXPECT_EQ(report["keyframes"][2]["holds"], "k");
+  EXPECT_LT(report["keyframes"][0]["output_error_deg"].get<double>(), 0.1);
+  const Outcome edited = Choreo("edit " + At("d.npz") + there + "--move k 1.2 --report " +
+                                At("r.json") + " -o " + At("e.npz"));
+  EXPECT_EQ(edited.code, 0) << edited.said;
+  EXPECT_THAT(live("--style sleepy").said, HasSubstr("--style: "));
+  EXPECT_THAT(live("--report " + At("song.wav")).said, HasSubstr("--report: "));
+}
+
 TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
   WriteClicks(folder_ / "song.wav", 4);
   const int port = OscReceiver().port();
