@@ -1,23 +1,10 @@
 #include "client/style_figures.h"
 
 #include <cmath>
-#include <utility>
 
 namespace choreo::client {
 
-std::optional<StyleFigures> FindStyleFigures(std::string_view fingerprint) {
-  // By content hash of the checkpoints, as every training must be measured.
-  constexpr std::pair<std::string_view, StyleFigures> kMeasured[] = {
-      {"05013d4ed436c704019f44421b001d0f", {7.1, 6.25, 6.5}},     // default: 16 moods
-      {"7286cdc80932bef860a65c06cf4d9667", {51, 100.0 / 3, 49}},  // free: 3 genres
-  };
-  for (const auto& [hash, figures] : kMeasured)
-    if (fingerprint.find(hash) != std::string_view::npos) return figures;
-  return std::nullopt;
-}
-
-std::string DescribeStyles(std::string_view fingerprint) {
-  const auto figures = FindStyleFigures(fingerprint);
+std::string DescribeStyles(const std::optional<StyleFigures>& figures) {
   if (!figures) return "Whether they show was not measured.";
   const auto percent = [](double share) { return std::to_string(std::llround(share)) + " %"; };
   return std::string(figures->shows() ? "They show" : "They do not show") + ": in " +

@@ -4,6 +4,7 @@
 
 #include "model/audio/format.h"
 #include "model/dance/dance_stream.h"
+#include "server/style_figures.h"
 
 namespace choreo {
 
@@ -20,6 +21,7 @@ ModelDescription DescribeModel(const ModelInfo& model) {
       .controls = model.controls,
       .velocity_references = model.velocity_references,
       .styles = model.styles,
+      .style_figures = FindStyleFigures(model.fingerprint),
       .takes_music = TakesMusic(model),
       .likelihood = model.likelihood,
       .deterministic = model.deterministic,

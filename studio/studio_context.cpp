@@ -84,7 +84,7 @@ StudioContext::StudioContext(const client::Options& server, const std::filesyste
   }
   for (int joint = 0; joint < skeleton.joints(); ++joint)
     *welcome_.add_turns() = TurnOf(skeleton, joint);
-  welcome_.set_styles_shown(client::DescribeStyles(model().fingerprint));
+  welcome_.set_styles_shown(client::DescribeStyles(model().style_figures));
   welcome_.set_body(BodyAtRest(skeleton));
   welcome_.set_reads_photos(photo_model_.is_there());
   if (song.empty()) return;

@@ -44,7 +44,7 @@ nlohmann::ordered_json ToJson(const client::ModelDescription& model) {
   out["deterministic"] = model.deterministic;
   out["likelihood"] = model.likelihood;
   out["styles"] = model.styles;
-  if (const auto figures = client::FindStyleFigures(model.fingerprint))
+  if (const auto& figures = model.style_figures)
     out["styles_recognised"] = {{"percent", figures->recognised},
                                 {"chance_percent", figures->chance},
                                 {"shows", figures->shows()}};
@@ -132,7 +132,7 @@ void PrintStyles(const client::ModelDescription& model) {
   for (size_t i = 0; i < model.styles.size(); ++i)
     std::printf("%s %s", i == 0 ? "" : ",", model.styles[i].c_str());
   std::printf("\n");
-  std::printf("    %s\n", client::DescribeStyles(model.fingerprint).c_str());
+  std::printf("    %s\n", client::DescribeStyles(model.style_figures).c_str());
 }
 
 void PrintServer(const client::ServerDescription& server, const InfoOptions& options) {

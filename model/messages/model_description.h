@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/core/grid.h"
+#include "model/messages/style_figures.h"
 #include "model/motion/skeleton.h"
 #include "model/motion/velocity_factors.h"
 
@@ -22,6 +24,7 @@ struct ModelDescription {
   std::vector<std::string> controls = {};  ///< of the names in kControls (motion/controls.h)
   std::vector<VelocityReference> velocity_references = {};  ///< the first is the default
   std::vector<std::string> styles = {};                     ///< that a request may name
+  std::optional<StyleFigures> style_figures = {};           ///< none: not measured
   bool takes_music = true;                                  ///< false: it refuses audio
   bool likelihood = false;     ///< reports include one, and candidates can be ranked by it
   bool deterministic = false;  ///< seed and temperature have no effect; it rests without a next key

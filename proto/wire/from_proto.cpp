@@ -80,6 +80,11 @@ ModelDescription FromProto(const v1::ModelInfo& model) {
   out.styles = {model.styles().begin(), model.styles().end()};
   out.takes_music = !model.takes_no_music();
   out.likelihood = model.likelihood();
+  if (model.has_style_recognition()) {
+    const v1::StyleRecognition& styles = model.style_recognition();
+    out.style_figures = {styles.recognised_percent(), styles.chance_percent(),
+                         styles.low_percent()};
+  }
   out.deterministic = model.deterministic();
   out.audio_lead_s = model.audio_lead_s();
   out.latency_frames = model.latency_frames();

@@ -123,6 +123,13 @@ v1::ModelInfo ToProto(const ModelDescription& model) {
   out.set_deterministic(model.deterministic);
   out.mutable_styles()->Add(model.styles.begin(), model.styles.end());
   out.set_likelihood(model.likelihood);
+  if (model.style_figures) {
+    v1::StyleRecognition& styles = *out.mutable_style_recognition();
+    styles.set_recognised_percent(model.style_figures->recognised);
+    styles.set_chance_percent(model.style_figures->chance);
+    styles.set_low_percent(model.style_figures->low);
+    styles.set_shows(model.style_figures->shows());
+  }
   return out;
 }
 

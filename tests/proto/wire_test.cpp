@@ -81,6 +81,7 @@ TEST(Wire, ModelsRoundTrip) {
                                .controls = {"root_path", "velocity_factors"},
                                .velocity_references = {{"median", {0.5, 1, 1.5, 2, 2.5}}},
                                .styles = {"calm"},
+                               .style_figures = StyleFigures{60, 25, 50},
                                .takes_music = false,
                                .likelihood = true,
                                .deterministic = true,

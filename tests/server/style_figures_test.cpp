@@ -1,0 +1,40 @@
+#include "server/style_figures.h"
+
+#include <gtest/gtest.h>
+
+#include "client/style_figures.h"
+#include "model/core/safetensors.h"
+#include "proto/wire/convert.h"
+#include "server/describe_model.h"
+
+namespace choreo::style_figures_test {
+
+// A checkpoint that is trained on has to be measured anew: scripts/evaluate.sh.
+TEST(StyleFigures, AreOfTheShippedCheckpoints) {
+  const auto figures_of = [](const std::string& name) {
+    const Safetensors content =
+        ReadSafetensors(SOURCE_FOLDER "/model/checkpoints/" + name + ".safetensors");
+    return FindStyleFigures(name + "/" + content.metadata.at("hash") + "/choreo 1.0.0");
+  };
+  ASSERT_TRUE(figures_of("default"));
+  EXPECT_FALSE(figures_of("default")->shows());
+  ASSERT_TRUE(figures_of("free"));
+  EXPECT_TRUE(figures_of("free")->shows());
+  EXPECT_FALSE(FindStyleFigures("fake-1"));
+  EXPECT_EQ(client::DescribeStyles({}), "Whether they show was not measured.");
+}
+
+TEST(StyleFigures, ReachClients) {
+  ModelInfo model;
+  model.skeleton = Skeleton::Smpl24();
+  EXPECT_FALSE(wire::ToProto(DescribeModel(model)).has_style_recognition());
+  model.fingerprint = "default/05013d4ed436c704019f44421b001d0f/choreo 1.0.0";
+  const v1::ModelInfo told = wire::ToProto(DescribeModel(model));
+  EXPECT_FALSE(told.style_recognition().shows());
+  EXPECT_EQ(told.style_recognition().recognised_percent(), 7.1);
+  EXPECT_EQ(client::DescribeStyles(wire::FromProto(told).style_figures),
+            "They do not show: in 7 % of seconds a classifier recognises the style asked for, by "
+            "chance in 6 %.");
+}
+
+}  // namespace choreo::style_figures_test
