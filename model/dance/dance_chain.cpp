@@ -163,8 +163,10 @@ void DanceChain::React(const std::function<void()>& change) noexcept {
 
 // Jobs keep the chain alive, and the chain its jobs: this breaks the cycle.
 void DanceChain::DropJobs() {
+  if (jobs_.empty()) return;
   for (const std::shared_ptr<Job>& job : jobs_) job->Retire();
   jobs_.clear();
+  queue_.CheckCancelled();
 }
 
 bool DanceChain::HandOut(int most) {
@@ -222,7 +224,10 @@ bool DanceChain::HandOutNext() {
   TurnWithMusic(ready);
   Job& job = *jobs_.front();
   if (IsOver(*score_.timeline.Planned())) {
-    if (!job.sampled()) job.Retire();  // a sampled job may be handing out frames right now
+    if (!job.sampled()) {  // a sampled job may be handing out frames right now
+      job.Retire();
+      queue_.CheckCancelled();
+    }
     score_.timeline.Finish();
     if (next_frame_ > job.segment().from) {
       danced_ = job.StateBefore(next_frame_);
@@ -232,7 +237,6 @@ bool DanceChain::HandOutNext() {
     // No frame follows the end, so no transition is needed any more.
     if (const std::optional<int64_t> end = score_.timeline.End(); end && next_frame_ >= *end)
       DropJobs();
-    queue_.CheckCancelled();
     SubmitNext();
     return true;
   }

@@ -126,7 +126,7 @@ void TakeConnections(const Victim& victim) {
 
 class GreedyTest : public ServerTest, public testing::WithParamInterface<Greed> {};
 
-TEST_P(GreedyTest, NineOthersStayOnTime) {
+TEST_P(GreedyTest, NineOthersDanceToTheEnd) {
   Start();
   const int seconds = Setting("CHOREO_FAULT_SECONDS", 2);
   std::mutex mutex;
