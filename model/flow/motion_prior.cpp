@@ -8,6 +8,8 @@
 #include <string>
 
 #include "model/core/error.h"
+#include "model/motion/canonical.h"
+#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
@@ -30,6 +32,15 @@ struct MotionPrior::Cache {
   std::map<Key, Value> bridges;
   std::list<Key> order;  // oldest first
 };
+
+double UsualPose::Deviation(const Pose& other) const {
+  if (pose.rotations.cols() == 0 || variance.size() == 0) return 0;
+  const Pose local = GroundFrame::Of(other).ToLocal(other);
+  const Eigen::Vector3d turn = RotationDifference(pose.rotations.col(0), local.rotations.col(0));
+  const Eigen::Array3d off(local.root_position.y() - pose.root_position.y(), turn.x(), turn.z());
+  const Eigen::Array3d usual(variance[1], variance[3], variance[5]);
+  return (off.square() / usual.max(1e-9)).sqrt().maxCoeff();
+}
 
 MotionPrior::MotionPrior(Eigen::MatrixXd covariance, VariancePowers powers, UsualPose usual)
     : covariance_(std::move(covariance)),

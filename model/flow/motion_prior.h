@@ -49,6 +49,10 @@ struct UsualPose {
   /// Of the angle between the root's heading and the audience, rad². 0: unknown, and dancers face
   /// anywhere.
   double facing = 0;
+
+  /// How far a pose's root is from it in height and tilt, in standard deviations, the largest. 0 if
+  /// unknown.
+  double Deviation(const Pose& other) const;
 };
 
 /// How poses move given only their past and a key: the velocity of each degree of freedom is a

@@ -25,6 +25,8 @@ class TransitionSampler {
  private:
   void BeginWindow();
   void EndWindow();
+  // Whether to sample a window again, because it goes where dancers hardly ever are.
+  bool Retakes(const std::vector<Pose>& poses);
 
   const FlowModelParts* model_;
   const FlowNetwork* network_;
@@ -35,6 +37,10 @@ class TransitionSampler {
   int sampled_ = 0;            // finished windows
   int frames_ = 0;             // of these windows
   GroundFrame ground_;         // of the current window
+  bool free_ = false;          // whether that window ends without a key
+  int retakes_ = 0;            // of that window
+  std::vector<Pose> nearest_;  // its take that stays nearest to the usual pose
+  double nearest_deviation_ = 0;
   std::optional<WindowSampler> window_;
 };
 

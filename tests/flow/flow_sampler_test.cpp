@@ -339,6 +339,43 @@ TEST(FlowSampler, LongTransitionsJoinSmoothlyAndReachTheirKey) {
   EXPECT_LE(at_cuts, fastest);
 }
 
+// Sinks into the floor in its first window, and in no other.
+class Sinking : public Silent {
+ public:
+  explicit Sinking(int steps) : steps_(steps) {}
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::VectorXf&) const override {
+    Eigen::MatrixXf f = Eigen::MatrixXf::Zero(z.rows(), z.cols());
+    if (evaluations++ < steps_) f.row(1).setConstant(-4);
+    return f;
+  }
+
+ private:
+  int steps_;
+};
+
+TEST(FlowSampler, FreeWindowsThatEndWhereNobodyDancesAreSampledAgain) {
+  Scene scene = MakeScene(30);
+  scene.request.key.reset();
+  FlowModelParts parts = Parts();
+  UsualPose usual;
+  usual.pose = RestPose(parts.skeleton);
+  usual.variance = Eigen::VectorXd::Ones(parts.prior.dimensions());
+  const auto sample = [&](const FlowNetwork& network) {
+    parts.prior = MotionPrior(parts.prior.covariance(), parts.prior.powers(), usual);
+    return SampleTransition(parts, network, scene.request, {.seed = 5, .temperature = 1}).back();
+  };
+  const double low = usual.Deviation(sample(Sinking(parts.config.steps)));
+  const double common = usual.Deviation(sample(Silent()));
+  ASSERT_GT(low, 2 * common);
+  // Such that the sunken window is farther than seven standard deviations, and others are not.
+  usual.variance.setConstant(std::pow(std::sqrt(low * common) / 7, 2));
+  const Sinking network(parts.config.steps);
+  EXPECT_LT(usual.Deviation(sample(network)), 7);
+  EXPECT_EQ(network.evaluations, 2 * parts.config.steps);
+}
+
 TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
   const Scene scene = MakeScene(60);
   const FlowModelParts parts = Parts();
