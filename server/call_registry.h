@@ -19,7 +19,7 @@ namespace choreo {
 /// The progress of a call.
 struct CallProgress {
   bool unread = false;  ///< an answer waits for its client to take it
-  /// Since when: the time of that answer, or of the last message in either direction.
+  /// The time of that answer or, without one, of the last message in either direction.
   std::chrono::steady_clock::time_point since;
 };
 
@@ -27,10 +27,10 @@ struct CallProgress {
 class Call {
  public:
   virtual ~Call() = default;
-  /// Ends the call with this error once its client has taken the answer on its way; from any
-  /// thread.
+  /// Ends the call with this error once its client took the answer on its way. Any thread may call
+  /// it.
   virtual void Abort(const Error& error) = 0;
-  /// Ends the call as CANCELLED although its client takes nothing. From any thread.
+  /// Ends the call as CANCELLED although its client takes nothing. Any thread may call it.
   virtual void Reset() = 0;
   virtual CallProgress progress() const = 0;
 };
@@ -38,8 +38,8 @@ class Call {
 /// Limits on clients' calls and idle time.
 struct CallLimits {
   int calls = 0;
-  /// Of one caller, including those without a first message: while another caller is there, and
-  /// while none is.
+  /// One caller's calls, including those without a first message: the limit while another caller is
+  /// there, and while none is.
   int calls_of_peer = 0, calls_of_lone_peer = 0;
   std::chrono::milliseconds first_message{};
   std::chrono::milliseconds idle{};    ///< without messages in either direction
@@ -59,15 +59,15 @@ class CallRegistry {
   /// `party`: calls with the same one are counted together (Caller::Party). Throws Refused if it
   /// has too many, and after StopAdmitting.
   void Enter(const std::shared_ptr<Call>& call, std::string party);
-  /// Throws Refused when full, and after StopAdmitting. Once for each call.
+  /// Throws Refused when full, and after StopAdmitting. Call it once for each call.
   void Admit(const Call* call);
-  /// Also for calls that never entered.
+  /// Accepts calls that never entered.
   void Leave(const Call* call);
 
   /// Ends calls that were idle for too long. Call regularly.
   void EndIdle();
 
-  /// Also ends calls that are not yet admitted.
+  /// Admits no more calls, and ends those not yet admitted.
   void StopAdmitting();
   /// Streams end with their next continuation, as ResumeElsewhere.
   void EndAtTransitions() { ends_at_transitions_ = true; }
@@ -75,8 +75,8 @@ class CallRegistry {
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
-  /// Whether a caller other than `party` has a call, or came within the last minute. Who was
-  /// refused comes again, and must find a place then.
+  /// Whether a caller other than `party` has a call, or came within the last minute. A refused
+  /// caller comes again, and must find a place then.
   bool HasRival(const std::string& party) const;
 
   bool admitting() const;  ///< until StopAdmitting
@@ -84,8 +84,8 @@ class CallRegistry {
   const CallLimits& limits() const { return limits_; }
   /// The share of the limits that is taken: of all calls, or the busiest caller's.
   double utilisation() const;
-  /// When one more refused call should come again: after as many calls have ended as were refused
-  /// before it, spread so that they do not come together. Seconds, 1 to 60.
+  /// Seconds, 1 to 60, after which one more refused call should come again: when as many calls have
+  /// ended as were refused before it. Spread, so that they do not come together.
   double RetryAfter();
   /// The same for a client that has other servers to go to.
   double RetryElsewhere();
@@ -95,7 +95,7 @@ class CallRegistry {
   struct Entry {
     std::weak_ptr<Call> call;
     std::string party;
-    Clock::time_point since;  // of entering, or of admission
+    Clock::time_point since;  // when it entered, or was admitted
     bool admitted = false;
   };
 
@@ -120,9 +120,9 @@ class CallRegistry {
   int admitted_ = 0;
   bool admitting_ = true;
   std::array<Visit, 2> visits_;  // the latest caller, and the latest other one
-  double mean_seconds_ = 0;      // of recently ended calls
+  double mean_seconds_ = 0;      // mean duration of recently ended calls
   int64_t ended_ = 0;
-  int refused_ = 0;  // that no ended call has made room for
+  int refused_ = 0;  // refused calls that no ended call has made room for
   std::minstd_rand random_{std::random_device{}()};
 };
 

@@ -67,8 +67,8 @@ class CallSession : public Call {
   /// The party with whose calls it is counted.
   std::string party() const { return caller_.Party(); }
 
-  /// Counts the call as in progress. Call on the message thread with the first message. Throws as
-  /// CallRegistry::Admit.
+  /// Counts the call as in progress. Call on the message thread with the first message. Throws what
+  /// CallRegistry::Admit throws.
   void Admit() {
     if (std::exchange(admitted_, true)) return;
     serving_.calls.Admit(this);
@@ -139,7 +139,7 @@ class CallSession : public Call {
     }
   }
 
-  /// Throws Error(kCancelled) if the call is over; for long work.
+  /// Throws Error(kCancelled) if the call is over. Long work calls this.
   void RequireOpen() const {
     if (!outbox_.open()) throw Error(ErrorCode::kCancelled, "", "the call is over");
   }
@@ -181,7 +181,7 @@ class CallSession : public Call {
     }
   }
 
-  /// With a delay for RetryInfo.
+  /// The error's status, with a delay for RetryInfo.
   grpc::Status StatusOf(const Error& error) const {
     const std::optional<Refusal> refusal = RefusalIn(error);
     const bool waits = refusal && *refusal != Refusal::kDraining;
@@ -203,7 +203,7 @@ class CallSession : public Call {
   }
   bool IsNamedResumed() const { return !caller_.resumed_from.empty(); }
 
-  /// Call the next two from the sink only: its calls come one at a time.
+  /// Only the sink may call the next two: its calls come one at a time.
   void CountFrames(size_t frames) {
     if (frames_ == 0) first_frame_s_ = Elapsed();
     frames_ += static_cast<int64_t>(frames);

@@ -10,14 +10,14 @@ namespace choreo {
 /// The caller of a call, for the log.
 struct Caller {
   std::string peer;    ///< gRPC's: an address and a port
-  std::string holder;  ///< of its token; empty without
-  /// From its W3C traceparent, hexadecimal: connects this call with its client's work. Empty
+  std::string holder;  ///< its token's holder; empty without a token
+  /// Its W3C traceparent's ids, hexadecimal, which connect this call with its client's work. Empty
   /// without a valid one.
   std::string trace_id, span_id;
-  /// For calls that dance: 16 hexadecimal digits, sent to the client as kStreamIdHeader.
+  /// Identifies a call that dances: 16 hexadecimal digits, sent to the client as kStreamIdHeader.
   std::string stream_id = {};
-  /// Of a dance that began in another call: that one's stream_id, as the client says in
-  /// kResumedFromHeader; sent back to it.
+  /// The stream_id of the call in which the dance began, as the client says in kResumedFromHeader;
+  /// sent back to it.
   std::string resumed_from = {};
 
   /// The name for calls that are counted together: the token's holder, or else an address.

@@ -18,9 +18,9 @@ class CertificateFiles {
   /// Throws Error(kInvalidArgument) naming the setting of an unusable file.
   explicit CertificateFiles(const ServerConfig& config);
 
-  /// Rereads the files; call regularly. Whether a change could be used; none without a change. A
-  /// fault counts once it was seen twice: files that are replaced one by one do not match for a
-  /// moment. Logs both once. An expired certificate does not replace another.
+  /// Rereads the files; call regularly. Returns whether a change could be used; none without a
+  /// change. A fault counts once it was seen twice: files that are replaced one by one do not match
+  /// for a moment. Logs both once. An expired certificate does not replace another.
   std::optional<bool> Refresh();
 
   /// The certificates and the key, in one file so that they always match.

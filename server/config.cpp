@@ -69,7 +69,7 @@ void CheckSecurity(const ServerConfig& config) {
 }
 
 // An empty file name in a script is usually an unset variable. Without this check the server would
-// start without the protection that was meant.
+// start unprotected.
 void RequireNoEmptyFile(const CLI::App& app) {
   for (const char* name : {"--tls-cert", "--tls-key", "--tls-client-ca", "--tokens"}) {
     const CLI::Option* option = app.get_option(name);
@@ -88,7 +88,7 @@ bool IsOfAService(const std::string& variable) {
   return std::regex_match(variable, kPattern);
 }
 
-// Which of `known` a variable may mean: a near word, or one that has it as a part, or is one.
+// The one of `known` that a variable may mean: a near word, one that contains it, or a part of it.
 std::string MeantBy(const std::string& name, const std::vector<std::string>& known) {
   constexpr size_t kShortestPart = 3;
   Nearest meant(name);

@@ -57,12 +57,12 @@ struct ServerConfig {
   /// HOST:PORT of `metrics`; a port alone means this machine.
   std::string MetricsAddress() const;
   // These need `max_streams` above 0.
-  /// While another caller is there: without a setting all but an eighth, at least one.
+  /// The limit while another caller is there; by default all but an eighth, at least one.
   int MaxStreamsOfPeer() const {
     if (max_streams_of_peer > 0) return max_streams_of_peer;
     return std::max(1, max_streams - std::max(1, max_streams / 8));
   }
-  /// While no other caller is there: without a setting all.
+  /// The limit while no other caller is there; by default all.
   int MaxStreamsOfLonePeer() const {
     return max_streams_of_peer > 0 ? max_streams_of_peer : max_streams;
   }
@@ -83,8 +83,8 @@ struct CommandLine {
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 
 /// Shipped checkpoints by name: installed beside the program, or in the source tree that it was
-/// built in. Without names the default ones. Throws Error(kNotFound) naming where it looked, or
-/// which exist.
+/// built in. Without names it returns the default ones. Throws Error(kNotFound) naming where it
+/// looked, or which exist.
 std::vector<std::filesystem::path> ShippedCheckpoints(const std::vector<std::string>& names);
 
 }  // namespace choreo

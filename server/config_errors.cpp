@@ -122,7 +122,7 @@ std::string InOurWords(const CLI::App& app, const CLI::ParseError& error) {
     return "--config: no file " + said.substr(0, said.find(" was not readable"));
   if (dynamic_cast<const CLI::ConfigError*>(&error)) {  // "INI was not able to parse KEY"
     const std::string key = said.substr(said.rfind(' ') + 1);
-    // Of a section, "SECTION.++", as there are none.
+    // CLI11 adds "SECTION.++" for a section; choreod has none.
     return Unknown(app, app.get_config_ptr()->as<std::string>() + ": ",
                    key.substr(0, key.find('.')));
   }

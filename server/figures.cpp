@@ -225,7 +225,7 @@ class Figures {
     }
   }
 
-  // With the names that Prometheus clients use in all languages.
+  // These are the names that Prometheus clients use in all languages.
   static void AddProcess(Families& out) {
     const pid_t self = getpid();
     // Once: clocks drift, and each change of it is an alert.

@@ -13,16 +13,16 @@ namespace choreo {
 
 /// Shares of the machine's time that may be promised.
 struct FrameShares {
-  double of_all = 0.85;  ///< for all calls together; the rest is for others and for peaks
-  /// To the calls of one caller: while another is there, and while none is.
+  double of_all = 0.85;  ///< all calls' share; the rest is for others and for peaks
+  /// One caller's share while another is there, and while none is.
   double of_peer = 0.85, of_lone_peer = 0.85;
 };
 
-/// The machine's time, promised to calls as they come: each is charged its frames at their present
-/// cost until it gives them back: the engines' (SampleQueue::LoadOf), and for a dance what serving
-/// it takes besides. A crowd is served as far as the machine can, and the rest is refused before it
-/// begins. Models share the devices, so their times add up; a charged model outlives its calls.
-/// `party`: calls with the same one are counted together (Caller::Party). Thread-safe.
+/// Promises the machine's time to calls as they come. Each is charged its frames at their present
+/// cost until it gives them back: the engines' (SampleQueue::LoadOf) and, for a dance, that of
+/// serving it. The machine serves as many calls as it can, and refuses the rest before they begin.
+/// Models share the devices, so their times add up; a charged model outlives its calls. `party`:
+/// calls with the same one are counted together (Caller::Party). Thread-safe.
 class FrameBudget {
  public:
   /// `has_rival`: whether another caller than this party is there. While one is, a caller also
@@ -33,17 +33,17 @@ class FrameBudget {
       : shares_(shares), has_rival_(std::move(has_rival)), serving_(serving) {}
 
   /// Charges a dance, which runs at playing speed, whenever its music comes. Throws Refused if it
-  /// exceeds what is left. A lone caller is always accepted: slow engines serve one at a time. Once
-  /// per call, which any address of its own identifies.
+  /// exceeds what is left. A lone caller is always accepted: slow engines serve one at a time. Call
+  /// it once per call, which any address of its own identifies.
   void TakeDance(const void* call, const SampleQueue& model, const std::string& party);
   /// Charges a transition of this many frames, candidates included; may be called repeatedly.
   /// Charges at most half of all time, however long it is: it yields to dances anyway.
   void TakeTransition(const void* call, const SampleQueue& model, const std::string& party,
                       int frames);
-  /// Also for calls that took nothing.
+  /// Accepts calls that took nothing.
   void GiveBack(const void* call) noexcept;
 
-  /// Whether nobody was charged a transition since the last call of this.
+  /// Whether nobody was charged a transition since the last OnlyDanced.
   bool OnlyDanced();
 
   /// The promised share of the machine's time, by model name.
@@ -63,10 +63,10 @@ class FrameBudget {
   void Take(const void* call, Charge charge);
   double LoadOf(const Charge& charge) const;
 
-  // Requires mutex_. Of all calls, or of one caller's, and of one more.
+  // The load of all calls, or of one caller's, and of one more. Requires mutex_.
   double LoadOf(const std::string* party, const Charge* more = nullptr) const;
 
-  // Of one caller, beside which calls of `cost` come; does not require mutex_.
+  // The most that this caller may take while calls of `cost` come. Does not require mutex_.
   double MostOf(const std::string& party, double cost) const;
 
   const FrameShares shares_;
@@ -74,7 +74,7 @@ class FrameBudget {
   const ServingCost* const serving_;
   mutable std::mutex mutex_;
   std::map<const void*, Charge> charges_;  // by call. Lock: mutex_
-  bool only_danced_ = true;                // but for transitions still in progress. Lock: mutex_
+  bool only_danced_ = true;                // except transitions still in progress. Lock: mutex_
 };
 
 }  // namespace choreo

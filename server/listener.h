@@ -40,7 +40,7 @@ class Listener {
   int port_ = 0;
   int stop_ = -1;  // an eventfd
   std::thread thread_;
-  // Of the thread.
+  // Only the thread uses these.
   int64_t refused_ = 0;  // since the last report
   std::chrono::steady_clock::time_point next_report_;
 };

@@ -28,7 +28,7 @@ struct CallRecord {
   std::optional<Refusal> refusal = {};  ///< the reason for its end
 };
 
-/// A line for outside of the log, as an object like the log's with --log-format json.
+/// A line to print outside the log, as an object like the log's with --log-format json.
 std::string JsonLine(const std::string& level, const std::string& message);
 
 /// Logs a call's single line at level info.

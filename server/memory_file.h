@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// A file of this process alone, in memory, for libraries that take a path. Whoever opens it reads
-/// one whole version. Not thread-safe, but others may read it meanwhile.
+/// A file in memory that only this process sees, for libraries that take a path. Whoever opens it
+/// reads one whole version. Not thread-safe, but others may read it meanwhile.
 class MemoryFile {
  public:
   /// Throws Error(kInternal) if the system gives none.
@@ -16,7 +16,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   std::filesystem::path path() const;
-  /// Throws as the constructor, and then changes nothing.
+  /// Throws what the constructor throws, and then changes nothing.
   void Replace(const std::string& content);
 
  private:

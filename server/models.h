@@ -39,7 +39,7 @@ class Models {
   /// Error(kNotFound) that lists the models.
   Use Find(const std::string& name, const std::string& field) const;
   std::vector<Use> served() const;
-  /// By name. Withdrawn models stay until nobody dances them any more.
+  /// The figures by name. Withdrawn models stay until nobody dances them any more.
   std::map<std::string, Figures> figures() const;
   /// Transitions running or waiting.
   int transitions() const;
@@ -55,7 +55,7 @@ class Models {
   };
 
   mutable std::mutex mutex_;             // guards the members below
-  std::map<std::string, Figures> past_;  // of ended queues, without their models
+  std::map<std::string, Figures> past_;  // figures of ended queues, without their models
   std::vector<Entry> served_;
   std::vector<Entry> former_;
 };

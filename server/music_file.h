@@ -35,8 +35,8 @@ class MusicFile {
   MusicFile(const MusicFile&) = delete;
   MusicFile& operator=(const MusicFile&) = delete;
 
-  /// Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and as the budget; the file
-  /// is then unchanged.
+  /// Throws Error(kInvalidArgument, `field`) beyond kMaxAudioFileBytes, and what the budget throws;
+  /// the file is then unchanged.
   void Append(std::string_view bytes, const std::string& field);
   /// Returns the memory.
   void Clear();

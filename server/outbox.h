@@ -90,7 +90,7 @@ class Outbox {
     Advance();
   }
 
-  /// As Close, but drops queued answers; also works after Close.
+  /// Like Close, but drops queued answers; also works after Close.
   void Abort(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (state_ == State::kFinished) return;
@@ -103,7 +103,7 @@ class Outbox {
     Advance();
   }
 
-  /// After Abort: ends the call even if the client does not take the answer on its way.
+  /// Ends an aborted call even if the client does not take the answer on its way.
   void Reset() {
     const std::lock_guard lock(mutex_);
     if (writing_ && state_ != State::kFinished) wire_->Reset();
@@ -226,7 +226,7 @@ class Outbox {
   mutable std::mutex mutex_;  // guards the members below
   State state_ = State::kOpen;
   std::deque<Item> queue_;  // the front is being written if writing_
-  size_t bytes_ = 0;        // of the queue
+  size_t bytes_ = 0;        // the queue's size
   bool writing_ = false;
   Clock::time_point written_at_ = Clock::now();  // the last answer, or when its writing began
   Clock::time_point read_at_ = Clock::now();     // when the last message was handled

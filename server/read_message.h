@@ -8,11 +8,11 @@
 /// Wire bytes <-> messages of the API.
 namespace choreo {
 
-/// Of one message on the wire.
+/// The most bytes of one message on the wire.
 inline constexpr int64_t kMaxMessageBytes = 16 << 20;
-/// Of one message on the wire, without its music.
+/// The most bytes of one message on the wire, without its music.
 inline constexpr int64_t kMaxOtherBytes = 4 << 20;
-/// Fields of one message on the wire, including nested messages'; an array of numbers is one.
+/// The most fields of one message on the wire, nested ones included; an array of numbers is one.
 inline constexpr int kMaxFields = 16'384;
 
 inline constexpr int kMaxHistoryPoses = 1'000;

@@ -20,19 +20,19 @@ Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::str
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
 
-/// For StreamDance. `fresh_seed` is used where the message has none.
+/// Converts StreamDance's configuration. `fresh_seed` is used where the message has none.
 ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
                          uint64_t fresh_seed);
 
-/// For GenerateTransition, without the samples of music files, which are decoded later
+/// Converts a GenerateTransition, without the samples of music files, which are decoded later
 /// (server/music_file.h).
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
                             uint64_t fresh_seed);
 
-/// Also throws where no control is given. ValidateControls judges the values.
+/// Throws if no control is given. ValidateControls checks the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
 
-/// As they came; CheckPassages says whether they are good.
+/// Converts passages unchecked; CheckPassages checks them.
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 
 /// PCM bytes -> samples, interleaved, full scale [-1, 1].

@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// How the latest attempts went to reread what a running server rereads. Thread-safe.
+/// The results of a running server's latest attempts to reread files. Thread-safe.
 class Reloads {
  public:
   enum What { kModels, kTokens, kCertificate };

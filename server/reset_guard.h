@@ -16,14 +16,14 @@ class ResetGuard {
  public:
   explicit ResetGuard(int most) : most_(most) {}
 
-  /// Makes it see every call of the server, which must not outlive it.
+  /// Watches every call of the server, which must not outlive this.
   void Watch(grpc::ServerBuilder* builder);
 
   /// Whether the address of this socket's peer gets no more connections.
   bool IsFull(int connection) const;
 
-  /// A call begins, and is done; `peer` as in gRPC: an address and a port. An empty one, of gRPC's
-  /// own services, is not counted.
+  /// Call when a call begins, and when it is done. `peer` is gRPC's: an address and a port. An
+  /// empty one, of gRPC's own services, is not counted.
   void Enter(const std::string& peer);
   void Leave(const std::string& peer);
 
@@ -35,7 +35,7 @@ class ResetGuard {
 
   const int most_;
   mutable std::mutex mutex_;
-  std::map<std::string, Connection> connections_;  // with calls, by peer. Lock: mutex_
+  std::map<std::string, Connection> connections_;  // those with calls, by peer. Lock: mutex_
 };
 
 }  // namespace choreo

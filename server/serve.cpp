@@ -119,8 +119,8 @@ void RequireSecrets(const ServerConfig& config) {
   const Tokens tokens(config.tokens);
 }
 
-// For threads that libraries started before main, which do not inherit main's signal mask: such a
-// thread blocks a signal that reaches it, and sends it again.
+// Threads that libraries started before main do not inherit main's signal mask: such a thread
+// blocks a signal that reaches it, and sends it again.
 void HandOn(int signal, siginfo_t* /*info*/, void* context) {
   sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, signal);
   kill(getpid(), signal);

@@ -6,8 +6,8 @@
 /// The life of a choreod process from its settings to its end; for main only.
 namespace choreo {
 
-/// From here on SIGTERM, SIGINT and SIGHUP wait for Serve. Call before other threads start, which
-/// inherit it.
+/// Makes SIGTERM, SIGINT and SIGHUP wait for Serve. Call before other threads start, which inherit
+/// it.
 void HoldSignals();
 
 /// Loads the models, reports where it listens, serves, and rereads a folder of models at SIGHUP.

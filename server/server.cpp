@@ -125,7 +125,7 @@ SampleQueue::Options QueueingOf(const ServerConfig& config) {
   return {.max_bulk = config.max_waiting};
 }
 
-// With as many streams as the machine carries, if the configuration leaves it open. What is
+// Sets as many streams as the machine carries, if the configuration leaves it open. What is
 // measured at start depends on who else is busy then, so it never counts for more than the usual
 // number.
 ServerConfig WithStreams(ServerConfig config,

@@ -41,7 +41,7 @@ class Server {
   /// and engines that do not match.
   bool SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh);
 
-  /// For /metrics: whether the latest reread of a folder of models went well.
+  /// Tells /metrics whether the latest reread of a folder of models succeeded.
   void NoteModelReload(bool good);
 
   /// Health is NOT_SERVING and new calls are UNAVAILABLE at once; calls in progress may continue

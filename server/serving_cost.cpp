@@ -14,8 +14,8 @@
 namespace choreo {
 namespace {
 
-/// So many frames, and so many looks, count about fully: one file that is decoded beside a single
-/// dance must not make all dances dear.
+/// About this many frames and looks count fully: decoding one file beside a single dance must not
+/// make all dances expensive.
 constexpr double kMemoryFrames = 20 * kTypicalFrames, kMemoryLooks = 20;
 
 double MeasureMusic() {

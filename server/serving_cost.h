@@ -6,18 +6,19 @@
 
 namespace choreo {
 
-/// The CPU time that a dance's frame takes beside its sampling: music, messages, gRPC. At first
-/// that of music alone, measured once; then what this process used for recent frames. Thread-safe.
+/// The CPU time that a dance's frame takes beside its sampling: music, messages, gRPC. Starts as
+/// that of music alone, measured once; then follows this process's use for recent frames.
+/// Thread-safe.
 class ServingCost {
  public:
-  /// Of the process since its start.
+  /// The process's totals since its start.
   struct Totals {
-    double cpu_s = 0, sampling_s = 0;  ///< of all threads; of them, what sampling took
-    uint64_t dance_frames = 0;         ///< that went to clients
+    double cpu_s = 0, sampling_s = 0;  ///< all threads' time; sampling's part of it
+    uint64_t dance_frames = 0;         ///< frames that went to clients
   };
 
   ServingCost();
-  /// `seconds_a_frame` to begin with.
+  /// `seconds_a_frame`: the cost to begin with.
   explicit ServingCost(double seconds_a_frame);
 
   /// Learns from the time since the last look, if it went to dances alone. Call regularly.

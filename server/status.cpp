@@ -72,7 +72,7 @@ std::string OneShortLine(std::string_view text) {
   return line.substr(0, head) + "..." + line.substr(tail);
 }
 
-/// For ErrorInfo, by name.
+/// ErrorInfo's metadata, by name.
 using Metadata = std::map<std::string, std::string>;
 
 grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, const Metadata& metadata,

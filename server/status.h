@@ -21,7 +21,7 @@ struct Violation {
 };
 Violation ViolationOf(const Error& error);
 
-/// For unknown callers. Includes ErrorInfo.
+/// The status for unknown callers. Includes ErrorInfo.
 grpc::Status Unauthenticated(const std::string& message);
 
 /// The usual name: "RESOURCE_EXHAUSTED".

@@ -217,7 +217,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     }
   }
 
-  // From the configuration; written before the stream exists.
+  // The configuration sets these, before the stream exists.
   Models::Use queue_;  // keeps the model, even if the server stops serving it
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
@@ -225,7 +225,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   std::vector<double> music_beats_;
   bool rejects_keys_ = false;  // that cannot be used, instead of ending the call
 
-  // From messages.
+  // Messages change these.
   MusicFile file_;
   bool file_decoded_ = false;
 };

@@ -21,10 +21,10 @@ class Tally {
  public:
   static constexpr const char* kInfoMethod = "GetServerInfo";  ///< it dances nothing
 
-  /// By method and status.
+  /// Calls by method and status.
   using Calls = std::map<std::pair<std::string, grpc::StatusCode>, uint64_t>;
 
-  /// By Refusal.
+  /// Refused calls by Refusal.
   using Refusals = std::array<uint64_t, kRefusals.size()>;
 
   /// Counts and logs a call that has ended.

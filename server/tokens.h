@@ -35,8 +35,8 @@ class Tokens {
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
   /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
-  /// is admitted. Logs both once. Whether all lines of a changed file are good; none without a
-  /// change.
+  /// is admitted. Logs both once. Returns whether all lines of a changed file are good; none
+  /// without a change.
   std::optional<bool> Refresh();
 
  private:
