@@ -62,8 +62,8 @@ struct Options {
   bool allow_inexact_resume = false;
   /// Also ask servers that accept no new dances, to inspect them.
   bool even_draining = false;
-  /// Called on a call's thread before each retry; an exception ends the call. For callers who know
-  /// that retrying is useless. May be empty.
+  /// Called on a call's thread before each retry; an exception ends the call. It serves callers who
+  /// know that retrying is useless. May be empty.
   std::function<void()> before_retry = {};
 };
 
@@ -86,17 +86,17 @@ class RemoteDance {
   void RemoveKey(const std::string& id);
   /// Each replaces the earlier one of its kind (velocity factors: for the named parts) from the
   /// first unfrozen frame: that of the last GenerateUntil or, without, the one after the last key.
-  /// Not after CompleteKeys.
+  /// Must come before CompleteKeys.
   void SendControls(const ControlRequest& controls);
   /// Frames before `frame` are final and come; later keys may still change. To edit keys, also set
   /// DanceConfig::generate_until: until this is called each key grants the frames up to itself.
   void GenerateUntil(int64_t frame);
   /// Beats ahead, seconds, strictly ascending, at least one: from the first on they replace known
   /// ones, for transitions that begin after the frozen frames. `downbeats`: those that begin a bar.
-  /// Not after CompleteKeys.
+  /// Must come before CompleteKeys.
   void SendBeats(std::span<const double> seconds, std::span<const double> downbeats = {});
   /// Passages ahead, ascending, at least one: from the first on they replace known ones, for
-  /// transitions that begin after the frozen frames. Not after CompleteKeys.
+  /// transitions that begin after the frozen frames. Must come before CompleteKeys.
   void SendPassages(std::span<const Passage> passages);
   /// Says that no more keys will come, so that the rest may be made.
   void CompleteKeys();

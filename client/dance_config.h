@@ -85,17 +85,16 @@ struct DanceConfig {
   /// Identifies the music, as a part of the seed. 0: computed by the server for a kFile, none for
   /// kPcmFloat.
   uint64_t music_id = 0;
-  /// Where the music repeats, and the dance with it; as in the API. Empty: the server finds them in
-  /// a kFile.
+  /// The API's music_passages: where the music repeats, and the dance with it. Empty: the server
+  /// finds them in a kFile.
   std::vector<Passage> music_passages = {};
   /// 0 to 1: how much a repeated dance differs; default: kDefaultVariation
   std::optional<double> variation = {};
-  /// For editing keys: as RemoteDance::GenerateUntil before all else; keys then grant no frames.
+  /// Acts like RemoteDance::GenerateUntil before all else: keys grant no frames, so can be edited.
   std::optional<int64_t> generate_until = {};
   /// A key that cannot be used is a KeyRejected message, instead of the end of the dance.
   bool reject_invalid_keys = false;
-  /// Beside key poses and music, for models that support them (ModelDescription::controls); from
-  /// the first frame on.
+  /// Controls from the first frame on, for models that support them (ModelDescription::controls).
   ControlRequest controls = {};
 };
 

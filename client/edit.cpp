@@ -42,7 +42,7 @@ class Edit {
 
   double fps() const { return options_.model.fps; }
   int64_t frames() const { return static_cast<int64_t>(poses_.size()); }
-  /// From `first` to the end or to `kLeadIn` poses.
+  /// The poses from `first` on, at most `kLeadIn`.
   std::vector<Pose> From(int64_t first) const { return Poses(first, first + kLeadIn); }
   const Pose& pose(int64_t frame) const { return poses_[static_cast<size_t>(frame)]; }
 

@@ -31,7 +31,7 @@ class Attempt {
   std::string StreamId() const;
   /// Blocks; false at the end of the call.
   bool Read(v1::StreamDanceResponse* response) { return stream_->Read(response); }
-  /// After Read returned false: how the call ended.
+  /// Returns how the call ended. Call after Read returned false.
   grpc::Status Finish();
   void NotifyAppended() { appended_.notify_one(); }
   void Cancel() { context_.TryCancel(); }

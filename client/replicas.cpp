@@ -31,7 +31,7 @@ constexpr const char* kTurnsAtServing = R"({
 })";
 constexpr const char* kTurns = R"({"loadBalancingConfig": [{"round_robin": {}}]})";
 
-/// For servers with any certificate.
+/// Credentials for servers with any certificate.
 std::shared_ptr<grpc::ChannelCredentials> Unverified(const grpc::SslCredentialsOptions& own) {
   namespace tls = grpc::experimental;
   tls::TlsChannelCredentialsOptions options;

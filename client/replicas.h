@@ -36,7 +36,7 @@ class Replicas {
   /// "token_file".
   void Prepare(grpc::ClientContext* context) const;
   Server current() const;
-  /// After a failure moves on to the next server, unless another caller already has. False if there
+  /// Moves on from a failed server to the next, unless another caller already has. False if there
   /// is no other.
   bool Leave(const Server& failed);
   /// Waits before the next attempt, or until `stop`, which is polled, returns true; connections are
@@ -62,7 +62,7 @@ class Patience {
   /// (`elsewhere`); none if a retry is useless or no longer allowed. Throws what
   /// Options::before_retry throws.
   std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed, bool elsewhere);
-  /// After Next gave none: the status for the caller. Why a reachable server refused says more than
+  /// The status for the caller after Next gave none. A reachable server's refusal says more than
   /// that another one is unreachable.
   const grpc::Status& Verdict() const { return verdict_; }
   /// There was progress: start counting again.

@@ -31,8 +31,8 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// The seconds of keys, the first at 0. With beats: every 1, 2, 4, 8 ... beats, the fewest that
-/// leave time to move; the count continues before the first and after the last beat.
+/// The seconds of keys, the first at 0. With beats there is a key every 1, 2, 4, 8 ... beats, the
+/// fewest that leave time to move; the count continues before the first and after the last beat.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
   const auto& [seconds, beats, passages, seed, way, end, named] = request;
   double period = kPlainInterval;
@@ -69,7 +69,7 @@ class Walk {
                            ? std::atan2(-place_.origin.x(), -place_.origin.z())
                            : dice_->Between(-M_PI, M_PI);
     place_.origin += distance * Eigen::Vector3d(std::sin(way), 0, std::cos(way));
-    // Turns the dancer back to the audience, so that she never turns her back for long.
+    // Turns the dancer back to the audience, who never see a dancer's back for long.
     place_.heading += kTurningSpeed * seconds * dice_->Between(-1, 1);
     place_.heading = std::clamp(place_.heading, -1.2, 1.2);
     return place_;

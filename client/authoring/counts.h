@@ -29,13 +29,13 @@ struct WrittenTime {
   double amount = 0;
   bool counts = false;
 
-  /// As a duration: the time this much later than `seconds`. Counts continue at their pace before
-  /// the first beat and after the last. Throws Error(kInvalidArgument, field) for counts without
-  /// two beats.
+  /// Reads a duration: returns the time this much later than `seconds`. Counts continue at their
+  /// pace before the first beat and after the last. Throws Error(kInvalidArgument, field) for
+  /// counts without two beats.
   double After(double seconds, const Counts& counted, const std::string& field) const;
 
-  /// As a moment: seconds as they are; of counts the second of that count. Errors as After, and for
-  /// a count before second 0.
+  /// Reads a moment: returns seconds unchanged, and for counts the second of that count. Fails as
+  /// After does, and for a count before second 0.
   double In(const Counts& counted, const std::string& field) const;
 };
 

@@ -95,7 +95,7 @@ Dancer ReadDancer(const json& value, const std::string& field, size_t number,
   return dancer;
 }
 
-/// Whom a dancer faces by name is known once all are read.
+/// A dancer may face another by name, who is known once all are read.
 void FaceEachOther(const json& list, const std::string& name, std::vector<Dancer>* dancers) {
   for (size_t i = 0; i < dancers->size(); ++i) {
     if (!list[i].contains("facing") || !list[i]["facing"].is_string()) continue;

@@ -18,14 +18,14 @@ inline constexpr double kUsuallyApart = 0.2;  ///< metres: dancers do not brush 
 /// One of several dancers. Members left open have the common value.
 struct Dancer {
   std::string id;
-  Eigen::Vector2d place = {0, 0};  ///< x and z of the stage where her own dance has its origin
-  double facing = 0;               ///< degrees that her dance is turned: 90 is along x
+  Eigen::Vector2d place = {0, 0};  ///< x and z of the stage where the dance has its origin
+  double facing = 0;               ///< degrees that the dance is turned: 90 is along x
   bool mirrored = false;           ///< left is right
   std::optional<WrittenTime> after =
-      {};  ///< she does everything this much later, and stands still before
+      {};  ///< does everything this much later, and stands still before
   std::optional<uint64_t> seed = {};
   std::string style = {};
-  std::vector<std::string> keyframes = {};  ///< her own, as ReadKeys takes them (key_file.h)
+  std::vector<std::string> keyframes = {};  ///< own keys, as ReadKeys takes them (key_file.h)
 };
 
 /// The dancers of a file; docs/dancers.md describes it.
@@ -39,7 +39,7 @@ struct Dancers {
 /// naming value and limit.
 Dancers ParseDancers(const std::string& text, const std::string& name,
                      const std::filesystem::path& folder);
-/// The same from a file. Also throws Error(kNotFound) if it does not exist.
+/// Reads the same from a file. Throws Error(kNotFound), too, if it does not exist.
 Dancers ReadDancers(const std::filesystem::path& path);
 
 }  // namespace choreo::authoring

@@ -20,7 +20,7 @@ struct NearestPair {
   BodyDistance distance = {};
 };
 
-/// At least two dances. `places`: the offset of each from where it was made, metres.
+/// Takes at least two dances. `places`: the offset of each from where it was made, metres.
 NearestPair FindNearest(const std::vector<MovingBody>& bodies,
                         const std::vector<Eigen::Vector3d>& moved);
 
@@ -39,7 +39,7 @@ int64_t FramesLater(const Dancer& dancer, std::span<const double> beats, double 
                     const std::string& field);
 
 /// A dance as performed by one of its dancers: mirrored, delayed by this many frames, turned and
-/// moved to her place.
+/// moved to that dancer's place.
 client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
                               client::FinishedDance dance, int64_t later);
 

@@ -24,7 +24,7 @@ template <typename Json>
 bool IsFrameNumber(const Json& value) {
   return value.is_number_unsigned() && value.template get<uint64_t>() <= kMaxFrameNumber;
 }
-/// After the end of any dance, and far below the limits of frame numbers.
+/// A time after the end of any dance, and far below the limits of frame numbers.
 inline constexpr double kMaxSeconds = 1e9;
 /// Seconds of the longest dance.
 inline constexpr double kMaxDanceSeconds = kMaxDanceFrames / kModelFps;

@@ -25,7 +25,7 @@ struct Music {
 };
 
 /// Decodes a song and finds its beats: all of it, or its first `seconds` plus what they depend on.
-/// With `start`, as if the song began there. Errors as DecodeSong and BeatsAsAsked;
+/// With `start` the song begins there. Throws what DecodeSong and BeatsAsAsked throw;
 /// Error(kInvalidArgument) whose field is "song_start" for a start after its end. Writes notes to
 /// standard error.
 Music ReadMusic(const std::filesystem::path& path,

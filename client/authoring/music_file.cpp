@@ -93,7 +93,7 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
                                            double start) {
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
   const MemoryFile wav, log;
-  // From the container's second 0 on, as players do, even if the sound begins later.
+  // Starts at the container's second 0, as players do, even if the sound begins later.
   bool converted = ConvertByFfmpeg(path, "aresample=async=1:first_pts=0", wav, log);
   FfmpegSays says = Listen(log);
   if (converted && says.restarts) {

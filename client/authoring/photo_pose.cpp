@@ -76,7 +76,7 @@ class Numbers {
   json json_;
 };
 
-/// From axis-angle vectors or matrices; `joints` may be anything up to `most`.
+/// Reads axis-angle vectors or matrices; `joints` may be anything up to `most`.
 std::vector<Eigen::Matrix3d> Rotations(const std::vector<double>& numbers, int least, int most,
                                        const std::string& field) {
   const auto count = static_cast<int>(numbers.size());

@@ -18,7 +18,7 @@ struct Project {
   std::optional<uint64_t> seed = {};
   std::string style = {};                                     ///< empty: as it comes
   std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
-  /// Of the song, seconds; none: as they are found. Downbeats are beats, too.
+  /// The song's, seconds; none: those that are found. Downbeats are beats, too.
   std::vector<double> beats = {}, downbeats = {};
   std::vector<double> ones = {};  ///< downbeats that begin an eight
   WrittenControls controls = {};  ///< no velocities where all are 1

@@ -9,7 +9,7 @@
 
 namespace choreo::cli {
 
-/// As --song: no music, not that of the report either.
+/// The value of --song that means no music, not even the report's.
 inline constexpr const char* kNoSong = "none";
 
 /// What a dance was asked for beside its keys and controls. Its report says so, for later edits.
@@ -25,7 +25,7 @@ struct Asked {
 
   /// Adds it to a report.
   void WriteTo(nlohmann::ordered_json* report) const;
-  /// From the report called `name`; reports of earlier versions say less. Throws
+  /// Reads the report called `name`; reports of earlier versions say less. Throws
   /// Error(kInvalidArgument) whose field is NAME:MEMBER.
   static Asked ReadFrom(const nlohmann::ordered_json& report, const std::string& name);
 
@@ -36,7 +36,7 @@ struct Asked {
   bool TakeSong(const std::filesystem::path& report, bool says_start, const std::string& without,
                 std::string* to, double* start_s) const;
 
-  /// For the part of the dance from this second on.
+  /// What was asked for the dance from this second on.
   Asked From(double seconds) const;
 };
 

@@ -19,8 +19,8 @@ std::vector<BoneChoice> ReadBoneMap(const std::filesystem::path& path);
 void WriteBoneMap(const std::filesystem::path& json, const std::filesystem::path& png,
                   const RigNodes& rig, const HumanBones& bones);
 
-/// For a rig whose names tell too little: writes OUT.map.json, the `found` bones and a guess of the
-/// rest, and OUT.map.png, and throws Error(kInvalidArgument), whose field is `name`, naming them.
+/// For unclear rigs, writes OUT.map.json, the `found` bones and a guess of the rest, and
+/// OUT.map.png. Throws Error(kInvalidArgument), whose field is `name`, naming them.
 [[noreturn]] void SuggestBoneMap(const std::filesystem::path& out, const std::string& name,
                                  const RigNodes& rig, HumanBones found);
 

@@ -21,7 +21,7 @@ struct BvhOptions {
   /// Throws Error(kInvalidArgument), whose field is the option, if one is given and `out` is not a
   /// BVH, and for unknown names.
   void Check(const std::filesystem::path& out) const;
-  /// As WriteMotion (motion_file.h), a BVH in this layout.
+  /// Writes like WriteMotion (motion_file.h), a BVH in this layout.
   void Write(const std::filesystem::path& out, const Skeleton& skeleton, const Motion& motion,
              const std::vector<Contacts>& contacts) const;
 };

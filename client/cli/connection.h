@@ -21,9 +21,9 @@ struct ServerOptions {
   bool even_draining = false;
 
   void AddTo(CLI::App& command);
-  /// For commands whose dances outlive a server.
+  /// Adds the flag to commands whose dances outlive a server.
   void AddInexactResume(CLI::App& command);
-  /// Without addresses, the client's default.
+  /// Uses the client's default without addresses.
   client::Options ForClient() const;
 };
 
@@ -35,7 +35,7 @@ class Connection {
 
   const client::Client& client() const { return *client_; }
   const client::ServerDescription& server() const { return server_; }
-  /// By name; the server's default if empty. Throws Error(kNotFound) naming the existing ones.
+  /// The model of this name, or the default. Throws Error(kNotFound) naming the existing ones.
   const client::ModelDescription& model(const std::string& name) const;
 
  private:

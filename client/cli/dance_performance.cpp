@@ -21,7 +21,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Without a song: as long as the path and the keys need.
+/// A dance without a song lasts as long as the path and the keys need.
 double ChooseSilentSeconds(const DanceOptions& options, const ControlRequest& controls,
                            const client::ModelDescription& model) {
   if (options.seconds) return *options.seconds;

@@ -81,7 +81,7 @@ void CheckFirstKey(const EditOptions& options) {
   const auto report = ReadReport(options.report);
   const ReportKeys keys = KeysOf(report, std::numeric_limits<int64_t>::max(), options.report);
   const std::string& id = removes ? options.removed.front() : options.moves.front().first;
-  // Only with the song's counts it is known which key ID@COUNT is.
+  // Only the song's counts tell which key ID@COUNT is.
   if (!options.song.empty() && id.find('@') != std::string::npos) return;
   FindKey(keys, id, report["fps"].get<double>(), removes ? "--remove" : "--move", {});
 }

@@ -78,7 +78,8 @@ void Mark(const std::string& id, double time_s, ordered_json* markers) {
   markers->insert(next, std::move(marker));
 }
 
-/// As the studio writes it: short lists and objects, as vectors and markers are, have a line each.
+/// Writes as the studio does: short lists and objects, such as vectors and markers, have a line
+/// each.
 std::string Readable(const ordered_json& value, const std::string& indent = "") {
   const bool is_flat =
       std::ranges::none_of(value, [](const ordered_json& part) { return part.is_structured(); });

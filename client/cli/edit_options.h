@@ -51,11 +51,11 @@ struct EditOptions {
   std::string model;
   std::string out;
 
-  // For projects (edit_markers.h).
+  // Edits of projects (edit_markers.h).
   std::vector<std::pair<std::string, std::string>> marks;  ///< names and times
   std::vector<std::string> unmarked;
 
-  // For whole dances (edit_whole.h).
+  // Edits of whole dances (edit_whole.h).
   std::string from, until;  ///< times; or empty
   bool mirror = false;
   std::string join, join_report;

@@ -126,7 +126,7 @@ class Whole {
   }
 
  private:
-  /// At the model's rate.
+  /// Frames at the model's rate.
   int64_t Frames() const {
     return static_cast<int64_t>(std::floor(Duration(dance_.motion) * fps_ + kOnFrame)) + 1;
   }
@@ -136,7 +136,7 @@ class Whole {
     ReportKeys keys;
     for (auto& [frame, key] : known_.keys) {
       key["frame"] = frame + by;
-      // From the former file.
+      // These describe the former file.
       for (const char* member :
            {"output_frame", "on_output_frame", "output_error_m", "output_error_deg"}) {
         key.erase(member);

@@ -12,11 +12,11 @@ namespace choreo::cli {
 /// precision.
 using MotionSketch = std::vector<double>;
 
-/// Of a dance of `frames` at `fps`, whose file may have another rate; 16 moments, or one for each
-/// frame.
+/// Sketches a dance of `frames` at `fps`, whose file may have another rate: 16 moments, or one for
+/// each frame.
 MotionSketch SketchOf(const Motion& motion, int64_t frames, double fps);
 
-/// At how many moments two sketches differ by more than rates and precision of files can make them.
+/// Counts moments where two sketches differ by more than files' rates and precision explain.
 size_t CountUnlike(const MotionSketch& a, const MotionSketch& b);
 
 }  // namespace choreo::cli

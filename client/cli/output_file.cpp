@@ -25,7 +25,7 @@ void RequireWritable(const NamedFile& file) {
   const fs::file_type there = fs::status(file.path, error).type();
   if (there == fs::file_type::none) refuse(error.message());
   if (there == fs::file_type::directory) throw InvalidArgument(file.option, name + " is a folder");
-  // Only trying gives a reliable answer; leaves no file behind.
+  // Tries to write, as only that gives a reliable answer; leaves no file behind.
   const auto open = [&](const fs::path& path) {
     errno = 0;
     if (!std::ofstream(path, std::ios::app).is_open()) refuse(std::strerror(errno));

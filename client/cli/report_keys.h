@@ -22,9 +22,9 @@ ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const st
                   int64_t missing = 0);
 
 /// Frames of the key called `id`, or ID@TIME if several are, and of those after it that hold its
-/// pose, in order. Of ID@TIME it is the nearest, at most half a count or kTooNear (key_file.h)
-/// away. Throws Error(kInvalidArgument) with this field unless there is exactly one, and for a TIME
-/// in counts that these do not have.
+/// pose, in order. ID@TIME means the nearest, at most half a count or kTooNear (key_file.h) away.
+/// Throws Error(kInvalidArgument) with this field unless there is exactly one, and for a TIME in
+/// counts that these do not have.
 std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,
                              const std::string& field, const authoring::Counts& counts);
 

@@ -24,7 +24,7 @@ fs::path PathOf(const authoring::Dancer& dancer, const fs::path& path) {
 
 bool HoldsAll(const fs::path& out) { return SmallExtension(out) == ".glb"; }
 
-/// A dancer's options: her own, and the common ones for the rest.
+/// A dancer's options: the dancer's own, and the common ones for the rest.
 DanceOptions OwnOptions(const DanceOptions& options, const authoring::Dancer& dancer,
                         const std::string& field) {
   DanceOptions own = options;

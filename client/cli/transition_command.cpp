@@ -64,7 +64,7 @@ client::TransitionResult Generate(const client::Client& client,
   }
 }
 
-// Without them it would not show.
+// --at would have no effect without these.
 void CheckAt(const CLI::App& command, const TransitionOptions& options) {
   const auto is_absent = [](const NamedFile& file) { return file.path.empty(); };
   if (command.count("--at") > 0 && options.song.empty() &&
@@ -125,7 +125,7 @@ void Run(const TransitionOptions& options) {
   const authoring::NamedPose to = authoring::ReadPose(options.to, model.skeleton);
   client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it
-  // For a library pose the path sets the place.
+  // The path sets the place of a library pose.
   if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
   if (options.hit) target.hit = options.hit;
   if (!options.hands.empty()) target.hands = FindHandPose(options.hands);

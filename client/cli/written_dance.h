@@ -12,7 +12,7 @@
 
 namespace choreo::cli {
 
-/// A key in the written motion. At another rate than the model's, a key may fall between the file's
+/// A key in the written motion. If the rate is not the model's, a key may fall between the file's
 /// frames: the dance reaches it, but no frame shows it.
 struct WrittenKey {
   client::KeyReached reached = {};  ///< from the server

@@ -12,11 +12,11 @@
 
 namespace choreo::live {
 
-/// What a listener says about the beats that she hears.
+/// What a listener says about the beats heard.
 struct LiveBeatHint {
   BeatHint beats = {};
   std::optional<double> downbeat_s = {};  ///< second of the music at which a bar began
-  double later_s = 0;  ///< by which her beats are later than those that are found
+  double later_s = 0;                     ///< by which they are later than the beats found
 };
 
 /// Predicts the beats of live music: finds those of its last minutes as in a whole song
@@ -34,8 +34,8 @@ class BeatEar {
   /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second; none
   /// while no beat is clear.
   BeatsAhead Hear(std::span<const float> mono);
-  /// Waits for a search in progress, whose beats the next Hear returns. For callers not in real
-  /// time.
+  /// Waits for a search in progress, whose beats the next Hear returns. Callers not in real time
+  /// need it.
   void Wait() const {
     if (found_.valid()) found_.wait();
   }

@@ -80,7 +80,7 @@ class LiveDance {
   std::vector<client::KeyPose> DancedKeys() const;
 
  private:
-  // On the thread of Run.
+  // Runs on the thread of Run.
   void Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi);
   void SendBeats(BeatsAhead ahead, double now);
   void Follow(const Cue& cue, double now);
@@ -91,7 +91,7 @@ class LiveDance {
   int64_t FrameAt(double seconds) const;
   void ShowFigures(double seconds);
 
-  // On the reading thread.
+  // Runs on the reading thread.
   void Read();
   void Take(const client::Message& message);
   void TakeFrames(const client::FrameBlock& block);

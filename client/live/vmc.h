@@ -8,8 +8,8 @@
 
 namespace choreo::live {
 
-/// Sends poses as VMC (Virtual Motion Capture protocol), as VTuber programs and game engines
-/// expect: OSC over UDP, one bundle per frame with /VMC/Ext/OK, /VMC/Ext/T, /VMC/Ext/Root/Pos and a
+/// Sends poses by VMC (Virtual Motion Capture protocol) to VTuber programs and game engines: OSC
+/// over UDP, one bundle per frame with /VMC/Ext/OK, /VMC/Ext/T, /VMC/Ext/Root/Pos and a
 /// /VMC/Ext/Bone/Pos for each bone, by VRM's names. The root is the hips' floor position, unturned;
 /// the hips have their height and rotation. VMC is left-handed, so x is mirrored. The skeleton's
 /// rest pose counts as VRM's T-pose. Not thread-safe.
