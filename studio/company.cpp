@@ -25,7 +25,7 @@ void Keep(const google::protobuf::RepeatedPtrField<File>& files, const ScratchFo
   }
 }
 
-/// A dancer's own keys, of these files or in her own text.
+/// A dancer's own keys, of these files or in the dancer's own text.
 void DescribeKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
                   const Skeleton& skeleton, const authoring::Counts& counts, StageDancer* said) {
   said->set_has_keys(!dancer.keyframes.empty());

@@ -26,7 +26,7 @@ class WebServer {
   WebServer(const std::string& listen, const StudioContext& context);
   ~WebServer();
 
-  /// As typed into a browser: "http://127.0.0.1:8765".
+  /// The address to type into a browser: "http://127.0.0.1:8765".
   std::string url() const;
   int port() const { return acceptor_.local_endpoint().port(); }
 

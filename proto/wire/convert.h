@@ -22,13 +22,13 @@ namespace choreo::wire {
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
 v1::Pose ToProto(const Pose& pose);
-/// Without a root position if the mask does not include one.
+/// Omits the root position if the mask does not include one.
 v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
 v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
 v1::ModelInfo ToProto(const ModelDescription& model);
-/// With frames in axis-angle.
+/// The header declares frames in axis-angle.
 v1::Header ToProto(const DanceHeader& header);
 v1::QualityReport ToProto(const QualityReport& report);
 v1::Timing ToProto(const CallTiming& timing);
