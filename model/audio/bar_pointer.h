@@ -73,7 +73,7 @@ class BarPointer {
 
   BarPointer(std::span<const BarPattern> patterns, const Limits& limits);
 
-  /// Before the first Add: EvenOnsets::Settle.
+  /// Calls EvenOnsets::Settle. Call before the first Add.
   void Settle(std::span<const Onset> onsets) { even_.Settle(onsets); }
   void Add(const Onset& onset);
 
@@ -116,7 +116,7 @@ class BarPointer {
   std::vector<std::array<double, 2>> likelihood_;  // [place * bands]: a + b x
   std::vector<Ring> rings_;
   std::vector<Part> parts_;
-  // Of each place in the last kHistory frames: its score, and the sum of it and of the next three.
+  // The score of each place in the last kHistory frames, and its sum with the next three.
   std::vector<float> place_scores_, beginning_;
   std::vector<float> scores_;                 // of all rings
   std::vector<float> best_;                   // by ring: of the paths to its beat in this frame

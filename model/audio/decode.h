@@ -37,7 +37,8 @@ struct DecodedAudio {
 /// Decodes a sound file from second `start` on (seeking past up to a gigabyte), or `seconds` of it,
 /// rounded up to whole pieces; the rest is not read. Limits apply to what is kept. Returns no
 /// samples if `start` lies beyond the end. `-` reads standard input; pipes are read to their end.
-/// In seconds where channels cancel each other by 6 dB or more, all are the loudest, with a note.
+/// In seconds where channels cancel each other by 6 dB or more, the loudest replaces all, with a
+/// note.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
                              double seconds = std::numeric_limits<double>::infinity(),
                              double start = 0);

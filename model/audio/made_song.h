@@ -36,7 +36,7 @@ struct MadeSong {
   std::vector<double> beats, downbeats;  ///< seconds, ascending
 };
 
-/// On one machine the same plan gives the same bits.
+/// The same plan gives the same bits on one machine.
 MadeSong MakeSong(const SongPlan& plan);
 
 }  // namespace choreo

@@ -14,7 +14,7 @@ inline constexpr int kFftSize = 2048;  ///< samples at 22 050 Hz in an analysis 
 inline constexpr int kMelBands = 128;
 inline constexpr size_t kBassBands = 4;  ///< of them: up to 130 Hz, where the bass drum is
 
-/// Per mel band: 10 log10(power), floored at 1e-10 (-100 dB).
+/// Each mel band's 10 log10(power), floored at 1e-10 (-100 dB).
 using MelBandsDb = std::array<double, kMelBands>;
 
 /// The triangle of one band.

@@ -46,7 +46,7 @@ struct MusicLevel {
   double loud = 0;  ///< LUFS
   double deep = 0;  ///< dB, its bass
 };
-/// Over the last second, kLevelRows.
+/// The rows of the last second, over which levels are taken.
 inline constexpr int kLevelRows = 30;
 MusicLevel HearLevel(std::span<const RowSound> rows, const MusicDynamicsOptions& options = {});
 

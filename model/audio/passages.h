@@ -52,7 +52,7 @@ class PassageListener {
   using Moment = Eigen::Matrix<float, kNumbers, 1>;
 
   Moment Hear(std::span<const float> window);
-  // Of the likeliest path; -1 if the moment is new.
+  // The likeliest path's lag; -1 if the moment is new.
   int64_t LagAt(int64_t moment) const;
   // [moments] the last moment's similarity to each.
   Eigen::VectorXf LikenessOfLast() const;
@@ -71,7 +71,7 @@ class PassageListener {
   // Score of the best path that ends with each lag, and with none.
   std::vector<double> worth_;
   double worth_of_none_ = 0;
-  // By moment: for each lag, whether the best path began there; and the lag from which the best
+  // For each moment and lag, whether the best path began there; and the lag from which the best
   // path to "none" comes (-1: from none).
   std::vector<std::vector<bool>> begins_;
   std::vector<int64_t> ended_;

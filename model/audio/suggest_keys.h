@@ -35,7 +35,7 @@ struct SuggestionRequest {
 };
 
 /// What begins at each beat. A repeated passage begins at the nearest downbeat and is counted like
-/// the original. Without bars all are kBeat.
+/// the original. All are kBeat if there are no bars.
 std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage> passages);
 
 /// Chooses beats for key poses, ascending, at least kMinKeyInterval apart. Maximises the sum

@@ -5,7 +5,7 @@ namespace choreo {
 struct Colour {
   double r = 0, g = 0, b = 0;  ///< sRGB, 0 to 1
 
-  /// From 0xRRGGBB.
+  /// Makes a colour of 0xRRGGBB.
   static constexpr Colour Hex(unsigned rgb) {
     return {(rgb >> 16 & 0xff) / 255.0, (rgb >> 8 & 0xff) / 255.0, (rgb & 0xff) / 255.0};
   }

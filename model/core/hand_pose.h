@@ -13,7 +13,7 @@ namespace choreo {
 /// What hands do. kRest leaves fingers as the rig has them.
 enum class HandPose { kRest, kRelaxed, kOpen, kFist, kPoint };
 
-/// By HandPose.
+/// The names by HandPose.
 inline constexpr std::array<std::string_view, 5> kHandPoseNames = {"rest", "relaxed", "open",
                                                                    "fist", "point"};
 

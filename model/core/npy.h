@@ -52,12 +52,12 @@ std::string JoinNpy(const NpyParts& parts);
 NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name);
 /// SplitNpy, then ReadNpyParts.
 NpyArray ParseNpy(std::string_view bytes, const std::string& name);
-/// As ParseNpy; Error(kNotFound) if the file cannot be opened.
+/// Throws what ParseNpy throws; Error(kNotFound) if the file cannot be opened.
 NpyArray ReadNpy(const std::filesystem::path& path);
 
 /// Throws Error(kInvalidArgument) if the number of values is not the product of the shape.
 std::string SerializeNpy(const NpyArray& array);
-/// As SerializeNpy; Error(kInternal) if the file cannot be written.
+/// Throws what SerializeNpy throws; Error(kInternal) if the file cannot be written.
 void WriteNpy(const std::filesystem::path& path, const NpyArray& array);
 
 }  // namespace choreo

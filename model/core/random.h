@@ -32,9 +32,9 @@ class Random {
 
   /// 32 random bits.
   uint32_t Next();
-  /// In [0, 1), 53 random bits.
+  /// A number in [0, 1) of 53 random bits.
   double Uniform();
-  /// In [low, high).
+  /// A number in [low, high).
   double Uniform(double low, double high);
   /// Mean 0, standard deviation 1.
   double Normal();

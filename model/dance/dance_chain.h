@@ -63,7 +63,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Whether the last call to the sink has been made or is under way.
   bool over() const { return mailbox_.over(); }
 
-  /// The answer to a key with these hands that came too late: a rejection, or that it was reached
+  /// Answers a key with these hands that came too late: rejects it, or says that it was reached
   /// before the dance was resumed. Only inside Apply.
   void PostLate(const KeyRejected& rejection, std::optional<HandPose> hands);
 
@@ -76,7 +76,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
-  // As Apply, for what happens to the dance itself, also once it is over.
+  // Like Apply, but for changes of the dance's own, and also after its end.
   void React(const std::function<void()>& change) noexcept;
   // Hands out at most `most` frames and ends of transitions, and calls the sink. Only one thread at
   // a time does so, on behalf of all others. Returns true if there may be more.

@@ -72,10 +72,10 @@ struct DanceConfig : DanceStart {
   /// The dance is frames [first, end_frame), model rate, absolute. Without it a dance with music
   /// ends with the music or the last key, whichever is later, one without music at the last key.
   std::optional<int64_t> end_frame;
-  /// As DanceStream::GenerateUntil, before all messages: keys then grant nothing.
+  /// Acts like DanceStream::GenerateUntil before all messages: keys then grant nothing.
   std::optional<int64_t> generate_until;
 
-  /// Where the dance starts: 0, or the continuation's frame.
+  /// The frame where the dance starts: 0, or the continuation's.
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
 
   /// Throws as ValidateStart; Error(kOutOfRange) for audio that begins too late;

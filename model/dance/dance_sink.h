@@ -21,7 +21,7 @@ class DanceSink {
                         std::span<const Contacts> contacts) = 0;
   /// Events belong to the frames delivered just before.
   virtual void OnEvent(const DanceEvent& event) = 0;
-  /// At each transition's end, after its frames and events.
+  /// Comes at each transition's end, after its frames and events.
   virtual void OnContinuation(const Continuation& continuation) = 0;
   virtual void OnSummary(const QualityReport& report) = 0;
   /// kCancelled after Cancel, else the failure.

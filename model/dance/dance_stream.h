@@ -50,8 +50,8 @@ class DanceStream {
   /// before the first sample. DanceConfig has precedence.
   void SetMusic(const MusicAnalysis& music);
 
-  /// What errors call the next message of a kind: "keyframes[i]", where i counts accepted ones. For
-  /// code that parses messages.
+  /// The name that errors give the next message of a kind: "keyframes[i]", where i counts accepted
+  /// ones. Code that parses messages uses it.
   std::string NextKeyframe() const;
   std::string NextControls() const;
   std::string NextMusicBeats() const;
@@ -72,9 +72,9 @@ class DanceStream {
   /// in frozen frames are dropped with a Warning. Errors name NextMusicBeats(); none may come after
   /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
-  /// At least one, valid by CheckPassages. From the first on they replace known passages, for
-  /// transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may come
-  /// after KeysComplete.
+  /// Takes at least one passage, valid by CheckPassages. From the first on they replace known ones,
+  /// for transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may
+  /// come after KeysComplete.
   void GivePassages(const std::vector<Passage>& passages);
   void GenerateUntil(int64_t frame);
   /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.

@@ -56,8 +56,8 @@ class Mailbox {
     delivering_ = false;
   }
 
-  /// Drops waiting calls; OnError is the last call. For when memory is out: allocates nothing
-  /// itself; if the listener does and fails, the call is lost.
+  /// Drops waiting calls; OnError is the last call. Call it when memory is exhausted: it allocates
+  /// nothing. If the listener does and fails, the call is lost.
   void GiveUp() noexcept {
     {
       std::lock_guard lock(mutex_);

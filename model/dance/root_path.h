@@ -43,7 +43,7 @@ class PathCurve {
   int64_t last() const { return frames_.back(); }
   bool Covers(int64_t frame) const { return frame >= first() && frame <= last(); }
   bool has_heights() const { return has_heights_; }
-  /// Before the first and after the last point the curve is straight. y is 0 without heights.
+  /// The curve is straight before the first and after the last point. y is 0 without heights.
   PathPoint At(int64_t frame) const;
 
  private:

@@ -83,7 +83,7 @@ class Timeline {
     /// The dance is frames [first_frame, end_frame), and keys must be in them.
     std::optional<int64_t> end_frame = {};
     bool has_music = false;
-    /// As if by GenerateUntil before all messages; none: keys grant.
+    /// Granted as if by GenerateUntil before all messages; none: keys grant.
     std::optional<int64_t> granted = {};
     int max_transition_frames = kMaxTransitionFrames;  ///< the model's
     int sight_frames = 0;                              ///< the model's

@@ -21,9 +21,9 @@ namespace choreo {
 
 /// One transition as its caller describes it.
 struct TransitionRequest {
-  /// In the world frame. The history may have any number of poses: the last tau count, fewer are
-  /// padded with the earliest, and none means the neutral stance at the origin. A target without a
-  /// position needs no height.
+  /// What to make, in the world frame. The history may have any number of poses: the last tau
+  /// count, fewer are padded with the earliest, and none means the neutral stance at the origin. A
+  /// target without a position needs no height.
   TransitionSpec spec;
   /// The pose one frame after the key, if the motion that follows exists already.
   std::optional<Pose> after;
@@ -98,7 +98,7 @@ class TransitionRun {
   GroundFrame ground_;
   int arrival_window_ = 0;  // 0: no steering
   std::optional<double> hit_;
-  bool held_ = false;  // she holds her pose
+  bool held_ = false;  // the dancer holds the pose
   bool footwork_;
   GroundFrame stage_;         // of the request, world
   std::vector<Pose> before_;  // the history, world

@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// Light on the floor around a dancer, computed on a grid the size of her shadow.
+/// Light on the floor around a dancer, computed on a grid the size of the shadow.
 class FloorLight {
  public:
   /// `lamp`: unit vector towards it. `lamp_spread`: its angular radius, radians.

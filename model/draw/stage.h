@@ -14,8 +14,8 @@
 /// Everybody in one picture. The camera moves over the floor with the middle of the dancers.
 namespace choreo {
 
-/// From where dancers are seen: one from her own front, as she faces in the first frame; several
-/// from the front of the stage, +Z.
+/// From where dancers are seen: one from the dancer's own front in the first frame, several from
+/// the front of the stage, +Z.
 enum class CameraSide {
   kFront,
   kThreeQuarter,
@@ -23,7 +23,7 @@ enum class CameraSide {
   kBack,
   kFollow  ///< three quarters from the front, turning with a single dancer
 };
-/// In this order.
+/// The names in this order.
 inline constexpr std::array<const char*, 5> kCameraNames = {"front", "three-quarter", "side",
                                                             "back", "follow"};
 /// Throws Error(kInvalidArgument) whose field is "camera" for another name.

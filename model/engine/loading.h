@@ -33,8 +33,8 @@ inline constexpr const char* kPackedPrefix = "packed ";
 
 struct KernelSet {
   const PackedKernels* exact;
-  /// For the networks' products: the exact kernels, or those of bfloat16, whose dances have the
-  /// same figures (docs/decisions.md, 32).
+  /// The kernels for the networks' products: exact ones, or those of bfloat16, whose dances have
+  /// the same figures (docs/decisions.md, 32).
   const PackedKernels* products;
 
   std::string Name() const { return kPackedPrefix + std::string(products->name); }

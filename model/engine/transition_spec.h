@@ -65,8 +65,8 @@ struct TransitionSpec {
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
   std::optional<Target> target;           ///< none: dances to music alone
   std::optional<LaterTarget> later = {};  ///< only without a target; for models with sight_frames
-  /// The middle of the floor area that the dance keeps to if nothing fixes its position, and where
-  /// its audience is, faced if nothing fixes how she is turned. None: where the history ends and
+  /// The middle of the floor area that the dance keeps to if nothing fixes its position, and the
+  /// audience, which the dancer faces if nothing fixes the facing. None: where the history ends and
   /// faces.
   std::optional<GroundFrame> stage = {};
   bool has_audio = false;  ///< false: ignores audio rows and dances without music
@@ -88,7 +88,7 @@ struct TransitionSpec {
   double variation = 0;
   float temperature = 0.3F;
   std::string style = {};  ///< one of the model's, or empty for any
-  /// For models that make frame after frame: steers each frame before the next is made, so that the
+  /// Steers each frame before the next is made, in models that make frame after frame, so that the
   /// model continues from where the dance is.
   std::optional<Arrival> arrival = {};
 };

@@ -18,8 +18,8 @@ struct HearingOptions {
   uint64_t first_seed = 2'000'000;  ///< of made songs; development used lower ones
   int seeds = 3;                    ///< dances per song, and songs of each kind
   int part_seconds = 20;            ///< of assembled songs, above 4
-  /// Of Olivia's recordings, m/s, mean of the joints (`eval --liveliness --split validation`): her
-  /// fastest frame, and the speed that one frame in a thousand exceeds.
+  /// Speeds in Olivia's recordings, m/s, mean of the joints (`eval --liveliness --split
+  /// validation`): the fastest frame, and the speed that one frame in a thousand exceeds.
   double top_speed = 4.73, rare_speed = 2.79;
 };
 

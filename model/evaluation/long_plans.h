@@ -34,8 +34,8 @@ std::vector<LongPlan> PlanKeyedDances(const ModelInfo& model, const ClipSet& set
 /// Beats of one tempo, in frames, from before a dance of `frames` to after it; `phase`: position of
 /// the first after frame 0, as a part of their distance.
 std::vector<double> RegularBeats(double bpm, double phase, double fps, int frames);
-/// As many beats on average, at distances of half to one and a half of the regular, different for
-/// each `seed`: a dance to them meets the regular ones only by chance.
+/// Makes as many beats on average, at half to one and a half of the regular distances, different
+/// for each `seed`: a dance to them meets the regular ones only by chance.
 std::vector<double> ShuffledBeats(double bpm, uint64_t seed, double fps, int frames);
 
 /// Real motion as if a model had danced it between a plan's keys: with footwork, rounded as sent.

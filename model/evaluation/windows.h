@@ -30,8 +30,8 @@ struct EvalWindow {
   int start = 0;
 };
 
-/// At most `per_clip` windows, side by side, each in the middle of an equal part of its clip: away
-/// from its ends, where dancers stand, if there is room. A clip that is too short offers none.
+/// Chooses at most `per_clip` windows, side by side, each in the middle of an equal part of its
+/// clip: away from the ends, where dancers stand. A clip that is too short offers none.
 std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frames, int per_clip);
 
 /// The request for a window, with its real key and its clip's music, if it has any. The window's

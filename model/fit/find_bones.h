@@ -31,9 +31,9 @@ struct BoneChoice {
 };
 
 /// Assigns bones from `chosen`, then the file's table, then names. With duplicate names, takes the
-/// bones of one skeleton together: of several bodies the one that moves; of several nodes the one
-/// with a skin, that moves, that is no mesh. Bones may be missing. Throws Error(kInvalidArgument),
-/// whose field is the choice's, for a bone or node that does not exist.
+/// bones of one skeleton together: prefers the body that moves, and the node with a skin, that
+/// moves, that is no mesh. Bones may be missing. Throws Error(kInvalidArgument), whose field is the
+/// choice's, for a bone or node that does not exist.
 HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen = {});
 
 /// The bodies that move: `found`, and others with as many bones and none in common, in the file's

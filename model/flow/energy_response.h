@@ -10,7 +10,7 @@ namespace choreo {
 struct EnergyResponse {
   using Levels = EnergyPrior::Levels;
 
-  /// For each part's EnergyLevel: danced = offset + slope * input. All zero: unknown.
+  /// Each part's EnergyLevel is danced = offset + slope * input. All zero: unknown.
   Levels offset = Levels::Zero(), slope = Levels::Zero();
 
   bool known() const { return slope.minCoeff() > 0; }

@@ -18,7 +18,7 @@ struct FlowNoise {
   uint64_t seed = 0;
   uint32_t candidate = 0;
   int64_t first_frame = 0;  ///< absolute number of the window's first frame
-  /// For each frame from the first on, the absolute frame whose numbers it repeats, with this much
+  /// The absolute frame whose numbers each frame from the first on repeats, with this much
   /// `variation` (FillNormalLike). Empty: all have their own.
   std::vector<int64_t> like = {};
   double variation = 0;

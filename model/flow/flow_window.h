@@ -34,12 +34,12 @@ struct WindowRequest {
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
   EnergyShift energy_shift = {};   ///< of the body parts whose velocity factors nobody asks for
   int style = -1;                  ///< index of a style, or -1
-  /// The middle of the floor that the dancer keeps to, and where her audience is. Off a path she
+  /// The middle of the floor that the dancer keeps to, and the audience. Off a path the dancer
   /// returns to both, unless a key says where the root goes or how it is turned.
   std::optional<GroundFrame> stage = {};
-  /// Without a key that says how the root is turned: about how far it turns about the vertical by
-  /// the window's end, radians. The facing of the audience nearest to it counts. None: as far as
-  /// the history suggests.
+  /// Roughly how far the root turns about the vertical by the window's end, radians, if no key says
+  /// how it is turned. The facing of the audience nearest to it counts. None: as far as the history
+  /// suggests.
   std::optional<double> turn = {};
 
   /// The request for its frames [from, from + count) alone, with `poses` as history, in the frame

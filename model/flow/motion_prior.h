@@ -21,8 +21,8 @@ struct VariancePowers {
   double surprise = 0;  ///< of FlowWindow::surprise
   /// The range in training, to which values are clipped.
   double least = 1e-3, most = 1e3;
-  /// For a body part with known energy the variance is e to `offset`, times the surprise to a
-  /// power, times e to `level` times its EnergyLevel.
+  /// The variance of a body part with known energy is e to `offset`, times the surprise to a power,
+  /// times e to `level` times its EnergyLevel.
   double offset = 0, known_surprise = 0, level = 0;
   double least_scale = kDefaultMinScale;        ///< the least factor of its spread
   std::vector<int> parts = {};                  ///< by dimension: its body part, or -1
@@ -43,11 +43,11 @@ Eigen::VectorXd FillUnusedSpread(Eigen::VectorXd spread, double still);
 
 /// The pose that dancers return to when nothing is requested. Empty: unknown.
 struct UsualPose {
-  /// In the canonical frame, at the stage's middle.
+  /// The pose in the canonical frame, at the stage's middle.
   Pose pose = {};
   Eigen::VectorXd variance = {};  ///< [dimensions], m² and rad², of the spread about it
-  /// Of the angle between the root's heading and the audience, rad². 0: unknown, and dancers face
-  /// anywhere.
+  /// The variance of the angle between the root's heading and the audience, rad². 0: unknown, and
+  /// dancers face anywhere.
   double facing = 0;
 
   /// How far a pose's root is from it in height and tilt, in standard deviations, the largest. 0 if
@@ -103,13 +103,13 @@ class MotionPrior {
   /// False for what recordings lack, such as finger joints.
   bool Moves(int dimension) const;
 
-  /// By dimension, for a window of `frames` frames with a key `to_key` frames after the history (at
-  /// least `frames`); 0: no key. Caches the latest.
+  /// The bridges by dimension of a window of `frames` frames with a key `to_key` frames after the
+  /// history (at least `frames`); 0: no key. Caches the latest.
   std::shared_ptr<const std::vector<Bridge>> Bridges(int frames, int to_key) const;
-  /// Without a key, for the root's position alone [3], on a stage with known middle.
+  /// The bridges of the root's position alone [3], without a key, on a stage with known middle.
   std::shared_ptr<const std::vector<Bridge>> StageBridges(int frames) const;
-  /// Without a key, for the root's turn about the vertical alone, on a stage with a known front: by
-  /// the window's end it faces the audience with the usual pose's variance.
+  /// The bridge of the root's turn about the vertical, without a key, on a stage with a known
+  /// front: by the window's end it faces the audience with the usual pose's variance.
   std::shared_ptr<const Bridge> FacingBridge(int frames) const;
   const UsualPose& usual() const { return usual_; }
 
@@ -126,7 +126,7 @@ class MotionPrior {
   Eigen::MatrixXd covariance_;
   VariancePowers powers_;
   UsualPose usual_;
-  // By dimension, [lags]: sums of the covariance over lags from 1 on.
+  // Sums of the covariance over lags from 1 on, by dimension, [lags].
   std::vector<Eigen::VectorXd> sums_;
   struct Cache;
   std::shared_ptr<Cache> cache_;

@@ -10,8 +10,8 @@ namespace choreo {
 
 /// Which way round dancers turn to a key. Two turns have the same end: the shorter one, and the
 /// rest of a whole turn the other way. Logistic regression gives the probability of the other from
-/// how far and how fast each goes, the dancer's present turn and sideways motion, her energy, the
-/// key's position, and the turn of its chest against the hips. Measured in training. Thread-safe.
+/// how far and how fast each goes, the dancer's present turn, sideways motion and energy, the key's
+/// position, and the turn of its chest against the hips. Measured in training. Thread-safe.
 class TurnPrior {
  public:
   static constexpr int kInputs = 9;
@@ -26,7 +26,7 @@ class TurnPrior {
   /// that pose's frame. `request` has a key.
   static Eigen::Vector3d ShorterTurn(const WindowRequest& request);
   /// The inputs that distinguish the two ways; none if the key leaves the root's rotation open or
-  /// turns it about an axis other than the vertical. Equal for a dancer and her mirror image.
+  /// turns it about an axis other than the vertical. Equal for a dancer and the mirror image.
   static std::optional<Inputs> Describe(const Skeleton& skeleton, const WindowRequest& request);
   double ChanceOfOther(const Inputs& inputs) const;
   /// WindowRequest::turning: at temperature 0 the likelier way; at 1 each as often as dancers take

@@ -40,9 +40,9 @@ struct BvhJoint {
   std::string name;  ///< an End Site is named after its parent + "_end"
   int parent = -1;   ///< -1 for a root; parents precede their children
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent, file units
-  /// In file order. Rotations apply in that order from left to right, R = R_first R_second R_third.
-  /// A position channel replaces the offset's coordinate (as authoring tools write it, at the root
-  /// and elsewhere).
+  /// The channels in file order. Rotations apply in that order from left to right, R = R_first
+  /// R_second R_third. A position channel replaces the offset's coordinate (as authoring tools
+  /// write it, at the root and elsewhere).
   std::vector<BvhChannel> channels;
   bool end_site = false;
   /// Its position channels are (nearly) 0 in all frames: they are added to the offset.
@@ -63,15 +63,15 @@ struct BvhFile {
   std::vector<std::string> JointNames() const;
 };
 
-/// As lenient as other tools: UTF-8 or UTF-16, comments after # and //, "Frames:30", "EndSite",
-/// decimal commas, several roots, a frame time of 0 (no rate) or of 4 and more (milliseconds), and
-/// a wrong count of whole rows, which is noted. Throws Error(kInvalidArgument) whose field is
-/// "NAME:LINE" and whose message names the token found and what was expected. Besides other syntax
-/// errors refuses: a hierarchy without channels, a duplicate channel, numbers that are not finite,
-/// partial rows, rows of another length than the channels, a frame time outside 1e-5 to 4 s,
-/// lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
+/// Parses as leniently as other tools: UTF-8 or UTF-16, comments after # and //, "Frames:30",
+/// "EndSite", decimal commas, several roots, a frame time of 0 (no rate) or of 4 and more
+/// (milliseconds), and a wrong count of whole rows, which is noted. Throws Error(kInvalidArgument)
+/// whose field is "NAME:LINE" and whose message names the token found and what was expected.
+/// Besides other syntax errors refuses: a hierarchy without channels, a duplicate channel, numbers
+/// that are not finite, partial rows, rows of another length than the channels, a frame time
+/// outside 1e-5 to 4 s, lengths beyond 1e7 and angles beyond 1000 radians (motion/pose_limits.h).
 BvhFile ParseBvh(std::string_view text, const std::string& name);
-/// As ParseBvh; Error(kNotFound) if the file cannot be opened.
+/// Throws what ParseBvh throws; Error(kNotFound) if the file cannot be opened.
 BvhFile ReadBvh(const std::filesystem::path& path);
 
 /// Six decimals.

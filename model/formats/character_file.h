@@ -27,7 +27,7 @@ class CharacterFile {
   const RigNodes& rig() const { return rig_; }
   const Eigen::Matrix3Xd& places() const { return rig_.places; }
 
-  /// As FindBones of find_bones.h.
+  /// Calls FindBones of find_bones.h.
   HumanBones FindBones(const std::vector<BoneChoice>& chosen = {}) const {
     return choreo::FindBones(rig_, chosen);
   }

@@ -36,8 +36,8 @@ void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
 
 /// Writes a motion of SMPL's body for VRM avatars (.vrma, VRMC_vrm_animation 1.0): binary glTF with
 /// nodes, the table of human bones and the animation, without a mesh. At rest it faces +Z with arms
-/// held out, as VRM 1.0 requires; programs turn VRM 0.x avatars themselves. Errors as above, and
-/// Error(kInvalidArgument) for another skeleton than SMPL's.
+/// held out, as VRM 1.0 requires; programs turn VRM 0.x avatars themselves. Throws what WriteGlb
+/// throws, and Error(kInvalidArgument) for another skeleton than SMPL's.
 void WriteVrma(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion);
 
 /// Reads an animation: the one named by `reading`, or the first that moves most of a body's bones.

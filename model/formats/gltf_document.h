@@ -19,7 +19,7 @@ enum class GltfPart {
   kMotion,  ///< also animations, bind poses and their numbers
 };
 
-/// Only these parts: in others the parser would refuse what it does not know, such as compressed
+/// Parses only these parts: the parser would refuse what it does not know, such as compressed
 /// meshes. Throws Error(kInvalidArgument) naming an invalid part.
 tinygltf::Model ParseGltfPart(const nlohmann::ordered_json& document, std::string_view glb,
                               GltfPart part);

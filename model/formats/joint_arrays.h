@@ -16,7 +16,7 @@ namespace choreo {
 std::optional<NpyArray> FindJointArray(const NpzArchive& npz);
 
 /// Whether they are positions: [F, 22 or 24, 3], also in a batch of one, with constant limb
-/// lengths, which rotation vectors lack. Of several people, [people, F, ...], reads the first.
+/// lengths, which rotation vectors lack. Reads the first of several people, [people, F, ...].
 bool AreJointPlaces(const NpyArray& array);
 
 /// SMPL's body fitted to them (fit/fit_clip.h), in its size and on the floor; the rotations of

@@ -20,9 +20,9 @@ struct MotionReading {
   /// The unit of its angles, "degrees" or "radians"; empty: that of its format, unless the body
   /// would bend as none can.
   std::string angles = {};
-  /// Of a glTF: its name, or its number from 0 on; empty: one that moves.
+  /// The glTF animation's name, or its number from 0 on; empty: one that moves.
   std::string animation = {};
-  /// Of several bodies: its name, or its number from 0 on; empty: the first.
+  /// The name of one of several bodies, or its number from 0 on; empty: the first.
   std::string body = {};
   std::vector<BoneChoice> bones = {};  ///< which node is which bone; overrides their names
   /// If given, receives one line for each deviation from the file and for each thing that looks

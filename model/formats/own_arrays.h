@@ -31,8 +31,8 @@ Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 /// not finite.
 void RequireFinite(const Eigen::Ref<const Eigen::MatrixXd>& rows, const std::string& key);
 
-/// A finite array as [columns, F]. Also accepts the shapes [F, a, b], if a x b is one of `columns`,
-/// [1, F, a], and [a] for a single frame.
+/// A finite array as [columns, F]. Accepts, too, the shapes [F, a, b], if a x b is one of
+/// `columns`, [1, F, a], and [a] for a single frame.
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns);
 /// A number, possibly written as text.

@@ -20,7 +20,7 @@ struct Continuation {
   std::optional<int64_t> audio_from_sample = {};
   std::optional<double> last_beat = {};  ///< MusicBeats::last_reported at this frame
   std::optional<GroundFrame> stage =
-      {};  ///< the middle of her floor, and her audience; its height unread
+      {};  ///< the middle of the floor, and the audience; its height is not read
   std::vector<KeyReached> reached = {};  ///< before `frame`, ascending, without accelerations
 };
 

@@ -22,10 +22,10 @@ struct KeyReached {
   double final_error_m = 0;    ///< of the danced frame
   double final_error_deg = 0;  ///< the same
   double correction_m = 0;     ///< the furthest that any joint was moved on the way to the key
-  /// In reports only: the largest acceleration of any joint, m/s^2, at most two frames from the
-  /// key's.
+  /// Only reports have it: the largest acceleration of any joint, m/s^2, at most two frames from
+  /// the key's.
   double max_acceleration = 0;
-  /// In events only: what hands do there, if the key says so.
+  /// Only events have it: what hands do there, if the key says so.
   std::optional<HandPose> hands = {};
 };
 

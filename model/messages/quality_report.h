@@ -43,7 +43,7 @@ struct QualityReport {
   double p95_acceleration = 0;
   double max_acceleration =
       0;  ///< the largest of any frame and joint, m/s^2; servers do not send it
-  /// By BodyPart, means over the frames with velocity factors; empty without any.
+  /// Means by BodyPart over the frames with velocity factors; empty without any.
   std::vector<PartSpeed> part_speeds = {};
 };
 

@@ -6,9 +6,9 @@
 #include "model/motion/skeleton.h"
 #include "model/motion/support.h"
 
-/// Measures whether a dancer seems to have weight: whether her feet support her, and whether she
-/// pushes off, falls and lands as a body does. Pure functions of joint positions, so real motion is
-/// measured in the same way. Thread-safe.
+/// Measures whether a dancer seems to have weight: whether the feet support the body, and whether
+/// it pushes off, falls and lands as a real one does. Pure functions of joint positions, so real
+/// motion is measured in the same way. Thread-safe.
 namespace choreo {
 
 /// Height of the floor: the 5th percentile over frames of the lower foot, toes or ankle less 5 cm.

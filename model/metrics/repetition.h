@@ -19,9 +19,9 @@ struct Repetition {
   double repeated = 0;
 };
 
-/// Over all windows, or only those that begin at frame `from` or later (an ending; what precedes it
-/// is the past that it may repeat). Throws Error(kInvalidArgument) if no window begins there.
-/// Moving or turning the scene changes nothing. Pure, thread-safe.
+/// Measures all windows, or only those that begin at frame `from` or later (an ending; what
+/// precedes it is the past that it may repeat). Throws Error(kInvalidArgument) if no window begins
+/// there. Moving or turning the scene changes nothing. Pure, thread-safe.
 Repetition MeasureRepetition(const Skeleton& skeleton, std::span<const Pose> poses, double fps,
                              int from = 0);
 

@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// A frame on the floor: origin below a dancer's root, +Z along her heading. A transition's
+/// A frame on the floor: origin below a dancer's root, +Z along the heading. A transition's
 /// canonical frame is that of its last history pose, so that moving or turning the scene moves the
 /// dance and changes nothing else.
 struct GroundFrame {

@@ -52,8 +52,8 @@ std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
 /// The skeleton without rotations, feet on the floor, at the origin, facing +Z.
 Pose RestPose(const Skeleton& skeleton);
 
-/// Standing at ease, from where a dance without history starts: the rest pose with hanging arms.
-/// Without elbows it is the rest pose.
+/// The pose in which a dance without history starts: standing at ease, with hanging arms. Without
+/// elbows it is the rest pose.
 Pose StandingPose(const Skeleton& skeleton);
 
 }  // namespace choreo

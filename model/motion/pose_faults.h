@@ -17,7 +17,7 @@ inline constexpr double kMaxJumpHeight = 1.2;  ///< metres from the floor to the
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// Only the faults of knees and elbows.
+/// Finds only the faults of knees and elbows.
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 

@@ -59,8 +59,8 @@ Eigen::Matrix<double, 6, 1> SixDFromMatrix(const Eigen::Matrix3d& r);
 /// Gram-Schmidt; throws Error(kInvalidArgument) where the two columns are zero or parallel.
 Eigen::Matrix3d MatrixFromSixD(const Eigen::Matrix<double, 6, 1>& d);
 
-/// Angle of the horizontal direction of r's +Z axis: 0 faces +Z, pi/2 faces +X. In (-pi, pi].
-/// Finite but meaningless if that axis is vertical.
+/// Angle of the horizontal direction of r's +Z axis: 0 faces +Z, pi/2 faces +X. The result is in
+/// (-pi, pi]. It is finite but meaningless if that axis is vertical.
 double Heading(const Eigen::Matrix3d& r);
 /// The rotation by `heading` about +Y.
 Eigen::Matrix3d HeadingRotation(double heading);

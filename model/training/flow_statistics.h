@@ -30,8 +30,8 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
 EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
                                const std::vector<WindowRequest>& requests);
 
-/// Which way round real dancers turn to a key, by what is known of the windows; `turning` is
-/// theirs.
+/// Measures which way round real dancers turn to a key, by what is known of the windows; `turning`
+/// is theirs.
 TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests);
 
 /// Statistics of real windows: the correlation of white coordinates over dimensions, as a Cholesky

@@ -20,7 +20,7 @@
 
 namespace choreo {
 
-/// At least one clip each, all on one skeleton.
+/// The clips, at least one in each set, all on one skeleton.
 struct TrainingClips {
   std::vector<PreparedClip> train, validation;
 };
@@ -80,7 +80,7 @@ class TrainingRun {
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
-  /// Also writes a checkpoint, so that a run can be judged and used before it ends.
+  /// Reports, and writes a checkpoint, so that a run can be judged and used before it ends.
   void Report(ProgressBar* progress);
   /// A checkpoint's card: data and their terms, the command, validation figures, limits, and the
   /// base model, whose terms apply, too.

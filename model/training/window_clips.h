@@ -38,7 +38,7 @@ class WindowClips {
   int Longest(int history) const;
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<std::string>& styles() const { return styles_; }
-  /// Of the clips at their own tempo.
+  /// The tracks of the clips at their own tempo.
   std::span<const ClipTrack> tracks() const { return {tracks_.data(), clips_}; }
 
  private:

@@ -1,8 +1,8 @@
 // Row by row work, the second half of kernels_of_one_cpu.cpp, which includes it inside its
 // namespace: no #pragma once.
 
-// From here on scalar code that compilers vectorise. Selections have the form of minima and maxima,
-// a < b ? a : b.
+// Scalar code follows that compilers vectorise. Selections have the form of minima and maxima, a <
+// b ? a : b.
 
 inline float Clamp(float x, float least, float most) {
   const float above = x < least ? least : x;

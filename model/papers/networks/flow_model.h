@@ -62,9 +62,9 @@ class FlowModelImpl : public torch::nn::Module {
 
   /// Statistics by which the network's inputs are standardised: [width], [audio_features].
   void SetFeatureNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
-  /// With innovations, once features are normalised: fits the linear prediction of each window's
-  /// last frame from those before it, by least squares over `windows` [n, tau + 1, width] in
-  /// physical units. The residual's spread is at least `floor` [width].
+  /// Fits the linear prediction of each window's last frame from those before it, once features are
+  /// normalised, with innovations, by least squares over `windows` [n, tau + 1, width] in physical
+  /// units. The residual's spread is at least `floor` [width].
   void FitPrediction(const torch::Tensor& windows, const torch::Tensor& floor);
   /// Spread of the flow's output for each feature, [width], physical units.
   torch::Tensor DrawnSpread() const;
@@ -84,7 +84,7 @@ class FlowModelImpl : public torch::nn::Module {
   /// network sees it.
   torch::Tensor Condition(const torch::Tensor& past, const torch::Tensor& seen,
                           const torch::Tensor& audio, const torch::Tensor& static_condition);
-  /// With innovations: the value of each pose feature that would reach the key, [..., pose].
+  /// The value of each pose feature that would reach the key, with innovations, [..., pose].
   torch::Tensor Aim(const torch::Tensor& past, const torch::Tensor& static_condition) const;
   int pose_width() const { return 3 + 3 * skeleton_.joints(); }
   /// Condition [batch, 1, condition] of the frame after `past`, as Step takes it.

@@ -18,10 +18,10 @@
 namespace choreo {
 
 /// The baseline of both papers, after Harvey et al. 2020, "Robust Motion In-Betweening": a
-/// recurrent network goes frame by frame from the last pose. Its inputs are the key, the difference
-/// to it and, added to all encodings, the number of frames left (their Section 3.3). In training,
-/// noise hides the key while it is far away (Section 3.4). Deterministic, without music input. It
-/// has no adversarial losses and is a quarter as wide as theirs.
+/// recurrent network predicts frame by frame from the last pose. Its inputs are the key, the
+/// difference to it and, added to all encodings, the number of frames left (their Section 3.3). In
+/// training, noise hides the key while it is far away (Section 3.4). Deterministic, without music
+/// input. It has no adversarial losses and is a quarter as wide as theirs.
 ///
 /// Features and key conditions are those of paper F (PoseCodec, key_condition.h), of which it makes
 /// poses and contacts; velocities are zeros, which nothing reads.

@@ -14,8 +14,8 @@ namespace choreo {
 class WindowControllerImpl : public torch::nn::Module {
  public:
   virtual ~WindowControllerImpl() = default;
-  /// The half that depends only on the controls: [M, window, features] -> [M, window, width]. For
-  /// all frames at once.
+  /// The half that depends only on the controls: [M, window, features] -> [M, window, width].
+  /// Encodes all frames at once.
   virtual torch::Tensor Encode(const torch::Tensor& given) = 0;
   /// `memory` of Encode and the mixture segment [M, window, features] -> [M, controller].
   virtual torch::Tensor Decode(const torch::Tensor& memory, const torch::Tensor& mixture) = 0;

@@ -36,7 +36,7 @@ struct PackedFlow {
   PackedFlow(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
              const PackedKernels& kernels, const PackedKernels& products);
 
-  /// With innovations: appends the standardised key, its mask and the frames left to each frame's
+  /// Appends, with innovations, the standardised key, its mask and the frames left to each frame's
   /// encoding, [static_width(), frames].
   Eigen::MatrixXf WithAims(const Eigen::MatrixXf& encodings,
                            const Eigen::MatrixXf& conditions) const;
