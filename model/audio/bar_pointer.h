@@ -38,7 +38,7 @@ class EvenOnsets {
 
   std::array<float, Onset::kBands> Even(const Onset& onset);
 
-  /// Begins as if this music had played before; else its beginning would count for much more.
+  /// Begins as if this music had played before; else its beginning would count for too much.
   void Settle(std::span<const Onset> onsets) {
     for (int round = 0; round < kRounds; ++round) {
       for (const Onset& onset : onsets.first(std::min(onsets.size(), kSettled))) Even(onset);
@@ -107,7 +107,7 @@ class BarPointer {
   void AddPart(size_t pattern, const Limits& limits);
   void Leave(const Part& part);
   void Arrive(const Part& part);
-  // What the frames so far score of a beat that starts at `start`.
+  // The score, by the frames so far, of a beat that starts at `start`.
   float ScoreSince(const Ring& ring, size_t first_place, int64_t start) const;
   size_t BestRing(int* frames_since) const;
   const Part& PartOf(size_t ring) const;

@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// What somebody who knows the music says about its beats.
+/// A hint about the beats from somebody who knows the music.
 struct BeatHint {
   std::optional<double> tempo_bpm = {};  ///< beats are looked for within 6 % of it
   bool half_time = false, double_time = false;

@@ -31,8 +31,8 @@ struct TempoLimits {
   double slowest_bpm = 48, fastest_bpm = 208;
 };
 
-/// Whether onsets are those of a whole song or the last seconds of one, which has played before and
-/// in which few beats tell whether their halves are alike.
+/// Whether onsets cover a whole song or its last seconds only. Music has played before the latter,
+/// and few of its beats tell whether their halves are alike.
 enum class MusicExtent { kWhole, kPart };
 
 /// Finds a song's beats with the bar pointer model (BarPointer): the tempo, beats and bars that
@@ -43,7 +43,7 @@ enum class MusicExtent { kWhole, kPart };
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {},
                      MusicExtent extent = MusicExtent::kWhole);
 
-/// The beats of mono samples at 22 050 Hz. Errors as FindOnsets.
+/// The beats of mono samples at 22 050 Hz. Throws what FindOnsets throws.
 BeatTrack FindBeats(std::span<const float> mono);
 
 /// The tempo of most beats: the mean of the intervals near their median. 0 for fewer than two

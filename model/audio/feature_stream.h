@@ -20,7 +20,7 @@ namespace choreo {
 class FeatureStream {
  public:
   /// `first_sample`: absolute index, at `sample_rate`, of the first sample to be pushed, for a
-  /// stream that continues another. Errors as Resampler.
+  /// stream that continues another. Throws what Resampler throws.
   FeatureStream(double sample_rate, int channels, int64_t first_sample = 0);
 
   /// Takes whole interleaved frames, all finite (the caller checks), before Finish.

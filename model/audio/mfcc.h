@@ -21,7 +21,7 @@ using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, kMfccCount, Eigen::Ro
 
 /// MFCC-40 of mono samples at 22 050 Hz, as librosa 0.10.2 computes them with n_fft 2048, centred
 /// windows and top_db None (a stream cannot know its loudest frame in advance). Row r is centred at
-/// sample r * kFeatureHop; there are 1 + samples / kFeatureHop. Errors as MelSpectrogram.
+/// sample r * kFeatureHop; there are 1 + samples / kFeatureHop. Throws what MelSpectrogram throws.
 FeatureMatrix Mfcc(std::span<const float> mono);
 
 }  // namespace choreo

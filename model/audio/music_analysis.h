@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// What is known about music once all of it has come.
+/// What a complete piece of music tells.
 struct MusicAnalysis {
   std::vector<double> beats = {};      ///< seconds, ascending
   std::vector<double> downbeats = {};  ///< those of the beats that begin a bar
@@ -16,7 +16,7 @@ struct MusicAnalysis {
   uint64_t id = 0;                     ///< MusicId
 };
 
-/// Finds the beats of mono samples at 22 050 Hz, and the rest. Errors as FindOnsets. Thread-safe.
+/// Finds the beats of mono samples at 22 050 Hz, and the rest. Throws like FindOnsets. Thread-safe.
 MusicAnalysis AnalyseMusic(std::span<const float> mono);
 /// The same for music whose beats are known.
 MusicAnalysis AnalyseMusic(std::span<const float> mono, std::vector<double> beats,

@@ -28,9 +28,8 @@ struct MusicDynamicsOptions {
   /// or has so many dB more or less bass. Music that goes on varies less within two seconds, in 95
   /// of 100 cases. Bass counts as at least `bass_below` dB below the loudness: less is not heard.
   double turn_loud = 5, turn_deep = 10, bass_below = 20;
-  /// In rows: how often that is examined; how long a transition lasts at least, so that it is seen
-  /// as a movement; and how long before a key it is left alone, because feet need that time to get
-  /// there.
+  /// Rows: how often turns are examined; the least length of a transition, so that it is seen as a
+  /// movement; and the time before a key without turns, which feet need to get there.
   int turn_step = 3, turn_after = 15, turn_before_key = 30;
 };
 

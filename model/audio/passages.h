@@ -42,7 +42,7 @@ class PassageListener {
   void Add(std::span<const float> window);
 
   int64_t moments() const { return moments_; }
-  /// How many moments before the last one its like is; none if it is new.
+  /// How many moments ago one like the last was; none if it is new.
   std::optional<int64_t> Lag() const;
   /// All passages, using the likeliest path kTempoWindowSeconds after each moment.
   std::vector<Passage> Passages() const;
@@ -78,7 +78,7 @@ class PassageListener {
   std::vector<int64_t> best_;  // by moment, the lag where the best path ends, or -1
 };
 
-/// Where a whole song at 22 050 Hz repeats: ascending, disjoint passages, from beat to beat if
+/// The passages where a whole song at 22 050 Hz repeats: ascending, disjoint, from beat to beat if
 /// `beats` (seconds) are given.
 std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const double> beats,
                                   const PassageOptions& options = {});

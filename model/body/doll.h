@@ -53,7 +53,7 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 
 /// Height of the doll above the floor, metres: 0 if it touches as at rest, negative if it sinks in.
-/// Errors as BuildFigure.
+/// Throws what BuildFigure throws.
 double DollAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
 /// Parts of one colour form one piece of skin: those that part `index` may meet.

@@ -36,7 +36,7 @@ inline void CheckJsonDepth(std::string_view json, const std::string& name) {
 
 inline constexpr int kMaxJsonLevels = 16;  ///< for skeletons and configurations
 
-/// Refuses numbers that don't fit into an int, which would be truncated or undefined. For JSON
+/// Refuses numbers that don't fit into an int, which would be truncated or undefined. It suits JSON
 /// without larger numbers or more levels: skeletons and network configurations.
 inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name,
                              int levels = kMaxJsonLevels) {

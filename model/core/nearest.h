@@ -46,7 +46,7 @@ class Nearest {
     return row.back();
   }
 
-  // None unless the candidate may be meant: a prefix, as temp of temperature, is near.
+  // None unless the candidate may be meant: a prefix is near, such as temp of temperature.
   std::optional<size_t> Distance(const std::string& known) const {
     if (word_.size() >= 2 && known.starts_with(word_)) return 0;
     const size_t edits = Edits(known);

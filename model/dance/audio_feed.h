@@ -28,7 +28,7 @@ inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 /// turns.
 class AudioFeed {
  public:
-  /// Throws as FeatureStream does.
+  /// Throws what FeatureStream throws.
   AudioFeed(double sample_rate, int channels, int64_t first_sample);
 
   /// Calls `on_rows` whenever it has added rows. Throws Error(kOutOfRange) unless `first_sample` is
@@ -42,7 +42,7 @@ class AudioFeed {
 
   int64_t next_sample() const { return features_.next_sample(); }  // pushing side
   /// The number of frames, from time 0, that start before the end of the samples so far:
-  /// ceil(samples fps / rate). Pushing side.
+  /// ceil(samples fps / rate). Only the pushing side calls it.
   int64_t EndFrame(double fps) const;
 
   /// Rows below this one can be read.

@@ -25,7 +25,7 @@
 
 namespace choreo {
 
-/// What the messages of a dance ask for so far.
+/// What a dance's messages ask for so far.
 struct DanceScore {
   DanceConfig config;
   Timeline timeline;
@@ -34,7 +34,7 @@ struct DanceScore {
   Recurrence recurrence;
 };
 
-/// What the next transition continues from.
+/// The state from which the next transition continues.
 struct DancedState {
   std::vector<Pose> history = {};  ///< the last tau poses; empty: the dance begins without any
   std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage

@@ -16,7 +16,7 @@
 
 namespace choreo {
 
-/// Common to a dance and a single transition: how to dance, and from where.
+/// The part that a dance and a single transition share: how to dance, and from where.
 struct DanceStart {
   uint64_t seed = 0;
   /// Identifies the music (MusicId). It is part of the seed: two songs differ as two seeds do. 0:
@@ -62,7 +62,7 @@ struct DanceStart {
   /// Warnings to send before the first frame, `first_frame`.
   std::vector<Warning> Warnings(const ModelInfo& model, int64_t first_frame) const;
 
-  /// Throws Error(kInvalidArgument), and Error(kFailedPrecondition) for a continuation of another
+  /// Throws Error(kInvalidArgument), or Error(kFailedPrecondition) for a continuation of another
   /// fingerprint. Fields are named as the API names them: "config.history[0]".
   void ValidateStart(const ModelInfo& model) const;
 };
@@ -78,7 +78,7 @@ struct DanceConfig : DanceStart {
   /// The frame where the dance starts: 0, or the continuation's.
   int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
 
-  /// Throws as ValidateStart; Error(kOutOfRange) for audio that begins too late;
+  /// Throws what ValidateStart throws; Error(kOutOfRange) for audio that begins too late;
   /// Error(kUnimplemented) for music that the model can't take.
   void Validate(const ModelInfo& model) const;
 };
@@ -102,7 +102,7 @@ struct GroupRequest : DanceStart {
   /// Number of the first frame to be made.
   int64_t FirstFrame() const { return continuation ? continuation->frame : first_frame; }
 
-  /// Throws as DanceConfig::Validate, and with fields of the request: "frames",
+  /// Throws what DanceConfig::Validate throws, with fields of the request, too: "frames",
   /// "target.rotations[3]", ...
   void Validate(const ModelInfo& model) const;
 };
@@ -111,7 +111,7 @@ struct GroupRequest : DanceStart {
 template <class Asked>
 class Valid {
  public:
-  /// Throws as Asked::Validate.
+  /// Throws what Asked::Validate throws.
   Valid(Asked asked, const ModelInfo& model) : asked_(std::move(asked)) { asked_.Validate(model); }
 
   const Asked& operator*() const& { return asked_; }
@@ -128,9 +128,9 @@ using ValidGroup = Valid<GroupRequest>;
 /// begin without changing a bit.
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model);
 
-/// Where the audio of a dance that continues from `first_frame` must begin, so that the dance
-/// equals an uninterrupted one: at LatestFirstSample, or earlier if the music's energy, or the
-/// detection of `beats`, looks further back; but never before the dance's own first sample.
+/// The sample where the audio of a dance that continues from `first_frame` must begin, so that the
+/// dance equals an uninterrupted one: at LatestFirstSample, or earlier if the music's energy, or
+/// the detection of `beats`, looks further back; but never before the dance's own first sample.
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats);
 

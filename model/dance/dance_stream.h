@@ -44,7 +44,7 @@ class DanceStream {
   /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without DanceConfig::audio.
   /// Error(kFailedPrecondition) after EndOfAudio.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
-  /// Error(kInvalidArgument) if no sample came at all.
+  /// Throws Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
   /// Sets what is known about the whole music. Without beats the dance does not detect any. Call
   /// before the first sample. DanceConfig has precedence.
@@ -57,27 +57,27 @@ class DanceStream {
   std::string NextMusicBeats() const;
   std::string NextMusicPassages() const;
 
-  /// See Timeline. A key that comes too late causes a KeyRejected event and changes nothing.
-  /// Errors name NextKeyframe().
+  /// Sets a key (see Timeline). A key that comes too late causes a KeyRejected event and changes
+  /// nothing. Errors name NextKeyframe().
   void SetKey(const Key& key, const KeyMoment& when);
-  /// Instead of SetKey for a key that cannot be used: a KeyRejected event says why, with the field
-  /// that is wrong, and all else goes on.
+  /// Replaces SetKey for a key that cannot be used: a KeyRejected event names the wrong field and
+  /// says why, and all else goes on.
   void RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                  const std::string& field, const std::string& reason);
   void RemoveKey(const std::string& id);
-  /// See ControlTrack. Holds from the first frame that is not frozen. Errors name NextControls();
-  /// none may come after KeysComplete, which freezes all.
+  /// Sets controls (see ControlTrack) from the first frame that is not frozen. Errors name
+  /// NextControls(); none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
-  /// Seconds, at least one, valid by CheckBeats and CheckDownbeats: see MusicBeats::AddGiven. Beats
-  /// in frozen frames are dropped with a Warning. Errors name NextMusicBeats(); none may come after
-  /// KeysComplete.
+  /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats: see
+  /// MusicBeats::AddGiven. Beats in frozen frames are dropped with a Warning. Errors name
+  /// NextMusicBeats(); none may come after KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
   /// Takes at least one passage, valid by CheckPassages. From the first on they replace known ones,
   /// for transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may
   /// come after KeysComplete.
   void GivePassages(const std::vector<Passage>& passages);
   void GenerateUntil(int64_t frame);
-  /// Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
+  /// Throws Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
   void KeysComplete();
 
   /// A client's half-close: EndOfAudio and KeysComplete, unless they have come already.

@@ -10,9 +10,9 @@
 
 namespace choreo {
 
-/// Calls to a listener, one at a time and in the order of Post, without a lock, on whichever thread
-/// comes to Deliver first; other threads do not wait. So a listener may call its caller back. Drops
-/// posts after the last call. Thread-safe.
+/// Calls a listener, one call at a time and in the order of Post, without a lock, on the thread
+/// that comes to Deliver first; other threads do not wait. So a listener may call its caller back.
+/// Drops posts after the last call. Thread-safe.
 template <typename Listener>
 class Mailbox {
  public:

@@ -45,7 +45,7 @@ class MusicBeats {
   /// The known beats for a transition of the frames [from, to), ascending. Call once per
   /// transition, in order of time. Rows before `from` must be ready.
   std::vector<Beat> BeatsFor(int64_t from, int64_t to);
-  /// The subset that the transition is timed to, as TransitionSpec::beats.
+  /// The subset to which the transition is timed, for TransitionSpec::beats.
   std::vector<double> BeatTimes(std::span<const Beat> beats, int64_t from, int64_t to) const;
 
   /// Starts handing out the transition that begins at `from` and has these beats.

@@ -25,8 +25,8 @@ class Recurrence {
 
   bool empty() const { return stretches_.empty() && given_.empty(); }
 
-  /// From the first of these passages on they replace known ones, for transitions that begin at
-  /// `from` or later; `from` never decreases between calls. The passages must be checked. Throws
+  /// Replaces known passages from the first of these on, for transitions that begin at `from` or
+  /// later; `from` never decreases between calls. The passages must be checked. Throws
   /// Error(kInvalidArgument, field) beyond kMaxPassages in total.
   void Give(std::span<const Passage> passages, int64_t from, const std::string& field);
 

@@ -55,9 +55,9 @@ struct Segment {
   std::optional<Key> later = {};  ///< the next key in sight, if it is not reached
 };
 
-/// Where the transition that begins at `from` ends: just after the next key or, without one within
+/// The end of the transition that begins at `from`: just after the next key or, without one within
 /// `longest` frames, after about kTypicalFrames, at most half the longest. So the rest before a key
-/// is never shorter than that.
+/// is never shorter.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
 /// The `longest` for a model. One that sees later keys needs no long transitions, so its dances
 /// hear the music every two seconds.
@@ -97,8 +97,8 @@ class Timeline {
   /// kMaxKeys, and after Complete. The pose and `hit` must be valid (validation.h).
   std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
-  /// The answer to a key that cannot be used, for this reason; it changes nothing. `when`: none if
-  /// the message has no moment.
+  /// Answers a key that cannot be used, for this reason; changes nothing. `when`: none if the
+  /// message has no moment.
   KeyRejected RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
                             std::string reason);
 
@@ -110,7 +110,7 @@ class Timeline {
   /// Complete, when all is frozen.
   int64_t Frontier(const std::string& field) const;
 
-  /// Something other than keys has changed for frames of [first, last].
+  /// Notes that something other than keys has changed for frames of [first, last].
   void NoteChange(int64_t first = 0, int64_t last = std::numeric_limits<int64_t>::max());
 
   /// Grants and freezes the frames before this one; keys there are late from now on. Does nothing
@@ -122,18 +122,18 @@ class Timeline {
   /// one.
   void Complete();
 
-  /// Frames where transitions without a key should end, ascending. A transition that would end near
-  /// one ends on it if it is then at least half a second long. Call before anything is danced.
+  /// Sets frames where transitions without a key should end, ascending. A transition that would end
+  /// near one ends on it if it is then at least half a second long. Call before anything is danced.
   void SetCuts(std::vector<int64_t> frames);
 
-  /// The music ends before `frame`.
+  /// Says that the music ends before `frame`.
   void SetAudioEnd(int64_t frame);
 
   /// The current transition (0) or a later one; null while none may start. The `stop` of the last
   /// may change until it is done or a later one was asked for. After Complete, while the music has
   /// not ended, there is always another.
   const Segment* Planned(size_t ahead = 0);
-  /// Stops the last transition that was asked for at `frame`, if it goes on till then.
+  /// Stops at `frame` the last transition asked for, if it lasts until then.
   void StopAt(int64_t frame);
   /// Marks the current transition as danced up to its stop.
   void Finish();

@@ -113,12 +113,12 @@ class TransitionRun {
   double correction_m_ = 0;
 };
 
-/// Makes all slices; calls `danced` with the number of frames made. Throws as TransitionRun does.
+/// Makes all slices; calls `danced` with the number of frames made. Throws like TransitionRun.
 TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
                               const std::function<void(int)>& danced = {});
 
 /// Pads or cuts `poses` to the history of a transition: exactly tau poses, rounded to floats. No
-/// poses become a dancer who stands.
+/// poses mean a dancer who stands.
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
 
 /// Rounds every number to float precision, which is what clients receive.

@@ -33,11 +33,11 @@ class GroupSink {
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Sorts, best first. kQuality compares the steering (KeyReached::correction_m, which includes a
-/// miss of the key; 0 without a target) in steps of 1 cm, then the share of frames without support
-/// in steps of 5 %, then the skate ratio in steps of 1 %, then the likelihood if the model has one,
-/// then the candidate's number. kLikelihood compares the likelihood (which favours calm motion),
-/// then the number.
+/// Sorts candidates, best first. kQuality compares the steering (KeyReached::correction_m, which
+/// includes a miss of the key; 0 without a target) in steps of 1 cm, then the share of frames
+/// without support in steps of 5 %, then the skate ratio in steps of 1 %, then the likelihood if
+/// the model has one, then the candidate's number. kLikelihood compares the likelihood (which
+/// favours calm motion), then the number.
 void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy::kQuality);
 
 /// GenerateTransition: has the candidates of one transition sampled as bulk work, and hands out
@@ -45,9 +45,9 @@ void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy
 /// interval. The destructor cancels. Thread-safe. The queue must outlive it.
 class TransitionGroup {
  public:
-  /// Throws as GroupRequest::Validate does, and Error(kResourceExhausted) if the queue has no room
-  /// for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs are
-  /// gone.
+  /// Throws what GroupRequest::Validate throws, and Error(kResourceExhausted) if the queue has no
+  /// room for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs
+  /// are gone.
   TransitionGroup(SampleQueue& queue, ValidGroup request, std::shared_ptr<GroupSink> sink);
   TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink)
       : TransitionGroup(queue, ValidGroup(std::move(request), queue.model()), std::move(sink)) {}

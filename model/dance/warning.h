@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// About the transition of `frames` frames from `first_frame` to the key `id`.
+/// Warns about the transition of `frames` frames from `first_frame` to the key `id`.
 Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
                          int64_t frames, const RequiredSpeed& speed);
 

@@ -32,10 +32,10 @@ struct ContactSheetOptions {
 };
 
 /// Draws dancers (stage.h) as rows of frames, in time from left to right, into a PNG. The camera
-/// moves with the dancers over a fixed floor grid. Throws Error(kInvalidArgument) as CheckStage and
-/// ViewsOf, for a key frame outside the motion, a caption count other
-/// than the frame count, or sizes outside their limits; Error(kInternal) if the file cannot be
-/// written. Thread-safe.
+/// moves with the dancers over a fixed floor grid. Throws what CheckStage and ViewsOf throw;
+/// Error(kInvalidArgument) for a key frame outside the motion, a caption count other than the frame
+/// count, or sizes outside their limits; Error(kInternal) if the file cannot be written.
+/// Thread-safe.
 void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
                       const std::filesystem::path& png);
 

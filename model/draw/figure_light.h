@@ -11,7 +11,7 @@ namespace choreo {
 /// Light on a figure's parts.
 class FigureLight {
  public:
-  /// Keeps references to `figure` and `parts`, the same shapes. `lamp`: unit vector towards it.
+  /// Keeps references to `figure` and `parts` (the same shapes). `lamp`: unit vector towards it.
   FigureLight(const std::vector<PlacedPart>& figure, const std::vector<BoundedCone>& parts,
               const Eigen::Vector3f& lamp);
 

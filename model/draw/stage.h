@@ -11,7 +11,7 @@
 #include "model/draw/view.h"
 #include "model/motion/skeleton_motion.h"
 
-/// Everybody in one picture. The camera moves over the floor with the middle of the dancers.
+/// Shows all dancers in one picture. The camera moves over the floor with their middle.
 namespace choreo {
 
 /// From where dancers are seen: one from the dancer's own front in the first frame, several from

@@ -24,8 +24,7 @@ struct VideoOptions {
 
 /// Draws dancers (stage.h) as a video with its music. The camera follows them smoothly.
 /// Interpolates if the rate differs from the motions'. Draws frames on every core; the result does
-/// not depend on their number. Throws as VideoEncoder, and Error(kInvalidArgument) as CheckStage
-/// and ViewsOf. Thread-safe.
+/// not depend on their number. Throws what VideoEncoder, CheckStage and ViewsOf throw. Thread-safe.
 void DrawVideo(const Stage& stage, const VideoOptions& options, const std::filesystem::path& mp4);
 
 /// The camera's views, one per frame.

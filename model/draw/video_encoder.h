@@ -39,7 +39,7 @@ class VideoEncoder {
   void Finish();
 
  private:
-  /// Ends ffmpeg's input and waits for it; whether it succeeded.
+  /// Ends ffmpeg's input and waits for it. Returns whether it succeeded.
   bool Wait();
   [[noreturn]] void Fail();
 

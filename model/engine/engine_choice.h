@@ -31,7 +31,7 @@ struct AvailableDevices {
 std::vector<Device> ParseDevices(std::string_view text, const AvailableDevices& available,
                                  const std::string& field = "--device");
 
-/// What computes the flows' networks. LibTorch always runs paper C's model.
+/// The engine that computes the flows' networks. LibTorch always runs paper C's model.
 enum class EngineKind {
   kAuto,        ///< the fastest: packed on the CPU, in bfloat16 if possible; else torch
   kTorch,       ///< LibTorch, on any of its devices; the reference for the others

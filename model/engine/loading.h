@@ -21,7 +21,7 @@ const char* BuildIdentity();
 /// Makes samplers that share one device's weights.
 using SamplerFactory = std::function<std::unique_ptr<Sampler>()>;
 
-/// Where and by which code to compute a model.
+/// The device and code that compute a model.
 struct EngineRequest {
   Device device;
   EngineKind kind = EngineKind::kAuto;
@@ -51,7 +51,7 @@ std::string FingerprintOf(const std::string& name, const std::string& hash,
 /// The licence in a model card, or "".
 std::string LicenceOf(const std::string& card);
 
-/// What is common to all checkpoints (CheckpointOf, model/flow/checkpoint.h).
+/// The common part of all checkpoints (CheckpointOf, model/flow/checkpoint.h).
 template <typename Checkpoint>
 ModelInfo InfoOf(const Checkpoint& checkpoint, const std::string& kernels) {
   const auto& config = checkpoint.model->config();

@@ -22,11 +22,11 @@ class SampleJob {
   /// An exception ends only this job, as a failure.
   virtual bool Continue(Sampler& sampler) = 0;
 
-  /// Called once, last: after the last slice (nullptr), after cancellation (kCancelled), or after a
-  /// failure. A job that never began ends on any worker's thread.
+  /// The last call, made once: after the last slice (nullptr), after cancellation (kCancelled), or
+  /// after a failure. A job that never began ends on any worker's thread.
   virtual void OnDone(const Error* failure) noexcept = 0;
 
-  /// When its first frame is due on its listener's clock, seconds of std::steady_clock. Read once.
+  /// When its first frame is due for its listener, seconds of std::steady_clock. Read once.
   virtual double Deadline() const = 0;
   /// Its number of frames.
   virtual int frames() const = 0;
@@ -88,7 +88,7 @@ class SampleQueue {
 
   /// Throws Error(kResourceExhausted) if more than `max_bulk` would be reserved.
   Reservation ReserveBulk(int transitions);
-  /// Submits a bulk job. Throws as Submit.
+  /// Submits a bulk job. Throws what Submit throws.
   void SubmitBulk(std::shared_ptr<SampleJob> job);
 
   /// Looks for cancelled jobs. Cheap, from any thread.

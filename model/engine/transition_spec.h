@@ -33,7 +33,7 @@ struct ModelInfo {
   int history_frames = kHistoryFrames;  ///< tau
   int audio_features = kMfccCount;      ///< columns of MFCC rows
   int max_transition_frames = kMaxTransitionFrames;
-  /// How far ahead it sees a key that its transition does not reach (LaterTarget). 0: not at all.
+  /// How far ahead the model sees a key beyond its transition (LaterTarget). 0: not at all.
   int sight_frames = 0;
   double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing

@@ -20,7 +20,7 @@ struct BeatFigures {
 BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music, double fps);
 
 /// Scores each dance on its own song and, for chance, on the set's other songs from their
-/// beginnings: what it hits by density and tempo alone.
+/// beginnings, which it hits by density and tempo alone.
 class BeatTable {
  public:
   /// The set must outlive the table.

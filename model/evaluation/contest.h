@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// Which methods are compared, as requested.
+/// The requested choice of methods to compare.
 struct ContestOptions {
   std::filesystem::path model;  ///< checkpoint
   std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
@@ -29,13 +29,13 @@ struct Contest {
 };
 
 /// Throws Error(kInvalidArgument, "--other") for text that is not NAME=CHECKPOINT, a name that
-/// another row has (--name, if it is that one's), or a model on another skeleton; otherwise as
-/// MakeSampler. Checks names before loading anything.
+/// another row has (--name, if it is that one's), or a model on another skeleton; otherwise what
+/// MakeSampler throws. Checks names before loading anything.
 Contest MakeContest(const ContestOptions& options);
 
 /// The clips in each folder that belong to the group `split`, with their beats, as a set named
 /// after the folder. Throws Error(kInvalidArgument, "--data") for two folders of one name, or
-/// another skeleton than `skeleton`; otherwise as LoadClips.
+/// another skeleton than `skeleton`; otherwise what LoadClips throws.
 std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
                               const std::filesystem::path& splits, const std::string& split,
                               const Skeleton& skeleton);

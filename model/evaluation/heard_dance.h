@@ -9,13 +9,13 @@
 
 namespace choreo {
 
-/// A dance to mono samples at 22 050 Hz as served: streams all of them and ends with them. `config`
-/// must not describe the music or its format. Throws as DanceStream, and the error that the stream
-/// ends in.
+/// Dances to mono samples at 22 050 Hz as served: streams all of them and ends with them. `config`
+/// must not describe the music or its format. Throws what DanceStream throws, and the error that
+/// ends it.
 std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config,
                           std::span<const Key> keys = {}, const ControlRequest& controls = {});
 
-/// Keys for another dance: this one's poses every two seconds, in place.
+/// Makes keys for another dance: this one's poses every two seconds, in place.
 std::vector<Key> KeysOf(std::span<const Pose> dance);
 
 /// A path once around every 24 s, a metre and a half wide.

@@ -45,7 +45,7 @@ class Runner {
   /// `danced` is called with each transition's number of frames.
   explicit Runner(std::function<void(int)> danced = {}) : danced_(std::move(danced)) {}
 
-  /// The poses of each request. Throws as TransitionRun.
+  /// The poses of each request. Throws what TransitionRun throws.
   Dances Dance(Sampler& sampler, std::span<const TransitionRequest> requests) const;
 
   /// Dances each plan transition by transition (TransitionEnd). No dance depends on the others.

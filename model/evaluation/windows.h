@@ -12,7 +12,7 @@ namespace choreo {
 struct ClipSet {
   std::string name;  ///< of the data's folder
   std::vector<PreparedClip> clips;
-  /// Where each clip's music beats, in frames of its motion, ascending (song_beats.h); fewer than
+  /// The beats of each clip's music, in frames of its motion, ascending (song_beats.h); fewer than
   /// clips: unknown of the others.
   std::vector<std::vector<double>> beats = {};
 
@@ -23,8 +23,7 @@ struct ClipSet {
 /// Those of `beats`, in frames, that lie in [start, start + frames), counted from start.
 std::vector<double> BeatsBetween(const std::vector<double>& beats, int start, int frames);
 
-/// A place where a transition was really danced: frames [start, start + frames) of the clip, with
-/// its history before.
+/// A real transition: frames [start, start + frames) of the clip, with its history before.
 struct EvalWindow {
   size_t clip = 0;  ///< within its set
   int start = 0;
@@ -39,7 +38,7 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
 TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
                             int frames, float temperature, size_t number);
 
-/// What was really danced there, with `before` frames of the history in front.
+/// The real dance there, with `before` frames of the history in front.
 std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before);
 
 }  // namespace choreo

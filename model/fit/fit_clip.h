@@ -20,7 +20,7 @@ struct FitResult {
 };
 
 /// Brings the body down to the floor at least every few seconds. The correction changes slowly, so
-/// that jumps stay. Returns the mean of what was added to the heights, metres.
+/// that jumps stay. Returns its mean, metres.
 double Ground(const Skeleton& skeleton, Motion& motion);
 
 /// Fits a whole clip: measure, normalise, fit forwards, refine once with both neighbours known

@@ -98,8 +98,8 @@ class HingePlaneTerm {
   std::vector<HingePlane> planes_;
 };
 
-/// Per joint: a weak pull to the rest rotation; knees and elbows on their hinge, not beyond
-/// straight; little change from the neighbours in time.
+/// Pulls each joint weakly to the rest rotation, keeps knees and elbows on their hinge and not
+/// beyond straight, and keeps joints near their neighbours in time.
 class JointTerm {
  public:
   JointTerm(const Skeleton& skeleton, const FitOptions& options, double fps);

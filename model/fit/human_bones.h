@@ -8,12 +8,12 @@
 /// The names that rigs give to a human body's bones, known only here.
 namespace choreo {
 
-/// Which joint of a rig is which bone.
+/// The bones that the joints of a rig are.
 struct HumanBones {
   std::string_view rig;  ///< the naming that matched, such as "Mixamo and HumanIK"
   /// Joint index by bone: "pelvis", "spine1", "spine2", ..., "neck", "neck2", ..., "head", and with
   /// "left_" or "right_" in front: hip, knee, ankle, foot (the toes), collar, shoulder, elbow,
-  /// wrist, hand (where the fingers begin), eye. Only bones that the rig has.
+  /// wrist, hand (where the fingers begin), eye. Holds only bones that the rig has.
   std::map<std::string, int> bones;
 
   /// The bone's joint index, or -1.

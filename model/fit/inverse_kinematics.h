@@ -7,7 +7,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Inverse kinematics of the whole body: some joints are drawn to targets, the rest follows.
+/// Inverse kinematics of the whole body: targets pull some joints, and the rest follow.
 namespace choreo {
 
 /// Where a joint should be: world, metres.

@@ -17,8 +17,8 @@ class PositionFitter {
                  const FitOptions& options = {}, double fps = kModelFps);
 
   /// Landmark targets [3, landmarks] → the pose, on the exp-map branch nearest to the frame before.
-  /// What they leave open, such as a straight arm's twist, changes little from the frame before and
-  /// stays close to `after`'s, if given.
+  /// Rotations that they leave open, such as a straight arm's twist, changes little from the frame
+  /// before and stays close to `after`'s, if given.
   const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after = nullptr);
 
   /// Continues as if `previous` had been the frame before.

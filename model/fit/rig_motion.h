@@ -10,8 +10,8 @@
 #include "model/fit/human_bones.h"
 #include "model/motion/motion.h"
 
-/// A recording of a foreign rig → rotations of SMPL's body, bone by bone from rest pose to rest
-/// pose, corrected by the joints' positions.
+/// Converts a recording of a foreign rig to rotations of SMPL's body, bone by bone from rest pose
+/// to rest pose, corrected by the joints' positions.
 namespace choreo {
 
 /// The placement of a rig's bones, in the axes and unit of its file.
@@ -23,7 +23,7 @@ struct RigPlacement {
 /// A recording of a rig's bones (other nodes are omitted).
 struct RigMotion {
   double fps = 0;
-  HumanBones bones = {};                 ///< which column is which bone
+  HumanBones bones = {};                 ///< the bone of each column
   std::vector<std::string> names = {};   ///< [bones] names in the file
   std::vector<RigPlacement> rests = {};  ///< candidates for its rest pose, best first
   /// How many of the first rests have axes of their own, as a skin's do.
@@ -39,7 +39,7 @@ struct RigFit {
   std::optional<Eigen::Vector3d> up = {};
   bool rest = true;   ///< false: its rest pose is no body's, what bones are at rest is a guess
   bool turns = true;  ///< false: its rotations do not carry its joints, positions alone were fitted
-  std::vector<std::string> missing;  ///< "neck", "head", "collars", "toes": what it has not
+  std::vector<std::string> missing;  ///< its missing parts: "neck", "head", "collars", "toes"
   /// The part whose left and right were exchanged in the file: "body", "arms", "legs", or "" for
   /// none. Its sides were assigned by position.
   std::string exchanged = {};

@@ -9,7 +9,7 @@
 #include "model/fit/character_body.h"
 #include "model/fit/rig_motion.h"
 
-/// What a recording reveals about its rig before fitting. Private to this folder.
+/// The facts that a recording reveals about its rig before fitting. Private to this folder.
 namespace choreo {
 
 /// The share of frames that makes a rule.
@@ -19,7 +19,7 @@ inline constexpr double kRuleShare = 0.9;
 struct LimbSegment {
   std::string from, to;
 };
-/// The left side's, then as many of the right.
+/// The left side's bones, then as many of the right.
 const std::vector<LimbSegment>& LimbSegments();
 
 /// Samples a few frames; the recording must outlive it.

@@ -9,7 +9,7 @@
 #include "model/fit/position_clip.h"
 #include "model/motion/skeleton.h"
 
-/// How the joints of source skeletons locate ours.
+/// Says how the joints of source skeletons locate ours.
 namespace choreo {
 
 /// A weighted sum of named joints; the weights sum to 1.
@@ -22,9 +22,9 @@ double MedianDistance(const PositionClip& clip, const JointBlend& a, const Joint
 struct OurPoint {
   std::string joint;
   double weight = 1;
-  /// Offset in the joint's frame (at rest: x to the dancer's left, y up, z forward), metres. For
-  /// points that are not joints, such as heels and temples, and for source joints at another place
-  /// in the body than ours of the same name.
+  /// Offset in the joint's frame (at rest: x to the dancer's left, y up, z forward), metres. It
+  /// serves points that are not joints, such as heels and temples, and source joints at another
+  /// place in the body than ours of the same name.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 

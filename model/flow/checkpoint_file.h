@@ -9,7 +9,7 @@
 #include "model/core/safetensors.h"
 #include "model/motion/skeleton.h"
 
-/// What surrounds every checkpoint's tensors: a format name, configuration, skeleton, model card,
+/// The data around every checkpoint's tensors: a format name, configuration, skeleton, model card,
 /// and a content hash over everything.
 namespace choreo {
 

@@ -50,7 +50,7 @@ class FlowField {
   Eigen::MatrixXf mean_, poses_, joints_;
   std::vector<View> views_;  // as labelled and, for guidance, without labels
   double guidance_;
-  // Beats act alike on neighbouring steps, so the last one takes their effect from the step before.
+  // Beats affect neighbouring steps alike, so the last step takes their effect from the one before.
   bool keeps_effect_;
   Eigen::MatrixXd z_, f_, effect_;
   int step_ = 0;

@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// Nobody dances farther beyond the sampled way.
+/// The largest temperature: how far beyond the sampled motion a dance may go.
 inline constexpr double kMaxFlowTemperature = 1.25;
 
 struct FlowNoise {

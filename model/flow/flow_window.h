@@ -58,8 +58,8 @@ struct WindowRequest {
 /// The mirrored request, in the mirrored canonical frame.
 WindowRequest Mirror(const std::vector<int>& pairs, const WindowRequest& request);
 
-/// A turn for the request (WindowRequest::turn), as dancers turn whom nothing holds. `normal`: a
-/// standard normal number.
+/// A turn for the request (WindowRequest::turn), such as dancers make freely. `normal`: a standard
+/// normal number.
 double FreeTurn(const MotionPrior& prior, const WindowRequest& request, double normal);
 
 /// EnergyLevel of each body part in each frame, [kBodyParts, w]; NaN if not requested.
@@ -111,7 +111,7 @@ class FlowWindow {
   Eigen::VectorXd Whiten(int dimension, const Eigen::VectorXd& x) const;
 
  private:
-  // What the constructor sets up, in this order. `velocities`: the last ones, [dimensions, kPast].
+  // The steps of the constructor, in this order. `velocities`: the last ones, [dimensions, kPast].
   void SetKey(const MotionPrior& prior, const WindowRequest& request);
   void SetMean(const MotionPrior& prior, const WindowRequest& request,
                const Eigen::MatrixXd& velocities);

@@ -72,11 +72,11 @@ class MotionPrior {
   /// floor, do not continue so, and lead networks far out of the range they know.
   static constexpr double kMaxSpeed = 8;
 
-  /// What is known of one degree of freedom's displacements f_1..f_w from the last history frame.
-  /// `past` [w, kPast] and `key` [w] are the weights in their mean of the last velocities (latest
-  /// first) and of the displacement to the key or, without one, to the usual pose; `spread` [w, w]
-  /// is the lower Cholesky factor of their covariance, so that row i depends only on frames up to
-  /// i.
+  /// The distribution of one degree of freedom's displacements f_1..f_w from the last history
+  /// frame. `past` [w, kPast] and `key` [w] are the weights in their mean of the last velocities
+  /// (latest first) and of the displacement to the key or, without one, to the usual pose; `spread`
+  /// [w, w] is the lower Cholesky factor of their covariance, so that row i depends only on frames
+  /// up to i.
   struct Bridge {
     Eigen::MatrixXd past;
     Eigen::VectorXd key;
@@ -93,14 +93,14 @@ class MotionPrior {
   int dimensions() const { return static_cast<int>(covariance_.rows()); }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const VariancePowers& powers() const { return powers_; }
-  /// The factor of each frame's noise, [dimensions, frames]: who is lively stays so. `surprise`:
+  /// The factor of each frame's noise, [dimensions, frames]: a lively dancer stays so. `surprise`:
   /// the known displacements' squares over those that the covariance expects (1 on average);
   /// `levels` [kBodyParts, frames]: EnergyLevel of each body part, NaN if unknown.
   Eigen::MatrixXd Scales(double surprise, const Eigen::MatrixXd& levels) const;
   /// The networks' unit of velocities, [dimensions]: their standard deviation.
   Eigen::VectorXd VelocitySpread() const;
 
-  /// False for what recordings lack, such as finger joints.
+  /// False for degrees of freedom that recordings lack, such as finger joints.
   bool Moves(int dimension) const;
 
   /// The bridges by dimension of a window of `frames` frames with a key `to_key` frames after the

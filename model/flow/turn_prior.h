@@ -29,8 +29,8 @@ class TurnPrior {
   /// turns it about an axis other than the vertical. Equal for a dancer and the mirror image.
   static std::optional<Inputs> Describe(const Skeleton& skeleton, const WindowRequest& request);
   double ChanceOfOther(const Inputs& inputs) const;
-  /// WindowRequest::turning: at temperature 0 the likelier way; at 1 each as often as dancers take
-  /// it. `normal`: a standard normal number. None if nothing is known.
+  /// Returns WindowRequest::turning: the likelier way at temperature 0; at 1 each as often as
+  /// dancers take it. `normal`: a standard normal number. None if nothing is known.
   std::optional<Eigen::Vector3d> Sample(const Skeleton& skeleton, const WindowRequest& request,
                                         double normal, double temperature) const;
 };

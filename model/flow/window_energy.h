@@ -6,11 +6,10 @@
 #include "model/flow/flow_model.h"
 #include "model/flow/flow_window.h"
 
-/// How energetic a window is: what is known of it, what is sampled, and what the network must be
-/// asked for.
+/// A window's energy: the known part, the sampled part, and what to ask of the network.
 namespace choreo {
 
-/// What a window and its request say about its energy.
+/// The energy that a window and its request state.
 EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowRequest& request,
                                  const FlowWindow& window);
 

@@ -12,8 +12,9 @@
 namespace choreo {
 
 struct WindowFeatures {
-  Eigen::MatrixXf frames;  ///< [FrameFeatures(), tau + w]: whether it is past, beats, controls, time
-  Eigen::VectorXf whole;   ///< [WholeFeatures()]: the last pose, its velocity, way to the key, style
+  Eigen::MatrixXf
+      frames;             ///< [FrameFeatures(), tau + w]: whether it is past, beats, controls, time
+  Eigen::VectorXf whole;  ///< [WholeFeatures()]: the last pose, its velocity, way to the key, style
 };
 
 int FrameFeatures(std::span<const ControlRow> controls = kControls);
@@ -23,8 +24,8 @@ WindowFeatures DescribeWindow(const Skeleton& skeleton, const ContinuousFlowConf
                               const MotionPrior& prior, const WindowRequest& request,
                               const FlowWindow& window);
 
-/// Position of frame `at` between two of the `beats` (frames, ascending): [0, 1). Outside the beats
-/// the nearest interval repeats; fewer than two beats have no phase. `period`: frames of that
+/// The position of frame `at` between two of the `beats` (frames, ascending): [0, 1). Outside the
+/// beats the nearest interval repeats; fewer than two beats have no phase. `period`: frames of that
 /// interval.
 struct BeatPhase {
   double phase = 0, period = 0;

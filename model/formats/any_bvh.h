@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-/// Reads a BVH file of any skeleton: as it is for `wanted` (if any), SMPL's, or one of its own in
-/// our conventions, and otherwise fitted to SMPL's. Angles that look like radians are taken as
+/// Reads a BVH file of any skeleton: unchanged if it is `wanted` (if any), SMPL's, or one of its
+/// own in our conventions, otherwise fitted to SMPL's. Angles that look like radians are taken as
 /// such, unless `reading` says what they are.
 SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
                           const MotionReading& reading);

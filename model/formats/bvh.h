@@ -76,7 +76,7 @@ BvhFile ReadBvh(const std::filesystem::path& path);
 
 /// Six decimals.
 std::string BvhText(const BvhFile& file);
-/// The same into a file. Error(kInternal) if it cannot be written.
+/// Writes the same into a file. Throws Error(kInternal) if it cannot be written.
 void WriteBvh(const std::filesystem::path& path, const BvhFile& file);
 
 /// Global places and turns of all joints and end sites in one frame, file units.

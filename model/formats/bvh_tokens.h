@@ -124,7 +124,7 @@ class BvhTokens {
   }
 
  private:
-  // DOS's end of a file, and zeros that fill its last block, are as good as spaces.
+  // DOS's end of a file, and zeros that fill its last block, count as spaces.
   static bool IsSpace(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\x1a' || c == '\0';
   }

@@ -18,9 +18,9 @@ struct GlbChunks {
 /// glb can have.
 std::string ReadGlbBytes(const std::filesystem::path& path);
 
-/// The same for a text glTF, converted to binary with the buffer file beside it, if any, as its
-/// binary chunk. Also throws Error(kInvalidArgument) naming that file if it is unreadable or not
-/// beside or below `path`, and for several.
+/// Reads the same from a text glTF, converted to binary with the buffer file beside it, if any, as
+/// its binary chunk. Throws, too, Error(kInvalidArgument) naming that file if it is unreadable or
+/// not beside or below `path`, and for several.
 std::string ReadGltfBytes(const std::filesystem::path& path);
 
 /// Points into `bytes`. Throws Error(kInvalidArgument) without a field.

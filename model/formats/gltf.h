@@ -29,7 +29,7 @@ struct NamedMotion {
   Motion motion;
 };
 /// The same for several dancers on one skeleton, with nodes named NAME:JOINT: one body and skin
-/// each, and one animation for all. Throws as above, and Error(kInvalidArgument) for no dancers,
+/// each, and one animation for all. Throws the same, and Error(kInvalidArgument) for no dancers,
 /// and for motions with different rates or frame counts.
 void WriteGlb(const std::filesystem::path& path, const Skeleton& skeleton,
               const std::vector<NamedMotion>& dancers, RootMotion root = RootMotion::kPelvis);

@@ -58,7 +58,7 @@ class GltfBuilder {
   /// node.
   void AddDance(double fps, size_t frames, const std::vector<GltfTrack>& tracks);
 
-  /// The whole file, followed by further chunks. Throws as JoinGlb.
+  /// The whole file, followed by further chunks. Throws what JoinGlb throws.
   std::string Join(std::string_view others = {});
 
  private:

@@ -31,7 +31,7 @@ struct GltfChannel {
 };
 
 /// The channels of one of the file's animations. Throws Error(kInvalidArgument) naming a faulty
-/// part. Private to this folder, as the above.
+/// part. Private to this folder, like the above.
 std::vector<GltfChannel> ReadGltfChannels(const tinygltf::Model& model, size_t animation);
 
 }  // namespace choreo

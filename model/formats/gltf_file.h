@@ -15,7 +15,7 @@ namespace choreo {
 /// "list[3]".
 std::string GltfItem(const char* list, size_t index);
 
-/// The element, or Error(kInvalidArgument) whose field is `name`.
+/// Returns the element, or throws Error(kInvalidArgument) whose field is `name`.
 template <typename T>
 const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
   if (index < 0 || static_cast<size_t>(index) >= list.size()) {

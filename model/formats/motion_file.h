@@ -13,7 +13,7 @@
 
 namespace choreo {
 
-/// A path's extension in small letters, as in ".npz" of "DANCE.NPZ".
+/// A path's extension in small letters: ".npz" of "DANCE.NPZ".
 std::string SmallExtension(const std::filesystem::path& path);
 
 /// The formats of motion files, by their extension, whose case does not matter: `.npz`
@@ -37,18 +37,18 @@ void RequireWrittenMotionFile(const std::filesystem::path& path);
 /// tell too little; Error(kNotFound) if the file cannot be opened.
 SkeletonMotion ReadMotion(const std::filesystem::path& path, const MotionReading& reading = {});
 
-/// How to treat a motion with other bones: retarget it (fit/retarget.h), or refuse it with
+/// The treatment of a motion with other bones: retarget it (fit/retarget.h), or refuse it with
 /// Error(kInvalidArgument) naming both skeletons.
 enum class OtherSkeleton : uint8_t { kRetarget, kRefuse };
 
-/// The same on this skeleton.
+/// Reads the same on this skeleton.
 Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
                   OtherSkeleton other = OtherSkeleton::kRetarget,
                   const MotionReading& reading = {});
 
 /// Writes a file in the format of its extension; an npz of another skeleton than SMPL's contains
-/// it. Only an npz stores `contacts`, one per frame. Errors as above, and Error(kInternal) if the
-/// file cannot be written.
+/// it. Only an npz stores `contacts`, one per frame. Throws what ReadMotion throws for values, and
+/// Error(kInternal) if the file cannot be written.
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts = nullptr);
 

@@ -12,13 +12,13 @@ namespace choreo {
 /// Options for reading a motion file that leaves something open or states it wrongly. All are
 /// optional.
 struct MotionReading {
-  /// The file's axis that points up, as in "z" or "-y"; empty: that of its format, unless the body
-  /// would lie.
+  /// The file's axis that points up, such as "z" or "-y"; empty: that of its format, unless the
+  /// body would lie.
   std::string up = {};
   double scale = 0;  ///< metres per unit of the file; 0: that of its format
   double fps = 0;    ///< for a file that states no rate, or several; 0: 30
   /// The unit of its angles, "degrees" or "radians"; empty: that of its format, unless the body
-  /// would bend as none can.
+  /// would bend impossibly.
   std::string angles = {};
   /// The glTF animation's name, or its number from 0 on; empty: one that moves.
   std::string animation = {};
@@ -29,8 +29,7 @@ struct MotionReading {
   /// wrong.
   std::vector<std::string>* notes = nullptr;
 
-  /// Whether it says which bones are read, or how they lie: then not even our own file is read as
-  /// it is.
+  /// Whether it chooses bones or their axes; then not even our own files are read unchanged.
   bool chooses() const {
     return !bones.empty() || !body.empty() || !up.empty() || scale > 0 || !angles.empty();
   }
@@ -43,7 +42,7 @@ struct MotionReading {
   void NoteRate(double taken) const;
 };
 
-/// How to write arrays that are read, for messages.
+/// Describes readable arrays for messages.
 inline constexpr const char* kWriteArrays =
     "write rotations and places by numpy.savez(\"FILE.npz\", poses=..., trans=..., fps=...)";
 
@@ -57,7 +56,7 @@ size_t ChooseBody(const std::string& body, const std::vector<std::string>& names
 /// `0 "A:Hips", 1 "B:Hips"`, for messages.
 std::string ListBodies(const std::vector<std::string>& names);
 
-/// Throws Error(kInvalidArgument), whose field is --angles, for what is no unit of angles.
+/// Throws Error(kInvalidArgument), whose field is --angles, for an unknown unit of angles.
 void CheckAngles(const std::string& angles);
 
 /// "y" → (0, 1, 0), "-z" → (0, 0, -1). Throws Error(kInvalidArgument) whose field is --up.

@@ -11,8 +11,8 @@
 #include "model/motion/skeleton.h"
 #include "model/motion/skeleton_motion.h"
 
-/// Motions of any skeleton in npz files, and the checks of all writers. Motions of SMPL's skeleton
-/// are written as in amass_npz.h, so that SMPL's tools can read them.
+/// Motions of any skeleton in npz files, and the checks of all writers. amass_npz.h writes motions
+/// of SMPL's skeleton, so that SMPL's tools can read them.
 namespace choreo {
 
 /// Throws Error(kInvalidArgument) for no frames, a frame of another joint count than the skeleton's
@@ -21,7 +21,7 @@ void RequireWritable(const Skeleton& skeleton, const Motion& motion,
                      const std::vector<Contacts>* contacts = nullptr);
 
 /// Adds root_positions [F, 3] of joint 0, metres, Y up; rotations [F, joints, 3], axis-angle,
-/// local; fps; and contacts [F, 4] if they are given. Throws as RequireWritable.
+/// local; fps; and contacts [F, 4] if they are given. Throws what RequireWritable throws.
 void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
                   const std::vector<Contacts>* contacts, NpzArchive& npz);
 /// The inverse, without contacts. Throws Error(kInvalidArgument) naming the array.

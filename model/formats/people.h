@@ -18,10 +18,10 @@ int64_t PeopleIn(const NpyArray& array, const std::function<bool(int64_t width)>
 /// whose field is --body.
 int64_t ChoosePerson(int64_t people, const std::string& key, const MotionReading& reading);
 
-/// Whether one of the first two extents of an array is of so many people.
+/// Whether one of an array's first two extents counts so many people.
 bool HoldsPeople(const NpyArray& array, int64_t people);
 
-/// The array of one person of so many.
+/// The array of one of so many people.
 NpyArray PersonOf(const NpyArray& array, int64_t people, int64_t person);
 
 }  // namespace choreo

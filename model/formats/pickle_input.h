@@ -29,8 +29,7 @@ class PickleInput {
     opcode_ = Byte();
   }
 
-  /// Throws Error(kInvalidArgument), as the functions below do where the bytes are not as they must
-  /// be.
+  /// Throws Error(kInvalidArgument). The functions below do so for unexpected bytes.
   [[noreturn]] void Refuse(const std::string& why) const {
     char where[48];
     std::snprintf(where, sizeof where, "opcode 0x%02x at byte %zu: ", opcode_, start_);
@@ -46,7 +45,7 @@ class PickleInput {
     return bytes_.substr(at_ - count, count);
   }
   int Byte() { return static_cast<unsigned char>(Take(1)[0]); }
-  /// Little-endian, of `size` bytes.
+  /// Reads a little-endian number of `size` bytes.
   uint64_t Unsigned(size_t size) {
     uint64_t value = 0;
     const std::string_view bytes = Take(size);
@@ -54,13 +53,13 @@ class PickleInput {
     return value;
   }
   double BigEndianDouble() { return std::bit_cast<double>(__builtin_bswap64(Unsigned(8))); }
-  /// Up to the next line feed, which it skips.
+  /// Reads up to the next line feed, which it skips.
   std::string_view Line() {
     const std::string_view line = Take(std::min(bytes_.find('\n', at_), bytes_.size()) - at_);
     Take(1);
     return line;
   }
-  /// The number that a line is; none beyond T.
+  /// The number on a line; none beyond T.
   template <typename T>
   std::optional<T> NumberIn(std::string_view line) const {
     T number{};

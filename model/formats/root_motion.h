@@ -5,8 +5,8 @@
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
 
-/// Who carries a dancer over the floor in a file: game engines move characters themselves, by a
-/// clip that stays in place or by the track of a node on the floor.
+/// The part of a file that carries the dancer over the floor. Game engines move characters
+/// themselves, by a clip in place or by the track of a node on the floor.
 namespace choreo {
 
 enum class RootMotion {
@@ -15,7 +15,7 @@ enum class RootMotion {
   kInPlace,  ///< nobody: the pelvis stays above the origin; it turns and rises as danced
 };
 
-/// A motion as its way over the floor, a place a frame, and the motion about it.
+/// A motion, split into its way over the floor, a place a frame, and the motion about it.
 struct SplitMotion {
   std::vector<GroundFrame> way;
   Motion body;

@@ -30,9 +30,9 @@ struct RotationRows {
 RotationRows ReadRotationRows(const NpzArchive& npz, const std::string& key,
                               const std::vector<int64_t>& joints);
 
-/// Makes radians of degrees: as `reading` says or, where most frames have a joint other than the
-/// first turned by more than two whole turns, with a note. Throws Error(kInvalidArgument), whose
-/// field is --angles, where that is given for what has no unit.
+/// Converts degrees to radians if `reading` says so or, with a note, if most frames have a joint
+/// other than the first turned by more than two whole turns. Throws Error(kInvalidArgument), whose
+/// field is --angles, if that is given for rotations without a unit.
 void ToRadians(const std::string& key, const MotionReading& reading, RotationRows* rows);
 
 }  // namespace choreo

@@ -13,7 +13,7 @@ struct HearArguments {
 };
 
 /// Prints EvaluateHearing's table and writes it if asked to. Throws Error(kInvalidArgument,
-/// "--music") for a folder without songs; otherwise as MakeSampler and DecodeAudioFile.
+/// "--music") for a folder without songs; otherwise what MakeSampler and DecodeAudioFile throw.
 void HearSongs(const HearArguments& arguments);
 
 }  // namespace choreo

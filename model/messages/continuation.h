@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// The end of a transition: all that another server needs to resume the dance.
+/// The end of a transition, with all that another server needs to resume the dance.
 struct Continuation {
   int64_t frame = 0;        ///< the first frame not yet danced; model rate, absolute
   std::vector<Pose> poses;  ///< tau poses before it, oldest first, world, rounded to floats

@@ -11,7 +11,7 @@
 /// model's rate.
 namespace choreo {
 
-/// How closely a key was met. Distances and angles are the largest over the joints that the key
+/// The errors at a key. Distances and angles are the largest over the joints that the key
 /// constrains.
 struct KeyReached {
   std::string id = {};
@@ -29,8 +29,8 @@ struct KeyReached {
   std::optional<HandPose> hands = {};
 };
 
-/// A message about a key changed nothing: it came too late, as the frames that it would change are
-/// frozen, or it is invalid. Codes have the API's numbers, here and below.
+/// Says that a message about a key changed nothing: the frames that it would change are frozen, or
+/// it is invalid. Codes have the API's numbers, here and below.
 struct KeyRejected {
   enum class Code {
     kUnknown,         ///< an old server does not say

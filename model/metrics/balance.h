@@ -36,8 +36,8 @@ struct WeightFigures {
       0;  ///< median time that a foot stays on the floor, frames; 0 without contacts
 };
 
-/// Frames without a foot on the floor count as hovering, not as outside the feet. Floor and errors
-/// as BalanceOf.
+/// Frames without a foot on the floor count as hovering, not as outside the feet. Takes the floor
+/// and throws like BalanceOf.
 WeightFigures MeasureWeight(const Skeleton& skeleton, double fps, const JointTrack& track,
                             double floor);
 

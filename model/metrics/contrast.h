@@ -7,7 +7,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// How a dance varies: its turns, rests and changes of pace. Pure functions, thread-safe.
+/// Measures how a dance varies: its turns, rests and changes of pace. Pure functions, thread-safe.
 namespace choreo {
 
 inline constexpr double kContrastSeconds = 2;  ///< of a window

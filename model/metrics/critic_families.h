@@ -30,7 +30,7 @@ using FamilyWindows = std::array<CriticWindows, kCriticFamilies.size()>;
 void AddFamilies(const Skeleton& skeleton, double fps, const JointTrack& track, double floor,
                  size_t clip, FamilyWindows* to);
 
-/// CriticArea of each by a plain ridge regression: features are few and meaningful.
+/// The CriticArea of each by plain ridge regression: features are few and meaningful.
 std::array<double, kCriticFamilies.size()> FamilyAreas(const FamilyWindows& real,
                                                        const FamilyWindows& danced);
 

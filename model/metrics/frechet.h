@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-/// How similar two sets of motions are, and how diverse one set is, in some feature space. A set is
-/// [features, motions].
+/// Measures how similar two sets of motions are, and how diverse one is, in some feature space. A
+/// set is [features, motions].
 namespace choreo {
 
 /// Mean and standard deviation of a set of real motions; constant features keep their unit.

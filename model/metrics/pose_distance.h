@@ -30,9 +30,9 @@ double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
 /// Normalized power spectrum similarity (Gopalakrishnan et al. 2019, Section 4.1; of transitions:
 /// Harvey et al. 2020): the earth mover's distance between two features' (GlobalQuaternions)
 /// distributions of power over frequencies, averaged over windows and features, weighted by the
-/// real motion's power. 0 means equal; no unit. The weighted sum and the weights are separate, for
-/// means over windows. Both inputs are [features, frames]; features without power in either motion
-/// do not count.
+/// real motion's power. 0 means equal; no unit. Returns the weighted sum and the weights
+/// separately, for means over windows. Both inputs are [features, frames]; features without power
+/// in either motion do not count.
 struct Npss {
   double sum = 0, weight = 0;
 };

@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-/// Metres above its rest height: up to the first a joint is on the floor; beyond the second it has
-/// left it.
+/// Metres above rest height: up to the first a joint is on the floor; beyond the second it is off
+/// it.
 inline constexpr double kDownHeight = 0.04, kUpHeight = 0.07;
 
 /// Detects contacts frame by frame. A foot joint touches down when it is both low and slow, and

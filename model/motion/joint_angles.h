@@ -7,7 +7,7 @@
 
 #include "model/motion/skeleton.h"
 
-/// Joint rotations as people name them, in degrees instead of rotation vectors.
+/// Converts joint rotations between rotation vectors and the degrees that people use.
 ///
 /// A knee or an elbow has one number, its bend: 0 is straight. Any other joint has three: turns
 /// about the x, then the y, then the z axis (Rz Ry Rx, which Blender calls XYZ). The axes are those

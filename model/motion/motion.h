@@ -55,8 +55,8 @@ struct PoseMask {
 struct Target {
   Pose pose;
   PoseMask mask;
-  /// The root's height above the floor, metres, if the key leaves its position open. None: height
-  /// is open too.
+  /// The root's height above the floor, metres, if the key leaves its position open. None: the
+  /// height is open, too.
   std::optional<double> height = {};
 };
 

@@ -41,10 +41,10 @@ class PackedFlowNetwork : public FlowNetwork {
   struct Range {
     long first, end;
   };
-  /// Attention over time of the tokens `read`, from `qkv` of all to `mixed`.
+  /// Computes attention over time of the tokens `read`, from `qkv` of all to `mixed`.
   void Attend(const Block& block, Range read, Workspace* work) const;
-  /// One block: x += attention, x += perceptron, each weighted by `modulation`. Computes the tokens
-  /// `read`, which are the last ones; those before take part in their attention.
+  /// Computes one block: x += attention, x += perceptron, each weighted by `modulation`. Computes
+  /// the tokens `read`, which are the last ones; those before take part in their attention.
   void Transform(const Block& block, const float* modulation, Range read, Workspace* work) const;
   /// out = normalised x times (1 + scale) + shift, row by row; both [width].
   void Normalise(const RowBuffer& x, const float* shift, const float* scale, Range rows,

@@ -106,7 +106,7 @@ void Multiply(const PackedProduct& p) {
     }
     ShapeTiles(shapes);
     for (long panel = 0; panel < p.panels;) {
-      // With fewer than four sums they would wait for one another.
+      // Fewer than four sums would wait for one another.
       const bool two = tall == 1 && p.panels - panel >= 2;
       two         ? TileBlock<1, 4>(p, row, rows, height, panel)
       : tall == 1 ? TileBlock<1, 2>(p, row, rows, height, panel)
