@@ -83,7 +83,7 @@ void BarPointer::AddPart(size_t nth, const Limits& limits) {
     ring.begin.fill(kNowhere);
     for (size_t place = 0; place < pattern.places; ++place) {
       const double at = pattern.place[place];
-      // Of positions too close to distinguish at this tempo, the first one counts.
+      // The first one counts of positions too close to distinguish at this tempo.
       const auto is_near = [&](double other) {
         const double apart = std::abs(other - at);
         return period * std::min(apart, 1 - apart) < kFrames + 1;

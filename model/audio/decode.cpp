@@ -84,7 +84,7 @@ class LimitedReader {
   int64_t read() const { return read_; }
   const std::vector<std::string>& notes() const { return reader_->notes(); }
 
-  /// As SoundReader; `is_kept`: whether these samples count towards the limits.
+  /// Reads like SoundReader; `is_kept`: whether these samples count towards the limits.
   int64_t Read(std::span<float> interleaved, bool is_kept) {
     const int64_t got = reader_->Read(interleaved);
     CheckFinite(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_, name_);
@@ -120,7 +120,7 @@ class LimitedReader {
 /// lost 6 dB against the channels (they correlate by less than -0.5): much of what people hear from
 /// loudspeakers is missing from it.
 constexpr double kCancelled = 0.5;
-/// Of channels about as loud the first is heard, so that they do not take turns.
+/// A later channel must be this much louder to be heard, so that channels do not take turns.
 constexpr double kClearlyLouder = 1.1;
 
 /// Whether channels cancel each other in these samples, whatever their DC offsets; then all become

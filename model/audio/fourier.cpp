@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-// Without fused multiply-add, which rounds differently (CMakeLists.txt).
+// Uses no fused multiply-add, which rounds differently (CMakeLists.txt).
 #if defined(__x86_64__)
 #define CHOREO_EACH_CPU [[gnu::target_clones("avx2", "default")]]
 #else
@@ -71,7 +71,7 @@ CHOREO_EACH_CPU void TwosOfBlocks(double* __restrict a, double* __restrict b, si
   }
 }
 
-// From the transform of pairs of samples to the powers of the samples' own.
+// Turns the transform of pairs of samples into the powers of the samples' own.
 CHOREO_EACH_CPU void Unmix(const double* __restrict re, const double* __restrict im, size_t half,
                            const double* __restrict c, const double* __restrict s,
                            double* __restrict power) {
@@ -111,8 +111,8 @@ std::complex<double> Twiddle(size_t k, size_t n) {
   return {-turn.real(), -turn.imag()};
 }
 
-// Of `length` neighbouring butterflies in a transform of n: the factors of the second, third and
-// fourth number.
+// The factors of the second, third and fourth number, for `length` neighbouring butterflies in a
+// transform of n.
 std::vector<double> Twiddles(size_t length, size_t n) {
   std::vector<double> twiddles;
   for (size_t power = 1; power <= 3; ++power) {

@@ -79,7 +79,7 @@ double DotBaseline(const double* a, const double* b, size_t size) {
   return SumOfProducts(a, b, size);
 }
 #if defined(__x86_64__)
-// Without fused multiply-add, which rounds differently (CMakeLists.txt: AVX-512 includes it).
+// Uses no fused multiply-add, which rounds differently (CMakeLists.txt: AVX-512 includes it).
 [[gnu::target("avx2")]] double DotAvx2(const double* a, const double* b, size_t size) {
   return SumOfProducts(a, b, size);
 }

@@ -51,7 +51,7 @@ void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::s
   if (request.velocity_factors) velocities_.push_back({from, *request.velocity_factors});
 }
 
-// For a transition that begins at `first_frame`; also for the frame right before it.
+// Finds the curve for a transition from `first_frame` on, and for the frame right before it.
 const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const {
   const int64_t known = std::min(frame, first_frame);
   const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {

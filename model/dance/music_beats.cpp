@@ -19,7 +19,7 @@ constexpr int kHeard = 12 * static_cast<int>(kModelFps);  // rows
 constexpr int kTracked = static_cast<int>(kModelFps);
 static_assert(kHeard + kTracked <= kBeatMemory);
 
-// Of the rows before `row`.
+// The beats heard in the rows before `row`.
 HeardBeats HearBefore(const AudioFeed& audio, int64_t row) {
   const std::vector<RowSound> sounds = audio.Sounds(row, kHeard);
   std::vector<Onset> onsets;
@@ -141,7 +141,7 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) {
     heard_until_ = until;
     heard_ = HearBefore(*audio_, until);
   }
-  // From a beat before the transition to one after it.
+  // The span from a beat before the transition to one after it.
   const double slowest_s = 60 / TempoLimits().slowest_bpm;
   const BeatsAhead ahead = PredictBeats(heard_.track, Seconds(until), Seconds(to) + slowest_s);
   if (!heard_.Certain() || ahead.beats.empty()) return;

@@ -98,7 +98,7 @@ class Leader {
     return largest * request_.fps * request_.fps / (duration * duration);
   }
 
-  /// For an end too soon after the last curve: extends the curve straight and bends it to the end.
+  /// Handles an end too soon after the last curve: extends that straight and bends it to the end.
   /// An end on the straight line needs no bending.
   void GoOn(int from, const PathPoint& leaving) {
     if (!request_.end_wins) {

@@ -13,7 +13,7 @@ double HearEnergyAt(const AudioFeed& audio, const DanceStart& start, int64_t fra
   return start.music_dynamics * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
 }
 
-// Not again if the dancer is that way already, as where a pose is held.
+// Warns of the key's faults, except those that the pose before it has, as when a pose is held.
 void WarnOfPose(const Skeleton& skeleton, const Pose& before, int64_t frame, const Target& key,
                 PreparedTransition* prepared) {
   const std::vector<std::string> told = PoseFaults(skeleton, before, key.mask);

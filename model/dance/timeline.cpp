@@ -261,7 +261,7 @@ std::optional<Key> Timeline::KeyFrom(int64_t frame) const {
   return key == keys_.end() ? std::nullopt : std::optional(key->second);
 }
 
-// As it was known when `known` was granted: earlier keys are frozen since then, later ones are not.
+// Plans as known when `known` was granted: earlier keys are frozen since then, later ones are not.
 Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
   const auto frozen = keys_.lower_bound(frame);
   const bool is_frozen = frozen != keys_.end() && frozen->first < known.to;

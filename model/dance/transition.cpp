@@ -25,10 +25,10 @@ std::vector<Pose> CanonicalHistory(const GroundFrame& ground, const std::vector<
   return local;
 }
 
-// A key of the pose that she is in leaves less time than this to dance away and back.
+// Less time than this does not suffice to dance away from a pose and back.
 constexpr double kHoldSeconds = 0.4;
 
-// Whether a key is the pose that she already is in.
+// Whether a key is the dancer's present pose.
 bool IsHeld(const Target& target, const Pose& now) {
   constexpr double kSame = 1e-3;  // radians
   for (Eigen::Index joint = 0; joint < now.rotations.cols(); ++joint) {
@@ -40,15 +40,15 @@ bool IsHeld(const Target& target, const Pose& now) {
   return true;
 }
 
-// Whether a key is where she already is.
+// Whether a key is where the dancer already is.
 bool IsThere(const Target& target, const Pose& now) {
   constexpr double kSamePlace = 0.01;  // metres
   return target.mask.root_position &&
          (target.pose.root_position - now.root_position).norm() < kSamePlace;
 }
 
-// A key without a position gets it from the path, if there is one. A dancer who holds her pose
-// stays where she is.
+// A key without a position gets it from the path, if there is one. A dancer who holds a pose stays
+// in place.
 std::optional<Target> Placed(std::optional<Target> target, const Controls& controls,
                              const Pose& now) {
   if (!target || target->mask.root_position) return target;
@@ -144,7 +144,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
   held_ = world_target_ && request.spec.frames < kHoldSeconds * model.fps &&
           IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
-  if (held_) spec_.temperature = 0;  // her mean motion: another one each time would tremble
+  if (held_) spec_.temperature = 0;  // the mean motion: another one each time would tremble
   footwork_ = request.footwork;
   if (!request.spec.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;

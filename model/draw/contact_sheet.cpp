@@ -86,7 +86,7 @@ struct Header {
     canvas.SetColour(kFaint);
     canvas.Text(facts, x, y, kFont);
     x += canvas.TextWidth(facts, kFont);
-    // Without facts, the first dot of its own line is at the margin.
+    // The first dot of its own line is at the margin if there are no facts.
     if (wraps && facts.empty()) x -= 22 - 5;
     for (const auto& [colour, text] : legend) {
       x += 22;
@@ -129,7 +129,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
     canvas.Text(number, right, text_y, kFont - 2, Align::kRight);
     right -= canvas.TextWidth(number, kFont - 2) + 4;
   }
-  // Beside the caption, where it hides nobody; a narrow tile only has its frame.
+  // The badge is beside the caption, where it hides nobody; a narrow tile only has its frame.
   const double badge = x + 12 + canvas.TextWidth(caption, kFont, true);
   const double width = canvas.TextWidth("key", kFont - 1, true) + 12;
   if (!shown.key || badge + width > right) return;

@@ -159,7 +159,7 @@ struct Ranges {
   Range x, y;
 };
 
-// Of the finite values of all series.
+// The range of the finite values of all series.
 Ranges RangesOf(const Plot& plot) {
   Ranges of;
   for (const PlotSeries& series : plot.series) {

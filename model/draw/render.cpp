@@ -31,7 +31,7 @@ std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
   return parts;
 }
 
-// From the left above the camera.
+// The lamp is at the left above the camera.
 Vector3f LampDirection(double azimuth) {
   const double side = azimuth - 0.75;
   return Eigen::Vector3d(0.62 * std::sin(side), 1, 0.62 * std::cos(side))

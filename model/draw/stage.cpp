@@ -29,7 +29,7 @@ double AzimuthOf(CameraSide side) {
   }
 }
 
-// Which way she faces in each frame, low-passed, without jumps from turn to turn.
+// The dancer's heading in each frame, low-passed, without jumps from turn to turn.
 std::vector<double> SmoothHeadings(const Motion& motion) {
   std::vector<double> headings;
   for (const Pose& pose : motion.frames) {

@@ -23,7 +23,7 @@ struct Mix {
         g(Fixed(green * range / 255)),
         b(Fixed(blue * range / 255)),
         zero(Fixed(from + 0.5)) {}
-  // Of the sum of 1 << `more` pixels.
+  // Converts the sum of 1 << `more` pixels.
   uint8_t Of(int red, int green, int blue, int more = 0) const {
     return static_cast<uint8_t>((r * red + g * green + b * blue + (zero << more)) >>
                                 (kBits + more));

@@ -25,7 +25,7 @@ constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
 constexpr size_t kSettles = 2 * kTypicalFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 
-// Of a song with a drop: its length before that, with the calm that precedes it, and after it.
+// Seconds of a song before its drop, of the calm that precedes it, and after it.
 constexpr double kBeforeDrop = 20, kCalm = 6, kAfterDrop = 12;
 constexpr int kDropsASeed = 4;
 // Frames that a burst is compared with: before the drop, and when it has settled.
@@ -104,7 +104,7 @@ class Judge {
   void Drops(const std::string& calm, bool is_pad);
   void Form();
   void Hits();
-  /// Of all dances so far.
+  /// Adds the figures of all dances so far.
   void Fastest();
 
  private:

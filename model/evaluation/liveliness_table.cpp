@@ -132,7 +132,7 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
-  // Does timing to beats make her jerk?
+  // Does timing to beats make the dancer jerk?
   const Song& song = kSongs[kTimedSong];
   const LivelyDances& timed = dances.songs[kTimedSong];
   Add("jerk below 8 Hz, " + std::to_string(std::lround(song.bpm)) + " bpm m/s³", {}, {},

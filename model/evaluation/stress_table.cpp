@@ -40,7 +40,7 @@ constexpr Case kCases[] = {
     {"almost the same pose", 90, KeyKind::kAlmostTheSame, 0.02},
 };
 
-// On her back where she stood, with her head where she came from.
+// A dancer on the back at the place of `standing`, with the head behind it.
 Pose Lying(const Skeleton& skeleton, const Pose& standing) {
   Pose pose;
   pose.rotations = Eigen::Matrix3Xd::Zero(3, skeleton.joints());

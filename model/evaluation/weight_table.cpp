@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kTurn = 60;  // degrees
 
-// Of the windows in which the real dancer turns, those that turn the same way by as many half
-// turns.
+// The share of windows with a real turn that turn the same way by as many half turns.
 Cell SameWayRound(const LivelyDances& real, const std::vector<LivelyDances>& keyed) {
   std::vector<ClipFigure> windows;
   for (const LivelyDances& seed : keyed) {

@@ -49,7 +49,7 @@ std::vector<int> TopsOf(const RigNodes& rig) {
   return tops;
 }
 
-// The names of a group's nodes. Of duplicate names keeps the node that is most like a bone.
+// The names of a group's nodes. Keeps the node most like a bone of those with one name.
 std::vector<std::string> NamesOf(const RigNodes& rig, const Group& group) {
   const auto rank = [&](int node) {
     const bool carries = std::ranges::find(rig.parents, node) != rig.parents.end();

@@ -21,7 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr size_t kThumb = 0, kHandFingers = 5, kBentBones = 3;  // bones of a finger that bend
 constexpr double kNoDirection = 1e-6;                           // share of the hand: no direction
 
-// From the thumb to the little finger; the later spellings are MMD's.
+// The names from the thumb to the little finger; the later spellings are MMD's.
 constexpr std::array<std::array<std::string_view, 3>, kHandFingers> kFingerNames = {
     {{"thumb", "親指", "親指"},
      {"index", "人指", "人差指"},

@@ -146,7 +146,7 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
                           (point.joint != joint || !point.offset.isZero());
                  });
     }
-    // Without evidence, keep the parent's rotation. The trunk's landmarks are nearly collinear and
+    // Keep the parent's rotation without evidence. The trunk's landmarks are nearly collinear and
     // don't tell its twist: from their noise a start could be wound up by a whole turn and stay so,
     // with hips and shoulders in place.
     const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];

@@ -56,7 +56,7 @@ std::string Plain(const std::string& name) {
   return plain;
 }
 
-// Without the number that makes a name unique, such as in "Hips_012" or "Hips.001".
+// Removes the number that makes a name unique, such as in "Hips_012" or "Hips.001".
 std::string WithoutNumber(const std::string& name) {
   const size_t last = name.find_last_not_of("0123456789");
   if (last == std::string::npos || last + 1 == name.size() || last == 0) return name;
@@ -99,7 +99,7 @@ bool IsPrefix(std::string_view prefix) {
          std::string_view(":_-|. ").find(prefix.back()) != std::string_view::npos;
 }
 
-// Prefixes under which the left thigh exists. Of Rigify's three sets of bones, DEF- moves the mesh.
+// Prefixes under which the left thigh exists. Rigify's DEF- bones move the mesh.
 std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::string>& names,
                                     Spelling spelling) {
   constexpr size_t kMaxPrefixes = 8;  // a limit for hostile files
@@ -118,7 +118,7 @@ std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::strin
   return prefixes;
 }
 
-// Without the common ending of most names, as in "LeftArm_jnt" or "l_arm_bind_jnt". A side is no
+// Removes the common ending of most names, as in "LeftArm_jnt" or "l_arm_bind_jnt". A side is no
 // ending.
 std::vector<std::string> WithoutCommonEnd(std::vector<std::string> names) {
   const auto end_of = [](const std::string& name) {

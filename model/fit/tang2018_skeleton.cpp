@@ -37,7 +37,7 @@ class Lengths {
   double Between(const std::string& a, const std::string& b) const {
     return Between(JointBlend{{a, 1.0}}, JointBlend{{b, 1.0}});
   }
-  /// Of a bone on both sides.
+  /// The mean of a bone on both sides.
   double OfBothSides(const std::string& a, const std::string& b) const {
     return 0.5 * (Between("left_" + a, "left_" + b) + Between("right_" + a, "right_" + b));
   }

@@ -39,7 +39,7 @@ double LegHeight(const Skeleton& skeleton) {
          2;
 }
 
-/// Which of SMPL's global rotations a character's joint takes.
+/// Finds which of SMPL's global rotations a character's joint takes.
 class Takes {
  public:
   explicit Takes(const Skeleton& character) {

@@ -26,7 +26,7 @@ EnergyPrior::Inputs EnergyPrior::Describe(const Known& known) const {
   Inputs inputs;
   inputs.head<kHalf>().setZero();
   inputs[0] = 1;
-  // Without a key the past is the dance's own; to continue from it would fade or escalate.
+  // The past counts only with a key: else it is the dance's own, and would fade or escalate.
   if (known.key)
     inputs.segment<kHalf - 1>(1) << std::log(std::max(known.surprise, 1e-6)), known.history,
         known.way.value_or(usual_way), known.way_in_world.value_or(usual_way_in_world);

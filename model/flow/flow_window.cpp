@@ -31,8 +31,7 @@ Eigen::VectorXd Displacement(const Pose& from, const Pose& to) {
   return way;
 }
 
-// Of the history's displacements from its last pose, [dimensions, kPast], latest first, at most
-// kMaxSpeed.
+// The velocities of the history's last steps, [dimensions, kPast], latest first, at most kMaxSpeed.
 Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& history) {
   Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(history.rows(), MotionPrior::kPast);
   const Eigen::Index tau = history.cols();

@@ -70,7 +70,7 @@ std::optional<Layout> FindLayout(const NpzArchive& npz) {
   return std::nullopt;
 }
 
-// For messages.
+// Text for messages.
 std::string LayoutNames() {
   std::string names;
   for (const Layout& layout : kLayouts) {
@@ -119,7 +119,7 @@ bool HoldsMotion(const NpzArchive& npz, int depth) {
           }));
 }
 
-// The name of the nested dict that holds a motion, or "". Of several, the one that --body names;
+// The name of the nested dict that holds a motion, or "". If several do, the one that --body names;
 // this uses up --body.
 std::string DictWithin(const NpzArchive& npz, MotionReading* reading) {
   std::vector<std::string> holding;
@@ -263,7 +263,7 @@ Pose ToAmass(const Pose& pose) {
 }
 
 Motion ReadSmplMotion(const NpzArchive& npz, const MotionReading& reading) {
-  // Beside ours stand AMASS's arrays, which may lie otherwise.
+  // A file may hold AMASS's arrays beside ours, in other axes.
   const bool as_amass = (!reading.up.empty() || reading.scale > 0) && npz.Has("poses");
   if (npz.Has("rotations") && npz.Has("root_positions") && !as_amass) {
     reading.RefuseBody();

@@ -42,7 +42,7 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
 // Angles z, x, y (radians) with R = Rz Rx Ry, of the two solutions (and their whole turns) the one
 // nearest to `previous`.
 Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previous) {
-  // At a quarter turn about x, z and y are one angle; y keeps its value.
+  // Angles z and y are one at a quarter turn about x; y keeps its value.
   const bool locked = std::hypot(r(2, 0), r(2, 2)) < 1e-9;
   const double y = locked ? previous.z() : std::atan2(-r(2, 0), r(2, 2));
   const Eigen::Matrix3d zx = r * Eigen::AngleAxisd(-y, Eigen::Vector3d::UnitY()).matrix();

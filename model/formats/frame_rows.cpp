@@ -61,7 +61,7 @@ double Rate(int64_t width, const char* of, double fps, const MotionReading& read
 using Rows = Eigen::Map<const Eigen::MatrixXd>;  // [width, frames]
 
 Motion ReadKind(const Kind& kind, const Rows& rows, const MotionReading& reading) {
-  // As an array of its own, so that rotation_rows.h can parse it.
+  // Makes an array of its own, so that rotation_rows.h can parse it.
   NpzArchive npz;
   const Eigen::MatrixXd stated = rows.middleRows(kind.turns, kind.joints * kind.each);
   const std::string key = "[:, " + std::to_string(kind.turns) + ":]";

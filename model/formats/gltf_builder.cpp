@@ -66,7 +66,7 @@ void GltfBuilder::AddDance(double fps, size_t frames, const std::vector<GltfTrac
   for (size_t frame = 0; frame < frames; ++frame)
     times.push_back(static_cast<float>(static_cast<double>(frame) / fps));
   const size_t input = Add<float>(times, "SCALAR", true);
-  // For what keeps one pose.
+  // A node that keeps one pose needs only the first time.
   const bool any_still = std::ranges::any_of(tracks, [&](const GltfTrack& track) {
     return track.node >= 0 && track.turns.size() == 4 && frames > 1;
   });

@@ -47,7 +47,7 @@ std::string Metres(double metres) {
   return text;
 }
 
-/// From the hips to the shoulders, of every frame, in the file's axes; empty without these joints.
+/// The way from hips to shoulders in each frame, in the file's axes; empty without these joints.
 std::vector<Eigen::Vector3d> Trunks(const FileMotion& file) {
   const Skeleton& body = file.skeleton;
   std::vector<Eigen::Vector3d> trunks;

@@ -85,7 +85,7 @@ std::string CheckTemperature(const std::string& text) {
 }
 
 std::string Summary(const Arguments& arguments, const Contest& contest) {
-  // Only the model's part of the fingerprint: builds differ, figures hardly do.
+  // Takes only the model's part of the fingerprint: builds differ, figures hardly do.
   const std::string& print = contest.judged().model().fingerprint;
   char temperature[32];
   std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);

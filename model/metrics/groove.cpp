@@ -93,7 +93,7 @@ double PhysicalFootContact(const Skeleton& skeleton, const JointTrack& track) {
   double sum = 0, largest = 0;
   int64_t frames = 0;
   for (size_t t = 1; t + 1 < track.size(); ++t, ++frames) {
-    // Per frame squared: the rate cancels in |a| / max|a|.
+    // The unit is per frame squared: the rate cancels in |a| / max|a|.
     Eigen::Vector3d acceleration = track[t + 1].col(0) - 2 * track[t].col(0) + track[t - 1].col(0);
     acceleration.y() = std::max(acceleration.y(), 0.0);
     const auto way = [&](int joint) {

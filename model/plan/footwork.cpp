@@ -155,7 +155,7 @@ class PlanStander {
     return -WayToHull(point, std::move(hull), context_.options.sole);
   }
 
-  // On a path the pelvis cannot sway over the feet, so the feet move under the body: each stance
+  // The pelvis cannot sway over the feet on a path, so the feet move under the body: each stance
   // moves by its mean distance from there. Stances of the history and of a key stay.
   void StepUnder() {
     for (size_t side = 0; side < 2; ++side) {

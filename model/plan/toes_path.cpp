@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kArc = 0.03, kArcPerMetre = 0.15, kMaxArc = 0.10;  // of steps, metres
 
-// From 0 to 1, with zero speed and acceleration at both ends.
+// Rises from 0 to 1, with zero speed and acceleration at both ends.
 double Smootherstep(double u) { return u * u * u * (10 + u * (6 * u - 15)); }
 
 class PathMaker {

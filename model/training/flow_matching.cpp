@@ -100,8 +100,8 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor importance = (variance * batch.scales.square().mean(1) * reach_).sqrt();
   const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
   const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
-  // Of the motion where F says that the flow ends, not of F itself, which has little left to say
-  // near the end.
+  // Measures the motion where F says that the flow ends, not F itself, which says little near the
+  // end.
   const Tensor moved = ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, motion(miss));
   const auto squares = [&](const Tensor& metres) { return metres.square().sum(-1) / strays; };
   const auto feet_steps = [&](const Tensor& places) {

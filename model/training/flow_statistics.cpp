@@ -219,8 +219,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
       ++of_style[style];
     }
     if (keyed) measured.spread = left.llt().matrixL();
-    // So that factors, not their logarithms, are right on average: a still dancer's logarithm is
-    // unbounded.
+    // Averages factors, not their logarithms: a still dancer's logarithm is unbounded.
     const EnergyPrior::Levels spread = measured.Variance();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
     for (const LivelyWindow& window : windows) {

@@ -16,7 +16,7 @@ struct Take {
   int subject = 0;
 };
 
-/// By name.
+/// Recordings by name.
 std::map<std::string, Take> FindTakes(const fs::path& input) {
   static const std::regex kName("([A-Za-z]+)[0-9]+_subject([1-9])");
   std::map<std::string, Take> takes;

@@ -218,7 +218,7 @@ void TrainingRun::Load() {
     throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                 "the run was started on other data (hash " + state.metadata.at("data") + ")");
   }
-  // Not by name: most checkpoints share it.
+  // Compares hashes, not names: most checkpoints share a name.
   const auto from = state.metadata.find("from");
   const std::string base = from == state.metadata.end() ? "" : from->second;
   if (base != BaseHash()) {

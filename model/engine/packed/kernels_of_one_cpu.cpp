@@ -24,7 +24,7 @@ constexpr long kPanel = 2 * kLanes;
 typedef float Vector __attribute__((vector_size(kVectorBytes), aligned(4), may_alias));
 
 #if CHOREO_BF16
-// To the nearest bfloat16; ties to even.
+// Rounds to the nearest bfloat16; ties to even.
 inline unsigned Round(float x) {
   const unsigned bits = __builtin_bit_cast(unsigned, x);
   return (bits + 0x7FFFU + ((bits >> 16) & 1U)) >> 16;
@@ -120,7 +120,7 @@ void Multiply(const PackedProduct& p) {
                     : Block<4, 2>(p, 0, panel);
       panel += 2;
     } else {
-      // Even shares: a last block of one row costs nearly as much as a full one.
+      // Shares are even: a last block of one row costs nearly as much as a full one.
       long row = 0;
       for (long left = blocks; left > 0; --left) {
         const long rows = (p.rows - row + left - 1) / left;

@@ -95,7 +95,7 @@ Tensor FlowModelImpl::Aim(const Tensor& past, const Tensor& static_condition) co
   const Tensor last = past.select(-2, config_.history_frames - 1).narrow(-1, 0, pose);
   const Tensor before = past.select(-2, config_.history_frames - 2).narrow(-1, 0, pose);
   const Tensor way = key - last;
-  // With an unknown number of frames left, only the way.
+  // Gives only the way if the number of frames left is unknown.
   const Tensor aim = torch::where(left > 0,
                                   AccelerationTo<Tensor>(way, last - before, left.clamp_min(1)) /
                                       drawn_spread_.narrow(0, 0, pose),

@@ -211,7 +211,7 @@ void PackedStepper::Condition(const FlowFrame& frame) {
   if (flow.aimed > 0) Aim(frame, fixed + flow.encoding, input_.Row(0) + flow.encoding);
 }
 
-// From `input_` to `hidden_`, the input of the last layer.
+// Goes from `input_` to `hidden_`, the input of the last layer.
 void PackedStepper::Hidden(int frame, int step) {
   const PackedFlow& flow = *flow_;
   const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];

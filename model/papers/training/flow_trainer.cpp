@@ -127,7 +127,7 @@ class FlowRun : public PaperRun {
                         /*temperature=*/1, rollout_));
   }
 
-  // On fixed windows, without arrival: one roll-out at temperature 1, its L2P over
+  // Measures on fixed windows, without arrival: one roll-out at temperature 1, its L2P over
   // interpolation's; -log p, nats a dimension; the mean joint distance at its key frame.
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;

@@ -68,7 +68,7 @@ class InbetweenRun : public PaperRun {
           (made.narrow(2, contacts, 4) - real.narrow(2, contacts, 4)).abs().mean()}});
   }
 
-  // On fixed windows, without arrival: L2P over interpolation's, the mean joint distance at keys.
+  // Measures, without arrival, L2P over interpolation's and the mean joint distance at keys.
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
     model_->eval();
