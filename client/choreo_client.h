@@ -36,8 +36,8 @@ struct Options {
   bool tls = false;
   /// PEM file of the authority to trust, with `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
-  /// Whether any certificate will do, an expired one, too, with `tls`: for those who only ask
-  /// whether a server lives. Excludes `token_file`, as anybody may have answered.
+  /// Whether any certificate will do, an expired one, too, with `tls`: to ask only whether a server
+  /// lives. Excludes `token_file`, as anybody may have answered.
   bool any_certificate = false;
   /// PEM files of a certificate and its key, with `tls`, if the server requires one.
   std::filesystem::path client_certificate = {}, client_key = {};
@@ -168,7 +168,7 @@ class Client {
   Client& operator=(Client&&) noexcept;
 
   ServerDescription GetServerInfo() const;
-  /// The server's health: false while it drains.
+  /// Whether the server is healthy: false while it drains.
   bool IsServing() const;
 
   /// Starts a dance that is steered while it runs.

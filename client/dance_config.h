@@ -43,10 +43,10 @@ struct KeyPose {
   double time_s = 0;                  ///< rounded to the nearest frame
   Pose pose = {};
   PoseMask mask = {};
-  /// How hard it is hit, 0 (gently) to kMaxHit (late and fast), to rest in it. None: it is danced
-  /// through.
+  /// How hard it is hit, 0 (gently) to kMaxHit (late and fast), to rest in it. None: the dance
+  /// passes through it.
   std::optional<double> hit = {};
-  /// What hands do there; not danced, but kept for characters that have fingers.
+  /// The hands' pose there; kept for characters with fingers, but not danced.
   std::optional<HandPose> hands = {};
 };
 
@@ -80,7 +80,7 @@ struct DanceConfig {
   /// and Beat messages and the report contain them. Empty: for a kFile the server finds them; for
   /// kPcmFloat it predicts each transition's beats from the 12 s before it.
   std::vector<double> music_beats = {};
-  /// Those that begin a bar, for Beat messages.
+  /// Beats that begin a bar, for Beat messages.
   std::vector<double> music_downbeats = {};
   /// Identifies the music, as a part of the seed. 0: computed by the server for a kFile, none for
   /// kPcmFloat.

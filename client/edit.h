@@ -95,7 +95,7 @@ EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
 
 /// Makes a dance loop: the frames after `from`, and `added` ones after the dance's end, at least
 /// one in all, lead back to the first ones. A dance at another rate than the model's also gets the
-/// frames missing to the model's next one. Errors as above.
+/// frames missing to the model's next one. Throws the same.
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       int64_t from, int64_t added = 0);
 

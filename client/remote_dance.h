@@ -69,7 +69,7 @@ struct RemoteDance::Impl {
   void Recover(const grpc::Status& status);
   /// The part of a response for the caller, if any.
   std::optional<Message> Handle(const v1::StreamDanceResponse& response);
-  /// Whether a server that begins the dance anew would make other frames, which nobody allowed.
+  /// Whether a server that begins the dance anew would make other frames without permission.
   bool IsOtherDance(const v1::Header& header) const;
   Message HandleHeader(const v1::Header& header);
   Message HandleSummary(const v1::DanceSummary& summary);

@@ -65,7 +65,7 @@ class Patience {
   /// The status for the caller after Next gave none. A reachable server's refusal says more than
   /// that another one is unreachable.
   const grpc::Status& Verdict() const { return verdict_; }
-  /// There was progress: start counting again.
+  /// Notes progress: counting starts again.
   void Reset();
 
  private:

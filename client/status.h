@@ -16,8 +16,8 @@ Error ToError(const grpc::Status& status);
 /// that may require TLS.
 Error ToError(const grpc::Status& status, const std::string& address, bool tls);
 
-/// A restarted dance meets a server of another fingerprint, which would make other frames. Refused
-/// as servers refuse a continuation: another one may do better.
+/// The error for a restarted dance on a server of another fingerprint, which would make other
+/// frames. Servers refuse a continuation in the same way; another one may do better.
 grpc::Status RefusedFingerprint(const std::string& begun, const std::string& address,
                                 const std::string& found);
 

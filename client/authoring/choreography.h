@@ -25,17 +25,17 @@ struct CompositionRequest {
   std::string named = "seconds";  ///< the field of errors about `seconds`
 };
 
-/// A library pose for a key at each of these ascending seconds: never the same twice in a row, and
-/// none again before all were drawn; but in a repeated passage the original's pose. Deterministic.
-/// Indices below `poses`.
+/// Draws a library pose for a key at each of these ascending seconds: never the same twice in a
+/// row, and none again before all were drawn; but a repeated passage gets the original's pose.
+/// Deterministic. Indices below `poses`.
 std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
                               uint64_t seed, size_t poses);
 
 /// The id of a dance's key, counted from 1.
 std::string IdOfKey(size_t number, const LibraryPose& pose);
 
-/// Library poses as keys on beats of the music: one at second 0, then about one per bar, drawn by
-/// DrawPoses, walking within two metres of the origin and turning gradually. Every two seconds
+/// Makes keys of library poses on the music's beats: one at second 0, then about one per bar, drawn
+/// by DrawPoses, walking within two metres of the origin and turning gradually. Every two seconds
 /// without beats. Deterministic. Throws Error(kInvalidArgument, named) for a dance of less than two
 /// seconds.
 std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,

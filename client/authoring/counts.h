@@ -8,11 +8,11 @@
 /// Times as people write them: in seconds, or in counts of the music, which are its beats.
 namespace choreo::authoring {
 
-/// The beats of a song, of which one is count 1.
+/// A song's beats; one of them is count 1.
 struct Counts {
   std::vector<double> beats = {};  ///< seconds, ascending
   size_t one = 0;                  ///< index of count 1
-  /// What to do about counts where there are no two beats, for errors.
+  /// The advice of errors about counts without two beats.
   std::string advice =
       "counts need music that has beats; name a song (choreo analyze shows its beats), or say "
       "seconds";
@@ -20,8 +20,8 @@ struct Counts {
   bool operator==(const Counts&) const = default;
 };
 
-/// Counts from the first of these beats, the downbeats or the 1 of each eight, as the studio's
-/// ruler does; without any from the first beat.
+/// Counts from the first of these beats (downbeats, or the 1 of each eight) like the studio's
+/// ruler; if there are none, from the first beat.
 Counts CountsFrom(std::vector<double> beats, std::span<const double> ones);
 
 /// "2.5" or "8c": a moment, or a duration.
@@ -39,8 +39,8 @@ struct WrittenTime {
   double In(const Counts& counted, const std::string& field) const;
 };
 
-/// `seconds`, `times` as far from `begin`: in counts where the music has two beats or more, else in
-/// seconds.
+/// Moves `seconds` to `times` its distance from `begin`: in counts if the music has two beats or
+/// more, else in seconds.
 double Stretched(double seconds, double begin, double times, std::span<const double> beats);
 
 /// Parses "2.5" as seconds; "8c", "8 counts" as counts. Throws Error(kInvalidArgument, field) for

@@ -33,10 +33,10 @@ struct DanceLength {
 /// at 9.97 s".
 std::string DescribeAfterEnd(int64_t frame, const DanceLength& length);
 
-/// The frame of a key, at the model's rate.
+/// A key's frame at the model's rate.
 int64_t FrameOf(const client::KeyPose& key, double fps);
 
-/// Moves a key at second 30 of a dance of 30 seconds to its last frame, as is meant. Throws
+/// Moves a key at second 30 of a dance of 30 seconds to its last frame, which it means. Throws
 /// Error(kInvalidArgument), whose field begins with `place`, for a later one.
 void FitIntoDance(const DanceLength& length, const std::string& place, client::KeyPose* key);
 
@@ -47,12 +47,12 @@ std::string DescribeHoldEnd(const std::string& held, int64_t now, int64_t was,
 /// The id of the key whose pose this one holds; empty if it holds none.
 std::string HeldKey(const DanceKeys& keys, size_t index);
 
-/// Sorts by time, as they must be sent: an earlier key after a later one would come too late. A key
-/// that comes while another one is held ends that hold kWayFromHold before it; `warnings` says so.
+/// Sorts keys by time for sending: an earlier key after a later one would come too late. A key that
+/// comes while another one is held ends that hold kWayFromHold before it; `warnings` says so.
 DanceKeys ByTime(DanceKeys keys, double fps);
 
 /// Reads key poses from sources (see ReadKeys in key_file.h) and fits each into the dance. Throws
-/// as ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
+/// like ReadKeys, and Error(kInvalidArgument), whose field begins with the key's place, for a
 /// duplicate id.
 DanceKeys ReadDanceKeys(const std::vector<std::string>& sources, const DanceLength& length,
                         const Skeleton& skeleton, const Counts& counts = {});

@@ -24,12 +24,12 @@ struct NearestPair {
 NearestPair FindNearest(const std::vector<MovingBody>& bodies,
                         const std::vector<Eigen::Vector3d>& moved);
 
-/// How many times as far from their middle places must be for bodies to stay `apart`, metres: 1 or
-/// the least above it, to a millimetre. No two places are the same.
+/// The least factor, from 1 on, by which to spread places about their middle so that bodies stay
+/// `apart`, metres, to a millimetre. No two places are the same.
 double WidenFormation(const std::vector<MovingBody>& bodies,
                       const std::vector<Eigen::Vector3d>& places, double apart);
 
-/// What each body is moved by where places are `factor` times as far from their middle.
+/// The move of each body when places spread by `factor` about their middle.
 std::vector<Eigen::Vector3d> MovesOf(const std::vector<Eigen::Vector3d>& places, double factor);
 
 /// The delay in frames of a dancer in a dance of `frames`. Counts are those of the beats (seconds)
@@ -45,11 +45,11 @@ client::FinishedDance OnStage(const Skeleton& skeleton, const Dancer& dancer,
 
 /// How a formation became.
 struct Formed {
-  double factor = 1;                        ///< how many times as far from their middle they are
+  double factor = 1;                        ///< the factor by which they spread about their middle
   std::optional<NearestPair> nearest = {};  ///< of two dancers or more
 };
 
-/// Moves dancers on stage apart where they would come nearer than `apart`, metres.
+/// Moves dancers on stage apart if they would come nearer than `apart`, metres.
 Formed KeepApart(const std::vector<Dancer>& dancers, double apart, const Skeleton& skeleton,
                  std::vector<client::FinishedDance>* dances);
 

@@ -64,7 +64,7 @@ void CheckFileMembers(const nlohmann::json& file, const std::string& name,
                       std::initializer_list<std::string_view> members,
                       const std::string& described);
 
-/// A time of JSON: a number of seconds, or as ParseTime.
+/// A time of JSON: a number of seconds, or text for ParseTime.
 WrittenTime JsonTime(const nlohmann::json& value, const std::string& field);
 
 /// A time: `time`, in seconds or counts, or `frame`, exactly one of them.
@@ -75,8 +75,8 @@ struct Moment {
 Moment ParseMoment(const nlohmann::json& value, const std::string& field,
                    const Counts& counts = {});
 
-/// Appends the frame, at `fps`, of a point in time: after those before it, within the longest
-/// dance.
+/// Appends the frame, at `fps`, of a point in time, which must follow those before it, within the
+/// longest dance.
 void AppendFrame(const nlohmann::json& value, const std::string& field, double fps,
                  const Counts& counts, std::vector<int64_t>* frames);
 

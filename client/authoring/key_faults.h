@@ -7,9 +7,8 @@
 
 namespace choreo::authoring {
 
-/// What was changed in keys (ByTime), then impossible keys, as warnings at their frames: "key
-/// \"leap\" (keys.json: keyframes[2]): the body hangs 2 m above the floor; ..."
-/// (motion/pose_faults.h).
+/// Warns, at their frames, of changed keys (ByTime), then of impossible keys: "key \"leap\"
+/// (keys.json: keyframes[2]): the body hangs 2 m above the floor; ..." (motion/pose_faults.h).
 std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
 /// Throws Error(kInvalidArgument), whose field is the key's place, for a key with an impossible

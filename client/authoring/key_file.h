@@ -11,16 +11,16 @@
 /// Reads key poses that people write.
 namespace choreo::authoring {
 
-/// Seconds between the keys that hold a pose, at least: between nearer ones arms and legs tremble,
-/// between farther ones they wander.
+/// Least seconds between keys that hold a pose: limbs tremble between nearer ones, and wander
+/// between farther ones.
 inline constexpr double kHoldStep = 0.2;
-/// Seconds: nobody gets from one pose to another in less. A new key replaces those nearer.
+/// Seconds: the least in which people change pose. A new key replaces those nearer.
 inline constexpr double kTooNear = 0.2;
-/// Seconds before a key that is set into the hold of another one, at which that hold ends: as long
-/// as people need to get there.
+/// Seconds that people need to get from a held pose to a key set into its hold, which ends that
+/// much earlier.
 inline constexpr double kWayFromHold = 0.5;
 inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
-/// How hard a held key is hit, unless it says so: in the dancer's own time.
+/// How hard a held key is hit by default: in the dancer's own time.
 inline constexpr double kUsualHit = 1;
 
 /// A key file, JSON, as in docs/poses.md. Ignores unknown members of the outermost object, so that
@@ -48,7 +48,7 @@ bool IsHeld(const std::string& place);
 /// The field of `member` (".time") of the key at `place`: for the time of a held one its ".hold".
 std::string FieldOf(const std::string& place, const std::string& member);
 
-/// The file that a source names: FILE in FILE@.... A file name with an @ is a file.
+/// The file that a source names: FILE in FILE@.... The name of an existing file may contain an @.
 std::filesystem::path FileOf(const std::string& source);
 
 /// Key poses named on a command line:

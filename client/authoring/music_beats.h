@@ -14,7 +14,7 @@ inline constexpr int kMaxBeatsInBar = 16;  ///< that people count to
 
 /// Options that override the beat tracker.
 struct BeatOptions {
-  std::optional<std::string> beats = {};  ///< the name of a file, or "auto": they are found
+  std::optional<std::string> beats = {};  ///< the name of a file, or "auto" to find them
   BeatHint hint = {};
   std::optional<double> downbeat_s = {};  ///< of the song
 
@@ -30,8 +30,8 @@ void RequireSong(const BeatOptions& options, const std::string& song);
 /// Error(kInvalidArgument), whose field is "beats", "downbeat" or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
 
-/// Changes beats that are known, and their downbeats, as the options for half and double time and a
-/// downbeat say. Seconds of a dance that begins at second `start` of its song.
+/// Changes known beats and their downbeats by the options for half and double time and a downbeat.
+/// Seconds of a dance that begins at second `start` of its song.
 void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* beats,
                  std::vector<double>* downbeats);
 

@@ -17,7 +17,7 @@ struct DescribedPose {
 /// The file's text: metres and radians to a tenth of a thousandth, one line per joint.
 std::string PoseFileText(const DescribedPose& pose, const Skeleton& skeleton);
 
-/// Reads one. `name` is the file's; errors as ParseKeyFile, also with the fields NAME:description
+/// Reads one. `name` is the file's; fails like ParseKeyFile, also with the fields NAME:description
 /// and NAME:tags.
 DescribedPose ParsePoseFile(const std::string& text, const std::string& name,
                             const Skeleton& skeleton);

@@ -22,7 +22,7 @@ struct Project {
   std::vector<double> beats = {}, downbeats = {};
   std::vector<double> ones = {};  ///< downbeats that begin an eight
   WrittenControls controls = {};  ///< no velocities where all are 1
-  bool has_dancers = false;       ///< several, whom ReadDancers reads (dancers.h)
+  bool has_dancers = false;       ///< several dancers, for ReadDancers (dancers.h)
 };
 
 /// Reads a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,

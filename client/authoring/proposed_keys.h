@@ -17,7 +17,7 @@ struct ProposedKey {
 };
 
 /// Proposes keys for a song: on SuggestKeys' beats, with poses drawn by DrawPoses from
-/// PosesToDance. Errors as SuggestKeys.
+/// PosesToDance. Fails like SuggestKeys.
 std::vector<ProposedKey> ProposeKeys(const Music& music, const SuggestionRequest& request,
                                      uint64_t seed = 0);
 

@@ -19,10 +19,10 @@ namespace choreo::authoring {
 ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
                                        const Counts& counts = {});
 
-/// What every dance takes. Errors name the place in a file, or a control as the API does.
+/// The controls of every dance. Errors name the place in a file, or a control as the API does.
 struct WrittenControls {
   std::string path;
-  /// The text of a path file that is part of another file, and how errors call it; `path` wins.
+  /// The text of a path file inside another file, and its name in errors; `path` wins.
   std::string path_text, path_text_name;
   std::vector<std::string> velocities;             ///< as ReadVelocities (velocities.h) takes them
   std::string velocity_name = "velocity_factors";  ///< how errors call them
@@ -40,11 +40,11 @@ struct WrittenControls {
   void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;
   /// How errors call the path.
   const std::string& PathName() const { return path.empty() ? path_text_name : path; }
-  /// An error about controls as they were sent in terms of what was written; any other as it is.
+  /// Translates an error about sent controls to the written ones; returns others unchanged.
   Error InTermsOf(const Error& error) const;
 
  private:
-  /// How errors call a control: as the file that it is of, or else as the API.
+  /// A control's name in errors: its file, or else the API's name.
   std::string NameOf(size_t row) const;
 };
 

@@ -12,7 +12,7 @@ namespace choreo::cli {
 /// The value of --song that means no music, not even the report's.
 inline constexpr const char* kNoSong = "none";
 
-/// What a dance was asked for beside its keys and controls. Its report says so, for later edits.
+/// A dance's request beside its keys and controls. Its report states it for later edits.
 struct Asked {
   std::string model = {};
   std::optional<uint64_t> seed = {};
@@ -20,7 +20,7 @@ struct Asked {
   std::string style = {};
   std::string song = {};  ///< the file as it was named
   double song_start_s = 0;
-  /// Seconds of the dance, where they are not those that are found in the song.
+  /// Seconds of the dance, unless they are those found in the song.
   std::vector<double> beats = {}, downbeats = {};
 
   /// Adds it to a report.
@@ -31,8 +31,8 @@ struct Asked {
 
   /// Fills in the song of a command from this, of the report called `report`, unless the command
   /// line names one; and its start for this song, unless it says that. Looks for the file here and
-  /// beside the report. `without`: what comes of a song that is not there, which a note says.
-  /// Returns whether it filled in a song.
+  /// beside the report. `without`: the effect of a missing song, for a note. Returns whether it
+  /// filled in a song.
   bool TakeSong(const std::filesystem::path& report, bool says_start, const std::string& without,
                 std::string* to, double* start_s) const;
 

@@ -13,7 +13,7 @@ struct DanceFile {
   client::FinishedDance dance;
 };
 
-/// A motion (motion_input.h) with the contacts of our npz files. Errors as ReadMotion;
+/// A motion (motion_input.h) with the contacts of our npz files. Fails like ReadMotion;
 /// Error(kInvalidArgument) whose field is PATH:contacts.
 DanceFile ReadDance(const std::filesystem::path& path);
 

@@ -64,7 +64,7 @@ struct EditOptions {
   Asked asked;  ///< what the report says of the dance (TakeReport)
 };
 
-/// Fills in what the command line leaves open from the report, and says so. `says_start`: whether
+/// Fills in open settings of the command line from the report, and says so. `says_start`: whether
 /// the command line says where the song starts.
 void TakeReport(bool says_start, EditOptions* options);
 
@@ -74,7 +74,7 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
                                                               double end_s);
 /// The counts of the song up to `end_s`; none without a song.
 authoring::Counts ReadCounts(const EditOptions& options, double end_s);
-/// The parts of a dance's report that edits keep: its keys, by frame, and warnings.
+/// The parts of a dance's report that edits keep: keys by frame, and warnings.
 struct KnownDance {
   ReportKeys keys = {};
   std::vector<client::Warning> warnings = {};

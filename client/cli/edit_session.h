@@ -41,10 +41,10 @@ class EditSession {
   /// then, replacing the keys there.
   void Repeat(double from_s, double until_s, const std::string& later);
   /// Sets the report's keys in [from_s, until_s) `times` as far from from_s, where they stand on
-  /// the floor, replacing the keys there; those that would come behind the dance are left out.
+  /// the floor, replacing the keys there. Leaves out those that would come after the dance.
   void Stretch(double from_s, double until_s, double times);
-  /// Mirrors the report's keys in [from_s, until_s), relative to where and which way the dancer
-  /// stands at the first of them.
+  /// Mirrors the report's keys in [from_s, until_s), relative to the dancer's place and facing at
+  /// the first of them.
   void MirrorPhrase(double from_s, double until_s);
   /// Leads the last frames back to the first; after a held pose at the end, adds new ones.
   void CloseLoop();
@@ -61,15 +61,14 @@ class EditSession {
   void CheckDistance(const char* field, double at_s, int64_t other, const std::string& what) const;
   /// The report's keys in [from_s, until_s), as danced, each with what holds it; at least one.
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
-  /// Sets the keys of a phrase where they now stand; the dance has no others there.
+  /// Sets the keys of a phrase at their present places; the dance has no others there.
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
   /// Throws if a pose held from one frame to another meets the next key, or the end.
   void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
-  /// Ends the hold of another key that a new key at this frame comes into, and says so; a key that
-  /// it replaces is held no more. Returns the warning, if any, for after the edit.
+  /// Ends the hold of another key if a new key at this frame falls into it, and says so; a replaced
+  /// key is held no more. Returns the warning, if any, for after the edit.
   std::vector<client::Warning> EndHold(int64_t frame, const std::string& id);
-  /// Removes keys of the dance from which nobody gets to a new key, held from `first` to `last`, in
-  /// time, and says so.
+  /// Removes keys too near in time to a new key, held from `first` to `last`, and says so.
   void MakeWay(int64_t first, int64_t last, const std::string& id);
   /// Removes the dance's keys in [first, end) for others, and names those that are not `moved`.
   void ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,

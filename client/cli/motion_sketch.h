@@ -7,9 +7,8 @@
 
 namespace choreo::cli {
 
-/// What a motion looks like, roughly: at moments spread over it a weighted sum of the angles by
-/// which joints are turned, the root's apart, radians. The same in files of any format, rate and
-/// precision.
+/// A rough fingerprint of a motion: at moments spread over it, a weighted sum of its joints' angles
+/// without the root's, radians. Files of any format, rate and precision give the same.
 using MotionSketch = std::vector<double>;
 
 /// Sketches a dance of `frames` at `fps`, whose file may have another rate: 16 moments, or one for

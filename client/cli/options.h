@@ -33,7 +33,7 @@ void CheckSongStart(const CLI::App& command, const std::string& song);
 /// `--allow-bends`.
 void AddAllowBends(CLI::App& command, bool& allowed);
 
-/// `--hit`, of "the poses of --key are", "the end is".
+/// `--hit`; `whose`: "the poses of --key are", "the end is".
 void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose);
 
 /// `--hands`, one of kHandPoseNames, after which the text names the choice.
@@ -67,8 +67,8 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<uint64_t>& seed, const std
 /// Replaces the library's or server's name of a setting in an error by its option.
 Error AsTyped(const Error& error);
 
-/// An option that may be repeated. Each takes one value: what follows is another argument, such as
-/// a song.
+/// An option that may be repeated. Each takes one value; another argument may follow, such as a
+/// song.
 template <typename Value>
 CLI::Option* AddRepeated(CLI::App& command, const std::string& name, std::vector<Value>& values,
                          const std::string& help) {

@@ -37,15 +37,15 @@ std::optional<int64_t> HeldEnd(const ReportKeys& keys);
 /// Marks a key as only holding the pose of this id.
 void MarkHeld(const std::string& id, nlohmann::ordered_json* key);
 
-/// How hard a key is hit, if it says so.
+/// How hard a key is hit, if it states that.
 std::optional<double> HitOf(const nlohmann::ordered_json& key);
 void MarkHit(const std::optional<double>& hit, nlohmann::ordered_json* key);
 
-/// What hands do at a key, if it says so.
+/// The hands' pose at a key, if it states one.
 std::optional<HandPose> HandsOf(const nlohmann::ordered_json& key);
 void MarkHands(const std::optional<HandPose>& hands, nlohmann::ordered_json* key);
 
-/// What hands do in a dance, by the keys of its report that say so (ReadReport), in order of time.
+/// The hands' poses in a dance, from its report's keys (ReadReport), in order of time.
 std::vector<HandKey> HandKeys(const nlohmann::ordered_json& report);
 
 }  // namespace choreo::cli

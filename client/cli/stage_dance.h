@@ -20,7 +20,7 @@ std::vector<std::filesystem::path> OutputsOf(const authoring::Dancers& stage,
 std::vector<std::filesystem::path> ReportsOf(const authoring::Dancers& stage,
                                              const std::filesystem::path& report);
 
-/// Dances, writes everything, and reports how near bodies come. Errors as Perform; errors of a
+/// Dances, writes everything, and reports how near bodies come. Fails like Perform; errors of a
 /// dancer's `after` name the file.
 void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
                    const std::optional<authoring::Music>& music, const Connection& connection,

@@ -14,7 +14,7 @@ namespace choreo::cli {
 /// frame on.
 class VmcShow {
  public:
-  /// Errors as VmcSender.
+  /// Fails like VmcSender.
   VmcShow(const std::string& address, const Skeleton& skeleton) : sender_(address, skeleton) {}
 
   /// Takes each message of the dance, in order.

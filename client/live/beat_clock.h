@@ -7,7 +7,7 @@
 
 namespace choreo::live {
 
-/// Predicts the next beats of a live dance from those it has been danced to.
+/// Predicts the next beats of a live dance from its past ones.
 class BeatClock {
  public:
   void Hear(const client::Beat& beat);

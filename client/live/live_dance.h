@@ -72,7 +72,7 @@ class LiveDance {
   const client::Header& header() const { return header_; }
   const Motion& motion() const { return motion_; }
   const std::vector<Contacts>& contacts() const { return contacts_; }
-  /// The rest of what the server said, its report once the dance has ended in order.
+  /// The server's other messages, and its report once the dance has ended in order.
   const std::vector<client::Beat>& beats() const { return beats_; }
   const std::vector<client::Warning>& warnings() const { return warnings_; }
   const std::optional<client::Report>& report() const { return report_; }

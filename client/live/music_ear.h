@@ -10,7 +10,7 @@
 
 namespace choreo::live {
 
-/// Predicts from live music of any format what a dance is told ahead: beats and repeats.
+/// Predicts beats and repeats from live music of any format, to tell a dance ahead.
 class MusicEar {
  public:
   struct Ahead {

@@ -25,7 +25,7 @@ class Sound {
   virtual std::span<const float> Next() = 0;
 };
 
-/// Plays a file silently from second `start` on: samples come at the speed of sound. Errors as
+/// Plays a file silently from second `start` on: samples come at the speed of sound. Fails like
 /// DecodeAudioFile, and kInvalidArgument (--song-start) for a start after its end.
 std::unique_ptr<Sound> PlaySong(const std::filesystem::path& path, double start = 0);
 
