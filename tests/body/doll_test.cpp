@@ -38,7 +38,7 @@ TEST(Doll, StandsOnTheFloorAtRest) {
         {highest, part.shape.a.y() + part.shape.radius_a, part.shape.b.y() + part.shape.radius_b});
   }
   EXPECT_NEAR(lowest, 0, 0.015);
-  EXPECT_NEAR(highest, 1.8, 0.05);  // with her bun
+  EXPECT_NEAR(highest, 1.8, 0.05);  // with the bun
 }
 
 TEST(Doll, ABodyThatIsNotSmplsHasATrunkAndAHead) {

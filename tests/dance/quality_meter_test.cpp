@@ -35,7 +35,7 @@ TEST(QualityReport, SkatingIsAToeThatSlidesNearTheFloor) {
 TEST(QualityReport, SupportIsTheShareOfSupportedOrBallisticFrames) {
   const Skeleton& skeleton = Skeleton::Smpl24();
   EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0, 31)).support, 1);
-  EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0.1, 31)).support, 0);  // she hovers
+  EXPECT_EQ(MeasureMotion(skeleton, Sliding(0.3, 0.1, 31)).support, 0);  // the body hovers
   // Half of the time each; the upward jerk in between does not count as a throw.
   Motion motion = Sliding(0, 0, 50);
   const Motion hovers = Sliding(0, 0.1, 50);

@@ -56,7 +56,7 @@ void WriteClick(const std::filesystem::path& path, double seconds, double click_
   file.write(reinterpret_cast<const char*>(samples.data()), size);
 }
 
-// Stands still, and from one frame on has her arms in the air.
+// Stands still, and raises both arms from one frame on.
 Motion Cheer(int frames, int from) {
   Motion motion{.fps = 30,
                 .frames = std::vector<Pose>(static_cast<size_t>(frames), RestPose(kSmpl))};

@@ -38,7 +38,7 @@ TEST(Retarget, LimbsKeepTheirDirectionsAndFeetTheFloor) {
         << from << " to " << to;
   }
   EXPECT_NEAR(taken.rotations(1, 0), 0.7, 0.1);
-  // She stands on her left foot, flat.
+  // The dancer stands on the left foot, flat.
   const Eigen::Matrix3Xd places = JointPositions(other, taken);
   EXPECT_NEAR(places(1, other.feet[1]), 0.02, 0.01);
   EXPECT_NEAR(places(1, other.Find("left_heel")), 0.02, 0.01);

@@ -20,7 +20,7 @@ using testing_support::LongLegs;
 
 const Skeleton& Smpl() { return Skeleton::Smpl24(); }
 
-// She sways and bends her knees on feet that stand, and claps in front of her chest.
+// A dancer sways and bends the knees on standing feet, and claps in front of the chest.
 Motion Clapping() {
   Motion motion{.fps = 30, .frames = {}};
   const std::array<Leg, 2> legs = Leg::Of(Smpl());
@@ -59,8 +59,8 @@ Motion Clapping() {
   return motion;
 }
 
-// How far toes move while SMPL's stand, metres a second at her size; and the error in the distance
-// of hands that are near each other, metres at her size.
+// How far toes move while SMPL's stand, metres a second at the character's size; and the error in
+// the distance of hands that are near each other, metres at that size.
 struct Misses {
   double slide = 0, hands = 0;
 };

@@ -107,8 +107,8 @@ double AboutTheVertical(const WindowRequest& request, const FlowWindow& window) 
   return window.mean().col(window.frames() - 1).segment<3>(3).dot(root.row(1).transpose());
 }
 
-// By the end of a window, as far as facing varies, and by the turn nearest to the one that she
-// makes of herself; unless a key or path says otherwise.
+// The dancer faces the audience by a window's end, as far as facing varies, by the turn nearest to
+// the free one; unless a key or path says otherwise.
 TEST(FlowWindow, TurnsBackToTheAudience) {
   const Scene scene = MakeScene(30);
   UsualPose usual{RestPose(Skeleton::Smpl24()), Eigen::VectorXd::Constant(75, 1)};
@@ -122,7 +122,7 @@ TEST(FlowWindow, TurnsBackToTheAudience) {
     request.stage = GroundFrame();
     const auto end = [&] { return AboutTheVertical(request, FlowWindow(prior, request)); };
     request.turn = 0;
-    const double ahead = end();  // what of her leaning turns her
+    const double ahead = end();  // the part of the leaning that turns the dancer
     request.stage->heading = front;
     request.turn = own;
     return end() - ahead;

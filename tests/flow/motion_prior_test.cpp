@@ -31,7 +31,7 @@ TEST(MotionPrior, MeanStartsWithTheLastVelocity) {
   const MotionPrior prior(SmoothCovariance());
   for (const int to_key : {0, 60}) {
     const auto& bridge = prior.Bridges(60, to_key)->front();
-    // A dancer at steady speed, without a key or with one on her way.
+    // A dancer at steady speed, without a key or with one on the way.
     const double first = bridge.past.row(0).sum() + 60.0 * bridge.key[0];
     EXPECT_NEAR(first, 1, 0.1) << to_key;
   }

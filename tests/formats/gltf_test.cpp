@@ -83,7 +83,7 @@ TEST_F(GltfTest, HoldsTheRestBodyAndTheMotion) {
     EXPECT_TRUE(primitive.contains("material"));
   }
   EXPECT_NEAR(low, 0, 0.02);
-  EXPECT_NEAR(high, 1.8, 0.05);  // with her bun
+  EXPECT_NEAR(high, 1.8, 0.05);  // with the bun
 }
 
 TEST_F(GltfTest, ARootOnTheFloorCarriesTheDancerOrNobodyDoes) {

@@ -10,7 +10,7 @@
 
 namespace choreo::beat_timing_test {
 
-// A dancer who turns and walks evenly: without timing she has no beats of her own.
+// A dancer who turns and walks evenly, and without timing has no own beats.
 std::vector<Pose> EvenWalk(int frames) {
   std::vector<Pose> plan(static_cast<size_t>(frames), RestPose(Skeleton::Smpl24()));
   for (int t = 0; t < frames; ++t) {
@@ -32,7 +32,7 @@ std::vector<double> Times(std::span<const double> beats, std::span<const double>
                       speeds);
 }
 
-// A dancer with beats of her own, `late` frames after the music's.
+// A dancer with own beats, `late` frames after the music's.
 std::vector<double> Swaying(int frames, double period, double late) {
   std::vector<double> speeds;
   for (int t = 0; t < frames; ++t)

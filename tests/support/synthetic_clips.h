@@ -12,7 +12,7 @@
 
 namespace choreo::testing_support {
 
-/// A made-up clip: a dancer who walks in a circle and swings her limbs, each joint at its own rate.
+/// A made-up clip: a dancer walks in a circle and swings the limbs, each joint at its own rate.
 inline PreparedClip SyntheticClip(const std::string& name, int frames, double phase, bool music,
                                   const Skeleton& skeleton = Skeleton::Smpl24()) {
   PreparedClip clip;

@@ -119,7 +119,7 @@ TEST_F(Tang2018Test, ATiltedFloorIsLevelled) {
   ASSERT_EQ(Prepare(options_), 2);
   EXPECT_NEAR(Report("DANCE_C_1").at("floor_slope").get<double>(), 0.06, 0.025);
   EXPECT_LT(Report("DANCE_C_2").at("floor_slope").get<double>(), 0.03);
-  // On her circle, 2 m across, the floor rises and falls by 12 cm.
+  // The floor rises and falls by 12 cm on the dancer's circle, 2 m across.
   const Motion tilted = Clip("DANCE_C_1").motion, level = Clip("DANCE_C_2").motion;
   ASSERT_EQ(tilted.frames.size(), level.frames.size());
   for (size_t f = 0; f < level.frames.size(); ++f) {

@@ -80,7 +80,7 @@ TEST_F(DancersTest, MirroredInCanonAndApart) {
   EXPECT_THAT(text,
               HasSubstr(" times as far from their middle as said, so that bodies stay 0.2 m"));
 
-  // Mirrored about the place where she stands.
+  // Mirroring is about the dancer's place.
   const auto own = [](const Motion& motion, size_t frame) {
     Pose pose = motion.frames[frame];
     pose.root_position -= motion.frames[0].root_position;

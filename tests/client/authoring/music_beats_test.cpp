@@ -12,7 +12,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
-// Beats that a choreographer gives, and her corrections of those that are found.
+// Beats that a choreographer gives, and corrections of those that are found.
 namespace choreo::authoring::music_beats_test {
 
 using testing::DoubleNear;

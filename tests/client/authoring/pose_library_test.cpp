@@ -140,7 +140,7 @@ TEST_P(PoseLibraryTest, TurnsHipsNoFurtherThanADancerCan) {
 TEST_P(PoseLibraryTest, FacesTheAudienceAtTheOrigin) {
   const Pose& pose = GetParam().pose;
   EXPECT_LT(std::hypot(pose.root_position.x(), pose.root_position.z()), 0.3);
-  // Her left is on our right, in every pose.
+  // The dancer's left is on our right, in every pose.
   EXPECT_GT(ForwardKinematics(Body(), pose).rotations[0](0, 0), 0.7);
 }
 

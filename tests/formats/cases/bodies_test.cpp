@@ -68,7 +68,7 @@ Eigen::Matrix3d Sways(const std::string& bone, int frame) {
   return About(1, 0.3, 0.2, 3 * std::sin(frame * 0.3 + static_cast<double>(bone.size())));
 }
 
-// Turns on without end, as one who turns about himself: the file does not wrap her angle.
+// A dancer spins on without end: the file does not wrap the angle.
 BvhFile Spinning(const RigNames& names) {
   BvhFile file = Dancing(names);
   for (Eigen::Index frame = 0; frame < file.frames(); ++frame)

@@ -50,7 +50,7 @@ TEST_F(CasesTest, TheLogOfBodiesInArrays) {
   const Read nested = ReadFile("a.pkl", {.up = "y"});
   EXPECT_TRUE(nested.Says("the arrays of its \"smpl\" are read")) << Said(nested);
   EXPECT_LT(WorstJoint(base, nested.motion), 1e-6);
-  // Who is in the second dict, or in the second row, stays in her place.
+  // The person in the second dict, or in the second row, stays in place.
   std::map<std::string, NpyArray> still = arrays;
   still["trans"] = {{kFrames, 3}, std::vector<double>(3 * kFrames, 0.0)};
   const auto way = [](const Read& one) {

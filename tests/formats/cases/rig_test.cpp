@@ -86,7 +86,7 @@ double LowestToe(const Pose& pose) {
   return std::min(at(1, kSmpl.feet[1]), at(1, kSmpl.feet[3]));
 }
 
-// The length of her stay does not matter.
+// The length of the stay does not matter.
 TEST_F(CasesTest, StepsOntoAStageKeepTheirHeight) {
   BvhFile file = MakeBvh({.turn = Expressive, .frames = 600});
   const auto rise = [&](double height, double whole) {
@@ -102,7 +102,7 @@ TEST_F(CasesTest, StepsOntoAStageKeepTheirHeight) {
                 frame >= 200 && frame < 500 ? 0.6 : 0, 0.02)
         << frame;
   }
-  // Nor for how short she is on the floor.
+  // A short stay on the floor does not matter, either.
   BvhFile stairs = MakeBvh({.turn = Expressive, .frames = 600});
   for (int frame = 0; frame < 600; ++frame) stairs.values(1, frame) += 0.5 * frame;
   const Motion climbs = ReadBytes("a.bvh", BvhText(stairs)).motion;
@@ -163,7 +163,7 @@ TEST_F(CasesTest, NotesZUp) {
   const Read read = ReadFile("z.bvh");
   EXPECT_TRUE(read.Says("taken as z up, not y")) << Said(read);
   EXPECT_LT(WorstJoint(base, read.motion), 0.01);
-  // One who lies for a while stands as her rest pose does.
+  // A dancer who lies for a while stands as the rest pose does.
   const RigTurn falls = [](const std::string& bone, int frame) -> Eigen::Matrix3d {
     if (bone == "pelvis" && frame < 6) return About(1, 0, 0, 90);
     return Expressive(bone, frame);

@@ -28,7 +28,7 @@ await inStudio(async ({ page, until, settle, message, give, download }) => {
       const onset = samples.findIndex((value, i) => i > 2000 && Math.abs(value) > 8000) / 8000;
       console.log(`    ${video.codec_name} with ${audio.codec_name}, ${(readFileSync(path).length / 2 ** 20).toFixed(1)} MiB; the click of 0.5 s sounds at ${onset.toFixed(3)} s`);
       assert.ok(Math.abs(onset - 0.5) < 0.03);
-      // She dances: the pictures differ.
+      // The dancer moves: the pictures differ.
       const picture = (at) => execFileSync('ffmpeg', ['-v', 'error', '-ss', String(at), '-i', path, '-frames:v', '1', '-vf', 'scale=160:90', '-f', 'rawvideo', '-pix_fmt', 'gray', '-']);
       const [first, later] = [picture(0.5), picture(2)];
       const changed = first.filter((value, i) => Math.abs(value - later[i]) > 20).length;
