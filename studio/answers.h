@@ -5,8 +5,8 @@
 
 #include "studio/studio_context.h"
 
-/// The page's simple calls: pure, except for the server and temporary files. Errors use the page's
-/// file names. `music`: what is danced to, or null. All throw Error.
+/// Answers the page's simple calls: pure, except for the server and temporary files. Errors use the
+/// page's file names. `music`: what is danced to, or null. All throw Error.
 namespace choreo::studio {
 
 std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File& file);

@@ -15,8 +15,8 @@
 namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
-/// No model: the server's first one. Beats only if they differ from those this program finds.
-/// Music, if any, as floats.
+/// Leaves the model open: the server's first. Keeps beats only if they differ from those this
+/// program finds. Music, if any, becomes floats.
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton);

@@ -42,7 +42,7 @@ class PageSession {
   };
 
   void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);
-  /// Sends a live dance its music, and first what is heard to come.
+  /// Sends a live dance its music, after the beats and repeats predicted from it.
   void TakeMusic(Dancing* dancing, const v1::Audio& audio);
   void TakeLiveBeats(uint32_t call, const LiveBeats& beats);
   void StartDance(uint32_t call, const v1::DanceConfig& config);

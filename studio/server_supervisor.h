@@ -15,7 +15,7 @@ namespace choreo::studio {
 /// dances in progress, bit for bit.
 class ServerSupervisor {
  public:
-  /// Returns when the server listens. Throws as LocalServer.
+  /// Returns when the server listens. Throws like LocalServer.
   explicit ServerSupervisor(const std::filesystem::path& program);
   ~ServerSupervisor();
   ServerSupervisor(const ServerSupervisor&) = delete;

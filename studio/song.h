@@ -15,8 +15,8 @@ struct Song {
   SongHeard heard;
 };
 
-/// Decodes a song and finds its beats. `name` is its name in errors. Throws as DecodeAudioFile, and
-/// Error(kInvalidArgument) if it is longer than `most_seconds`.
+/// Decodes a song and finds its beats. `name` is its name in errors. Throws like DecodeAudioFile,
+/// and Error(kInvalidArgument) if it is longer than `most_seconds`.
 Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds);
 
 }  // namespace choreo::studio

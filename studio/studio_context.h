@@ -12,7 +12,7 @@
 
 namespace choreo::studio {
 
-/// Shared by all pages. Thread-safe: constant after construction.
+/// The state that all pages share. Thread-safe: constant after construction.
 class StudioContext {
  public:
   /// Queries the server. `song` and the photo model's folder may be empty. Throws as the client
@@ -22,7 +22,7 @@ class StudioContext {
 
   const client::Client& client() const { return client_; }
   const client::ServerDescription& server() const { return server_; }
-  /// The server's first.
+  /// The server's first model.
   const client::ModelDescription& model() const { return server_.models.front(); }
   /// Longest music that the server accepts.
   double most_seconds() const { return server_.limits.max_audio_s; }

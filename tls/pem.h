@@ -13,21 +13,21 @@ namespace choreo {
 /// a FIFO or a device could block for ever. Follows links.
 void RequireRegularFile(const std::string& field, const std::filesystem::path& path);
 
-/// The file's bytes. Throws as RequireRegularFile, and if the file is unreadable or longer than
+/// The file's bytes. Throws like RequireRegularFile, and if the file is unreadable or longer than
 /// `most` bytes, without reading it.
 std::string ReadSmallFile(const std::string& field, const std::filesystem::path& path, size_t most);
 
-/// A PEM file with at least one certificate. Throws as ReadSmallFile.
+/// A PEM file with at least one certificate. Throws like ReadSmallFile.
 std::string ReadCertificates(const std::string& field, const std::filesystem::path& path);
 
-/// When the first of these PEM certificates to expire does. Seconds since 1970.
+/// The earliest expiry of these PEM certificates, seconds since 1970.
 int64_t ExpiryOf(const std::string& certificates);
 
 struct KeyPair {
   std::string certificates, key;  ///< PEM
 };
 
-/// A chain of certificates and the private key of its first, without a passphrase. Throws as
+/// A chain of certificates and the private key of its first, without a passphrase. Throws like
 /// ReadCertificates, with the field of the faulty file.
 KeyPair ReadKeyPair(const std::string& certificate_field,
                     const std::filesystem::path& certificate_path, const std::string& key_field,
