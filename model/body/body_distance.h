@@ -13,7 +13,7 @@ namespace choreo {
 /// A moving body (doll.h), prepared frame by frame for measuring its distance from another.
 class MovingBody {
  public:
-  /// Throws as BuildFigure.
+  /// Throws like BuildFigure.
   MovingBody(const Skeleton& skeleton, const Motion& motion);
 
   int64_t frames() const { return std::ssize(frames_); }

@@ -25,7 +25,7 @@ const std::vector<LimbSegment>& LimbSegments();
 /// Samples a few frames; the recording must outlive it.
 class RigReading {
  public:
-  /// Errors as FitRig.
+  /// Fails like FitRig.
   explicit RigReading(const RigMotion& rig);
 
   const RigMotion& rig() const { return rig_; }

@@ -45,8 +45,8 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w);
 /// log(exp(a) exp(delta)), on the branch nearest to a.
 Eigen::Vector3d RotationCompose(const Eigen::Vector3d& a, const Eigen::Vector3d& delta);
 
-/// The turn with the same end the other way round; `turn` itself if it is almost none, as its axis
-/// is noise.
+/// The turn to the same end the other way round; `turn` itself if it is nearly zero, whose axis is
+/// noise.
 Eigen::Vector3d OtherWayRound(const Eigen::Vector3d& turn);
 /// Whichever of the two is nearer to `expected`.
 Eigen::Vector3d NearerWayRound(const Eigen::Vector3d& turn, const Eigen::Vector3d& expected);

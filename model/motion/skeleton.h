@@ -49,8 +49,8 @@ struct Skeleton {
   /// the feet; fitting, retargeting and judging limbs need all roles.
   void RequireRoles() const;
 
-  /// SMPL's 24 joints (neutral body). The only place that knows them. At rest the lower toe joint
-  /// stands 2 cm above the floor, which puts the ankles about 8 cm above it.
+  /// SMPL's 24 joints (neutral body); no other code knows them. At rest the lower toe joint stands
+  /// 2 cm above the floor, which puts the ankles about 8 cm above it.
   static const Skeleton& Smpl24();
 };
 

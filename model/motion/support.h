@@ -9,8 +9,8 @@
 
 #include "model/motion/skeleton.h"
 
-/// What supports a body, frame by frame: its centre of mass, its feet on the floor, and the zero
-/// moment point (Vukobratovic 1972), which lies within the feet unless the body topples.
+/// Measures what supports a body, frame by frame: its centre of mass, its feet on the floor, and
+/// the zero moment point (Vukobratovic 1972), which lies within the feet unless the body topples.
 namespace choreo {
 
 inline constexpr double kGravity = 9.81;  ///< m/s^2
@@ -32,7 +32,7 @@ inline double MomentLever(double height, double rise) {
 /// The point of the convex hull of `others` (at least one) nearest to a point of the floor; the
 /// point itself if it is inside.
 Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
-/// The way there, metres, shorter by `slack`: zero for a point that is at most so far off.
+/// The way there, metres, shorter by `slack`: zero for a point at most that far off.
 Eigen::Vector2d WayToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others,
                           double slack);
 /// The distance to that point, metres; infinite without others.

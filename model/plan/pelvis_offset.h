@@ -7,10 +7,10 @@
 
 namespace choreo {
 
-/// Share of its length: the straightest that a standing or stepping leg may be.
+/// The straightest that a standing or stepping leg may be, as a share of its length.
 inline constexpr double kStraightestLeg = 0.985;
 
-/// What one frame requires of the pelvis. Metres; the floor is y = 0.
+/// One frame's requirements on the pelvis. Metres; the floor is y = 0.
 struct SupportFrame {
   /// A standing foot: the way from the hip to its ankle's target, and the leg's length.
   struct Leg {
@@ -23,7 +23,7 @@ struct SupportFrame {
   Eigen::Vector3d centre;  ///< of mass, smoothed
 };
 
-/// How the pelvis may move, with the whole body.
+/// Limits on how the pelvis may move, with the whole body.
 struct PelvisRules {
   bool returns = false;        ///< zero in the last frame, which is a key
   bool heights_alone = false;  ///< only heights move, as a path fixes the floor position

@@ -9,7 +9,7 @@ namespace choreo {
 
 /// Settings of the stages in model/plan (plan_stages.h). Stored in the model's checkpoint.
 struct PlanOptions {
-  /// How much faster or slower time may run to bring the dancer's own beats onto the music's.
+  /// How much time may speed up or slow down to bring the dancer's beats onto the music's.
   double accent = 0.5;
   double whole_accent = 1;       ///< seconds: shorter transitions, dominated by keys, have less
   double fastest = 1.0 / 3;      ///< seconds between beats: faster ones count less

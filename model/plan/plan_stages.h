@@ -8,7 +8,7 @@
 #include "model/motion/skeleton.h"
 #include "model/plan/plan_options.h"
 
-/// Stages of a plan between model and arrival: what no network can know, or a rule does better.
+/// Stages of a plan between model and arrival, for what no network can know, or a rule does better.
 /// Pure functions, thread-safe. plan_stages.cpp lists them.
 namespace choreo {
 
@@ -36,15 +36,15 @@ void LimitHinges(const PlanContext& context, std::vector<Pose>* plan);
 /// to the whole at the last.
 void ReturnToFloor(const PlanContext& context, std::vector<Pose>* plan);
 
-/// Times a plan so that the dancer is fastest on the music's beats, as kinematic beats are (paper
-/// F, Section 4.2): TimesOnBeats. A root path keeps its positions and heights.
+/// Times a plan (TimesOnBeats) so that the dancer is fastest on the music's beats, like kinematic
+/// beats (paper F, Section 4.2). A root path keeps its positions and heights.
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 
 /// The times, in frames, whose poses a plan's frames take so that it is fastest on the beats;
 /// `speeds` are the ones with which it reaches its frames. Moves the plan's own kinematic beats
-/// onto the music's, by the way through time with the largest sum of speed times cos(2 pi phase of
-/// the beat). The pace of time is 1 at first and within 1 - A and 1 + A; A is the accent. The last
-/// frame keeps its time. Time is as even as before without beats and where the music pauses.
+/// onto the music's, along the path through time with the largest sum of speed times cos(2 pi phase
+/// of the beat). The pace of time is 1 at first and within 1 - A and 1 + A; A is the accent. The
+/// last frame keeps its time. Time is as even as before without beats and where the music pauses.
 std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds);
 
 /// Gives the plan's frames from `first` on the poses of other times, in [-1, frames - 1]; -1 is the
@@ -52,7 +52,7 @@ std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const dou
 void Retime(const PlanContext& context, int first, std::span<const double> times,
             std::vector<Pose>* plan);
 
-/// How long before a key its hit shows, seconds: 0.5 s hardly does, as Arrival smooths the last
+/// Seconds before a key in which its hit shows: 0.5 would hardly do, as Arrival smooths the last
 /// 0.4.
 inline constexpr double kHitSeconds = 0.8;
 

@@ -25,9 +25,9 @@ void SetTorchThreads(int threads);
 
 /// Loads a checkpoint once and makes one sampler per device; samplers on the same device share
 /// weights. `kernels`: a PackedKernels::name, which gives packed engines on different CPUs one
-/// fingerprint; empty: the fastest here. It does not affect LibTorch. Throws as ReadSafetensors and
-/// ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a kind or
-/// kernels that the device or machine lacks.
+/// fingerprint; empty: the fastest here. It does not affect LibTorch. Throws like ReadSafetensors
+/// and ParseContinuousFlow (model/flow/continuous_flow.h) do, and Error(kInvalidArgument) for a
+/// kind or kernels that the device or machine lacks.
 std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& checkpoint,
                                                    std::span<const Device> devices,
                                                    EngineKind kind = EngineKind::kAuto,

@@ -12,7 +12,7 @@
 
 namespace choreo {
 
-/// A prepared clip with what its notes say.
+/// A prepared clip and the facts in its notes.
 struct ClipTrack {
   std::vector<Pose> poses = {};
   Eigen::MatrixXd energy = {};  ///< [kBodyParts, frames] smoothed velocity factors, metres a frame

@@ -9,10 +9,10 @@
 #include "model/training/clip_track.h"
 #include "model/training/window_batch.h"
 
-/// What the continuous flow measures on batches of real windows before training.
+/// The continuous flow's measurements on batches of real windows before training.
 namespace choreo {
 
-/// How far real windows deviate from the mean of `prior`, whose powers are all zero.
+/// Measures how far real windows deviate from the mean of `prior`, whose powers are all zero.
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches);
 
@@ -20,8 +20,8 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
 /// the windows.
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests);
 
-/// How the energy of body parts rises and falls in real dances; unknown if no clip is longer than
-/// its correlation.
+/// Measures how the energy of body parts rises and falls in real dances; unknown if no clip is
+/// longer than its correlation.
 EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
                          const std::array<double, kBodyParts>& medians);
 

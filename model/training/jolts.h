@@ -10,9 +10,8 @@ namespace choreo {
 /// A limb hangs from a joint with three or more children (pelvis, chest); the joints between those
 /// are the trunk. Speeds are relative to the root, so that a running dancer does not snap.
 
-/// Frames at which to cut a motion: on the way there from the frame before, the whole body snaps
-/// (the trunk, or two limbs at once), or a limb does so too near to an end to be bridged.
-/// Ascending.
+/// Frames at which to cut a motion: in the step to them, the whole body snaps (the trunk, or two
+/// limbs at once), or a limb does so too near to an end to be bridged. Ascending.
 std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion);
 
 struct LimbRepair {

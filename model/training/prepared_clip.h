@@ -43,7 +43,7 @@ std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path
 std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view before = {});
 
 /// The style in a clip's name, such as Sophie_Afraid_v2 (afraid) or DANCE_W_12 (waltz): the mood or
-/// genre, as requests name it; "" if there is none.
+/// genre by requests' name; "" if none.
 std::string StyleOf(const std::string& clip_name);
 
 }  // namespace choreo

@@ -27,7 +27,7 @@ struct Recording {
   SourceMapping mapping;
   Skeleton skeleton = Skeleton::Smpl24();  ///< that rotations are fitted to, or already use
   bool ground = false;                     ///< bring the body of `motion` down to the floor
-  bool tilted_floor = false;               ///< fit and level a floor plane, take out height drift
+  bool tilted_floor = false;               ///< fit and level a floor plane, remove height drift
   double cutoff_hz = 0;                    ///< low-pass before resampling; 0: none
   double time_scale = 1;
   std::filesystem::path music;    ///< empty: none
@@ -75,7 +75,7 @@ Recording ReadTang61(const std::filesystem::path& path, const PrepareOptions& op
 /// and, anywhere below, the songs of the AIST Dance Database, named by a NAME's last part but one:
 /// gBR_sBM_cAll_d04_mBR0_ch01 dances to mBR0.wav (.mp3, .ogg, .flac), from its beginning.
 std::vector<RecordingSource> ListAistRecordings(const PrepareOptions& options);
-/// The lists, and as "unused", which no run sees, every motion in none of them (they share songs or
+/// The lists, and every motion in none of them as "unused", which no run sees (they share songs or
 /// dances with the tests). Throws Error for a missing list and for a name in two lists.
 nlohmann::ordered_json AistSplits(const PrepareOptions& options);
 

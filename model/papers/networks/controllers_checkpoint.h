@@ -19,7 +19,7 @@ struct ControllersCheckpoint : CheckpointOf<ControllersModel> {
 /// Whether this file holds a controllers network (by its metadata).
 bool HoldsControllers(const Safetensors& content);
 
-/// `name` is what errors call it. Throws as ParseCheckpoint does.
+/// `name` is what errors call it. Throws like ParseCheckpoint.
 ControllersCheckpoint ParseControllers(const Safetensors& content, const std::string& name);
 
 /// Writes atomically; returns the content hash.

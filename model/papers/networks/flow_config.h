@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-/// A coupling's delta near 0 would make the inverse explode and the likelihood unbounded (paper F,
-/// Eq. 7, does not say how to avoid it), so it starts near 1 and has a floor.
+/// A coupling's delta starts near 1 and has a floor: near 0 the inverse would explode and the
+/// likelihood be unbounded (paper F, Eq. 7, does not say how to avoid it).
 inline constexpr double kDeltaBias = 2.0, kDeltaFloor = 0.05;
 /// Past frames and music are clamped to this many standard deviations; training saw nothing beyond.
 inline constexpr double kFeatureClamp = 6.0;

@@ -63,7 +63,7 @@ TORCH_MODULE(Inbetweener);
 /// Its checkpoints (see model/flow/checkpoint.h).
 using InbetweenerCheckpoint = CheckpointOf<Inbetweener>;
 bool HoldsInbetweener(const Safetensors& content);
-/// `name` is what errors call it. Throws as ParseCheckpoint does.
+/// `name` is what errors call it. Throws like ParseCheckpoint.
 InbetweenerCheckpoint ParseInbetweener(const Safetensors& content, const std::string& name);
 /// Writes atomically; returns the content hash.
 std::string SaveInbetweener(const std::filesystem::path& path, Inbetweener& model,

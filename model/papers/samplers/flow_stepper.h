@@ -30,7 +30,7 @@ struct FrameNoise {
   }
 };
 
-/// One frame for FlowStepper::Step: what FlowModel::Step takes and gives.
+/// One frame for FlowStepper::Step: the inputs and outputs of FlowModel::Step.
 struct FlowFrame {
   int frame = 0;                 ///< in the transition
   std::span<const float> past;   ///< [tau, width] features in physical units, oldest first

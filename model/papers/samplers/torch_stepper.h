@@ -18,8 +18,8 @@ struct TorchWeights {
   torch::Device device{torch::kCPU};
 };
 
-/// Steps the flow by LibTorch, with inputs and outputs in host memory. The reference for
-/// PackedStepper, and the one that runs on CUDA.
+/// Steps the flow by LibTorch, with inputs and outputs in host memory. It is the reference for
+/// PackedStepper, and runs on CUDA.
 class TorchStepper : public FlowStepper {
  public:
   explicit TorchStepper(std::shared_ptr<TorchWeights> weights);
@@ -41,7 +41,7 @@ class TorchStepper : public FlowStepper {
   std::vector<float> static_condition_;  ///< [frames, static_width]
   int64_t begin_[kParts + 1];            ///< of each part, in columns
 
-  // What a step reads and writes, here (pinned for CUDA) and on the device; the same on the CPU.
+  // A step's inputs and outputs, here (pinned for CUDA) and on the device; the same on the CPU.
   torch::Tensor host_input_, input_;  ///< [kRows, begin_[kParts]]
   torch::Tensor host_output_;         ///< [kRows, width + 1]: features, log-likelihood
   FlowState state_;                   ///< [kRows, StateWidth()], on the device

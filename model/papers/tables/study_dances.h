@@ -13,7 +13,7 @@ namespace choreo {
 /// frames, and films the dances and the real motion as METHOD/CLIP.mp4 in `folder`. Leaves out raw
 /// interpolation. `songs`: a folder with the films' music, CLIP.ogg (.wav, .mp3); silent if empty.
 /// `frames`: the length; less if a clip's music ends earlier. Keys are not marked, because real
-/// motion has none. Throws Error(kNotFound) for a clip without a song, and as VideoEncoder.
+/// motion has none. Throws Error(kNotFound) for a clip without a song. Fails like VideoEncoder.
 std::vector<StudyMethod> FilmDances(const ClipSet& set, std::span<const Method> methods, int frames,
                                     const std::filesystem::path& songs,
                                     const std::filesystem::path& folder);

@@ -98,11 +98,11 @@ void VisitFixedOfPapers(auto& options, auto&& visit) {
         "Ablation of controllers");
 }
 
-/// Trains paper F's flow (`paper`, `paper-f`, `ablation`), as TrainContinuousFlow does.
+/// Trains paper F's flow (`paper`, `paper-f`, `ablation`) like TrainContinuousFlow.
 void TrainFlow(const PaperOptions& options);
-/// The same for the baseline of both papers, with TrainFlow's windows, on the CPU.
+/// Trains the baseline of both papers, with TrainFlow's windows, on the CPU.
 void TrainInbetweener(const PaperOptions& options);
-/// The same for paper C's network, with a curriculum of lengths.
+/// Trains paper C's network, with a curriculum of lengths.
 void TrainControllers(const PaperOptions& options);
 
 }  // namespace choreo
