@@ -60,8 +60,8 @@ class Edit {
     return request;
   }
 
-  /// Its only candidate. `leads_on`: its target is a frame of the dance, of whose pose nobody needs
-  /// to be warned.
+  /// Its only candidate. `leads_on`: its target is a frame of the dance, whose pose needs no
+  /// warning.
   TransitionCandidate Generate(const TransitionRequest& request, bool leads_on) {
     TransitionResult result = client_.GenerateTransition(request);
     if (leads_on)
@@ -198,7 +198,7 @@ void CheckKeyEdit(int64_t first, int64_t last, int64_t from, int64_t to, int64_t
   }
 }
 
-/// The end of one of an edit's transitions: in a pose, or free.
+/// The end of one of an edit's transitions: a pose, or free.
 struct Stop {
   int64_t frame = 0;
   std::optional<Pose> pose = {};
@@ -317,7 +317,7 @@ EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
                                     std::to_string(gap.from + 2) + ", " + std::to_string(frames) +
                                     "]");
   }
-  // Without a frame after it, the end is free.
+  // The end is free if no frame follows.
   const std::vector<Stop> stops =
       gap.to == frames ? std::vector<Stop>{{.frame = frames - 1}} : std::vector<Stop>{};
   return DanceThrough(work, gap.from, stops, gap.to, gap.to_id, gap.to_hit);

@@ -81,7 +81,7 @@ Error ToError(const grpc::Status& status, const std::string& address, bool tls) 
   const Error error = ToError(status);
   if (error.code() != ErrorCode::kUnavailable) return error;
   std::string message = error.what();
-  // The symptom of plain text sent to a TLS port.
+  // This is the symptom of plain text sent to a TLS port.
   if (!tls && message.ends_with(": Socket closed")) message += "; it may want TLS, which is off";
   return {ErrorCode::kUnavailable, address, message};
 }

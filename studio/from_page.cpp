@@ -21,7 +21,7 @@ void RequireCount(const std::string& field, int count, int wanted) {
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
 }
 
-/// A pose of a file, whose rotations may have wound up: the shortest way.
+/// A pose of a file, whose rotations may be wound up, with the shortest ones.
 Pose Unwound(Pose pose, const std::string& field) {
   CheckPoseLimits(pose, kMaxWoundRotation, Show(kMaxWoundRotation), field);
   MakeContinuous(pose, {{}, Eigen::Matrix3Xd::Zero(3, pose.rotations.cols())});

@@ -29,7 +29,7 @@ std::vector<float> Peaks(const DecodedAudio& audio) {
   return peaks;
 }
 
-/// How many keys fit between the beats.
+/// The number of keys that fit between the beats.
 int64_t Room(const std::vector<double>& beats) {
   int64_t count = 0;
   double last = -kMinKeyInterval;

@@ -69,7 +69,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
  private:
-  /// Checks the host that the browser believes it talks to: anybody can point another name here.
+  /// Checks the host name in the browser's request: anybody can point another name here.
   bool NamesOurHost() const {
     const std::string host(request_[http::field::host]);
     const std::string name = SplitAddress(host).host;

@@ -17,7 +17,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Returns an empty string for a finite number that satisfies `holds`.
+/// Returns "" for a finite number that satisfies `holds`.
 template <typename Predicate>
 CLI::Validator NumberThat(const std::string& limit, const std::string& name,
                           const Predicate& holds) {

@@ -32,7 +32,7 @@ struct PlotOptions {
   std::string out;
 };
 
-/// Mean of the values within half of `window` around each.
+/// The mean of the values within half of `window` around each.
 std::vector<double> MovingMean(const std::vector<double>& values, double window) {
   const auto half = static_cast<std::ptrdiff_t>(window / 2);
   const auto count = static_cast<std::ptrdiff_t>(values.size());
@@ -66,7 +66,7 @@ PlotSeries SpeedOf(BodyPart part, const SkeletonMotion& dance) {
   return line;
 }
 
-// Seen from above, the audience at the right.
+// The stage from above, with the audience at the right.
 void AddPlace(const Eigen::Vector3d& place, PlotSeries* line) {
   line->x.push_back(place.z());
   line->y.push_back(place.x());
@@ -100,7 +100,7 @@ PlotSeries AskedOf(const std::string& path, double fps, bool height) {
   return line;
 }
 
-// Dashed from bottom to top at each second.
+// A dashed line from bottom to top at each second.
 PlotSeries MarksAt(const std::vector<double>& seconds, double top) {
   PlotSeries marks{.label = {}, .x = {}, .y = {}, .asked = true};
   for (const double second : seconds) {

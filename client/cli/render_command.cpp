@@ -66,7 +66,7 @@ void TakeSong(bool says_start, RenderOptions* options) {
   }
 }
 
-/// All motions at the first one's rate.
+/// Resamples all motions to the first one's rate.
 Stage ReadStage(const std::vector<std::string>& paths) {
   Stage stage;
   for (const std::string& path : paths) {
@@ -100,7 +100,7 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<doub
                   &end) != 2) {
     throw InvalidArgument("--size", options.size + ", must be WIDTHxHEIGHT, as in " + SizeText({}));
   }
-  // Fails if the song is over before the film.
+  // Fails if the song ends before the film.
   if (film.format.song_start_s > 0)
     authoring::ReadMusic(film.format.song, 1, film.format.song_start_s);
   std::unique_ptr<ProgressBar> bar;

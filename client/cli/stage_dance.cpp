@@ -83,7 +83,7 @@ WrittenDance Later(WrittenDance written, int64_t delay) {
   return written;
 }
 
-/// Moves dancers apart where they would come too near, and prints how near they are.
+/// Moves dancers apart if they would come too near, and prints how near they are.
 void SeparateDancers(const authoring::Dancers& stage, const Skeleton& skeleton,
                      std::vector<client::FinishedDance>* dances) {
   const auto [factor, nearest] = authoring::KeepApart(stage.dancers, stage.apart, skeleton, dances);

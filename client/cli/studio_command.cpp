@@ -31,7 +31,7 @@ void Run(const StudioOptions& options) {
     server.addresses = {own->address()};
   }
   server.before_retry = [] { Interruption::Check(); };
-  // Where scripts/photo_model.sh puts it: beside the program, built or installed.
+  // The folder where scripts/photo_model.sh puts it: beside the program, built or installed.
   const std::filesystem::path photo_model = ProgramFolder().parent_path() / "share/choreo/photo";
   const studio::StudioContext context(server, options.song, photo_model);
   studio::WebServer web(options.listen, context);

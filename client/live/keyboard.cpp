@@ -12,7 +12,7 @@ class Keyboard final : public Cues {
  public:
   Keyboard(int terminal, const termios& before, std::vector<std::string> poses)
       : terminal_(terminal), before_(before), poses_(std::move(poses)) {
-    // Unbuffered, non-blocking input; Ctrl-C still works.
+    // Makes input unbuffered and non-blocking; Ctrl-C still works.
     termios now = before;
     now.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     now.c_cc[VMIN] = 0;

@@ -9,7 +9,7 @@ namespace choreo::live {
 namespace {
 
 constexpr unsigned kRate = 44100;           // every sound card supports it
-constexpr unsigned kBufferMicros = 200000;  // how long we may be busy elsewhere
+constexpr unsigned kBufferMicros = 200000;  // the longest time that we may be busy elsewhere
 
 void KeepQuiet(const char*, int, const char*, int, const char*, ...) {}
 
