@@ -4,7 +4,7 @@ namespace choreo {
 namespace {
 
 // Means over 57 made songs, seeds 1000 to 1070, steady, at all tempi. Half of each expectation is
-// 1, the mean of all music, as real songs differ from ours.
+// 1, the mean of all music, because real songs differ from ours.
 constexpr double kDoubt = 0.5;
 
 std::vector<BarPattern::Bands> Doubted(std::vector<BarPattern::Bands> rise) {

@@ -28,7 +28,7 @@ struct Met {
     halfway += sums.OnBeat(std::llround(frame + period / 2));
     ++count;
   }
-  /// How much more that is than `even`, the mean: 0 to 1.
+  /// The excess over `even`, the mean: 0 to 1.
   double ExcessOver(double even) const { return Excess(std::max(on, halfway) / count, even); }
 };
 

@@ -34,7 +34,7 @@ bool IsAdts(const ByteSource& source) {  // AAC: twelve set bits, then layer 0
   return (source.Word(0) & 0xf6ff) == 0xf0ff;
 }
 
-/// A page that a server sent in place of a song, a playlist: ffmpeg takes it for a voice.
+/// A server may send a page or a playlist in place of a song: ffmpeg takes that for a voice.
 bool IsText(const ByteSource& source) {
   constexpr int64_t kRead = 4096, kAscii = 64;  // silence in mu-law has bytes of letters, too
   std::string begin(static_cast<size_t>(std::min(source.size, kRead)), '\0');

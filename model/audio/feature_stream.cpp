@@ -34,7 +34,7 @@ FeatureStream::FeatureStream(double sample_rate, int channels, int64_t first_sam
 }
 
 void FeatureStream::Push(std::span<const float> interleaved) {
-  // In small pieces: a stream keeps the memory of its largest one.
+  // Pieces are small: a stream keeps the memory of its largest one.
   const size_t block = kBlock * static_cast<size_t>(channels_);
   for (size_t at = 0; at < interleaved.size(); at += block) {
     resampler_.Push(interleaved.subspan(at, std::min(block, interleaved.size() - at)));
@@ -49,7 +49,7 @@ void FeatureStream::Finish() {
   finished_ = true;
   resampler_.Finish();
   resampler_.Pull(mono_);
-  // Silence up to the last window that holds any audio; all rows after it are equal.
+  // Adds silence up to the last window that holds any audio; all rows after it are equal.
   mono_.insert(mono_.end(), kFftSize + kFeatureHop, 0.0f);
   ComputeRows();
   mono_ = {};

@@ -129,7 +129,7 @@ std::vector<double> Twiddles(size_t length, size_t n) {
 }  // namespace
 
 FourierPower::FourierPower(size_t size) : half_(size / 2), order_(half_), power_(half_ + 1) {
-  // Fours as far as possible, then a two.
+  // Uses fours as far as possible, then a two.
   std::vector<size_t> radices;
   for (size_t left = half_; left > 1; left /= radices.back())
     radices.push_back(left % 4 == 0 ? 4 : 2);

@@ -60,7 +60,7 @@ std::optional<Frame> FrameAt(const ByteSource& source, int64_t at) {
   return frame;
 }
 
-/// A frame that two of its kind follow.
+/// A frame followed by two of its kind.
 std::optional<Frame> SyncAt(const ByteSource& source, int64_t at) {
   const std::optional<Frame> frame = FrameAt(source, at);
   if (!frame) return std::nullopt;
@@ -175,7 +175,7 @@ class StretchReader final : public SoundReader {
     mpg123_param(decoder_.get(), MPG123_ADD_FLAGS, MPG123_FORCE_FLOAT | MPG123_QUIET, 0);
     mpg123_param(decoder_.get(), MPG123_RESYNC_LIMIT, -1, 0);
     // A tag says how much silence the encoder added at both ends. A tag that counts too few frames
-    // would cut the song short; its silence before the song is right even so.
+    // would cut the song short, but states the silence before it correctly.
     const bool is_right = stretch.stated && *stretch.stated >= stretch.frames;
     mpg123_param(decoder_.get(), is_right ? MPG123_ADD_FLAGS : MPG123_REMOVE_FLAGS, MPG123_GAPLESS,
                  0);

@@ -13,7 +13,7 @@ constexpr size_t kStep = 15;  // rows between the seconds examined: half a secon
 enum Measure : size_t { kLoud, kBusy, kDeep, kMeasures };
 using Second = std::array<double, kMeasures>;
 
-// Starts with the last second; each overlaps the next by half.
+// The first is the last second; each overlaps the next by half.
 std::vector<Second> SecondsOf(std::span<const RowSound> rows) {
   std::vector<Second> seconds;
   for (size_t end = rows.size(); end >= 2 * kStep; end -= kStep) {

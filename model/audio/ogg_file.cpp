@@ -46,7 +46,7 @@ std::optional<Page> PageAt(const ByteSource& source, int64_t at) {
   return page;
 }
 
-/// Where the next page may begin, or the end of the source.
+/// The place where the next page may begin, or the end of the source.
 int64_t NextCapture(const ByteSource& source, int64_t at) {
   std::string piece(1 << 16, '\0');
   for (; at < source.size; at += std::ssize(piece) - 3) {

@@ -194,7 +194,7 @@ Resampler::Resampler(double sample_rate, int channels, int64_t first_sample)
       input_.assign(static_cast<size_t>(before), 0.0);
       input_start_ = -before;
     } else {
-      // The first n with floor(n * in / out) - before >= first_sample.
+      // The least n with floor(n * in / out) - before >= first_sample.
       const int64_t position = (first_sample + before) * out_per_period_;
       first_output_ = (position + in_per_period_ - 1) / in_per_period_;
     }

@@ -36,7 +36,7 @@ std::vector<double> Strengths(std::span<const int64_t> frames, std::span<const f
   return strengths;
 }
 
-/// How many keys fit, each on the first beat that is far enough from the last key.
+/// The number of keys that fit, each on the first beat far enough from the last key.
 int64_t MostKeys(std::span<const double> times) {
   int64_t most = 0;
   double last = kNever;

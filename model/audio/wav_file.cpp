@@ -95,13 +95,13 @@ bool IsBurst(const ByteSource& source, int64_t body) {
   return false;
 }
 
-/// Where the chunk after one of `size` bytes begins: some leave out the byte that pads it, which
-/// is 0 and so begins none.
+/// The place of the chunk after one of `size` bytes: some files omit the padding byte, which is 0
+/// and so begins no chunk.
 int64_t After(const ByteSource& source, int64_t body, int64_t size) {
   return IsChunk(source, body + size) ? body + size : body + size + size % 2;
 }
 
-/// The chunk at `at` as it is, length and all; "" where it is too long for one of a format.
+/// The unchanged chunk at `at` with its length; "" if it is too long for a format's.
 std::string FormatAt(const ByteSource& source, int64_t at) {
   constexpr int64_t kMaxSize = 1024;
   const int64_t size = source.Word(at + 4);
@@ -121,8 +121,8 @@ ByteSource Plain(const ByteSource& source, const std::string& format, int64_t bo
                  "RIFF" + FourBytes(static_cast<uint32_t>(all)) + head);
 }
 
-/// The files that were joined to one, as by `cat a b`, and each chunk of samples of those that have
-/// several, as a file of its own.
+/// The files in one that `cat a b` joined. Each chunk of samples becomes a file of its own if there
+/// are several.
 std::vector<ByteSource> PartsOf(const ByteSource& source, const std::string& name) {
   constexpr size_t kMaxCount = 1000;
   std::vector<ByteSource> parts;

@@ -64,7 +64,7 @@ class DanceChain::Job : public SampleJob {
   const DanceFrame& FrameAt(int64_t frame) const {
     return run_.frames()[static_cast<size_t>(frame - segment_.from)];
   }
-  /// What a transition that begins at `frame`, inside or directly after it, continues from.
+  /// The state from which a transition that begins at `frame`, in or right after this one, starts.
   DancedState StateBefore(int64_t frame) const {
     const auto danced = static_cast<size_t>(frame - segment_.from);
     return {run_.HistoryAfter(danced), run_.StageAfter(danced)};
@@ -191,7 +191,7 @@ bool DanceChain::HandOut(int most) {
 
 void DanceChain::Fail(Job& job, const Error& failure) {
   if (!job.sampled()) {
-    job.Fail(failure);  // reported once all frames before it are handed out
+    job.Fail(failure);  // reported when all frames before it are handed out
   } else if (failure.code() != ErrorCode::kUnavailable) {
     // The sink threw it. A closing queue (kUnavailable) does not take back sampled frames.
     mailbox_.PostError(failure);

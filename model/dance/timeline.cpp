@@ -212,7 +212,7 @@ void Timeline::GenerateUntil(int64_t frame) {
                               Frames(kMaxDanceFrames) + "]: it may only grow");
   }
   granted_ = frame;
-  // All is granted, and while the end of the music is unknown there is no last transition to plan.
+  // Everything is granted; while the music's end is unknown, no last transition can be planned.
   if (complete_) return;
   explicit_grants_ = true;
   Grant(frame);
@@ -272,7 +272,7 @@ Segment Timeline::SegmentFrom(int64_t frame, const Granted& known) const {
   const bool is_reached = next && *next + 1 == to;
   if (!is_reached) {
     const auto cut = std::ranges::lower_bound(cuts_, frame + std::lround(kMinCut_s * options_.fps));
-    // What remains before the key is then at least half the typical length.
+    // The rest before the key is then at least half the typical length.
     if (cut != cuts_.end() && *cut <= to + (to - frame) / 2 &&
         *cut - frame <= options_.max_transition_frames)
       to = *cut;

@@ -64,7 +64,7 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   return target;
 }
 
-// The pose a frame later: at rest, but for the path, which leads on.
+// The pose a frame later: at rest, except that the path leads on.
 Pose AtRest(Pose pose, const ControlCurve& path) {
   if (!path.IsGiven() || path.values.cols() < 2) return pose;
   const Eigen::Vector3d step =

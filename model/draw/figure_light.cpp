@@ -58,7 +58,7 @@ Vector3f FigureLight::At(size_t index, const Vector3f& point, const Vector3f& ow
   for (const ConeLanes& cones : part.hiding) left *= 1 - 0.7f * HiddenSky(cones, starts, normals);
   const float open = left[0] * left[1] * left[2] * left[3];
   const float sky = open * (0.5f + 0.5f * normal.y());
-  // Light from the floor reaches feet better than heads.
+  // Light from the floor reaches feet more than heads.
   const float bounce = open * (0.5f - 0.5f * normal.y()) * 0.5f * (1 - SmoothStep(0, 2, point.y()));
   const float towards = std::max(0.0f, -normal.dot(ray));
   const float edge = (1 - towards) * (1 - towards) * (1 - towards);

@@ -75,7 +75,7 @@ class Renderer {
     for (int y = 0; y < picture_.height; ++y) floor_.DrawRow(y, PixelAt(0, y));
     const Eigen::Vector2i from = box_.min(), to = box_.max();
     for (int y = from.y(); y < to.y(); ++y) CastRow(y, &rows_.emplace_back());
-    // Every second pixel of every second row first; light changes slowly between most of them.
+    // Draws every second pixel of every second row first: light changes slowly between most.
     for (int y = from.y(); y < to.y(); y += 2) {
       for (int x = from.x(); x < to.x(); x += 2) Draw(x, y);
       for (int x = from.x() + 1; x < to.x(); x += 2) DrawBetween(x, y, Eigen::Vector2i::UnitX());
@@ -106,7 +106,7 @@ class Renderer {
     tone_.Put(is_one ? Body(seen, column % kLanes, Last(x, y)) : Mixed(x, y), PixelAt(x, y));
   }
 
-  // Between two drawn pixels, one on either side.
+  // Interpolates between two drawn pixels, one on either side.
   void DrawBetween(int x, int y, const Eigen::Vector2i& step) {
     const Eigen::Vector2i pixel(x, y), a = pixel - step, b = pixel + step;
     const float part = PartAt(x, y);

@@ -45,7 +45,7 @@ std::vector<uint8_t> Yuv420(const Picture& picture) {
     const uint8_t *upper = &picture.rgb[3 * y * width], *lower = upper + 3 * width;
     uint8_t* luma = &planes[y * width];
     for (size_t x = 0; x < width; x += 2, upper += 6, lower += 6, luma += 2, ++cb, ++cr) {
-      // Most of a film is floor: pixels like those before them, also the one that colour overlaps.
+      // Most of a film is floor: its pixels equal those before them, even where colour overlaps.
       if (x > 2 && std::memcmp(upper - 3, upper - 9, 9) == 0 &&
           std::memcmp(lower - 3, lower - 9, 9) == 0) {
         std::memcpy(luma, luma - 2, 2), std::memcpy(luma + width, luma + width - 2, 2);

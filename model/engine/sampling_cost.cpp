@@ -30,7 +30,7 @@ void WarmUp(Sampler& sampler) {
   TransitionSpec spec;
   spec.frames = std::min(kTypicalFrames, model.max_transition_frames);
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
-  // Like music's: a model guided by beats is evaluated twice.
+  // Beats like music's: a model guided by beats is evaluated twice.
   for (double beat = 0; beat <= spec.frames; beat += kBeatSeconds * model.fps)
     spec.beats.push_back(beat);
   sampler.Sample(spec);  // leaves one-time work out of the measurement

@@ -28,7 +28,7 @@ constexpr double kSongSeconds = 80, kHitSeconds = 60;
 // Seconds of a song before its drop, of the calm that precedes it, and after it.
 constexpr double kBeforeDrop = 20, kCalm = 6, kAfterDrop = 12;
 constexpr int kDropsASeed = 4;
-// Frames that a burst is compared with: before the drop, and when it has settled.
+// The frames with which a burst is compared: before the drop, and when it has settled.
 constexpr size_t kBefore = 60, kSettledFrom = 120, kSettledTo = 300;
 constexpr size_t kSmooth = 11;  // frames of a moving mean
 

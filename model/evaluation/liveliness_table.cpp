@@ -23,7 +23,7 @@ constexpr int kFrechetFrames = 60;
 constexpr int kSparse = 240;                        // frames between few keys
 constexpr double kMinRatio = 0.7, kMaxRatio = 1.4;  // relative to real motion's median speed
 
-// What a dance is told about its music.
+// The music's facts that a dance gets.
 struct Song {
   double bpm = 0;
   double phase = 0;
@@ -34,7 +34,7 @@ constexpr size_t kTimedSong = 1;  // whose jerk is told
 constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true},
                            {60, 0}, {75, 0},  {150, 0}, {180, 0}};
 
-// All dances through keys, and the recorded ones that they are compared with.
+// All dances through keys, and the recorded ones for comparison.
 struct KeyedDances {
   LivelyDances real, locked;
   LivelyDances sparse;  // few keys, seed 0

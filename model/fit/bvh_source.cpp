@@ -11,7 +11,7 @@
 namespace choreo {
 namespace {
 
-/// The clip's joints by the bone that they are.
+/// The clip's joints by bone.
 class ClipBones {
  public:
   ClipBones(const PositionClip& clip, HumanBones found)
@@ -94,7 +94,7 @@ constexpr double kShoulderShare = 0.4;
 // the shoulder is a blend of the source's and a point fixed to the chest.
 void AddCollar(const PositionClip& clip, const SpineChain& spine, const ClipBones& bones,
                const std::string& side, MappingBuilder& builder) {
-  // Across the chest, outwards on this side.
+  // The direction across the chest, outwards on this side.
   const bool collars = bones.Any("left_collar") && bones.Any("right_collar");
   const char* joint = collars ? "collar" : "shoulder";
   const std::string inner = bones.Need(side + joint), outer = bones.Need(OtherSide(side) + joint);
@@ -123,7 +123,7 @@ void AddTrunk(const PositionClip& clip, const ClipBones& bones, MappingBuilder& 
   }
   builder.Add("neck", "hips", {{neck, 1.0}}, {{.joint = "neck"}}, 1, false);
   if (const auto head = bones.Any("head")) {
-    // Straight above the neck, where our head leans forward.
+    // The head is straight above the neck; ours leans forward.
     builder.Add("head", "neck", {{*head, 1.0}}, {MappingBuilder::At("neck", 0, 0.09, 0.012)});
     const auto left_eye = bones.Any("left_eye"), right_eye = bones.Any("right_eye");
     if (left_eye && right_eye) {

@@ -67,7 +67,7 @@ Hand FindFingers(const RigNodes& rig, int wrist) {
       });
       std::vector<int>& chain = hand[finger];
       if (!is_its || (finger != kThumb && name.find("metacarpal") != std::string::npos)) continue;
-      // Twists and corrections beside the bones are none of the chain.
+      // Twists and corrections beside the bones do not belong to the chain.
       if (chain.empty() || IsBelow(node, chain.back(), rig.parents)) chain.push_back(node);
       break;
     }
@@ -82,7 +82,7 @@ class HandCurl {
         wrist_(rig.places.col(wrist)),
         hand_(FindFingers(rig, wrist)),
         bends_(kBends[static_cast<size_t>(pose)]) {
-    // Across the hand: from the last finger to the first, or to the thumb.
+    // The direction across the hand: from the last finger to the first, or to the thumb.
     std::vector<Vector3d> knuckles;
     for (size_t finger = 1; finger < kHandFingers; ++finger)
       if (!hand_[finger].empty()) knuckles.push_back(Place(hand_[finger].front()));
@@ -123,7 +123,7 @@ class HandCurl {
     axis.normalize();
     Vector3d before = first;
     for (size_t bone = 0; bone < std::min(chain.size(), kBentBones); ++bone) {
-      // The last node, if nothing is behind it, goes on as the one before.
+      // The last node continues like the one before if nothing is behind it.
       const Vector3d along =
           bone + 1 < chain.size() ? Vector3d(Place(chain[bone + 1]) - Place(chain[bone])) : before;
       const double rests = std::atan2(axis.dot(before.cross(along)), before.dot(along));

@@ -52,7 +52,7 @@ FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const 
     targets.push_back(normaliser.Apply(clip.frames[frame], size, height_scales[frame]));
     motion.frames.push_back(fitter.Next(targets.back()));
   }
-  // Refines with the next frame known too, so that nothing lags.
+  // Refines with the next frame also known, so that nothing lags.
   FitProblem problem(skeleton, mapping, options, clip.fps);
   std::vector<double> distances;
   for (size_t frame = 0; frame < count; ++frame) {

@@ -156,7 +156,7 @@ JointTerm::JointTerm(const Skeleton& skeleton, const FitOptions& options, double
 }
 
 // A hinge that is bent far and also turned about its limb is turned by more than half a turn; the
-// shorter way round, which would be a backwards bend, is not the way it went.
+// shorter way round would be a backwards bend, so it is wrong.
 Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
   return w.norm() < kMaxShortTurn || hinge_axis.dot(w) >= 0 ? w : OtherWayRound(w);
 }

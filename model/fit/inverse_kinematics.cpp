@@ -19,7 +19,7 @@ constexpr double kFirm = 3;
 constexpr double kAlong = 0.05;
 constexpr double kLoose = 0.01;
 
-/// Where to put a joint, and the weight of that.
+/// A joint's place, and its weight.
 struct Pin {
   Eigen::Vector3d position;
   double weight;
@@ -33,7 +33,7 @@ constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
                                       .hinge_side_rad = 0.08,
                                       .change_rad = 0.3};
 
-// Pins by joint: the targets, and whatever stays.
+// Pins by joint: the targets, and all joints that stay.
 std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
                           std::span<const JointTarget> targets) {
   std::map<int, Pin> pins = {{0, {now.col(0), kLoose}}};

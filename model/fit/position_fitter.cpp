@@ -11,8 +11,8 @@ namespace {
 constexpr int kFirstIterations = 60;  // for a frame without a predecessor
 // Root mean square landmark distance above which a warm start counts as lost.
 constexpr double kLostDistance = 0.04;
-// Radians that no trunk turns. A trunk beyond them is wound up: hips and shoulders are in place,
-// but a whole turn apart.
+// Radians beyond which no trunk turns. A trunk beyond them is wound up: hips and shoulders are in
+// place, but a whole turn apart.
 constexpr double kWoundTurn = 2.6;
 
 }  // namespace

@@ -35,7 +35,7 @@ HumanBones Exchanged(const HumanBones& bones, const std::string& of) {
   return exchanged;
 }
 
-// The share of frames in which a joint bends as no body can.
+// The share of frames in which a joint bends impossibly.
 double ShareBent(const Motion& motion) {
   const auto bent = std::ranges::count_if(
       motion.frames, [](const Pose& pose) { return !BendFaults(SmplBody(), pose).empty(); });
@@ -169,7 +169,7 @@ class RigFitter {
         turns[joint] = turns[parent];
       }
     }
-    // Limbs point where theirs do, whatever moved them there.
+    // Limbs point where the rig's do, whatever moved them there.
     for (const LimbSegment& segment : LimbSegments()) {
       const Eigen::Vector3d bone = reading_.Bone(theirs, segment);
       if (bone.norm() * scale_ < 1e-6) continue;
@@ -215,7 +215,7 @@ class RigFitter {
 RigFit FitRig(const RigMotion& rig, double scale) {
   const RigReading as_named(rig);
   const auto named = [&] { return RigFitter(as_named, scale).Fit(); };
-  // Toes say where ahead is; without them, knees and elbows do.
+  // Toes tell the front; without them, knees and elbows do.
   const bool has_toes = as_named.Find("left_foot") >= 0 && as_named.Find("right_foot") >= 0;
   if (as_named.Stands() && has_toes) return named();
   std::optional<RigFit> as_it_is;

@@ -63,7 +63,7 @@ std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matr
   }
   for (const std::string joint : {"hip", "shoulder"})
     if ((place("left_" + joint) - place("right_" + joint)).x() < 0) return std::nullopt;
-  // A body that rests does so alike on both sides; one in the middle of a dance does not.
+  // A resting body is alike on both sides; one in the middle of a dance is not.
   for (size_t i = 0; i < LimbSegments().size() / 2; ++i) {
     const LimbSegment &left = LimbSegments()[i],
                       &right = LimbSegments()[i + LimbSegments().size() / 2];
@@ -207,7 +207,7 @@ std::optional<RigReading::Rest> RigReading::FindRest() const {
     if (auto body = RestBody(rig_.bones, rest.places)) return Rest{*std::move(body), &rest};
   }
   if (!IsHeldOut(samples_[0])) return std::nullopt;
-  // Some clips begin with the pose that others rest in.
+  // Some clips begin with other rigs' rest pose.
   auto body = RestBody(rig_.bones, samples_[0].places);
   if (!body) return std::nullopt;
   return Rest{*std::move(body), &samples_[0]};

@@ -48,7 +48,7 @@ class WindowSampler::Pass {
     window_.SetEnergy(model.prior, request);
     known_.emplace(request, window_);
     const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(model.prior.dimensions(), window_.frames());
-    // Correlated over dimensions like motion.
+    // Noise is correlated over dimensions like motion.
     start_ = still;
     if (temperature_ > 0)
       start_ = model.mixing.triangularView<Eigen::Lower>() *

@@ -179,7 +179,7 @@ void FlowWindow::SetMean(const MotionPrior& prior, const WindowRequest& request,
   double squares = 0, known = 0;
   for (int d = 0; d < dimensions; ++d) {
     const MotionPrior::Bridge& bridge = BridgeOf(d);
-    // A history that the dance made says little about its keys' energy.
+    // A history made by the dance says little about its keys' energy.
     const bool keyed = keyed_[static_cast<size_t>(d)];
     if (prior.Moves(d) && keyed) {
       squares += displacement_[d] * displacement_[d] / bridge.expected[MotionPrior::kPast];
@@ -197,8 +197,8 @@ void FlowWindow::SetMean(const MotionPrior& prior, const WindowRequest& request,
   if (known > 0) surprise_ = squares / known;
 }
 
-// Turns about the vertical. About the body's own axis, a dancer who bends forwards would bend
-// backwards half a turn later.
+// Turns about the vertical. A turn about the body's own axis would make a dancer who bends forwards
+// bend backwards half a turn later.
 void FlowWindow::FaceAudience(const MotionPrior& prior, const WindowRequest& request,
                               const Eigen::MatrixXd& velocities) {
   facing_ = prior.FacingBridge(request.frames);

@@ -138,11 +138,11 @@ MotionPrior::Bridge MotionPrior::Make(int dimension, int frames, int to_key, dou
     for (int i = 0; i < frames; ++i) shared(i, kPast) = both(i + 1, to_key);
   }
   if (usual_variance > 0) {
-    // Stationary about the usual pose: the way there covaries with the way of i frames by half of
-    // its variance.
+    // Motion is stationary about the usual pose: the way there covaries with the way of i frames by
+    // half of its variance.
     const auto half = [&](int i) { return 0.5 * variance[static_cast<size_t>(i)]; };
     for (int p = 0; p < kPast; ++p) observed(p, kPast) = observed(kPast, p) = half(p) - half(p + 1);
-    // Being far from the usual pose must not lead beyond it.
+    // A pose far from the usual one must not lead beyond it.
     observed(kPast, kPast) = std::max(usual_variance, half(longest));
     for (int i = 0; i < frames; ++i) shared(i, kPast) = half(i + 1);
   }

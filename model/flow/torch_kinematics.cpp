@@ -32,7 +32,7 @@ Tensor LogMapBatch(const Tensor& r) {
       torch::stack({at(2, 1) - at(1, 2), at(0, 2) - at(2, 0), at(1, 0) - at(0, 1)}, -1);
   const Tensor trace = at(0, 0) + at(1, 1) + at(2, 2);
   const Tensor w = 0.5 * (1 + trace).clamp_min(0).sqrt();  // the quaternion's real part
-  // Away from pi the skew part is exact; near pi it vanishes and the diagonal takes over.
+  // The skew part is exact away from pi; near pi it vanishes and the diagonal takes over.
   const Tensor from_skew = skew / (4 * w.clamp_min(0.05)).unsqueeze(-1);
   const Tensor diagonal =
       torch::stack({1 + at(0, 0) - at(1, 1) - at(2, 2), 1 - at(0, 0) + at(1, 1) - at(2, 2),

@@ -9,8 +9,8 @@
 namespace choreo {
 namespace {
 
-// What the random numbers of a frame decide that follow those of its motion, of the window's energy
-// and of the energy's curve.
+// The uses of a frame's random numbers after those of its motion, the window's energy and the
+// energy's curve.
 enum Decision { kFreeTurn, kWayToKey, kDecisions };
 
 // A free window ends at most this many standard deviations from the usual height and tilt, as all

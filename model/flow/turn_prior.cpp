@@ -59,7 +59,7 @@ std::optional<TurnPrior::Inputs> TurnPrior::Describe(const Skeleton& skeleton,
   const std::vector<Pose>& history = request.history;
   const Pose &last = history.back(), &key = *request.key;
   const Eigen::Vector3d up = UpOf(last);
-  // About other axes the longer way would be a somersault.
+  // The longer way about other axes would be a somersault.
   if (std::abs(shorter.dot(up)) < kUpright * shorter.norm()) return std::nullopt;
   const double longer = std::log2(request.to_key / double{kTypicalFrames});
   const auto before = [&](size_t frames) -> const Pose& {

@@ -39,7 +39,7 @@ struct Layout {
   const char* trans;
 };
 
-// The first whose rotations are there.
+// The first layout whose rotations exist.
 constexpr Layout kLayouts[] = {
     {nullptr, "poses", "trans"},
     {nullptr, "smpl_poses", "smpl_trans"},
@@ -111,7 +111,7 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   return otherwise;
 }
 
-// Whether the arrays, or a dict at most so deep within, are a motion.
+// Whether the arrays, or those of a dict at most this deep within, are a motion.
 bool HoldsMotion(const NpzArchive& npz, int depth) {
   return FindLayout(npz) ||
          (depth > 0 && std::ranges::any_of(npz.NestedNames(), [&](const std::string& name) {
@@ -209,7 +209,7 @@ Eigen::MatrixXd ReadTurns(const NpzArchive& npz, const Layout& layout,
   return std::move(all.turns);
 }
 
-// A dict of the archive, with the rate that stands beside it.
+// A dict of the archive, with the rate beside it.
 NpzArchive NestedWithRate(const NpzArchive& npz, const std::string& within) {
   NpzArchive nested = npz.Nested(within);
   for (const char* rate : kRateNames) {

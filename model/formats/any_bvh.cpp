@@ -105,7 +105,7 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
     MotionReading quietly = reading;
     quietly.notes = &notes;
     SkeletonMotion read = TakeBvh(*turned, wanted, quietly);
-    // A dancer who sways a little in degrees would bend knees and elbows backwards in radians.
+    // Degrees of a dancer who sways a little would, as radians, bend knees and elbows backwards.
     if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
       reading.Note(
           "its angles are taken as radians, as they are so small; --angles degrees says otherwise");

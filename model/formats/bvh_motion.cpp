@@ -56,7 +56,7 @@ Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previo
   return (a - previous).squaredNorm() <= (b - previous).squaredNorm() ? a : b;
 }
 
-/// A file's blocks, and which of our joints each is, -1 for an End Site.
+/// A file's blocks, and our joint for each, -1 for an End Site.
 struct BvhBlocks {
   std::vector<BvhJoint> joints;
   std::vector<int> ours;

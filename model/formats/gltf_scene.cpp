@@ -248,7 +248,7 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, const MotionReadin
   scene.frames = static_cast<int64_t>(frames);
 }
 
-// Who asks for another body may mean another animation.
+// A user who asks for another body may mean another animation.
 HumanBones FindBodyOf(const tinygltf::Model& model, const RigNodes& rig,
                       const MotionReading& reading) {
   try {

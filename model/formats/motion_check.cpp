@@ -104,7 +104,7 @@ std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::
   return beside;
 }
 
-/// The file's up axis, or else the one along which the body stands in nearly all frames.
+/// The file's up axis, or that along which the body stands in nearly all frames.
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
   const std::vector<Eigen::Vector3d> trunks = Trunks(file);

@@ -115,8 +115,8 @@ class Unpickler : PickleInput {
     if (object->kind != kind) Refuse(std::string("expected a ") + kKindNames[kind]);
     return object;
   }
-  // Unwraps a list, or an array of objects, that has one item: numpy.save wraps a dict so. Several
-  // dicts, such as one for each body, become one dict whose keys are their numbers.
+  // Unwraps a list, or an array of objects, that has one item: numpy.save wraps a dict in one.
+  // Several dicts, such as one for each body, become one dict whose keys are their numbers.
   static Ref TakeOnly(const Ref& object) {
     const bool holds = object->kind == kList || (object->kind == kArray && !object->array);
     if (!holds || object->items.empty()) return object;

@@ -48,7 +48,7 @@ std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
 }
 
 // Frames of the strict minima among the steps within kAround. The published code puts a standstill
-// ahead of the first step, so finds none within kAround of it; nor is the last step one.
+// ahead of the first step, so finds none within kAround of it. The last step is none, either.
 std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
   const auto count = static_cast<int64_t>(speeds.size());
   const int64_t order = std::max(int64_t{1}, static_cast<int64_t>(std::lround(kAround * fps)));

@@ -46,7 +46,7 @@ std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& mot
   JointPlacement earlier = ForwardKinematics(skeleton, motion.frames.front());
   JointPlacement later = earlier;
   if (motion.frames.size() > 1) {
-    // Run backwards, the first step has the same speed; only the height must be the first frame's.
+    // The first step has the same speed backwards; only the height must be the first frame's.
     ForwardKinematics(skeleton, motion.frames[1], later);
   }
   contacts.push_back(detector.Next(later.positions, earlier.positions, motion.fps));

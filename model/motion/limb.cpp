@@ -43,12 +43,12 @@ struct Knee {
 };
 
 struct Bend {
-  Eigen::Vector3d thigh, shin, axis;  // that the ankle swings backwards about, across the thigh
+  Eigen::Vector3d thigh, shin, axis;  // about which the ankle swings backwards, across the thigh
   double angle;
 };
 
-// A bent leg's plane counts as far as it bends the way its hinge does: a knee bent backwards or
-// sideways bends forward from there.
+// A bent leg's plane counts as far as it bends like its hinge: a knee bent backwards or sideways
+// bends forward from there.
 Bend FindBend(const Limb& limb, const Eigen::Vector3d& hinge, const JointPlacement& placement) {
   const auto at = [&](int joint) -> Eigen::Vector3d { return placement.positions.col(joint); };
   const Eigen::Vector3d thigh = at(limb.middle) - at(limb.upper);

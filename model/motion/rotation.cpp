@@ -25,7 +25,7 @@ Eigen::Vector3d LogMap(const Eigen::Matrix3d& r) {
 
 Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w) {
   const double angle = w.norm();
-  // Both always: compilers compute them together then.
+  // Computes both always, because compilers then compute them together.
   const double sine = std::sin(0.5 * angle), cosine = std::cos(0.5 * angle);
   const double scale = angle < 1e-8 ? 0.5 : sine / angle;
   return {cosine, scale * w.x(), scale * w.y(), scale * w.z()};
@@ -43,7 +43,7 @@ Eigen::Vector3d NearestBranch(const Eigen::Vector3d& w, const Eigen::Vector3d& p
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const double angle = w.norm();
   if (angle < 1e-12) {
-    // Whole turns about any axis are the identity: use the previous vector's axis.
+    // Whole turns about any axis are the identity, so use the previous vector's axis.
     const double turns = std::round(previous.norm() / kTurn);
     if (turns == 0) return w;
     return w + previous.normalized() * (turns * kTurn);

@@ -90,7 +90,7 @@ Pose Arrival::Steered(const Pose& raw) {
     const Eigen::Vector3d from = previous_.rotations.col(joint);
     const Eigen::Vector3d model = raw.rotations.col(joint);
     Eigen::Vector3d way = RotationDifference(from, target_.pose.rotations.col(joint));
-    // Near half a turn the shorter way changes sides with every small step; keep to the one begun.
+    // The shorter way near half a turn changes sides with every small step, so keep the first one.
     if (has_expected_way_) way = NearestBranch(way, expected_way_.col(joint));
     const Eigen::Vector3d path = RotationCompose(
         from, Step(way, velocity_.joints.col(joint), end_velocity.joints.col(joint), left_));

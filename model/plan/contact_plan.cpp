@@ -108,7 +108,7 @@ class FootPlanner {
     const double count = to - from + 1, x = place.x(), z = place.z();
     double cost = sum[2] - 2 * (x * sum[0] + z * sum[1]) + count * (x * x + z * z) + sum[3] +
                   support_.Of(from, to)[0];
-    // Moving from where it stood to the key's place takes a step.
+    // Moving to the key's place takes a step.
     if (from == 0 && foot_.stood) cost += count * (place - foot_.before).squaredNorm();
     return cost;
   }

@@ -56,8 +56,7 @@ class PlanStander {
     offset_ = Eigen::Matrix3Xd::Zero(3, frames_);
     for (int pass = 0; pass < (context_.held ? 1 : kPasses); ++pass) {
       if (pass > 0) centres_ = Centres();
-      // A held pose needs no other balance: a pelvis or feet that moved away and back would
-      // tremble.
+      // A held pose keeps its balance: a pelvis or feet that moved away and back would tremble.
       if (!context_.held)
         offset_ = PelvisOffset(Supports(), centres_.front() - context_.offset_before.col(1),
                                {.returns = context_.keyed,

@@ -104,8 +104,7 @@ class PelvisSolver {
  private:
   const SupportFrame& At(int frame) const { return frames_[static_cast<size_t>(frame)]; }
   bool Flies(int frame) const { return At(frame).support.empty(); }
-  // Whether the frame is in a flight that begins and ends within the plan and is as long as it is
-  // high.
+  // Whether the frame is in a flight within the plan whose length suits its height.
   bool Leaps(int frame) const {
     return Flies(frame) && frame > first_borne_ && frame < last_borne_;
   }
@@ -124,7 +123,7 @@ class PelvisSolver {
   }
 
   void AddSmoothness(int frame, LeastSquares* problem) const {
-    // After a last frame that is no key, anything goes.
+    // The body is free after a last frame that is no key.
     if (!rules_.returns && frame + 1 >= count_) return;
     for (int axis = 0; axis < 3; ++axis) {
       const bool pushes = axis == 1 && frame >= 0 && pushes_[static_cast<size_t>(frame)];
@@ -182,8 +181,8 @@ class PelvisSolver {
     }
   }
 
-  // To stand after an open end, too, the capture point c + c' sqrt(h / g) must be at the feet there
-  // (Pratt 2006); otherwise toppling would be cheapest.
+  // The capture point c + c' sqrt(h / g) must be at the feet (Pratt 2006), so that the body also
+  // stands after an open end; otherwise toppling would be cheapest.
   void AddCapture(LeastSquares* problem) const {
     if (rules_.heights_alone) return;
     const int frame = count_ - 1;

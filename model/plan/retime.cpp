@@ -75,7 +75,7 @@ void Retime(const PlanContext& context, int first, std::span<const double> times
     Pose& pose = (*plan)[static_cast<size_t>(frame)];
     pose.root_position.setZero();
     for (size_t i = 0; i < 4; ++i) pose.root_position += weights[i] * curve.positions[at - 1 + i];
-    // A path fixes where to be when; nothing must bend its time.
+    // A path fixes places in time, so nothing may change its time.
     const Eigen::Vector3d& planned = curve.positions[static_cast<size_t>(frame) + 2];
     if (context.has_path) {
       pose.root_position.x() = planned.x();
@@ -83,7 +83,7 @@ void Retime(const PlanContext& context, int first, std::span<const double> times
     }
     if (context.has_heights) pose.root_position.y() = planned.y();
     for (size_t joint = 0; joint < curve.rotations[at].size(); ++joint) {
-      // In the tangent space of the pose before, from which the previous step leads back.
+      // Works in the tangent space of the pose before, from which the previous step leads back.
       const Eigen::Vector3d turn = -weights[0] * curve.steps[at - 1][joint] +
                                    weights[2] * curve.steps[at][joint] +
                                    weights[3] * curve.Between(at, at + 2, joint);

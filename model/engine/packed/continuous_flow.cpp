@@ -73,7 +73,7 @@ PackedFlowNetwork::PackedFlowNetwork(const Safetensors& content, const Continuou
   }
 }
 
-// For each time, one after another: the blocks' modulations, the head's, and the offset of embedded
+// Computes for each time in turn the blocks' modulations, the head's, and the offset of embedded
 // tokens. Computes all times together, so that weights are read once.
 Eigen::MatrixXf PackedFlowNetwork::Condition(const Eigen::VectorXf& whole,
                                              std::span<const float> times) const {
@@ -132,7 +132,7 @@ void PackedFlowNetwork::Attend(const Block& block, Range read, Workspace* work) 
                        .b = work->keys.Row(0),
                        .depth = head,
                        .panels = key_panels,
-                       // Relative to token i all others are i tokens further back.
+                       // All others are i tokens further back relative to token i.
                        .init = block.bias.row(h).data() + most_tokens_ - first,
                        .init_stride = -1,
                        .c = work->shares.Row(first),
@@ -191,7 +191,7 @@ Eigen::MatrixXf PackedFlowNetwork::Evaluate(const Eigen::MatrixXf& z, const Eige
   embed_.Run(seen.data(), token, work.x.Row(0), work.x.stride(), tokens);
   for (long i = 0; i < tokens; ++i) work.x.Head(i, width_) += condition.tail(width_).transpose();
   const float* modulation = condition.data();
-  // Nobody reads what the last block makes of the history.
+  // Nothing reads the last block's output for the history.
   const Range window{(seen.cols() - z.cols()) / kFramesAToken, tokens};
   for (const Block& block : blocks_) {
     Transform(block, modulation, &block == &blocks_.back() ? window : Range{0, tokens}, &work);

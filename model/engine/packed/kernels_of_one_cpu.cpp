@@ -105,8 +105,7 @@ void OnePanel(const PackedProduct& p, long row, long rows, long panel) {
 }
 
 void Multiply(const PackedProduct& p) {
-  // With few rows, registers are free for several panels, which keeps sums from waiting for each
-  // other.
+  // Few rows leave registers free for several panels, which keeps sums from waiting for each other.
   const long together = p.rows <= 2 ? 4 : p.rows <= 4 ? 2 : 1;
   const long blocks = (p.rows + kMaxRows - 1) / kMaxRows;
   for (long panel = 0; panel < p.panels;) {

@@ -75,7 +75,7 @@ Tensor FlowModelImpl::Begin(const TransitionTensors& transition) {
 Tensor FlowModelImpl::Encode(const Tensor& conditions) {
   if (config_.condition_width == 0) return conditions;
   if (!config_.innovations) return encode_static_(conditions);
-  // After the encoding: the standardised key, its mask, and the frames left.
+  // The standardised key, its mask, and the frames left follow the encoding.
   const int64_t pose = pose_width(), joints = skeleton_.joints(), told = key_width() - 1;
   const Tensor key = (conditions.narrow(-1, 0, pose) - feature_mean_.narrow(0, 0, pose)) /
                      feature_std_.narrow(0, 0, pose);
@@ -169,8 +169,8 @@ std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const T
   Tensor seen = past.clamp(-kFeatureClamp, kFeatureClamp);
   if (is_training()) {
     if (config_.history_noise > 0) seen = seen + config_.history_noise * torch::randn_like(seen);
-    // Drops whole frames without scaling up the rest: at sampling time all are there, and the
-    // encoder sees both cases.
+    // Drops whole frames without scaling up the rest: sampling has all of them, and the encoder
+    // sees both cases.
     const Tensor keep =
         (torch::rand({batch, frames, tau, 1}, seen.options()) >= config_.history_dropout)
             .to(seen.dtype());

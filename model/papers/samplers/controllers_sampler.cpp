@@ -115,7 +115,7 @@ bool Walk::Continue() {
       Eigen::Map<const Eigen::Matrix3Xf>(relative.data_ptr<float>(), 3, relative.size(2))
           .cast<double>();
   positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
-  // The fit corrects bones of wrong length; correcting each before would move hands and feet.
+  // The fit corrects bones of wrong length; correcting each beforehand would move hands and feet.
   fitter_.Reset(InterpolatePoses(before_, last_, 1 + kCarry));
   std::optional<Pose> after;
   const int left = frames_ - frame;

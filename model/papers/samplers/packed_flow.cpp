@@ -102,7 +102,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
              tensors.Get(lstm + "bias_hh_" + layer, gates);
     };
     Coupling& coupling = couplings.emplace_back();
-    // In checkpoints z_lo comes first, then the live part of the condition, then the static one.
+    // z_lo comes first in checkpoints, then the live part of the condition, then the static one.
     const int fixed = encoded ? 0 : static_width;
     const auto seen = tensors.Get(lstm + "weight_ih_l0", gates, low() + condition + fixed);
     Matrix weight(input_width(), gates);

@@ -148,7 +148,7 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
     copy(track.contacts, contacts, 4);
     copy(track.factors, factors, kBodyParts);
 
-    // Into the canonical frame of the last history frame.
+    // Moves it into the canonical frame of the last history frame.
     const Tensor at = root[b][history - 1].clone();
     const Tensor origin = at * torch::tensor({1.0F, 0.0F, 1.0F});
     const Tensor first = heading[b][history - 1].clone();
