@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kShareOfLast = 0.1;  // weight of the latest call in the running mean
 constexpr double kLongestWait = 60;
-/// A caller that came this lately is there: for as long as it may have been told to wait.
+/// A caller counts as there for this long, the longest wait that it may have been told.
 constexpr std::chrono::seconds kThere{60};
 
 const char* const kGoingAway = "the server is going away; try another one";
@@ -39,7 +39,7 @@ void CallRegistry::Enter(const std::shared_ptr<Call>& call, std::string party) {
   const auto found = of_party_.find(party);
   const int calls = found == of_party_.end() ? 0 : found->second, most = MostOf(party);
   if (calls >= most) {
-    // Who may have all places lacks none of its own.
+    // A caller that may have all places lacks none.
     if (most >= limits_.calls) throw Full(calls, limits_.calls);
     throw Refused(Refusal::kStreamsOfPeer, party + " has " + std::to_string(calls) +
                                                " calls in progress, of at most " +
@@ -191,7 +191,7 @@ double CallRegistry::Spread(double seconds) {
 double CallRegistry::RetryAfter() {
   const std::lock_guard lock(mutex_);
   const int calls = std::max(1, admitted_);
-  refused_ = std::min(refused_ + 1, calls);  // those that left for good make nobody wait for ever
+  refused_ = std::min(refused_ + 1, calls);  // callers that left for good make nobody wait for ever
   return Spread(mean_seconds_ * refused_ / calls);
 }
 

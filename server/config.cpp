@@ -81,7 +81,7 @@ void RequireNoEmptyFile(const CLI::App& app) {
   }
 }
 
-// What Kubernetes sets in pods beside a service called choreo, or choreo-anything.
+// Variables that Kubernetes sets in pods beside a service called choreo, or choreo-anything.
 bool IsOfAService(const std::string& variable) {
   static const std::regex kPattern(
       "CHOREO_([A-Z0-9_]*_)?(SERVICE_(HOST|PORT).*|PORT(_[0-9]+_.*)?)");
@@ -104,8 +104,8 @@ std::string MeantBy(const std::string& name, const std::vector<std::string>& kno
   return "";
 }
 
-// Throws for a misspelt variable: the setting would silently be missing. Returns those that mean
-// nothing to us.
+// Throws for a misspelt variable: the setting would silently be missing. Returns those unknown to
+// us.
 std::vector<std::string> CheckVariables(const CLI::App& app) {
   const std::string prefix = "CHOREO_";
   std::vector<std::string> known, unknown;

@@ -8,8 +8,8 @@
 namespace choreo {
 namespace {
 
-/// Calls per connection beyond max_streams: to refuse calls on a full server, and for health
-/// checks. Further calls wait at the client.
+/// Calls per connection beyond max_streams, which serve to refuse calls on a full server, and
+/// health checks. Further calls wait at the client.
 constexpr int kSpareCalls = 100;
 /// Limit from accepting a connection to its TLS handshake and HTTP/2's settings.
 constexpr int kHandshakeMs = 5'000;

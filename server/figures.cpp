@@ -228,7 +228,7 @@ class Figures {
   // These are the names that Prometheus clients use in all languages.
   static void AddProcess(Families& out) {
     const pid_t self = getpid();
-    // Once: clocks drift, and each change of it is an alert.
+    // Computed once: clocks drift, and each change of it is an alert.
     static const double start = StartSeconds(self);
     rlimit descriptors{};
     getrlimit(RLIMIT_NOFILE, &descriptors);

@@ -49,7 +49,7 @@ constexpr milliseconds kShutdownTime{1'000};
 constexpr milliseconds kWatchInterval{100};
 /// The interval at which tokens and certificate are read: a removed token works that long at most.
 constexpr milliseconds kFileInterval{500};
-/// Calls by default, at least: those that wait cost little.
+/// The least default number of calls: waiting ones cost little.
 constexpr int kLeastStreams = 64;
 /// An engine is broken after this many failures in a row.
 constexpr int kBroken = 3;

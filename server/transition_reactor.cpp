@@ -28,8 +28,8 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   TransitionSession(Serving& serving, Wire* wire, Caller caller)
       : CallSession(serving, wire, "GenerateTransition", std::move(caller)) {}
 
-  /// Takes long: reads and processes the music; files go to the decoding pool. The call lasts at
-  /// least as long as `hold`, so no more files wait than there are calls.
+  /// Reads and processes the music, which takes long; files go to the decoding pool. The call lasts
+  /// at least as long as `hold`, so no more files wait than there are calls.
   void Start(const grpc::ByteBuffer& bytes,
              std::shared_ptr<Outbox<v1::GenerateTransitionResponse>::Hold> hold) {
     Guard([&] {
