@@ -49,7 +49,7 @@ class PathMaker {
     Eigen::Vector3d at = stance.place;
     at.y() = rest_;
     const bool to_key = stance.to == last_ && foot_.end == FootTrack::End::kStands;
-    // Too little time to settle on the floor and leave it again: the foot moves straight.
+    // Time is too short to settle on the floor and leave it again: the foot moves straight.
     if (stance.from == 0 && to_key && last_ + 1 < 2 * settle_) {
       const double u = (frame + 1.0) / (last_ + 1);
       return foot_.before + SmoothStep(u) * (foot_.toes.back() - foot_.before);
@@ -75,7 +75,7 @@ class PathMaker {
     const Eigen::Vector3d goal = next != nullptr ? Standing(*next, after) : Planned(to);
     const Eigen::Vector3d far = goal - start;
     const double arc = std::min(kMaxArc, kArc + kArcPerMetre * std::hypot(far.x(), far.z()));
-    // Beside the straight way the plan is free, except near a standing end.
+    // The plan is free beside the straight way, except near a standing end.
     const auto free = [&](double u) {
       return SmoothStep(std::min({1.0, 3 * u, u * (after - before) / settle_}));
     };

@@ -65,7 +65,7 @@ SamplerFactory Load(const std::filesystem::path& path, const EngineRequest& requ
   at::globalContext().setAllowTF32CuBLAS(false);
   at::globalContext().setAllowTF32CuDNN(false);
   at::globalContext().setDeterministicCuDNN(true);
-  // Whoever may put a file there must not exhaust the server's memory.
+  // Somebody who may put a file there must not exhaust the server's memory.
   std::error_code none;
   if (const auto bytes = std::filesystem::file_size(path, none); !none && bytes > kMaxBytes) {
     throw InvalidArgument(

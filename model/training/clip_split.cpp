@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Set by set, the group of each clip. A clip in two groups could be both trained and tested on.
+// The group of each clip, set by set. A clip in two groups could be both trained and tested on.
 using Groups = std::map<std::string, std::map<std::string, std::string>>;
 
 Groups ReadGroups(const std::filesystem::path& splits_file) {

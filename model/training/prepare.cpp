@@ -33,7 +33,7 @@ constexpr int kMinFrames = 60;
 constexpr int kMaxCalibrationFrames = 6;  // frames
 constexpr double kMusicSlack = 0.5;       // s by which music may be shorter than its dance
 
-// The frames in which a joint is too far from where it was in the frame before.
+// The frames in which a joint is too far from its place in the frame before.
 std::vector<int> FindJumps(const PositionClip& clip) {
   std::vector<int> jumps;
   for (int f = 1; f < std::ssize(clip.frames); ++f) {

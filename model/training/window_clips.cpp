@@ -20,8 +20,8 @@ constexpr double kDrawnSigma = 6;  // frames: smooths a path as if drawn by hand
 constexpr double kConstant = 0.3;  // share of energies that are given as their mean
 constexpr double kFarAstray = 3;   // times a velocity's spread
 
-// Displaces the first `tau` poses, all alike, to where no dancer stands, and leads the following
-// ones back within about a second and before the last. `spread`: of velocities.
+// Displaces the first `tau` poses equally, to where no dancer stands, and leads the following ones
+// back within about a second and before the last. `spread`: of velocities.
 void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vector<Pose>* poses) {
   const int64_t most = static_cast<int64_t>(poses->size()) - tau;
   const auto back = static_cast<double>(std::min(most, random->Integer(12, 40)));
