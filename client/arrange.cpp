@@ -93,7 +93,7 @@ EditedDance Join(const Client& client, FinishedDance first, const FinishedDance&
   const double rate = first.motion.fps / options.model.fps;
   const int64_t last = Frames(first) - 1;
   const int64_t begin = last + After(gap, 1 / rate);
-  // Everything between is danced anew.
+  // All frames between are danced anew.
   FinishedDance between = PartOf(first, last, last + 1);
   between.motion.frames.resize(static_cast<size_t>(begin - last) - 1,
                                between.motion.frames.front());

@@ -18,7 +18,7 @@ size_t IntervalAt(double place, size_t beats) {
   return static_cast<size_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(beats - 2)));
 }
 
-/// How many beats a second is behind the first; two beats or more.
+/// The number of beats from the first to a second; needs two beats or more.
 double PlaceAmong(double seconds, std::span<const double> beats) {
   const auto after = std::ranges::upper_bound(beats, seconds) - beats.begin();
   const size_t at = IntervalAt(static_cast<double>(after - 1), beats.size());

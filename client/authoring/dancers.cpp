@@ -30,7 +30,7 @@ std::string TextOf(const json& value, const std::string& field) {
   throw InvalidArgument(field, Shown(value) + " is no text");
 }
 
-/// It becomes part of the names of files and nodes.
+/// The id becomes part of the names of files and nodes.
 std::string IdOf(const json& value, const std::string& field) {
   const std::string id = TextOf(value, field);
   for (const char c : id) {

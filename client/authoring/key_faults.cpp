@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kJump = 0.1;  // metres: the least height above the floor that is one
 
-/// Why a key that is in the air will stand, if it will: a key without a place stands on the floor.
-/// Keys that say no height have that of the rest pose.
+/// Explains why a key in the air will stand, if it will: a key without a place stands on the floor.
+/// Keys without a height have that of the rest pose.
 std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
   const double height = key.pose.root_position.y();
   if (key.mask.root_position || height == skeleton.pelvis_height) return "";
@@ -89,7 +89,7 @@ std::vector<client::Warning> KeyFaults(const client::KeyPose& key, double fps,
   poses.insert(place, timed);
   std::vector<client::Warning> warnings;
   for (const TimedFault& fault : DanceFaults(skeleton, poses)) {
-    // Ignores faults of other keys, but not those of the ways to and from this key.
+    // Ignores faults of other keys, except on the ways to and from this key.
     const bool its_own = fault.pose == index;
     const bool way_from = fault.pose == index + 1 &&
                           fault.message.find("from \"" + key.id + "\"") != std::string::npos;

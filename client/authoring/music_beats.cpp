@@ -23,7 +23,7 @@ constexpr std::streamsize kMaxLineLength = 1000;
 void CountOn(BeatTrack* track) {
   const std::vector<int> told = track->in_bar;
   const auto first = std::ranges::find_if(told, [](int count) { return count >= 0; });
-  // With downbeats only, a bar lasts from one to the next.
+  // A bar lasts from one to the next if only downbeats are known.
   if (track->beats_in_bar == 1) {
     const auto second = std::find(first + 1, told.end(), 0);
     track->beats_in_bar = second != told.end() ? static_cast<int>(second - first) : kDefaultBar;
@@ -148,7 +148,7 @@ void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* 
                  std::vector<double>* downbeats) {
   const bool changes = options.hint.half_time || options.hint.double_time || options.downbeat_s;
   if (beats->empty() || !changes) return;
-  // No downbeat is known, or downbeats only.
+  // No downbeat is known, or only downbeats are.
   BeatTrack track{.beats_in_bar = downbeats->empty() ? 0 : 1};
   std::map<int64_t, double> told;  // exactly
   for (const double beat : *beats) {

@@ -97,8 +97,8 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
   bool converted = ConvertByFfmpeg(path, "aresample=async=1:first_pts=0", wav, log);
   FfmpegSays says = Listen(log);
   if (converted && says.restarts) {
-    // Its rate or channels change: ffmpeg begins again at second 0. A station's stream has no
-    // times.
+    // The file's rate or channels change: ffmpeg begins again at second 0. A station's stream has
+    // no times.
     wav.Clear();
     log.Clear();
     converted = ConvertByFfmpeg(path, "anull", wav, log);

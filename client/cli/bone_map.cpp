@@ -62,7 +62,7 @@ void WriteBoneMap(const std::filesystem::path& json_path, const std::filesystem:
   }
   WriteFile(json_path, map.dump(2) + "\n");
 
-  // How many unassigned joints fit beside the assigned ones, which are always drawn.
+  // The number of unassigned joints that fit beside the assigned ones, which are always drawn.
   size_t room = kMaxChartBones - static_cast<size_t>(std::ranges::count_if(
                                      means, [](const std::string& bone) { return !bone.empty(); }));
   std::vector<ChartBone> chart;

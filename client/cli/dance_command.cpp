@@ -23,7 +23,7 @@
 namespace choreo::cli {
 namespace {
 
-/// Fills in what the command line leaves open from the project.
+/// Fills in settings that the command line leaves open from the project.
 void TakeProject(DanceOptions* options) {
   const authoring::Project project = authoring::ReadProject(options->project);
   options->keys = {options->project};
@@ -35,7 +35,7 @@ void TakeProject(DanceOptions* options) {
     }
     options->song = project.song;
   }
-  // Those of the project's own song, unless others are asked for.
+  // The beats of the project's own song, unless others are asked for.
   const auto file_of = [](const std::string& song) {
     return std::filesystem::path(song).filename();
   };

@@ -76,7 +76,7 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
     request.beats = music->track.Seconds();
     request.passages = music->passages;
   }
-  // Without a next key its dancers hardly move.
+  // A deterministic model's dancer hardly moves without a next key.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;
   authoring::DanceKeys keys;
   keys.poses = authoring::ComposeKeys(request, authoring::PosesToDance(model.skeleton));
@@ -143,7 +143,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
                     const Connection& connection, const std::filesystem::path& out,
                     std::optional<VmcShow>* show) {
   const client::ModelDescription& model = connection.model(options.model);
-  // With any model, the seed chooses among the library's key poses.
+  // The seed chooses among the library's key poses, with any model.
   const bool is_seed_for_model = options.seed && !options.keys.empty();
   NoteDeterministic(model, {{"--seed", is_seed_for_model},
                             {"--temperature", options.temperature.value_or(0) != 0}});

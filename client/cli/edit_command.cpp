@@ -30,7 +30,7 @@ bool EditsWhole(const EditOptions& options) {
   return !options.from.empty() || !options.until.empty() || options.mirror || !options.join.empty();
 }
 
-/// What is no time, and counts without a song, are told before a server is asked or started.
+/// Reports bad times, and counts without a song, before a server is asked or started.
 void CheckTime(const char* option, const std::string& time, const EditOptions& options) {
   if (time.empty()) return;
   const authoring::WrittenTime parsed = authoring::ParseTime(time, option);
@@ -54,7 +54,7 @@ void CheckTimes(const EditOptions& options) {
   check("--until", options.until);
 }
 
-/// Edits that need the report, which names the keys.
+/// These edits need the report, which names the keys.
 void CheckReported(const EditOptions& options) {
   for (const auto& [option, given] : {std::pair("--move", !options.moves.empty()),
                                       {"--remove", !options.removed.empty()},
@@ -73,8 +73,8 @@ void CheckReported(const EditOptions& options) {
   }
 }
 
-/// The key that is changed first must be in the report: that it is not is told before a server is
-/// asked or started.
+/// The first key to change must be in the report. Reports a missing one before a server is asked or
+/// started.
 void CheckFirstKey(const EditOptions& options) {
   const bool removes = !options.removed.empty();
   if (!removes && options.moves.empty()) return;

@@ -31,15 +31,15 @@ authoring::Counts CountsOf(const EditOptions& options,
   return authoring::CountsOf(*music);
 }
 
-/// Whether a dance of so many frames at `fps` has as many at the file's rate as the file: its last
-/// ones may be missing, as they are after the file's last frame.
+/// Whether a dance of so many frames at `fps` has the file's number of frames at the file's rate.
+/// Its last ones, after the file's last frame, may be missing.
 bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, double fps) {
   if (!authoring::IsFrameNumber(frames)) return false;
   const double after_s = (frames.get<double>() - 1) / fps - Duration(file);
   return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
 }
 
-/// Refuses the report of a dance most of which looks otherwise.
+/// Refuses the report of a dance that mostly looks different.
 void CheckSketch(const std::string& path, const nlohmann::ordered_json& report, const Motion& file,
                  double fps) {
   const MotionSketch known = ReadSketch(report, path);

@@ -43,7 +43,7 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
   const GroundFrame here = Here(first);
   const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
-  // Removes keys that are there or too near.
+  // Removes the keys there, and those too near.
   const int64_t last = LastFrame(phrase.back());
   ClearWay(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1),
            std::max(Frame(moved(until_s)), last + kMinKeyDistance), {}, "repeated keys");
@@ -119,7 +119,7 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
     before = LastFrame(edit);
   }
   std::erase_if(phrase, [&](const client::KeyEdit& edit) { return LastFrame(edit) >= frames_; });
-  // One that stays begins what is danced anew.
+  // The frames danced anew begin at a key that stays.
   const bool stays =
       !phrase.empty() && *phrase.front().key.frame == first && phrase.front().held.empty();
   if (phrase.size() == size_t{stays})

@@ -48,7 +48,7 @@ class Whole {
     const auto second = [&](const char* option, const std::string& time) {
       return authoring::ParseTime(time, option).In(counts, option);
     };
-    // Starts on a frame of the model, as keys are on these.
+    // Starts on a frame of the model, because keys are on these.
     const double start_s =
         options_.from.empty() ? 0 : std::round(second("--from", options_.from) * fps_) / fps_;
     const int64_t first = FrameAt(start_s, fps);
