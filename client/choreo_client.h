@@ -60,7 +60,7 @@ struct Options {
   /// continued: smoothly or, before the first continuation, with the frames that this server has
   /// for it. `Resumed` reports it.
   bool allow_inexact_resume = false;
-  /// Also ask servers that accept no new dances, to inspect them.
+  /// Whether to ask servers that accept no new dances, too, to inspect them.
   bool even_draining = false;
   /// Called on a call's thread before each retry; an exception ends the call. It serves callers who
   /// know that retrying is useless. May be empty.

@@ -12,8 +12,7 @@
 namespace choreo {
 
 struct WindowFeatures {
-  Eigen::MatrixXf
-      frames;             ///< [FrameFeatures(), tau + w]: whether it is past, beats, controls, time
+  Eigen::MatrixXf frames;  ///< [FrameFeatures(), tau + w]: whether past, beats, controls, time
   Eigen::VectorXf whole;  ///< [WholeFeatures()]: the last pose, its velocity, way to the key, style
 };
 

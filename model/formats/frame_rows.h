@@ -20,8 +20,8 @@
 /// | 322       | Motion-X  | turns of SMPL-X's body, hands and jaw, a face, place and betas   |
 /// | 263       | HumanML3D | how the root moves, places seen from it, 6D, speeds, contacts    |
 ///
-/// Of HumanML3D only the positions are read (joint_arrays.h), because its 6D are not rotations of
-/// SMPL's bones.
+/// HumanML3D gives only positions (joint_arrays.h), because its 6D are not rotations of SMPL's
+/// bones.
 namespace choreo {
 
 /// Reads the motion at its kind's rate or `reading.fps`, and notes the kind. None if no kind has

@@ -25,8 +25,7 @@ struct TrainOptions {
   std::filesystem::path from;  ///< checkpoint that the network starts from; empty: from scratch
   std::filesystem::path run;   ///< folder for state, curves and the finished checkpoint
   std::string device = "cpu";  ///< "cpu" or "cuda:N"
-  /// With `from`, for continuous flows: keeps its statistics of the data and measures only missing
-  /// ones.
+  /// Keeps the statistics of `from`'s data, for continuous flows, and measures only missing ones.
   bool keep_statistics = false;
   bool resume = false;         ///< continue from the run's state if there is one
   int64_t report_every = 250;  ///< steps between validation, curves and saved state

@@ -62,8 +62,8 @@ struct PackedFlow {
   int key_width;     ///< of a frame's key condition
   int static_width;  ///< the same after `encode_static`, if encoded
   Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
-  /// With innovations, standardised: the prediction's weights, [width, tau], and the spread of the
-  /// output; else empty.
+  /// The prediction's weights, [width, tau], and the spread of the output, standardised; empty
+  /// without innovations.
   Eigen::MatrixXf predict;
   Eigen::VectorXf drawn_spread;
   Eigen::VectorXf audio_mean, audio_scale;
@@ -91,8 +91,8 @@ class PackedStepper : public FlowStepper {
   void Condition(const FlowFrame& frame);
   double Couple(int frame, int step);
   void Hidden(int frame, int step);
-  // With innovations: the value that would reach the key; and `x`, in place, from the flow's output
-  // to the standardised frame.
+  // Computes, with innovations, the value that would reach the key; and turns `x`, in place, from
+  // the flow's output into the standardised frame.
   void Aim(const FlowFrame& frame, const float* fixed, float* aim) const;
   void AddPrediction(std::span<const float> past, float* x) const;
 
