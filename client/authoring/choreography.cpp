@@ -87,11 +87,11 @@ class Deck {
   Deck(Dice* dice, size_t poses, std::span<const Passage> passages)
       : dice_(dice), poses_(poses), passages_(passages) {}
 
-  /// The pose of the next key, which stands after the ones before.
-  size_t Next(double time) {
-    std::optional<size_t> pose = Before(time);
-    if (!pose || (!drawn_.empty() && *pose == drawn_.back().pose)) pose = Draw();
-    drawn_.push_back({time, *pose});
+  /// The pose of the key at times[i], which stands after the ones before.
+  size_t Next(std::span<const double> times, size_t i) {
+    std::optional<size_t> pose = Before(times[i]);
+    if (!pose) pose = Draw(i + 1 < times.size() ? Before(times[i + 1]) : std::nullopt);
+    drawn_.push_back({times[i], *pose});
     return *pose;
   }
 
@@ -104,7 +104,8 @@ class Deck {
   /// The pose of the key at the same place in the earlier passage.
   std::optional<size_t> Before(double time) const {
     for (const Passage& passage : passages_) {
-      if (time < passage.from || time >= passage.to) continue;
+      // A passage's first key stands on a beat near its beginning.
+      if (time < passage.from - kMinKeyInterval || time >= passage.to) continue;
       const double then = time - passage.from + passage.like;
       for (const Drawn& key : drawn_) {
         if (std::abs(key.time - then) < kMinKeyInterval / 2) return key.pose;
@@ -113,15 +114,21 @@ class Deck {
     return std::nullopt;
   }
 
-  size_t Draw() {
+  /// `next`: the pose that the key after this one repeats. Neighbours differ.
+  size_t Draw(std::optional<size_t> next) {
     if (left_.empty()) {  // a pose repeats only after all others
       for (size_t i = 0; i < poses_; ++i) left_.push_back(i);
     }
     size_t card = dice_->Below(left_.size());
-    if (!drawn_.empty() && left_[card] == drawn_.back().pose) card = (card + 1) % left_.size();
+    for (size_t tries = 0; tries < left_.size() && IsBeside(left_[card], next); ++tries)
+      card = (card + 1) % left_.size();
     const size_t pose = left_[card];
     left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(card));
     return pose;
+  }
+
+  bool IsBeside(size_t pose, std::optional<size_t> next) const {
+    return pose == next || (!drawn_.empty() && pose == drawn_.back().pose);
   }
 
   Dice* dice_;
@@ -145,7 +152,7 @@ std::vector<Step> DrawSteps(uint64_t seed, const std::vector<double>& times,
   Walk walk(&dice);
   std::vector<Step> steps;
   for (size_t i = 0; i < times.size(); ++i) {
-    const size_t pose = deck.Next(times[i]);
+    const size_t pose = deck.Next(times, i);
     steps.push_back({pose, i == 0 ? walk.place() : walk.Next(times[i] - times[i - 1])});
   }
   return steps;
@@ -158,7 +165,7 @@ std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Pas
   Dice dice(seed);
   Deck deck(&dice, poses, passages);
   std::vector<size_t> drawn;
-  for (const double time : times) drawn.push_back(deck.Next(time));
+  for (size_t i = 0; i < times.size(); ++i) drawn.push_back(deck.Next(times, i));
   return drawn;
 }
 

@@ -127,6 +127,18 @@ TEST(ChoreographyTest, ReturningPartsRepeatTheirPoses) {
   EXPECT_EQ(std::set<size_t>(drawn.begin(), drawn.end()).size(), 24U);
 }
 
+// Passages begin where the sound does, keys on the beat before.
+TEST(ChoreographyTest, KeysJustBeforeAReturnRepeatToo) {
+  const std::vector<double> times = {8, 10, 12, 30, 32, 34, 36};
+  const std::vector<Passage> passages = {{.from = 32.6, .to = 40, .like = 8.6}};
+  for (uint64_t seed = 0; seed < 50; ++seed) {
+    // Of few poses, the one before the return would often be the same.
+    const std::vector<size_t> drawn = DrawPoses(times, passages, seed, 3);
+    for (size_t i = 4; i < 7; ++i) EXPECT_EQ(drawn[i], drawn[i - 4]) << seed;
+    for (size_t i = 1; i < 5; ++i) EXPECT_NE(drawn[i], drawn[i - 1]) << seed;
+  }
+}
+
 TEST(ChoreographyTest, WalksAtALeisurelyPaceOnTheStage) {
   const auto keys = ComposeKeys({.seconds = 300, .beats = {}, .seed = 2}, PoseLibrary());
   double furthest = 0;
