@@ -37,6 +37,7 @@ Tokens::Tokens(std::filesystem::path file) : file_(std::move(file)) {
   text_ = Read();
   Content content = Parse(*text_);
   if (!content.bad_lines.empty()) throw BadLines(content.bad_lines);
+  if (content.holders.empty()) throw NoTokens();
   Replace(std::move(content.holders));
 }
 
@@ -85,6 +86,10 @@ Tokens::Content Tokens::Parse(const std::string& text) {
 Error Tokens::BadLines(const std::string& numbers) const {
   return InvalidArgument("--tokens", file_.string() + " line " + numbers +
                                          ": not \"SHA256 NAME\" with 64 hexadecimal digits");
+}
+
+Error Tokens::NoTokens() const {
+  return InvalidArgument("--tokens", file_.string() + " holds no token, no line \"SHA256 NAME\"");
 }
 
 std::shared_ptr<const Tokens::Holders> Tokens::holders() const {
@@ -138,12 +143,17 @@ std::optional<bool> Tokens::Refresh() {
   }
   if (text_ == text) return std::nullopt;
   Content content = Parse(text);
+  text_ = std::move(text);
+  // Its writer may have failed, or may not have finished.
+  if (content.holders.empty() && content.bad_lines.empty()) {
+    spdlog::error("{}; the {} tokens known before stay valid", NoTokens().what(), count());
+    return false;
+  }
   if (!content.bad_lines.empty()) {
     spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
   }
   spdlog::info("{} tokens are known now", content.holders.size());
   Replace(std::move(content.holders));
-  text_ = std::move(text);
   warned_ = false;
   return content.bad_lines.empty();
 }

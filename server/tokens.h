@@ -18,12 +18,13 @@ namespace choreo {
 
 /// Who may call: a file of lines "SHA256 NAME", with the hash in 64 hexadecimal digits (as by
 /// sha256sum) of a token that the client sends as "authorization: Bearer TOKEN". Ignores empty
-/// lines and those that begin with #. Tokens themselves are neither stored nor logged. Whatever
-/// happens to the file, a token that is no longer in it gives no access. Thread-safe.
+/// lines and those that begin with #. Tokens themselves are neither stored nor logged. A token
+/// that is no longer in the file gives no access, unless the file holds no token at all: then the
+/// former ones stay valid. A removed file admits nobody. Thread-safe.
 class Tokens {
  public:
   /// An empty path: everybody may call. Throws Error(kInvalidArgument), field "--tokens", naming
-  /// file and line, if it is unreadable or a line is bad.
+  /// file and line, if it is unreadable, a line is bad, or it holds no token.
   explicit Tokens(std::filesystem::path file);
 
   bool needed() const { return !file_.empty(); }
@@ -35,8 +36,8 @@ class Tokens {
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
   /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
-  /// is admitted. Logs both once. Returns whether all lines of a changed file are good; none
-  /// without a change.
+  /// is admitted; a file without a token changes nothing. Logs each once. Returns whether a changed
+  /// file has tokens and only good lines; none without a change.
   std::optional<bool> Refresh();
 
  private:
@@ -56,6 +57,7 @@ class Tokens {
   static Content Parse(const std::string& text);
   static bool ParseHash(std::string_view digits, Hash* hash);
   Error BadLines(const std::string& numbers) const;
+  Error NoTokens() const;
   std::shared_ptr<const Holders> holders() const;
   void Replace(Holders holders);
   /// Warns if the file has this token itself where its hash belongs: both may look alike.

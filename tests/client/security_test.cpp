@@ -355,6 +355,33 @@ TEST_F(TokensTest, BrokenFileAdmitsNobody) {
   becomes("b", false, "what is too long is not read");
 }
 
+// A script that writes the file may fail half-way.
+TEST_F(TokensTest, AnEmptiedFileKeepsTheFormerTokens) {
+  const LogCapture log;
+  const std::string alice = LineOf("a", "alice");
+  Write("tokens", alice);
+  Tokens tokens(folder_ / "tokens");
+  std::string holder;
+  const auto knows_alice = [&] { return tokens.FindHolder("Bearer a", &holder).ok(); };
+  for (const char* empty : {"", "\n", "# nobody\n"}) {
+    Write("tokens", empty);
+    EXPECT_EQ(tokens.Refresh(), false) << empty;
+    EXPECT_EQ(tokens.Refresh(), std::nullopt) << "this was told";
+    EXPECT_TRUE(knows_alice());
+  }
+  EXPECT_THAT(log.text(),
+              HasSubstr("[error] --tokens: " + (folder_ / "tokens").string() + " holds no token"));
+  EXPECT_THAT(log.text(), HasSubstr("the 1 tokens known before stay valid"));
+  Write("tokens", alice);
+  EXPECT_EQ(tokens.Refresh(), true);
+  // Removed tokens do not return.
+  std::filesystem::remove(folder_ / "tokens");
+  EXPECT_EQ(tokens.Refresh(), false);
+  Write("tokens", "");
+  EXPECT_EQ(tokens.Refresh(), false);
+  EXPECT_FALSE(knows_alice());
+}
+
 // All come from one address, as behind one back end.
 TEST_F(TokensTest, EachHolderHasItsOwnPlaces) {
   Write("tokens", LineOf("a", "alice") + LineOf("b", "bob"));
@@ -446,6 +473,11 @@ TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
   Write("tokens", std::string(2 << 20, '#'));
   ExpectError(ErrorCode::kInvalidArgument, "2097152 bytes, of at most 1048576",
               [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  for (const char* empty : {"", "# nobody yet\n"}) {
+    Write("tokens", empty);
+    ExpectError(ErrorCode::kInvalidArgument, "tokens holds no token",
+                [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  }
   for (const char* none : {"/tmp", "/dev/zero"}) {
     ExpectError(ErrorCode::kInvalidArgument, std::string("--tokens: ") + none,
                 [&] { Start([&](ServerConfig& config) { config.tokens = none; }); });
