@@ -3,7 +3,6 @@
 #include <string>
 
 #include "model/core/error.h"
-#include "model/core/programs.h"
 #include "model/core/threads.h"
 #include "model/engine/sampling_cost.h"
 #include "model/samplers/samplers.h"
@@ -77,6 +76,6 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
-    return choreo::kFailed;
+    return choreo::ExitCodeOf(error);
   }
 }

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "model/core/address.h"
+#include "model/core/error.h"
+#include "model/core/programs.h"
 #include "server/certificate_files.h"
 #include "server/listener.h"
 #include "server/log.h"
@@ -167,6 +169,13 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
     server.Drain(config.drain_seconds);
   }
   if (reloader.loads()) Leave();
+}
+
+int ExitCodeOf(const std::exception& error) {
+  const auto* known = dynamic_cast<const Error*>(&error);
+  const bool is_misuse = known != nullptr && (known->code() == ErrorCode::kInvalidArgument ||
+                                              known->code() == ErrorCode::kNotFound);
+  return is_misuse ? kMisused : kFailed;
 }
 
 }  // namespace choreo

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <exception>
+
 #include "server/config.h"
 #include "server/model_folder.h"
 
@@ -15,5 +17,9 @@ void HoldSignals();
 /// code 0, on a stop signal before it serves, on a second one, or on one that comes while it loads
 /// a model and all calls have ended. Throws what ModelFolder, `load` and Server throw.
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load);
+
+/// The exit status of a choreod that `error` ended: kMisused for a bad setting or a bad file that
+/// one names, which a restart does not mend; else kFailed.
+int ExitCodeOf(const std::exception& error);
 
 }  // namespace choreo

@@ -48,6 +48,6 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const std::exception& error) {
     spdlog::critical("{}", error.what());
-    return 1;
+    return choreo::ExitCodeOf(error);
   }
 }

@@ -32,7 +32,7 @@ class StartTest : public testing::Test {
 
   void ExpectRefused(const std::vector<std::string>& says) {
     const Outcome outcome = StartWith(path_);
-    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.code, 2) << "no restart mends it";
     EXPECT_EQ(std::count(outcome.said.begin(), outcome.said.end(), '\n'), 1) << outcome.said;
     EXPECT_THAT(outcome.said, testing::HasSubstr(path_.string()));
     for (const std::string& word : says) EXPECT_THAT(outcome.said, testing::HasSubstr(word));
@@ -82,7 +82,7 @@ TEST_F(StartTest, ServesAShippedModelByItsName) {
   ASSERT_EQ(models.size(), 1U);
   EXPECT_EQ(models[0].name, "free");
   const Outcome other = Shell("'" CHOREOD_PROGRAM "' --listen 127.0.0.1:0 --model nosuch");
-  EXPECT_EQ(other.code, 1);
+  EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.said,
               testing::HasSubstr("\"nosuch\" does not ship, but default, free, paper-f, paper-c"));
   const Outcome both =
