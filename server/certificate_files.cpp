@@ -18,6 +18,12 @@ std::string Date(int64_t seconds) {
 
 bool HasExpired(int64_t expires) { return expires <= std::time(nullptr); }
 
+void RequireUnexpired(const std::string& field, const std::filesystem::path& file,
+                      int64_t expires) {
+  if (!HasExpired(expires)) return;
+  throw InvalidArgument(field, file.string() + " expired on " + Date(expires));
+}
+
 }  // namespace
 
 CertificateFiles::CertificateFiles(const ServerConfig& config)
@@ -34,40 +40,50 @@ CertificateFiles::Content CertificateFiles::Read() const {
   const KeyPair pair = ReadKeyPair("--tls-cert", certificate_, "--tls-key", key_);
   Content content{.pair = pair.certificates + '\n' + pair.key,
                   .expires = ExpiryOf(pair.certificates)};
-  if (needs_client_ca_) content.client_ca = ReadCertificates("--tls-client-ca", client_ca_source_);
+  if (needs_client_ca_) {
+    content.client_ca = ReadCertificates("--tls-client-ca", client_ca_source_);
+    content.client_ca_expires = LatestExpiryOf(content.client_ca);
+  }
   return content;
 }
 
 std::optional<bool> CertificateFiles::Refresh() {
   try {
     Content now = Read();
-    const bool is_new = now != used_;
-    if (is_new && HasExpired(now.expires)) {
-      throw InvalidArgument("--tls-cert",
-                            certificate_.string() + " expired on " + Date(now.expires));
-    }
+    const bool has_new_pair = now.pair != used_.pair,
+               has_new_client_ca = now.client_ca != used_.client_ca;
+    // One that expired in use keeps no other from being renewed.
+    if (has_new_pair) RequireUnexpired("--tls-cert", certificate_, now.expires);
+    if (has_new_client_ca)
+      RequireUnexpired("--tls-client-ca", client_ca_source_, now.client_ca_expires);
     suspicion_.clear();
     const bool was_faulty = !std::exchange(fault_, "").empty();
-    if (!is_new) return was_faulty ? std::optional(true) : std::nullopt;
+    if (!has_new_pair && !has_new_client_ca) return was_faulty ? std::optional(true) : std::nullopt;
     pair_.Replace(now.pair);
     client_ca_.Replace(now.client_ca);
     used_ = std::move(now);
     expires_ = used_.expires;
-    spdlog::info("a new certificate is used, until {}", Date(expires_));
+    if (has_new_pair) spdlog::info("--tls-cert: a new one is used, until {}", Date(expires_));
+    if (has_new_client_ca)
+      spdlog::info("--tls-client-ca: a new one is used, until {}", Date(used_.client_ca_expires));
     return true;
   } catch (const Error& error) {
     const std::string fault = error.what();
     const bool is_certain = fault == std::exchange(suspicion_, fault);
     if (!is_certain || fault == fault_) return std::nullopt;
     fault_ = fault;
-    spdlog::error("{}; the former certificate is used on, until {}", fault, Date(expires_));
+    spdlog::error("{}; the former files are used on, the certificate until {}", fault,
+                  Date(expires_));
     return false;
   }
 }
 
-void WarnIfExpired(int64_t expires) {
-  if (!HasExpired(expires)) return;
-  spdlog::warn("--tls-cert: expired on {}; clients refuse it", Date(expires));
+void CertificateFiles::WarnOfExpired() const {
+  if (HasExpired(expires_))
+    spdlog::warn("--tls-cert: expired on {}; clients refuse it", Date(expires_));
+  if (needs_client_ca_ && HasExpired(used_.client_ca_expires))
+    spdlog::warn("--tls-client-ca: expired on {}; no client is admitted",
+                 Date(used_.client_ca_expires));
 }
 
 }  // namespace choreo

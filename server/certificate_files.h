@@ -20,7 +20,7 @@ class CertificateFiles {
 
   /// Rereads the files; call regularly. Returns whether a change could be used; none without a
   /// change. A fault counts once it was seen twice: files that are replaced one by one do not match
-  /// for a moment. Logs both once. An expired certificate does not replace another.
+  /// for a moment. Logs both once. Expired certificates do not replace others.
   std::optional<bool> Refresh();
 
   /// The certificates and the key, in one file so that they always match.
@@ -29,12 +29,14 @@ class CertificateFiles {
   std::filesystem::path client_ca() const {
     return needs_client_ca_ ? client_ca_.path() : std::filesystem::path();
   }
-  int64_t expires() const { return expires_; }  ///< seconds since 1970
+  int64_t expires() const { return expires_; }  ///< of the certificate; seconds since 1970
+  /// Logs a warning of each file that has expired.
+  void WarnOfExpired() const;
 
  private:
   struct Content {
     std::string pair, client_ca = {};
-    int64_t expires = 0;
+    int64_t expires = 0, client_ca_expires = 0;
     bool operator==(const Content&) const = default;
   };
   Content Read() const;
@@ -46,8 +48,5 @@ class CertificateFiles {
   MemoryFile pair_, client_ca_;
   std::string suspicion_, fault_;  // seen at the last look; reported
 };
-
-/// Warns if it has expired.
-void WarnIfExpired(int64_t expires);
 
 }  // namespace choreo

@@ -156,7 +156,7 @@ struct Server::Impl {
         listener(config.listen) {
     if (!config.tls_certificate.empty()) {
       certificate.emplace(config);
-      WarnIfExpired(certificate->expires());
+      certificate->WarnOfExpired();
       serving.reloads.certificate_expires = static_cast<double>(certificate->expires());
     }
     // Never released: a process's last grpc_shutdown can wait ten seconds for gRPC's threads.

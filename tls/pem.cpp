@@ -13,6 +13,7 @@
 #include <ctime>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "model/core/error.h"
 
@@ -65,6 +66,20 @@ Error Absent(const std::string& field, const std::filesystem::path& path, int wh
 
 X509Pointer FirstOf(const std::string& certificates) {
   return {PEM_read_bio_X509(Reader(certificates).get(), nullptr, nullptr, nullptr), X509_free};
+}
+
+// Of each certificate; one without a readable date never expires.
+std::vector<int64_t> ExpiriesOf(const std::string& certificates) {
+  const Bio reader = Reader(certificates);
+  std::vector<int64_t> expiries;
+  while (const X509Pointer one{PEM_read_bio_X509(reader.get(), nullptr, nullptr, nullptr),
+                               X509_free}) {
+    std::tm date{};
+    const bool has_date = ASN1_TIME_to_tm(X509_get0_notAfter(one.get()), &date) == 1;
+    expiries.push_back(has_date ? timegm(&date) : std::numeric_limits<int64_t>::max());
+  }
+  ERR_clear_error();
+  return expiries;
 }
 
 // OpenSSL would ask on the terminal.
@@ -138,18 +153,10 @@ std::string ReadCertificates(const std::string& field, const std::filesystem::pa
   return text;
 }
 
-int64_t ExpiryOf(const std::string& certificates) {
-  const Bio reader = Reader(certificates);
-  int64_t first = std::numeric_limits<int64_t>::max();
-  for (;;) {
-    const X509Pointer one(PEM_read_bio_X509(reader.get(), nullptr, nullptr, nullptr), X509_free);
-    if (!one) break;
-    std::tm date{};
-    if (ASN1_TIME_to_tm(X509_get0_notAfter(one.get()), &date) == 1)
-      first = std::min<int64_t>(first, timegm(&date));
-  }
-  ERR_clear_error();
-  return first;
+int64_t ExpiryOf(const std::string& chain) { return std::ranges::min(ExpiriesOf(chain)); }
+
+int64_t LatestExpiryOf(const std::string& authorities) {
+  return std::ranges::max(ExpiriesOf(authorities));
 }
 
 KeyPair ReadKeyPair(const std::string& certificate_field,

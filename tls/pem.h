@@ -20,8 +20,10 @@ std::string ReadSmallFile(const std::string& field, const std::filesystem::path&
 /// A PEM file with at least one certificate. Throws like ReadSmallFile.
 std::string ReadCertificates(const std::string& field, const std::filesystem::path& path);
 
-/// The earliest expiry of these PEM certificates, seconds since 1970.
-int64_t ExpiryOf(const std::string& certificates);
+/// The earliest expiry of these PEM certificates, seconds since 1970: a chain ends with its first.
+int64_t ExpiryOf(const std::string& chain);
+/// The latest one: authorities stand for each other.
+int64_t LatestExpiryOf(const std::string& authorities);
 
 struct KeyPair {
   std::string certificates, key;  ///< PEM

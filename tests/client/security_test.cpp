@@ -202,6 +202,62 @@ TEST_F(TlsTest, AnExpiredCertificateIsTold) {
   EXPECT_THAT(log.text(), HasSubstr("--tls-cert: expired on "));
 }
 
+TEST_F(TlsTest, AnExpiredClientAuthorityIsTold) {
+  const LogCapture log;
+  const Certificate own = authority_.Issue("own"), late = authority_.IssueExpired("late");
+  const auto server = Start([&](ServerConfig& config) {
+    Serve(own, config);
+    config.tls_client_ca = late.certificate;
+  });
+  EXPECT_THAT(log.text(), HasSubstr("[warning] --tls-client-ca: expired on 20"));
+  EXPECT_THAT(log.text(), Not(HasSubstr("--tls-cert: expired")));
+}
+
+TEST_F(TlsTest, AnExpiredClientAuthorityReplacesNoOther) {
+  const LogCapture log;
+  const Certificate own = authority_.Issue("own"), late = authority_.IssueExpired("late");
+  const std::filesystem::path ca = folder_ / "clients.pem";
+  ServerConfig config;
+  Serve(own, config);
+  config.tls_client_ca = ca;
+  const auto content = [](const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  };
+  const auto write = [&](const std::string& text) { std::ofstream(ca) << text; };
+  const std::string valid = content(authority_.certificate()), expired = content(late.certificate);
+  write(valid);
+  CertificateFiles files(config);
+  write(expired);
+  EXPECT_EQ(files.Refresh(), std::nullopt) << "a fault counts when it was seen twice";
+  EXPECT_EQ(files.Refresh(), false);
+  EXPECT_EQ(content(files.client_ca()), valid);
+  EXPECT_THAT(log.text(), HasSubstr("[error] --tls-client-ca: " + ca.string() + " expired on 20"));
+  // One of several may have expired.
+  write(expired + valid);
+  EXPECT_EQ(files.Refresh(), true);
+  EXPECT_EQ(content(files.client_ca()), expired + valid);
+  EXPECT_THAT(log.text(), HasSubstr("[info] --tls-client-ca: a new one is used, until 20"));
+  EXPECT_THAT(log.text(), Not(HasSubstr("--tls-cert: a new one")));
+}
+
+// What expired in use stays, and the rest can still be renewed.
+TEST_F(TlsTest, ACertificateIsRenewedBesideAnExpiredClientAuthority) {
+  const LogCapture log;
+  const Certificate own = authority_.Issue("own"), renewed = authority_.Issue("renewed"),
+                    late = authority_.IssueExpired("late");
+  ServerConfig config;
+  Serve(own, config);
+  config.tls_client_ca = late.certificate;
+  CertificateFiles files(config);
+  std::filesystem::rename(renewed.certificate, own.certificate);
+  std::filesystem::rename(renewed.key, own.key);
+  EXPECT_EQ(files.Refresh(), true);
+  EXPECT_THAT(log.text(), HasSubstr("[info] --tls-cert: a new one is used, until 20"));
+  EXPECT_THAT(log.text(), Not(HasSubstr("--tls-client-ca: a new one")));
+}
+
 TEST_F(TlsTest, ClientsShowARequiredCertificate) {
   const Certificate own = authority_.Issue("own");
   const auto server = Start([&](ServerConfig& config) {
