@@ -118,6 +118,15 @@ TEST_F(TlsTest, AServerWithAnExpiredCertificateIsAlive) {
     const Outcome alive = Choreo(health + ca + " --any-certificate");
     EXPECT_EQ(alive.code, 0) << alive.said;
   }
+  // The client's own certificate is needed all the same; probes take it from the environment.
+  const std::string probe = "health --server " + server->address() + " --tls --any-certificate";
+  EXPECT_EQ(Choreo(probe).code, 1);
+  ::setenv("CHOREO_CLIENT_CERT", own.certificate.c_str(), 1);
+  ::setenv("CHOREO_CLIENT_KEY", own.key.c_str(), 1);
+  const Outcome identified = Choreo(probe);
+  ::unsetenv("CHOREO_CLIENT_CERT");
+  ::unsetenv("CHOREO_CLIENT_KEY");
+  EXPECT_EQ(identified.code, 0) << identified.said;
   ExpectError(ErrorCode::kInvalidArgument, "token_file: no token goes to", [&] {
     const Client client({.addresses = {server->address()},
                          .tls = true,
