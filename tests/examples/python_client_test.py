@@ -27,21 +27,29 @@ def token_line(token, name):
     return f"{hashlib.sha256(token.encode()).hexdigest()} {name}\n"
 
 
-# Keys that the package refuses itself, but for the third and the last, and what is wrong with them. One would move a key that is there.
+# Keys that the package refuses itself, but for the third and the removals, and what is wrong with them. Two would move a key that is there.
 BAD_KEYS = [
     {"keyframe": {"id": "moved", "time": "soon"}},
     {"keyframe": {"id": "blank", "frame": 160, "pose": {"rotations": [0, float("nan")]}}},
     {"keyframe": {"id": "blank"}},
     {"keyframe": {"id": 5, "frame": 160}},
     {"keyframe": "wave"},
+    {"keyframe": {"id": "hurried", "time": 0.5, "tim": 3}},
+    {"keyframe": {"id": "twice", "frame": 9, "time": 3}},
+    {"keyframe": {"id": "next", "frame": 45, "pose": 5}},
+    {"remove_keyframe": {"id": "next"}},
     {"remove_keyframe": {"id": "nobody"}},
 ]
 REFUSED_HERE = [
     ("moved", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
-    ("blank", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations[1]", -1),
+    ("blank", choreography.REJECTION_CODE_INVALID, "keyframe.pose.rotations[1]", 160),
     ("blank", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
-    ("", choreography.REJECTION_CODE_INVALID, "keyframe.id", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "keyframe.id", 160),
     ("", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
+    ("hurried", choreography.REJECTION_CODE_INVALID, "keyframe.tim", 15),
+    ("twice", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
+    ("next", choreography.REJECTION_CODE_INVALID, "keyframe.pose", 45),
+    ("next", choreography.REJECTION_CODE_FROZEN, "", 50),
     ("nobody", choreography.REJECTION_CODE_INVALID, "remove_keyframe.id", -1),
 ]
 

@@ -116,9 +116,16 @@ export class Journal {
       const id = request?.keyframe?.id ?? request?.remove_keyframe?.id;
       if (id === undefined) continue;
       if (request.keyframe) {
-        if (!hasMoment(request.keyframe)) continue; // it is nowhere
-        previous = frameOf(request.keyframe, previous, rate);
-        frames.set(id, previous);
+        const at = hasMoment(request.keyframe) ? frameOf(request.keyframe, previous, rate) : -1;
+        if (at < 0) continue; // it is nowhere
+        if (!request.keyframe.pose) {
+          // It moves no key that is there.
+          if (at < frame) found.push(placeOf(id, at));
+          if (!frames.has(id)) frames.set(id, at);
+          continue;
+        }
+        previous = at;
+        frames.set(id, at);
       }
       if (frames.get(id) < frame) found.push(placeOf(id, frames.get(id)));
     }

@@ -1,9 +1,12 @@
-// Keys that the package's own check refuses, in dances that go on without bad keys. In place of each the server is told a blank: a key with
-// neither a moment nor a pose. It rejects that in its turn, and again where the dance is resumed; the caller is told what was wrong here.
+// Keys that the package's own check refuses, in dances that go on without bad keys. In place of each the server is told a blank: a key without
+// a pose, at the moment that the key names. It rejects that in its turn, and again where the dance is resumed; the caller is told what was wrong
+// here.
 import { checked } from './check.js';
 
+const nowhere = { frame: -1 };
+
 export class RefusedKeys {
-  #unplaced = []; // of all keys without a moment, in order: {field, reason}, or undefined for one that the caller left so
+  #bodiless = []; // of all keys without a pose, in order: {field, reason}, or undefined for one that the caller left so
   #answered = 0; // of them, by the present server
 
   /** Another server is told all again. */
@@ -13,18 +16,18 @@ export class RefusedKeys {
 
   /** A request that is said as it is. */
   note({ keyframe }) {
-    if (keyframe && !hasMoment(keyframe)) this.#unplaced.push(undefined);
+    if (keyframe && hasMoment(keyframe) && !keyframe.pose) this.#bodiless.push(undefined);
   }
 
   /** What to say instead of a request for a key that `error` refuses; undefined where more than the key is wrong. */
   blank(request, error) {
     const key = request?.keyframe;
     if (key === undefined || key === null) return undefined;
-    const keyframe = { id: typeof key.id === 'string' ? key.id : '' };
+    const keyframe = { id: typeof key.id === 'string' ? key.id : '', ...momentOf(key) };
     try {
       const blank = checked('StreamDanceRequest', { ...request, keyframe }, 'request');
       const [{ field, description: reason }] = error.violations;
-      this.#unplaced.push({ field, reason });
+      this.#bodiless.push({ field, reason });
       return blank;
     } catch {
       return undefined;
@@ -34,12 +37,22 @@ export class RefusedKeys {
   /** What the caller is to hear of an event. */
   event(event) {
     const rejected = event.keyframe_rejected;
-    const ofUnplaced = rejected?.code === 'REJECTION_CODE_INVALID' && rejected.field === 'keyframe' && Number(event.frame) < 0;
-    return ofUnplaced ? { ...event, keyframe_rejected: { ...rejected, ...this.#unplaced[this.#answered++] } } : event;
+    const ofBodiless = rejected?.code === 'REJECTION_CODE_INVALID' && rejected.field === 'keyframe.pose';
+    return ofBodiless ? { ...event, keyframe_rejected: { ...rejected, ...this.#bodiless[this.#answered++] } } : event;
   }
 }
 
 /** Whether a key says when. */
 export function hasMoment({ frame, time, interval_after_previous: interval }) {
   return (frame ?? time ?? interval) !== undefined;
+}
+
+/** When a key of any kind is to be, if it says so. */
+function momentOf({ frame, time, interval_after_previous }) {
+  try {
+    const moment = checked('Keyframe', { frame, time, interval_after_previous }, 'keyframe');
+    return hasMoment(moment) ? moment : nowhere;
+  } catch {
+    return nowhere;
+  }
 }

@@ -123,9 +123,15 @@ class Journal:
                 continue
             key = getattr(request, kind)
             if kind == "keyframe":
-                if key.WhichOneof("when") is None:
+                at = -1 if key.WhichOneof("when") is None else _frame_of(key, previous, rate)
+                if at < 0:
                     continue  # it is nowhere
-                previous = frames[key.id] = _frame_of(key, previous, rate)
+                if not key.HasField("pose"):  # it moves no key that is there
+                    if at < frame:
+                        found.append((key.id, at))
+                    frames.setdefault(key.id, at)
+                    continue
+                previous = frames[key.id] = at
             if frames.get(key.id, frame) < frame:
                 found.append((key.id, frames[key.id]))
         return found
