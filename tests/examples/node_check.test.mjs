@@ -46,6 +46,8 @@ test('a request that the API does not know is refused by its path', () =>
       [[{ config: { allow_inexact_resume: 'no' } }], 'config.allow_inexact_resume', "'no' is no boolean"],
       ...[1.5, -1, '1e3', '18446744073709551616', true, []].map((seed) => [[{ config: { seed } }], 'config.seed', / is no whole number from 0 to 18\d+$/]),
       [[{ config: { seed: 2 ** 64 } }], 'config.seed', /; numbers above 2\^53 go as text$/],
+      [[config, { keyframe: null }], 'keyframe', /^null is no Keyframe, /],
+      [[config, { remove_keyframe: undefined }], 'remove_keyframe', /^undefined is no RemoveKeyframe, /],
       [[config, undefined], 'requests[1]', /^undefined is no StreamDanceRequest, {config, audio, /],
       [[config, [config]], 'requests[1]', /is no StreamDanceRequest/],
       [undefined, 'requests', 'undefined is no iterable of messages'],
@@ -73,7 +75,7 @@ test('with reject_invalid_keys a request that is wrong beside its key ends the d
       [{ keyfarme: {} }, 'keyfarme'],
       [{ end_of_audio: {}, keyframe: { id: 5 } }, 'keyframe'],
       [{ keyframe: { id: 5 }, end_of_audio: {} }, 'keyframe.id'],
-      [{ remove_keyframe: { id: 5 } }, 'remove_keyframe.id'],
+      [{ remove_keyframe: { id: 5 }, end_of_audio: {} }, 'remove_keyframe.id'],
     ]) {
       await assert.rejects(collect(client.streamDance([lenient, wrong])), (error) => error.violations[0].field === field);
     }

@@ -127,7 +127,7 @@ const told = (answers) => ({
   frames: answers.at(-1).summary.report.frames,
 });
 
-/** Keys that the package refuses itself, but for the third and the removals, and what is wrong with them. Two would move a key that is there. */
+/** Keys that the package refuses itself, but for the third and two removals, and what is wrong with them. Two would move a key that is there. */
 const badKeys = [
   { keyframe: { id: 'moved', time: 'soon' } },
   { keyframe: { id: 'blank', frame: 160, pose: { rotations: [0, NaN] } } },
@@ -139,6 +139,11 @@ const badKeys = [
   { keyframe: { id: 'next', frame: 45, pose: 5 } },
   { remove_keyframe: { id: 'next' } },
   { remove_keyframe: { id: 'nobody' } },
+  { keyframe: null },
+  { remove_keyframe: undefined },
+  { keyframe: undefined, remove_keyframe: { id: 5 } },
+  { remove_keyframe: 'zz' },
+  { remove_keyframe: { id: 'early', idd: 's' } },
 ];
 const refusedHere = [
   ['moved', 'REJECTION_CODE_INVALID', 'keyframe.time', -1],
@@ -151,6 +156,11 @@ const refusedHere = [
   ['next', 'REJECTION_CODE_INVALID', 'keyframe.pose', 45],
   ['next', 'REJECTION_CODE_FROZEN', '', 50],
   ['nobody', 'REJECTION_CODE_INVALID', 'remove_keyframe.id', -1],
+  ['', 'REJECTION_CODE_INVALID', 'keyframe', -1],
+  ['', 'REJECTION_CODE_INVALID', 'remove_keyframe', -1],
+  ['', 'REJECTION_CODE_INVALID', 'remove_keyframe.id', -1],
+  ['', 'REJECTION_CODE_INVALID', 'remove_keyframe', -1],
+  ['early', 'REJECTION_CODE_INVALID', 'remove_keyframe.idd', -1],
 ];
 
 /** A dance to live music whose keys change on the way, one of them too late. Its last second waits for `goOn`. */
@@ -227,6 +237,7 @@ for (const frame_rate of [30, 50]) {
     assert.deepEqual(reasons.slice(0, 2), ["'soon' is no finite number", 'NaN is no finite number']);
     assert.match(reasons[2], /^none of frame, time/);
     assert.match(reasons[4], /^'wave' is no Keyframe, /);
+    assert.match(reasons.at(-5), /^null is no Keyframe, /);
     const enough = (all) => all.filter((answer) => answer.continuation).length > 1 && all.at(-1).frames?.first_frame > 3.5 * frame_rate;
     const { answers, resumes } = await danceAndKill(source, enough);
     assert.equal(resumes.length, 1);

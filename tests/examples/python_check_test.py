@@ -55,6 +55,8 @@ class CheckTest(unittest.TestCase):
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
             ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is no bool$"),
             *(([{"config": {"seed": seed}}], "config.seed", ".* is no whole number from 0 to 18446744073709551615$") for seed in (1.5, -1, 2**64, "7")),
+            ([CONFIG, {"keyframe": None}], "keyframe", "None is no Keyframe, "),
+            ([CONFIG, {"remove_keyframe": None}], "remove_keyframe", "None is no RemoveKeyframe, "),
             ([CONFIG, None], "requests[1]", "None is no StreamDanceRequest, {config, audio, "),
         ):
             error = self.assert_refused("", self.dance, *requests)
@@ -86,7 +88,7 @@ class CheckTest(unittest.TestCase):
             ({"keyfarme": {}}, "keyfarme"),
             ({"end_of_audio": {}, "keyframe": {"id": 5}}, "keyframe"),
             ({"keyframe": {"id": 5}, "end_of_audio": {}}, "keyframe.id"),
-            ({"remove_keyframe": {"id": 5}}, "remove_keyframe.id"),
+            ({"remove_keyframe": {"id": 5}, "end_of_audio": {}}, "remove_keyframe.id"),
         ):
             self.assertEqual(self.assert_refused("", self.dance, lenient, wrong).violations[0].field, field)
 

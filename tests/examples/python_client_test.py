@@ -27,7 +27,7 @@ def token_line(token, name):
     return f"{hashlib.sha256(token.encode()).hexdigest()} {name}\n"
 
 
-# Keys that the package refuses itself, but for the third and the removals, and what is wrong with them. Two would move a key that is there.
+# Keys that the package refuses itself, but for the third and two removals, and what is wrong with them. Two would move a key that is there.
 BAD_KEYS = [
     {"keyframe": {"id": "moved", "time": "soon"}},
     {"keyframe": {"id": "blank", "frame": 160, "pose": {"rotations": [0, float("nan")]}}},
@@ -39,6 +39,11 @@ BAD_KEYS = [
     {"keyframe": {"id": "next", "frame": 45, "pose": 5}},
     {"remove_keyframe": {"id": "next"}},
     {"remove_keyframe": {"id": "nobody"}},
+    {"keyframe": None},
+    {"remove_keyframe": None},
+    {"keyframe": None, "remove_keyframe": {"id": 5}},
+    {"remove_keyframe": "zz"},
+    {"remove_keyframe": {"id": "early", "idd": "s"}},
 ]
 REFUSED_HERE = [
     ("moved", choreography.REJECTION_CODE_INVALID, "keyframe.time", -1),
@@ -51,6 +56,11 @@ REFUSED_HERE = [
     ("next", choreography.REJECTION_CODE_INVALID, "keyframe.pose", 45),
     ("next", choreography.REJECTION_CODE_FROZEN, "", 50),
     ("nobody", choreography.REJECTION_CODE_INVALID, "remove_keyframe.id", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "keyframe", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "remove_keyframe", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "remove_keyframe.id", -1),
+    ("", choreography.REJECTION_CODE_INVALID, "remove_keyframe", -1),
+    ("early", choreography.REJECTION_CODE_INVALID, "remove_keyframe.idd", -1),
 ]
 
 

@@ -89,8 +89,8 @@ export class ChoreoClient {
    * and yields the answers meanwhile. Whoever stops reading ends the dance. When its server is lost, the dance goes on at the next one from
    * the last continuation: answers are those of an undisturbed dance, bit for bit, which `onResume` alone hears of. Requests must not be
    * changed once they are said: they may be said again. One that the API does not know ends the dance, naming the field's path; of a
-   * key, with config.reject_invalid_keys, it is a keyframe_rejected, and the dance goes on. (The summary's shares are those of the frames
-   * since the last resume.)
+   * key or its removal, with config.reject_invalid_keys, it is a keyframe_rejected, and the dance goes on. (The summary's shares are those
+   * of the frames since the last resume.)
    */
   streamDance(
     requests: Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>,

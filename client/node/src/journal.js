@@ -2,7 +2,7 @@
 // messages. Only music that it no longer needs is forgotten.
 import { checked } from './check.js';
 import { invalid } from './error.js';
-import { hasMoment, RefusedKeys } from './refused_keys.js';
+import { hasMoment, RefusedKeys, requireKey } from './refused_keys.js';
 
 export class Journal {
   #source;
@@ -48,6 +48,7 @@ export class Journal {
   #checked(request) {
     try {
       const fine = checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
+      requireKey(request, fine);
       this.refusedKeys.note(fine);
       return fine;
     } catch (error) {

@@ -91,8 +91,8 @@ class Client:
 
         When its server is lost, the dance goes on at the next one from the last continuation: answers are those of an undisturbed dance, bit
         for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. One that the
-        API does not know ends the dance, naming the field's path; of a key, with config.reject_invalid_keys, it is a keyframe_rejected, and the
-        dance goes on. (The summary's shares are those of the frames since the last resume.)"""
+        API does not know ends the dance, naming the field's path; of a key or its removal, with config.reject_invalid_keys, it is a
+        keyframe_rejected, and the dance goes on. (The summary's shares are those of the frames since the last resume.)"""
         until = Cancellation(timeout)
         return Answers(dance(self._replicas, requests, on_resume, until), until)
 

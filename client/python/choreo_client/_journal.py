@@ -9,7 +9,7 @@ import threading
 from . import choreography
 from ._check import checked
 from ._errors import ChoreoError, Violation, invalid
-from ._refused_keys import RefusedKeys
+from ._refused_keys import RefusedKeys, require_key
 from ._words import quoted
 
 _BYTES = {choreography.AUDIO_ENCODING_PCM_F32LE: 4, choreography.AUDIO_ENCODING_PCM_S16LE: 2}
@@ -54,6 +54,7 @@ class Journal:
         config = self._said[0].config if self._said else choreography.DanceConfig()
         try:
             fine = checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", config.audio_format.encoding)
+            require_key(request, fine)
             self.refused_keys.note(fine)
             return fine
         except ChoreoError as error:  # of which the source knows nothing

@@ -1,6 +1,6 @@
-"""Keys that the package's own check refuses, in dances that go on without bad keys. In place of each the server is told a blank: a key without
-a pose, at the moment that the key names. It rejects that in its turn, and again where the dance is resumed; the caller is told what was wrong
-here."""
+"""Keys, and removals of keys, that the package's own check refuses, in dances that go on without bad keys. In place of each the server is told
+a blank: a key without a pose, at the moment that the key names. It rejects that in its turn, and again where the dance is resumed; the caller
+is told what was wrong here."""
 
 import collections.abc
 
@@ -9,6 +9,7 @@ from ._check import checked
 from ._errors import ChoreoError
 
 _NOWHERE = -1
+_KINDS = {"keyframe": choreography.Keyframe, "remove_keyframe": choreography.RemoveKeyframe}
 
 
 class RefusedKeys:
@@ -29,15 +30,15 @@ class RefusedKeys:
 
     def blank(self, request, error):
         """What to say instead of a request for a key that `error` refuses; None where more than the key is wrong."""
-        key = request.get("keyframe") if isinstance(request, collections.abc.Mapping) else None
-        if key is None:
+        kind = _kind_of(request)
+        if kind is None:
             return None
         try:
-            blank = checked(choreography.StreamDanceRequest, {**request, "keyframe": _without_pose(key)}, "request")
+            checked(choreography.StreamDanceRequest, {**request, kind: {}}, "request")
         except ChoreoError:
             return None
         self._bodiless.append(error.violations[0])
-        return blank
+        return choreography.StreamDanceRequest(keyframe=_without_pose(request[kind]))
 
     def take_event(self, event):
         """Changes it to what the caller is to hear."""
@@ -48,6 +49,19 @@ class RefusedKeys:
         self._answered += 1
         if wrong is not None:
             rejected.field, rejected.reason = wrong
+
+
+def require_key(request, message):
+    """Raises for a request whose message is empty because its key is none."""
+    kind = _kind_of(request)
+    if kind is not None and message.WhichOneof("request") is None:
+        checked(_KINDS[kind], request[kind], kind)
+
+
+def _kind_of(request):
+    """Whether fields of a request are for a key or for its removal."""
+    named = [kind for kind in _KINDS if isinstance(request, collections.abc.Mapping) and kind in request]
+    return next((kind for kind in named if request[kind] is not None), named[0] if named else None)
 
 
 def _without_pose(key):
