@@ -150,6 +150,22 @@ test('music is bytes, or the samples that its encoding says', () =>
     }
   }));
 
+test('music that no message can hold is refused before it is sent', () =>
+  withClient(async (client) => {
+    const config = { frames: 30, audio_format: { encoding: 'AUDIO_ENCODING_PCM_F32LE', sample_rate: 48000, channels: 1 } };
+    const dance = (data) => collect(client.streamDance([{ config }, { audio: { data } }, { end_of_audio: {} }]));
+    const wrong = (size, remedy) => ({
+      code: 'INVALID_ARGUMENT',
+      message: `audio.data: ${size} MiB; a message has at most 16 MiB in all: ${remedy}`,
+    });
+    const pieces = 'send it in pieces, each with its first_sample';
+    await assert.rejects(dance(new Uint8Array(17 << 20)), wrong('17.0', pieces));
+    await assert.rejects(dance(new Uint8Array(16 << 20)), wrong('16.0', pieces));
+    assert.equal(frames(await dance(new Uint8Array((16 << 20) - 32))), 30);
+    const transition = collect(client.generateTransition({ config, frames: 9, audio: { data: new Uint8Array(17 << 20) } }));
+    await assert.rejects(transition, wrong('17.0', 'send the music of its frames alone, or a compressed file'));
+  }));
+
 test('a pose of joints that are not there, or of what is no rotation, is refused', () => {
   for (const [rotations, message] of [
     [{ leftShoulder: [0, 0, 1] }, 'rotations.leftShoulder: no joint of two; did you mean left_shoulder?'],

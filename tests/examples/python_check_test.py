@@ -103,6 +103,21 @@ class CheckTest(unittest.TestCase):
         for data in (floats, array.array("d", [0]), "song.mp3", [1, 2]):
             self.assert_refused(r"audio\.data: ", dance, choreography.AUDIO_ENCODING_PCM_S16LE, data)
 
+    def test_music_that_no_message_can_hold_is_refused_before_it_is_sent(self):
+        config = {"frames": 30, "audio_format": {"encoding": "AUDIO_ENCODING_PCM_F32LE", "sample_rate": 48000, "channels": 1}}
+
+        def dance(size):
+            return self.dance({"config": config}, {"audio": {"data": bytes(size)}}, {"end_of_audio": {}})
+
+        wrong = r"audio\.data: {} MiB; a message has at most 16 MiB in all: {}$"
+        pieces = "send it in pieces, each with its first_sample"
+        for size, told in ((17 << 20, "17.0"), (16 << 20, "16.0")):
+            self.assert_refused(wrong.format(told, pieces), dance, size)
+        self.assertEqual(sum(answer.frames.count for answer in dance((16 << 20) - 32)), 30)
+        transition = {"config": config, "frames": 9, "audio": {"data": bytes(17 << 20)}}
+        alone = "send the music of its frames alone, or a compressed file"
+        self.assert_refused(wrong.format("17.0", alone), self.client.generate_transition, transition)
+
     def test_a_transition_takes_fields(self):
         answers = list(self.client.generate_transition({"config": {"seed": 3}, "frames": 20, "candidates": 2}))
         self.assertEqual(sum(answer.frames.count for answer in answers), 40)

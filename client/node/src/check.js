@@ -13,6 +13,10 @@ const ranges = {
   uint64: [0n, 2n ** 64n - 1n],
 };
 
+/** Bytes of a message, as Limits.max_message_bytes has them, and of what stands around music in its message. */
+const mostBytes = 16 << 20;
+const aroundMusic = 32;
+
 /** Arrays of samples, by the encoding whose bytes they have. */
 const samples = { AUDIO_ENCODING_PCM_F32LE: 'Float32Array', AUDIO_ENCODING_PCM_S16LE: 'Int16Array' };
 
@@ -22,6 +26,14 @@ const samples = { AUDIO_ENCODING_PCM_F32LE: 'Float32Array', AUDIO_ENCODING_PCM_S
  */
 export function checked(type, value, name, encoding) {
   return message(api.lookupType(`choreo.v1.${type}`), value, '', name, encoding);
+}
+
+/** Throws for `audio` that no message can hold. `remedy`: what to do. */
+export function requireSendable(audio, remedy) {
+  const size = audio?.data?.length ?? 0;
+  if (size + aroundMusic <= mostBytes) return;
+  const inMiB = (size / 2 ** 20).toFixed(1);
+  throw invalid('audio.data', `${inMiB} MiB; a message has at most ${mostBytes / 2 ** 20} MiB in all: ${remedy}`);
 }
 
 function message(type, value, path, name, encoding) {

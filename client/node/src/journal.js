@@ -1,6 +1,6 @@
 // What has been said in a dance, in order, for another server to hear it again: a dance goes on from the last continuation and the same
 // messages. Only music that it no longer needs is forgotten.
-import { checked } from './check.js';
+import { checked, requireSendable } from './check.js';
 import { invalid } from './error.js';
 import { hasMoment, RefusedKeys, requireKey } from './refused_keys.js';
 
@@ -49,6 +49,7 @@ export class Journal {
     try {
       const fine = checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
       requireKey(request, fine);
+      requireSendable(fine.audio, 'send it in pieces, each with its first_sample');
       this.refusedKeys.note(fine);
       return fine;
     } catch (error) {

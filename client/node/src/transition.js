@@ -1,7 +1,7 @@
 // A transition whose server is lost is made again by another one; what was told already is left out.
 import { answersOf } from './answers.js';
 import { checkCall } from './call_options.js';
-import { checked } from './check.js';
+import { checked, requireSendable } from './check.js';
 import { unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { DeliveryFilter } from './delivery_filter.js';
@@ -9,6 +9,7 @@ import { DeliveryFilter } from './delivery_filter.js';
 /** The answers of GenerateTransition to `request`. */
 export async function* transition(replicas, asked, given) {
   const request = checked('GenerateTransitionRequest', asked, 'request', asked?.config?.audio_format?.encoding);
+  requireSendable(request.audio, 'send the music of its frames alone, or a compressed file');
   const options = checkCall(given);
   const { deadline } = options;
   let begun; // the first server's header

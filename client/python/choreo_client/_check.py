@@ -19,6 +19,7 @@ _RANGES = {
     Field.CPPTYPE_INT64: (-(2**63), 2**63 - 1),
     Field.CPPTYPE_UINT64: (0, 2**64 - 1),
 }
+_MOST_BYTES = 16 << 20  # of a message, as Limits.max_message_bytes has them
 # What buffers of samples hold, by the encoding whose bytes they have.
 _SAMPLES = {"AUDIO_ENCODING_PCM_F32LE": "f", "AUDIO_ENCODING_PCM_S16LE": "h"}
 
@@ -26,6 +27,13 @@ _SAMPLES = {"AUDIO_ENCODING_PCM_F32LE": "f", "AUDIO_ENCODING_PCM_S16LE": "h"}
 def checked(kind, value, name, encoding=0):
     """A message of class `kind`: `value`, or of its fields. `name`: of the whole. `encoding`: of the music that it may hold."""
     return _message(kind.DESCRIPTOR, value, "", name, encoding)
+
+
+def require_sendable(request, remedy):
+    """Raises for a request whose music makes it too large. `remedy`: what to do."""
+    if request.HasField("audio") and request.ByteSize() > _MOST_BYTES:
+        size, most = (f"{size / 2**20:.{digits}f} MiB" for size, digits in ((len(request.audio.data), 1), (_MOST_BYTES, 0)))
+        raise invalid("audio.data", f"{size}; a message has at most {most} in all: {remedy}")
 
 
 def music_encoding(request):

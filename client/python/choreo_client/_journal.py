@@ -7,7 +7,7 @@ import re
 import threading
 
 from . import choreography
-from ._check import checked
+from ._check import checked, require_sendable
 from ._errors import ChoreoError, Violation, invalid
 from ._refused_keys import RefusedKeys, require_key
 from ._words import quoted
@@ -55,6 +55,7 @@ class Journal:
         try:
             fine = checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", config.audio_format.encoding)
             require_key(request, fine)
+            require_sendable(fine, "send it in pieces, each with its first_sample")
             self.refused_keys.note(fine)
             return fine
         except ChoreoError as error:  # of which the source knows nothing

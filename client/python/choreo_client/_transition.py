@@ -3,7 +3,7 @@
 import grpc
 
 from . import choreography
-from ._check import checked, music_encoding
+from ._check import checked, music_encoding, require_sendable
 from ._errors import ChoreoError, unavailable
 from ._delivery_filter import DeliveryFilter, require_same_fingerprint
 
@@ -12,6 +12,7 @@ def transition(replicas, request, until):
     """The answers of GenerateTransition to `request`."""
     asked = choreography.GenerateTransitionRequest()
     asked.CopyFrom(checked(choreography.GenerateTransitionRequest, request, "request", music_encoding(request)))
+    require_sendable(asked, "send the music of its frames alone, or a compressed file")
     begun = delivery_filter = None  # by the first server
 
     def attempt(server, patience):
