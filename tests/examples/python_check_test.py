@@ -229,6 +229,16 @@ class CheckTest(unittest.TestCase):
         while self.client.info().active_streams > 0:
             time.sleep(0.005)
 
+    def test_requests_that_are_asynchronous_are_refused_with_what_to_do(self):
+        async def requests():
+            yield CONFIG
+
+        async def dance():
+            return [answer async for answer in aio.stream(self.client.stream_dance(requests()))]
+
+        way = r"fill a queue\.SimpleQueue from your loop, and give iter\(queue\.get, None\)$"
+        self.assert_refused(f"requests: .* is asynchronous, and is asked on another thread; {way}", lambda: asyncio.run(dance()))
+
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]
         for kind in (Answers, Client):

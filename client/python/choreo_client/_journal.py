@@ -19,6 +19,9 @@ class Journal:
     """Calls take their requests from it on threads of their own, one after another."""
 
     def __init__(self, requests):
+        if hasattr(requests, "__aiter__"):
+            way = "fill a queue.SimpleQueue from your loop, and give iter(queue.get, None)"
+            raise invalid("requests", f"{quoted(requests)} is asynchronous, and is asked on another thread; {way}")
         if not hasattr(requests, "__iter__"):
             raise invalid("requests", f"{quoted(requests)} is no iterable of messages")
         self._source = iter(requests)
