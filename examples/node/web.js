@@ -2,7 +2,7 @@
 //   node web.js [--server HOST:PORT]... [--port 8080] [--seconds 60] [--speed 1]
 //
 //   GET  /                  web.html
-//   GET  /dance?seed=1      events: dance, frames, key, moved, over, failed; with Last-Event-ID those after it
+//   GET  /dance?seed=1      events: dance, frames, key, warning, moved, over, failed; with Last-Event-ID those after it
 //   POST /dance/ID/keys     {"id": "wave", "time": 4.5, "rotations": {"left_shoulder": [0, 0, 1]}}
 import { randomUUID } from 'node:crypto';
 import { EventEmitter, once } from 'node:events';
@@ -143,6 +143,7 @@ class Backend {
         if (event?.keyframe_reached) tell('key', { id: event.keyframe_reached.id, time: event.time });
         const { id, field, reason } = event?.keyframe_rejected ?? {};
         if (reason) tell('key', { id, refused: field ? `${field}: ${reason}` : reason });
+        if (event?.warning) tell('warning', { id: event.warning.keyframe_id, message: event.warning.message });
         if (summary) tell('over', { frames: Number(summary.report.frames) });
       }
     } catch (error) {

@@ -134,6 +134,18 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
     }
   }));
 
+test('a page hears warnings, each with its key', () =>
+  withBackend([other], async (address) => {
+    let asked;
+    const { heard } = await watch(address, async (second, id) => {
+      if (second > 1) asked ??= await ask(address, id, key('backwards', 4, { left_knee: [-2, 0, 0] }));
+    });
+    assert.deepEqual(asked, [202, '']);
+    const [[event, { id, message }], reached] = heard;
+    assert.deepEqual([event, id, reached], ['warning', 'backwards', ['key', { id: 'backwards', time: 4 }]]);
+    assert.match(message, /left_knee/);
+  }));
+
 test('a page whose connection is lost hears the rest, and no second dance', () =>
   withBackend([other], async (address) => {
     let [frames, last, heard] = [0, undefined, []];
