@@ -142,7 +142,9 @@ TEST_F(ContinuousFlowSamplerTest, InterleavedSlicesGiveTheSameBits) {
     const auto sampling = sampler_->Begin(spec);
     int made = 1;
     while (sampling->Continue()) ++made;
-    EXPECT_EQ(made, slices);
+    EXPECT_GE(made, slices);
+    // This network knows nothing, so some windows before the key's are sampled again.
+    EXPECT_EQ((made - slices) % 7, 0) << made;
   }
   const auto abandoned = sampler_->Begin(lively);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(abandoned->Continue());
