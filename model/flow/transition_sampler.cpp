@@ -13,9 +13,9 @@ namespace {
 // energy's curve.
 enum Decision { kFreeTurn, kWayToKey, kDecisions };
 
-// A free window ends at most this many standard deviations from the usual height and tilt, as all
-// but one in 200 of the training clips' frames do (6.8). A dance that goes farther knows no way
-// back: it falls or floats.
+// The most standard deviations from the usual height and tilt (UsualPose::Deviation) at which a
+// window without a key may end, unless it began farther off. One in 200 of the training clips'
+// frames is farther. A dance that goes there knows no way back: it falls or floats.
 constexpr double kMaxDeviation = 7;
 constexpr int kMaxRetakes = 4;
 
@@ -73,13 +73,13 @@ bool TransitionSampler::Retakes(const std::vector<Pose>& poses) {
   if (!free_ || noise_.temperature <= 0 || request_.controls[kRootPath].IsRequested(kPathHeight))
     return false;
   const UsualPose& usual = model_->prior.usual();
-  const double least = std::max(kMaxDeviation, usual.Deviation(emitted_.back()));
+  const double most = std::max(kMaxDeviation, usual.Deviation(emitted_.back()));
   const double deviation = usual.Deviation(ground_.ToWorld(poses.back()));
   if (retakes_ == 0 || deviation < nearest_deviation_) {
     nearest_ = poses;
     nearest_deviation_ = deviation;
   }
-  return deviation > least && retakes_++ < kMaxRetakes;
+  return deviation > most && retakes_++ < kMaxRetakes;
 }
 
 void TransitionSampler::EndWindow() {

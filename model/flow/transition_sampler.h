@@ -8,8 +8,9 @@
 namespace choreo {
 
 /// Samples a transition of any length as windows of at most config.window_frames, one after
-/// another, each in its own canonical frame. Every window's key is the transition's, however far
-/// away. Model and network must outlive it.
+/// another, each in its own canonical frame. Every window sees the transition's key if it is at
+/// most kSightFrames away. A window that ends without it, where dancers hardly ever are, is sampled
+/// again. Model and network must outlive it.
 class TransitionSampler {
  public:
   /// `request` covers the whole transition, of at least one frame (frames <= to_key if there is a
