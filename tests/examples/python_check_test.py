@@ -163,7 +163,7 @@ class CheckTest(unittest.TestCase):
         exec(re.findall(r"(?ms)^```python\n(.*?)^```$", page.read_text())[1], program)  # pylint: disable=exec-used
 
         async def dance(*said, until_frames):
-            requests, heard, first = queue.SimpleQueue(), [], asyncio.Event()
+            requests, heard, first = asyncio.Queue(), [], asyncio.Event()
 
             def hear(answer):
                 heard.append(answer)
@@ -171,7 +171,7 @@ class CheckTest(unittest.TestCase):
                     first.set()
 
             for request in said:
-                requests.put(request)
+                requests.put_nowait(request)
             task = asyncio.create_task(program["watch"](self.client, requests, hear))
             if until_frames:
                 await first.wait()
@@ -229,15 +229,53 @@ class CheckTest(unittest.TestCase):
         while self.client.info().active_streams > 0:
             time.sleep(0.005)
 
-    def test_requests_that_are_asynchronous_are_refused_with_what_to_do(self):
-        async def requests():
-            yield CONFIG
+    def test_requests_may_be_an_asynchronous_generator_which_ends_with_its_dance(self):
+        ended = []
 
-        async def dance():
-            return [answer async for answer in aio.stream(self.client.stream_dance(requests()))]
+        async def requests(*said):
+            try:
+                yield {"config": {"frames": 30, "generate_until": 0}}
+                for request in said:
+                    await asyncio.sleep(0.001)
+                    yield request
+            finally:
+                ended.append(True)
 
-        way = r"fill a queue\.SimpleQueue from your loop, and give iter\(queue\.get, None\)$"
-        self.assert_refused(f"requests: .* is asynchronous, and is asked on another thread; {way}", lambda: asyncio.run(dance()))
+        async def patient():
+            try:
+                yield {"config": {"generate_until": 30}}
+                await asyncio.Event().wait()
+            finally:
+                ended.append(True)
+
+        async def frames(source):
+            return sum([answer.frames.count async for answer in aio.stream(self.client.stream_dance(source))])
+
+        async def leave():
+            async for answer in aio.stream(self.client.stream_dance(patient())):
+                if answer.HasField("frames"):
+                    break
+            while not ended:
+                await asyncio.sleep(0.001)
+
+        async def fails():
+            yield {"config": {}}
+            raise KeyError("of the program")
+
+        async def blocks():
+            return list(self.client.stream_dance(requests()))
+
+        self.assertEqual(asyncio.run(frames(requests({"keyframes_complete": {}}))), 30)
+        self.assertTrue(ended)
+        ended.clear()
+        asyncio.run(asyncio.wait_for(leave(), 20))
+        ended.clear()
+        wrong = r"keyfarme: no field of StreamDanceRequest"
+        self.assert_refused(wrong, lambda: asyncio.run(frames(requests({"keyfarme": {}}))))
+        with self.assertRaisesRegex(KeyError, "of the program"):
+            asyncio.run(frames(fails()))
+        self.assert_refused("requests: .* would wait for their own loop: read the answers by aio.stream$", lambda: asyncio.run(blocks()))
+        self.assert_refused("requests: .* is asynchronous, and no loop runs here$", lambda: self.client.stream_dance(requests()))
 
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]

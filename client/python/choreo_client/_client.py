@@ -6,6 +6,7 @@ import typing
 from . import choreography
 from ._dance import Resumed, dance
 from ._errors import invalid
+from ._from_loop import FromLoop
 from ._options import Options
 from ._replicas import Cancellation, Replicas
 from ._transition import transition
@@ -13,20 +14,24 @@ from ._transition import transition
 
 Answer = typing.TypeVar("Answer")
 Fields = typing.Mapping[str, typing.Any]  # of a message, by name
+Requests = typing.Iterable[typing.Union[choreography.StreamDanceRequest, Fields]]
+AsyncRequests = typing.AsyncIterable[typing.Union[choreography.StreamDanceRequest, Fields]]
 
 
 class Answers(typing.Generic[Answer]):
     """A server's answers, as they arrive. If you stop reading early, end the call: use this as a context manager. Any thread may read, one at
     a time, and any other leave the context meanwhile."""
 
-    def __init__(self, answers, until):
-        self._answers, self._until = answers, until
+    def __init__(self, answers, until, source=None):
+        self._answers, self._until, self._source = answers, until, source
         self._reading = threading.RLock()
 
     def __iter__(self) -> Answers[Answer]:
         return self
 
     def __next__(self) -> Answer:
+        if isinstance(self._source, FromLoop):
+            self._source.require_elsewhere()
         with self._reading:
             return next(self._answers)
 
@@ -82,19 +87,21 @@ class Client:
 
     def stream_dance(
         self,
-        requests: typing.Iterable[typing.Union[choreography.StreamDanceRequest, Fields]],
+        requests: typing.Union[Requests, AsyncRequests],
         on_resume: typing.Optional[typing.Callable[[Resumed], object]] = None,
         timeout: typing.Optional[float] = None,
     ) -> Answers[choreography.StreamDanceResponse]:
         """Dances. Sends the `requests`, an iterable of StreamDanceRequests or of their fields ({"keyframe": ...}), on another thread as fast as
-        the server takes them, and gives the answers meanwhile: Answers with StreamDanceResponses.
+        the server takes them, and gives the answers meanwhile: Answers with StreamDanceResponses. An asynchronous iterable is awaited in the
+        loop that runs where this is called; aio.stream reads the answers.
 
         When its server is lost, the dance goes on at the next one from the last continuation: answers are those of an undisturbed dance, bit
         for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. One that the
         API does not know ends the dance, naming the field's path; of a key or its removal, with config.reject_invalid_keys, it is a
         keyframe_rejected, and the dance goes on. (The summary's shares are those of the frames since the last resume.)"""
         until = Cancellation(timeout)
-        return Answers(dance(self._replicas, requests, on_resume, until), until)
+        source = FromLoop(requests) if hasattr(requests, "__aiter__") else requests
+        return Answers(dance(self._replicas, source, on_resume, until), until, source)
 
     def generate_transition(
         self, request: typing.Union[choreography.GenerateTransitionRequest, Fields], timeout: typing.Optional[float] = None

@@ -9,6 +9,7 @@ import threading
 from . import choreography
 from ._check import checked, require_sendable
 from ._errors import ChoreoError, Violation, invalid
+from ._from_loop import FromLoop
 from ._refused_keys import RefusedKeys, require_key
 from ._words import quoted
 
@@ -19,9 +20,6 @@ class Journal:
     """Calls take their requests from it on threads of their own, one after another."""
 
     def __init__(self, requests):
-        if hasattr(requests, "__aiter__"):
-            way = "fill a queue.SimpleQueue from your loop, and give iter(queue.get, None)"
-            raise invalid("requests", f"{quoted(requests)} is asynchronous, and is asked on another thread; {way}")
         if not hasattr(requests, "__iter__"):
             raise invalid("requests", f"{quoted(requests)} is no iterable of messages")
         self._source = iter(requests)
@@ -77,7 +75,9 @@ class Journal:
             self._source.close()
 
     def close(self):
-        """Nobody will ask any more. A source that is at work is left to itself."""
+        """Nobody will ask any more. A source that is at work is left to itself, but for one of a loop."""
+        if isinstance(self._source, FromLoop):
+            self._source.close()
         if self._asking.acquire(blocking=False):
             self._over = True
             self._end_source()
