@@ -6,6 +6,7 @@ import asyncio
 import concurrent.futures
 import functools
 import inspect
+import json
 import os
 import pathlib
 import queue
@@ -14,6 +15,8 @@ import threading
 import time
 import typing
 import unittest
+
+from google.protobuf.json_format import MessageToDict
 
 from choreo_client import Answers, ChoreoError, Client, aio, choreography, pose
 
@@ -54,7 +57,7 @@ class CheckTest(unittest.TestCase):
             (keyframe(id=5), "keyframe.id", "5 is no str$"),
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
             ([{"config": {"allow_inexact_resume": "no"}}], "config.allow_inexact_resume", "'no' is no bool$"),
-            *(([{"config": {"seed": seed}}], "config.seed", ".* is no whole number from 0 to 18446744073709551615$") for seed in (1.5, -1, 2**64, "7")),
+            *(([{"config": {"seed": seed}}], "config.seed", ".* is no whole number from 0 to 18446744073709551615$") for seed in (1.5, -1, 2**64, "7x")),
             ([CONFIG, {"keyframe": None}], "keyframe", "None is no Keyframe, "),
             ([CONFIG, {"remove_keyframe": None}], "remove_keyframe", "None is no RemoveKeyframe, "),
             ([CONFIG, None], "requests[1]", "None is no StreamDanceRequest, {config, audio, "),
@@ -276,6 +279,18 @@ class CheckTest(unittest.TestCase):
             asyncio.run(frames(fails()))
         self.assert_refused("requests: .* would wait for their own loop: read the answers by aio.stream$", lambda: asyncio.run(blocks()))
         self.assert_refused("requests: .* is asynchronous, and no loop runs here$", lambda: self.client.stream_dance(requests()))
+
+    def test_a_continuation_that_was_kept_as_json_goes_on(self):
+        rest = [{"keyframe": {"id": "a", "frame": 40, "pose": {"rotations": [0.1] * 72}}}, {"keyframes_complete": {}}]
+        answers = list(self.client.stream_dance([{"config": {"seed": 2**63, "frames": 90}}, *rest]))
+        whole = [number for answer in answers for number in answer.frames.rotations]
+        continuation = next(answer.continuation for answer in answers if answer.HasField("continuation"))
+        kept = json.loads(json.dumps(MessageToDict(continuation, preserving_proto_field_name=True)))
+        self.assertIsInstance(kept["seed"], str)
+        again = self.client.stream_dance([{"config": {"frames": 90, "continuation": kept}}, *rest])
+        self.assertEqual([number for answer in again for number in answer.frames.rotations], whole[len(whole) * continuation.frame // 90 :])
+        for text in ("12.5", "", "ten", "18446744073709551616"):
+            self.assert_refused(f"config.seed: '{text}' is no whole number", self.dance, {"config": {"seed": text}})
 
     def test_public_functions_say_what_they_take_and_give(self):
         public = [aio.stream, pose]

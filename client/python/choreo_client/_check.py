@@ -5,6 +5,7 @@ import collections.abc
 import math
 import numbers
 import operator
+import re
 
 from google.protobuf.descriptor import FieldDescriptor as Field
 from google.protobuf.message import Message
@@ -106,8 +107,10 @@ def _label(kind, value, path):
 
 
 def _whole(value, path, least, most):
+    # JSON has 64 bits as text: MessageToDict.
+    is_text = most > 2**32 and isinstance(value, str) and re.fullmatch(r"-?\d+", value)
     try:
-        number = operator.index(value)
+        number = operator.index(int(value) if is_text else value)
     except TypeError:
         number = None
     if number is None or isinstance(value, bool) or not least <= number <= most:
