@@ -2,6 +2,7 @@
 //   node web.js [--server HOST:PORT]... [--port 8080] [--seconds 60] [--speed 1]
 //
 //   GET  /                  web.html
+//   GET  /song.wav          what it dances to
 //   GET  /dance?seed=1      events: dance, frames, key, warning, moved, over, failed; with Last-Event-ID those after it
 //   POST /dance/ID/keys     {"id": "wave", "time": 4.5, "rotations": {"left_shoulder": [0, 0, 1]}}
 import { randomUUID } from 'node:crypto';
@@ -9,7 +10,7 @@ import { EventEmitter, once } from 'node:events';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { pose } from 'choreo-client';
-import { clicks, live, pcm, sampleRate } from './music.js';
+import { live, pcm, sampleRate, song, wav } from './music.js';
 import { positive, run, whole } from './program.js';
 
 const flags = {
@@ -44,11 +45,13 @@ function keyRequest({ id, time, rotations }, { skeleton }) {
 class Backend {
   #client;
   #options;
+  #song;
   #dances = new Map(); // id -> what is known of it
 
   constructor(client, options) {
     this.#client = client;
     this.#options = { seconds: positive(options, 'seconds'), speed: positive(options, 'speed') };
+    this.#song = song(this.#options.seconds);
   }
 
   async answer(request, response) {
@@ -58,6 +61,9 @@ class Backend {
     if (asked === 'GET /') {
       response.setHeader('Content-Type', 'text/html; charset=utf-8');
       response.end(await readFile(new URL('web.html', import.meta.url)));
+    } else if (asked === 'GET /song.wav') {
+      response.setHeader('Content-Type', 'audio/wav');
+      response.end(wav(this.#song));
     } else if (asked === 'GET /dance') {
       await this.#watch(url.searchParams.get('seed') ?? '1', request.headers['last-event-id'], response);
     } else if (dance) {
@@ -156,10 +162,9 @@ class Backend {
 
   /** A dance to music that is being played, with the keys that come from its page. */
   async *#requests(dance, seed) {
-    const { seconds, speed } = this.#options;
     // Without generate_until here each key would settle the frames up to itself.
     yield { config: { seed, frames: dance.frames, audio_format: pcm, encoding: 'ROTATION_ENCODING_QUATERNION', generate_until: 0, reject_invalid_keys: true } };
-    for await (const piece of live(clicks(seconds), speed)) {
+    for await (const piece of live(this.#song, this.#options.speed)) {
       const played = (piece.audio.first_sample + piece.audio.data.length / 2) / sampleRate;
       yield* dance.requests.splice(0);
       yield { generate_until: { frame: Math.round((played + lookAhead) * dance.model.model_frame_rate) } };

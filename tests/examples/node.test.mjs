@@ -10,7 +10,7 @@ import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { fileURLToPath } from 'node:url';
 import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
-import { clicks, live, pcm } from '../../examples/node/music.js';
+import { clicks, live, pcm, wav } from '../../examples/node/music.js';
 
 const address = process.env.CHOREO_SERVER;
 const folder = fileURLToPath(new URL('../../examples/node/', import.meta.url));
@@ -297,20 +297,3 @@ test('transition.js ranks candidates, and shows the field of an error', async ()
   assert.match(bad.err, /INVALID_ARGUMENT: frames: 5000/);
   assert.match(bad.err, /field: frames/);
 });
-
-function wav(samples) {
-  const head = Buffer.alloc(44);
-  head.write('RIFF', 0);
-  head.writeUInt32LE(36 + samples.length, 4);
-  head.write('WAVEfmt ', 8);
-  head.writeUInt32LE(16, 16);
-  head.writeUInt16LE(1, 20); // PCM
-  head.writeUInt16LE(1, 22); // channels
-  head.writeUInt32LE(22050, 24);
-  head.writeUInt32LE(2 * 22050, 28);
-  head.writeUInt16LE(2, 32);
-  head.writeUInt16LE(16, 34);
-  head.write('data', 36);
-  head.writeUInt32LE(samples.length, 40);
-  return Buffer.concat([head, samples]);
-}

@@ -128,6 +128,9 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
     assert.deepEqual(heard.slice(-2), [['key', { id: 'wave', time: 5 }], ['over', { frames: 180 }]]);
     assert.equal(frames, 180);
     assert.deepEqual(await ask(address, 'nobody', key('late', 4)), [404, 'nobody dances nobody\n']);
+    const song = Buffer.from(await (await fetch(`${address}/song.wav`)).arrayBuffer());
+    assert.deepEqual([song.toString('latin1', 0, 4), song.length], ['RIFF', 44 + 2 * 22050 * 6]);
+    assert.ok(song.subarray(44).some((byte) => byte > 0));
     for (const [path, status] of [['/', 200], ['/favicon.ico', 404], ['/dance?seed=x', 400]]) {
       const answer = await fetch(address + path);
       assert.equal(answer.status, status, await answer.text());
