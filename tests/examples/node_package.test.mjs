@@ -23,14 +23,15 @@ function run(program, args, cwd) {
 /** Packs as a release does, from a copy: others may be testing the same sources. */
 async function pack() {
   const source = join(scratch, 'checkout/client/node');
-  const isOurs = (path) => !/\/(node_modules|proto|types)$/.test(path);
+  const isOurs = (path) => !/\/(node_modules|proto|poses|types)$/.test(path);
   await cp(join(root, 'client/node'), source, { recursive: true, filter: isOurs });
   await cp(join(root, 'proto'), join(scratch, 'checkout/proto'), { recursive: true });
+  await cp(join(root, 'client/poses'), join(scratch, 'checkout/client/poses'), { recursive: true });
   await cp(join(root, 'LICENSE'), join(scratch, 'checkout/LICENSE'));
   await symlink(tools, join(source, 'node_modules'));
   const { code, said } = await run('npm', ['pack', '--pack-destination', scratch], source);
   assert.equal(code, 0, said);
-  const left = (await readdir(source)).filter((name) => ['proto', 'types', 'LICENSE'].includes(name));
+  const left = (await readdir(source)).filter((name) => ['proto', 'poses', 'types', 'LICENSE'].includes(name));
   assert.deepEqual(left, [], 'of what packing puts there');
   await rm(join(scratch, 'checkout'), { recursive: true });
   return join(scratch, (await readdir(scratch)).find((name) => name.endsWith('.tgz')));
@@ -49,12 +50,13 @@ before(async () => {
 after(() => rm(scratch, { recursive: true }));
 
 const program = `
-import { ChoreoClient, pose, type StreamDanceRequest } from 'choreo-client';
+import { ChoreoClient, pose, readKeys, type StreamDanceRequest } from 'choreo-client';
 const client = new ChoreoClient([process.argv[2]!]);
 const model = (await client.info()).models[0]!;
 const requests: StreamDanceRequest[] = [
   { config: { seed: '1', frames: 60 } },
   { keyframe: { id: 'a', frame: 40, pose: pose(model.skeleton, { head: [0, 0.5, 0] }) } },
+  ...readKeys({ keyframes: [{ id: 'b', frame: 50, pose: 'dab' }] }, model.skeleton),
 ];
 let frames: number = 0;
 for await (const answer of client.streamDance(requests)) {
@@ -72,7 +74,7 @@ test('the installed package dances, and its errors name the field', async (t) =>
   await writeFile(join(app, 'dance.js'), plain);
   const { code, said, out } = await run(process.execPath, ['dance.js', process.env.CHOREO_SERVER], app);
   assert.equal(code, 0, said);
-  assert.match(out, /^a\n60\nINVALID_ARGUMENT \w+\n$/);
+  assert.match(out, /^a\nb\n60\nINVALID_ARGUMENT \w+\n$/);
 });
 
 /** What the compiler says of a program, strictly. */

@@ -15,11 +15,11 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = """
 import sys
-from choreo_client import ChoreoError, Client, pose
+from choreo_client import ChoreoError, Client, pose, read_keys
 with Client(sys.argv[1]) as client:
     skeleton = client.info().models[0].skeleton
     key = {"id": "a", "frame": 40, "pose": pose(skeleton, {"head": [0, 0.5, 0]})}
-    print(sum(answer.frames.count for answer in client.stream_dance([{"config": {"frames": 60}}, {"keyframe": key}])))
+    print(sum(answer.frames.count for answer in client.stream_dance([{"config": {"frames": 60}}, {"keyframe": key}, *read_keys({"keyframes": [{"frame": 50, "pose": "dab"}]}, skeleton)])))
     try:
         list(client.stream_dance([{"config": {"frame_rate": 1000}}]))
     except ChoreoError as error:
@@ -49,6 +49,7 @@ class PackageTest(unittest.TestCase):
         made = shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__")
         shutil.copytree(ROOT / "client/python", source, ignore=made)
         shutil.copytree(ROOT / "proto", cls.folder / "checkout/proto")
+        shutil.copytree(ROOT / "client/poses", cls.folder / "checkout/client/poses")
         run(sys.executable, "setup.py", "-q", "sdist", "-d", cls.folder, cwd=source)
         cls.wheel = cls.build(source, "wheels")
         shutil.rmtree(cls.folder / "checkout")

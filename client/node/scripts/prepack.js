@@ -1,4 +1,4 @@
-// Before npm packs: what the package needs and the repository keeps elsewhere, beside src/. The protos and the licence are copied; the
+// Before npm packs: what the package needs and the repository keeps elsewhere, beside src/. The protos, the poses and the licence are copied; the
 // messages' types are generated.
 import { execFileSync } from 'node:child_process';
 import { cpSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -11,6 +11,7 @@ const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 
 cpSync(at('../../../LICENSE'), at('../LICENSE'));
 rmSync(at('../proto'), { recursive: true, force: true });
+cpSync(at('../../poses'), at('../poses'), { recursive: true });
 for (const folder of ['choreo', 'google']) cpSync(at(`../../../proto/${folder}`), at(`../proto/${folder}`), { recursive: true });
 
 const types = at('../types');

@@ -1,7 +1,7 @@
 import type { GetServerInfoResponse__Output } from '../types/choreo/v1/GetServerInfoResponse.js';
 import type { ModelInfo__Output } from '../types/choreo/v1/ModelInfo.js';
 import type { GenerateTransitionRequest, GenerateTransitionResponse } from '../types/messages.js';
-import type { Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
+import type { Keyframe, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
 // Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
 // what comes has all of them. Numbers of 64 bits come as text.
@@ -110,3 +110,23 @@ export function pose(
   rotations?: Record<string, [number, number, number]>,
   place?: { x?: number; z?: number },
 ): Pose;
+
+/** A pose that has a name, of smpl24. */
+export interface LibraryPose {
+  id: string;
+  description: string;
+  /** 'standing', 'travelling', 'jump' or 'floor'. */
+  tags: string[];
+  root_position: [number, number, number];
+  /** An axis-angle vector of each joint. */
+  rotations: [number, number, number][];
+}
+
+/** The poses that key files may name, by name. */
+export function poses(): LibraryPose[];
+
+/**
+ * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. Times are
+ * seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Throws ChoreoError.
+ */
+export function readKeys(file: string | Uint8Array | object, skeleton: Skeleton): { keyframe: Keyframe }[];

@@ -4,7 +4,9 @@ from . import choreography
 from ._client import Answers, Client
 from ._dance import Resumed
 from ._errors import ChoreoError
+from ._keys import read_keys
 from ._options import Options
 from ._pose import pose
+from ._poses import LibraryPose, poses
 
-__all__ = ["Answers", "ChoreoError", "Client", "Options", "Resumed", "choreography", "pose"]
+__all__ = ["Answers", "ChoreoError", "Client", "LibraryPose", "Options", "Resumed", "choreography", "pose", "poses", "read_keys"]

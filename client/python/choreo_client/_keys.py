@@ -1,0 +1,194 @@
+"""Key files, as `choreo dance --keyframes` takes them (docs/poses.md)."""
+
+from __future__ import annotations
+
+import json
+import math
+import typing
+
+from . import choreography
+from ._errors import invalid
+from ._poses import find
+from ._words import hint, quoted
+
+_MEMBERS = ("id", "time", "frame", "hold", "hit", "hands", "pose", "place", "facing", "joints", "root_position", "rotations")
+_LIMBS = {"arms": ("left_shoulder", "right_shoulder"), "legs": ("left_hip", "right_hip")}
+_LIMBS |= {f"{side}_{limb}": (f"{side}_{root}",) for side in ("left", "right") for limb, root in (("arm", "shoulder"), ("leg", "hip"))}
+_BENDS = {"left_knee": -1, "right_knee": -1, "left_elbow": 1, "right_elbow": 1}  # towards z
+_HOLD_STEP, _WAY_FROM_HOLD = 0.2, 0.5  # seconds
+_USUAL_HIT = 1  # of a key that is held
+
+
+def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], skeleton: choreography.Skeleton) -> list[dict]:
+    """The keys of a key file, its text or what JSON has made of it, as requests of stream_dance: [{"keyframe": ...}, ...]. A key that is held
+    becomes several. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Raises
+    ChoreoError."""
+    content = json.loads(file) if isinstance(file, (str, bytes)) else file
+    keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
+    if not isinstance(keys, list):
+        raise invalid("keyframes", f"{quoted(keys)} is no list of keys")
+    read = [_key(key, f"keyframes[{at}]", f"key{at + 1}", skeleton) for at, key in enumerate(keys)]
+    starts = sorted(key["time"] for key, _ in read if "time" in key)
+    requests = []
+    for at, (key, hold) in enumerate(read):
+        requests.append({"keyframe": key})
+        requests += [{"keyframe": held} for held in _held(key, hold, starts, f"keyframes[{at}].hold")]
+    return requests
+
+
+def _key(value, field, name, skeleton):
+    """A Keyframe's fields, and for how long it is held."""
+    if not isinstance(value, typing.Mapping):
+        raise invalid(field, f"{quoted(value)} is no key")
+    for member in value:
+        if member not in _MEMBERS:
+            raise invalid(f"{field}.{member}", f"is not known; {hint(member, list(_MEMBERS))}")
+    key = {"id": value.get("id", name), "pose": {}}
+    when = [member for member in ("time", "frame") if member in value]
+    if len(when) != 1:
+        raise invalid(f"{field}.time", "stands beside frame; only one may be there" if when else "is missing, and so is frame")
+    key[when[0]] = _number(value[when[0]], f"{field}.{when[0]}")
+    if "hit" in value:
+        key["hit"] = value["hit"]
+    if "hands" in value:
+        key["hands"] = f"HAND_POSE_{str(value['hands']).upper()}"
+    rotations, root = _pose(value, field, skeleton)
+    if root is not None:
+        key["pose"]["root_position"] = dict(zip("xyz", root))
+    joints = value.get("joints")
+    if isinstance(joints, typing.Mapping):
+        for joint, degrees in joints.items():
+            rotations[_joint(joint, skeleton, f"{field}.joints.{joint}")] = _turn(joint, degrees, skeleton, f"{field}.joints.{joint}")
+        if "pose" not in value and "rotations" not in value:
+            key["mask"] = {"joints": sorted(_joint(joint, skeleton, field) for joint in joints)}
+    elif joints is not None:
+        key["mask"] = {"joints": _mask(joints, skeleton, f"{field}.joints")}
+    key["pose"]["rotations"] = [number for rotation in rotations for number in rotation]
+    return key, value.get("hold")
+
+
+def _pose(value, field, skeleton):
+    """The rotations of all joints, and where the root is, or None."""
+    for member in ("place", "facing"):
+        if member in value and "pose" not in value:
+            raise invalid(f"{field}.{member}", "goes with pose")
+    if "rotations" in value:
+        if "pose" in value:
+            raise invalid(f"{field}.rotations", "stands beside pose; only one may be there")
+        rotations = value["rotations"]
+        if not isinstance(rotations, list) or len(rotations) != len(skeleton.joint_names):
+            raise invalid(f"{field}.rotations", f"{quoted(rotations)} is not one vector for each of {len(skeleton.joint_names)} joints")
+        position = value.get("root_position")
+        return [_vector(one, 3, f"{field}.rotations[{at}]") for at, one in enumerate(rotations)], position and _vector(position, 3, f"{field}.root_position")
+    if "root_position" in value:
+        raise invalid(f"{field}.rotations", "is missing beside root_position")
+    if "pose" not in value:
+        if not isinstance(value.get("joints"), typing.Mapping):
+            raise invalid(f"{field}.rotations", "is missing, and so is pose")
+        return [[0.0] * 3 for _ in skeleton.joint_names], None
+    if skeleton.name != "smpl24":
+        raise invalid(f"{field}.pose", f"poses of the library are of smpl24, not of {skeleton.name or 'this skeleton'}")
+    named = find(value["pose"], f"{field}.pose")
+    heading = [0.0, math.radians(_number(value.get("facing", 0), f"{field}.facing")), 0.0]
+    rotations = [list(one) for one in named.rotations]
+    rotations[0] = _log(_times(_quaternion(heading), _quaternion(rotations[0])))
+    if "place" not in value:
+        return rotations, None
+    x, z = _vector(value["place"], 2, f"{field}.place")
+    turned = _turned(_quaternion(heading), named.root_position)
+    return rotations, [turned[0] + x, turned[1], turned[2] + z]
+
+
+def _held(key, hold, starts, field):
+    """The keys that hold this one, which from then on says how hard it is hit."""
+    if hold is None:
+        return
+    hold = _number(hold, field)
+    if "time" not in key:
+        raise invalid(field, "goes with time")
+    if not 0.1 <= hold <= 60:
+        raise invalid(field, f"{hold} s, must be 0.1 to 60")
+    held = {name: value for name, value in key.items() if name != "hit"}
+    key.setdefault("hit", _USUAL_HIT)
+    steps = max(1, math.floor(hold / _HOLD_STEP + 1e-9))
+    after = next((start for start in starts if start > key["time"]), math.inf)
+    last = math.inf if after > key["time"] + hold else after - _WAY_FROM_HOLD  # who comes meanwhile needs time
+    for step in range(1, steps + 1):
+        time = key["time"] + hold * step / steps
+        if time <= last:
+            yield {**held, "id": f"{key['id']} held {step}", "time": time}
+
+
+def _number(value, field):
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        counts = "; counts need a song's beats: say seconds" if isinstance(value, str) and value.endswith("c") else ""
+        raise invalid(field, f"{quoted(value)} is no number{counts}")
+    return value
+
+
+def _vector(value, size, field):
+    if not isinstance(value, list) or len(value) != size:
+        raise invalid(field, f"{quoted(value)} is not a list of {size} numbers")
+    return [_number(one, f"{field}[{at}]") for at, one in enumerate(value)]
+
+
+def _joint(name, skeleton, field):
+    names = list(skeleton.joint_names)
+    if name not in names:
+        raise invalid(field, f"{quoted(name)} is no joint of {skeleton.name or 'the skeleton'}; {hint(name, names)}")
+    return names.index(name)
+
+
+def _mask(names, skeleton, field):
+    """The joints of these names, whole limbs among them."""
+    if not isinstance(names, list) or not names:
+        raise invalid(field, f"{quoted(names)} is not a list of joint names")
+    chosen = set()
+    for name in names:
+        roots = {_joint(root, skeleton, field) for root in _LIMBS.get(name, ())}
+        limb = set(roots) or {_joint(name, skeleton, field)}
+        for joint, parent in enumerate(skeleton.parents):  # which are there before their children
+            if roots and parent in limb:
+                limb.add(joint)
+        chosen |= limb
+    return sorted(chosen)
+
+
+def _turn(joint, degrees, skeleton, field):
+    """A rotation: of knees and elbows their bend, of others turns about x, then y, then z."""
+    if joint not in _BENDS:
+        x, y, z = (_quaternion([math.radians(one) * (at == axis) for at in range(3)]) for axis, one in enumerate(_vector(degrees, 3, field)))
+        return _log(_times(z, _times(y, x)))
+    at = _joint(joint, skeleton, field)
+    x, y, _ = skeleton.offsets[3 * at : 3 * at + 3]
+    length, side = math.hypot(x, y), _BENDS[joint]
+    bend = math.radians(_number(degrees, field))
+    return [bend * side * y / length, -bend * side * x / length, 0.0]  # about the bone's cross product with z
+
+
+def _quaternion(rotation):
+    """[w, x, y, z] of an axis-angle vector."""
+    angle = math.hypot(*rotation)
+    scale = math.sin(angle / 2) / angle if angle > 0 else 0.5
+    return [math.cos(angle / 2), *(scale * one for one in rotation)]
+
+
+def _times(a, b):
+    return [
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    ]
+
+
+def _turned(q, vector):
+    return _times(_times(q, [0, *vector]), [q[0], -q[1], -q[2], -q[3]])[1:]
+
+
+def _log(q):
+    """The shortest axis-angle vector."""
+    sign = -1 if q[0] < 0 else 1
+    sine = math.hypot(*q[1:])
+    scale = 2 * math.atan2(sine, sign * q[0]) / sine if sine > 0 else 2
+    return [sign * scale * one for one in q[1:]]

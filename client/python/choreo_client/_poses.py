@@ -1,0 +1,42 @@
+"""The library: poses that have names. Key files name them."""
+
+from __future__ import annotations
+
+import functools
+import json
+import pathlib
+import typing
+
+from ._errors import invalid
+from ._words import hint
+
+_PACKED = pathlib.Path(__file__).with_name("poses")
+
+
+class LibraryPose(typing.NamedTuple):
+    id: str
+    description: str
+    tags: typing.List[str]  # "standing", "travelling", "jump" or "floor"
+    root_position: typing.List[float]
+    rotations: typing.List[typing.List[float]]  # an axis-angle vector per joint of smpl24
+
+
+@functools.lru_cache(maxsize=None)
+def poses() -> typing.Tuple[LibraryPose, ...]:
+    """The poses that key files may name, by name."""
+    folder = _PACKED if _PACKED.is_dir() else pathlib.Path(__file__).resolve().parents[2] / "poses"  # a checkout's
+    read = (json.loads(file.read_text("utf-8")) for file in sorted(folder.glob("*.json")))
+    return tuple(_pose(file) for file in read)
+
+
+def _pose(file):
+    (key,) = file["keyframes"]
+    return LibraryPose(key["id"], file["description"], file["tags"], key["root_position"], key["rotations"])
+
+
+def find(name, field):
+    """The pose of this name."""
+    for one in poses():
+        if one.id == name:
+            return one
+    raise invalid(field, f"{name!r} is no pose of the library; {hint(name, [one.id for one in poses()])}")

@@ -1,0 +1,69 @@
+// client/node reads key files as `choreo` does: read_keys.json has the keys of examples/, which KeyFileTest.PackagesReadTheSameKeys compares with
+// those of C++. $CHOREO_SERVER names a choreod.
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { before, test } from 'node:test';
+import { ChoreoClient, poses, readKeys } from '../../client/node/src/index.js';
+
+const read = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+const known = JSON.parse(read('tests/examples/read_keys.json'));
+const client = new ChoreoClient(process.env.CHOREO_SERVER);
+let skeleton;
+before(async () => ({ skeleton } = (await client.info()).models[0]));
+
+/** The same, but for what rounding to six digits leaves out. */
+function rounded(value) {
+  if (typeof value === 'number') return Math.round(1e4 * value) / 1e4 + 0;
+  if (Array.isArray(value)) return value.map(rounded);
+  return typeof value === 'object' ? Object.fromEntries(Object.entries(value).map(([name, one]) => [name, rounded(one)])) : value;
+}
+
+test('key files are read as by choreo', () => {
+  for (const [name, keys] of Object.entries(known)) {
+    const mine = readKeys(read(`examples/${name}`), skeleton).map(({ keyframe }) => keyframe);
+    assert.deepEqual(rounded(mine), rounded(keys), name);
+  }
+});
+
+test('keys of a file are danced', async () => {
+  const reached = [];
+  for await (const { event } of client.streamDance([{ config: { frames: 360 } }, ...readKeys(JSON.parse(read('examples/poses.json')), skeleton)])) {
+    if (event?.keyframe_reached) reached.push(event.keyframe_reached.id);
+  }
+  client.close();
+  assert.deepEqual(reached, known['poses.json'].map(({ id }) => id));
+});
+
+test('poses have names and tags', () => {
+  const files = readdirSync(new URL('../../client/poses', import.meta.url)).map((name) => name.replace('.json', ''));
+  assert.deepEqual(poses().map(({ id }) => id), files.sort());
+  for (const { id, description, tags, rotations } of poses()) assert.ok(description && tags.length > 0 && rotations.length === 24, id);
+});
+
+test('a key that is set into a hold ends it', () => {
+  const keys = readKeys({ keyframes: [{ time: 1, pose: 'stand', hold: 2 }, { time: 2.5, pose: 'dab' }] }, skeleton);
+  assert.deepEqual(keys.map(({ keyframe: { time } }) => rounded(time)), [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5]);
+});
+
+test('what cannot be read is named', () => {
+  for (const [key, field, said] of [
+    [{ pose: 'stand' }, '.time', 'is missing, and so is frame'],
+    [{ time: 1, frame: 2, pose: 'stand' }, '.time', 'stands beside frame'],
+    [{ time: '9c', pose: 'stand' }, '.time', "'9c' is no number; counts need a song's beats: say seconds"],
+    [{ time: 1, pose: 'stnad' }, '.pose', "'stnad' is no pose of the library; "],
+    [{ time: 1, poze: 'stand' }, '.poze', 'is not known; did you mean pose?'],
+    [{ time: 1 }, '.rotations', 'is missing, and so is pose'],
+    [{ time: 1, rotations: [[0, 0, 0]] }, '.rotations', 'is not one vector for each of 24 joints'],
+    [{ time: 1, pose: 'stand', place: [1] }, '.place', '[ 1 ] is not a list of 2 numbers'],
+    [{ time: 1, joints: { left_knee: [1, 2, 3] } }, '.joints.left_knee', 'is no number'],
+    [{ time: 1, joints: { tail: [1, 2, 3] } }, '.joints.tail', "'tail' is no joint of smpl24"],
+    [{ time: 1, pose: 'stand', joints: ['tail'] }, '.joints', "'tail' is no joint of smpl24"],
+    [{ frame: 1, pose: 'stand', hold: 1 }, '.hold', 'goes with time'],
+    [{ time: 1, pose: 'stand', hold: 61 }, '.hold', '61 s, must be 0.1 to 60'],
+  ]) {
+    assert.throws(() => readKeys({ keyframes: [key] }, skeleton), (error) => {
+      assert.equal(error.violations[0].field, `keyframes[0]${field}`);
+      return error.message.includes(said);
+    });
+  }
+});

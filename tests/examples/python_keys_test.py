@@ -1,0 +1,78 @@
+"""client/python reads key files as `choreo` does: read_keys.json has the keys of examples/, which KeyFileTest.PackagesReadTheSameKeys compares
+with those of C++. python_test.py runs it; $CHOREO_SERVER names a choreod."""
+
+import json
+import os
+import pathlib
+import unittest
+
+from choreo_client import ChoreoError, Client, poses, read_keys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+KNOWN = json.loads((ROOT / "tests/examples/read_keys.json").read_text())
+
+
+class KeysTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with Client(os.environ["CHOREO_SERVER"]) as client:
+            cls.skeleton = client.info().models[0].skeleton
+
+    def assert_alike(self, one, other, path):
+        if isinstance(other, dict):
+            self.assertEqual(list(one), list(other), path)
+            for name in other:
+                self.assert_alike(one[name], other[name], f"{path}.{name}")
+        elif isinstance(other, list):
+            self.assertEqual(len(one), len(other), path)
+            for at, (left, right) in enumerate(zip(one, other)):
+                self.assert_alike(left, right, f"{path}[{at}]")
+        elif isinstance(other, float):
+            self.assertAlmostEqual(one, other, 5, path)
+        else:
+            self.assertEqual(one, other, path)
+
+    def test_key_files_are_read_as_by_choreo(self):
+        for name, keys in KNOWN.items():
+            read = [request["keyframe"] for request in read_keys((ROOT / "examples" / name).read_text(), self.skeleton)]
+            self.assertEqual([key["id"] for key in read], [key["id"] for key in keys])
+            for key, known in zip(read, keys):
+                self.assert_alike(key, known, key["id"])
+
+    def test_keys_of_a_file_are_danced(self):
+        with Client(os.environ["CHOREO_SERVER"]) as client:
+            requests = [{"config": {"frames": 360}}, *read_keys((ROOT / "examples/poses.json").read_text(), self.skeleton)]
+            answers = list(client.stream_dance(requests))
+        reached = [answer.event.keyframe_reached.id for answer in answers if answer.event.HasField("keyframe_reached")]
+        self.assertEqual(reached, [key["id"] for key in KNOWN["poses.json"]])
+
+    def test_poses_have_names_and_tags(self):
+        names = [one.id for one in poses()]
+        self.assertEqual(names, sorted(file.stem for file in (ROOT / "client/poses").glob("*.json")))
+        self.assertTrue(all(one.description and one.tags and len(one.rotations) == 24 for one in poses()))
+
+    def test_a_key_set_into_a_hold_ends_it(self):
+        keys = [{"time": 1, "pose": "stand", "hold": 2}, {"time": 2.5, "pose": "dab"}]
+        times = [request["keyframe"]["time"] for request in read_keys({"keyframes": keys}, self.skeleton)]
+        self.assertEqual([round(time, 6) for time in times], [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5])
+
+    def test_what_cannot_be_read_is_named(self):
+        for key, field, said in (
+            ({"pose": "stand"}, ".time", "is missing, and so is frame"),
+            ({"time": 1, "frame": 2, "pose": "stand"}, ".time", "stands beside frame"),
+            ({"time": "9c", "pose": "stand"}, ".time", "'9c' is no number; counts need a song's beats: say seconds"),
+            ({"time": 1, "pose": "stnad"}, ".pose", "'stnad' is no pose of the library; did you mean stand?"),
+            ({"time": 1, "poze": "stand"}, ".poze", "is not known; did you mean pose?"),
+            ({"time": 1}, ".rotations", "is missing, and so is pose"),
+            ({"time": 1, "rotations": [[0, 0, 0]]}, ".rotations", "[[0, 0, 0]] is not one vector for each of 24 joints"),
+            ({"time": 1, "pose": "stand", "place": [1]}, ".place", "[1] is not a list of 2 numbers"),
+            ({"time": 1, "joints": {"left_knee": [1, 2, 3]}}, ".joints.left_knee", "[1, 2, 3] is no number"),
+            ({"time": 1, "joints": {"tail": [1, 2, 3]}}, ".joints.tail", "'tail' is no joint of smpl24"),
+            ({"time": 1, "pose": "stand", "joints": ["tail"]}, ".joints", "'tail' is no joint of smpl24"),
+            ({"frame": 1, "pose": "stand", "hold": 1}, ".hold", "goes with time"),
+            ({"time": 1, "pose": "stand", "hold": 61}, ".hold", "61 s, must be 0.1 to 60"),
+        ):
+            with self.assertRaises(ChoreoError) as raised:
+                read_keys({"keyframes": [key]}, self.skeleton)
+            self.assertEqual(raised.exception.violations[0].field, f"keyframes[0]{field}")
+            self.assertIn(said, str(raised.exception))
