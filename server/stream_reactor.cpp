@@ -3,8 +3,10 @@
 #include <grpcpp/server_context.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
@@ -187,8 +189,12 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void DecodeFile(DanceStream& stream) {
     if (!SendsFile() || file_decoded_) return;
     file_decoded_ = true;
-    const std::vector<float> mono = DecodeMono(file_.bytes(), [this] { RequireOpen(); });
+    std::vector<std::string> notes;
+    const std::vector<float> mono = DecodeMono(
+        file_.bytes(), [this] { RequireOpen(); }, &notes);
     file_.Clear();
+    if (!notes.empty())
+      stream.NoteMusicDamaged(notes, static_cast<double>(mono.size()) / kModelSampleRate);
     stream.SetMusic(music_beats_.empty() ? AnalyseMusic(mono) : AnalyseMusic(mono, music_beats_));
     stream.PushAudio(mono, 0);
   }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
@@ -105,8 +107,13 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   // Adds a file's samples, and beats and passages that the client has not given.
   void AddMusic(const v1::Audio& audio, GroupRequest* request) {
     RequireOpen();
-    request->samples =
-        DecodeMono(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
+    std::vector<std::string> notes;
+    request->samples = DecodeMono(
+        std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); }, &notes);
+    if (!notes.empty()) {
+      const double seconds = static_cast<double>(request->samples.size()) / kModelSampleRate;
+      music_damaged_ = MusicDamaged(notes, seconds, queue_->model().fps);
+    }
     request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
     std::vector<double>& beats = request->music_beats;
     MusicAnalysis music =
@@ -125,6 +132,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     seed_ = request->seed;
 
     SendHeader(model, message.config(), *request, request->FirstFrame());
+    if (music_damaged_) OnWarning(*music_damaged_);
     Adopt(std::make_shared<TransitionGroup>(*queue_, std::move(request), shared_from_this()));
   }
 
@@ -134,6 +142,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   bool sends_file_ = false;  // a client sends a file as a whole, also when it resumes
   uint64_t seed_ = 0;
+  std::optional<Warning> music_damaged_;
 };
 
 class TransitionReactor final

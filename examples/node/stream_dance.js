@@ -47,7 +47,8 @@ await run(flags, async (client, options, signal) => {
         process.stderr.write(`\r${(frames / dance.frame_rate).toFixed(1)} s of ${options.seconds} s`);
         break;
       case 'event': {
-        const reached = answer.event.keyframe_reached;
+        const { keyframe_reached: reached, warning } = answer.event;
+        if (warning) console.error(`\nwarning: ${warning.message}`);
         if (reached) console.log(`\n${reached.id}: reached to ${(1e3 * reached.errors.final_error_m).toFixed(3)} mm`);
         break;
       }

@@ -50,6 +50,8 @@ def main():
             elif answer.HasField("event") and answer.event.HasField("keyframe_reached"):
                 reached = answer.event.keyframe_reached
                 print(f"\n{reached.id}: reached to {1e3 * reached.errors.final_error_m:.3f} mm")
+            elif answer.HasField("event") and answer.event.HasField("warning"):
+                print(f"\nwarning: {answer.event.warning.message}", file=sys.stderr)
             elif answer.HasField("summary"):
                 print(f"\n{frames} frames, {answer.summary.timing.real_time_factor:.1f} times as fast as danced")
     if options.out:

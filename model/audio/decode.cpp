@@ -87,7 +87,7 @@ class LimitedReader {
   /// Reads like SoundReader; `is_kept`: whether these samples count towards the limits.
   int64_t Read(std::span<float> interleaved, bool is_kept) {
     const int64_t got = reader_->Read(interleaved);
-    CheckFinite(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_, name_);
+    CheckLevels(interleaved.first(static_cast<size_t>(got * channels())), channels(), read_, name_);
     read_ += got;
     if (is_kept) kept_ += got;
     CheckAmount();
@@ -202,7 +202,8 @@ std::vector<float> ToModelRate(const DecodedAudio& audio) {
 }
 
 std::vector<float> DecodeMono(std::span<const std::byte> bytes,
-                              const std::function<void()>& between) {
+                              const std::function<void()>& between,
+                              std::vector<std::string>* notes) {
   LimitedReader reader(MemoryBytes(bytes), "audio");
   const auto channels = static_cast<size_t>(reader.channels());
   Resampler resampler(reader.sample_rate(), reader.channels());
@@ -223,6 +224,7 @@ std::vector<float> DecodeMono(std::span<const std::byte> bytes,
   }
   resampler.Finish();
   resampler.Pull(mono);
+  if (notes != nullptr) *notes = reader.notes();
   return mono;
 }
 

@@ -48,8 +48,10 @@ std::vector<float> ToModelRate(const DecodedAudio& audio);
 
 /// The same, bit for bit, straight from a file's bytes. Decodes in pieces, so memory holds only the
 /// result (53 MB at most). Calls `between` between pieces, every few milliseconds; an exception
-/// from it ends the work.
+/// from it ends the work. `notes` gets where the file is
+/// damaged, ends early, or disagrees with its header.
 std::vector<float> DecodeMono(std::span<const std::byte> bytes,
-                              const std::function<void()>& between = {});
+                              const std::function<void()>& between = {},
+                              std::vector<std::string>* notes = nullptr);
 
 }  // namespace choreo

@@ -53,16 +53,20 @@ void CheckDownbeats(std::span<const double> downbeats, std::span<const double> b
   }
 }
 
-void CheckFinite(std::span<const float> interleaved, int channels, int64_t first_sample,
+void CheckLevels(std::span<const float> interleaved, int channels, int64_t first_sample,
                  const std::string& name) {
   for (size_t i = 0; i < interleaved.size(); ++i) {
-    if (!std::isfinite(interleaved[i])) {
-      const int64_t sample = first_sample + static_cast<int64_t>(i) / channels;
-      throw InvalidArgument(name + ".data", "sample " + std::to_string(sample) + " of channel " +
-                                                std::to_string(i % static_cast<size_t>(channels)) +
-                                                " is " + std::to_string(interleaved[i]) +
-                                                ", not a finite number");
-    }
+    const float level = interleaved[i];
+    if (std::abs(level) <= kMaxLevel) continue;
+    const int64_t sample = first_sample + static_cast<int64_t>(i) / channels;
+    throw InvalidArgument(
+        name + ".data",
+        "sample " + std::to_string(sample) + " of channel " +
+            std::to_string(i % static_cast<size_t>(channels)) + " is " +
+            (std::isfinite(level)
+                 ? InFull(level) + ", full scale is -1 to 1, the limit " + Rounded(kMaxLevel) +
+                       ": divide samples that were 16-bit integers by 32768"
+                 : std::to_string(level) + ", not a finite number"));
   }
 }
 

@@ -33,9 +33,16 @@ void CheckBeats(std::span<const double> beats, const std::string& field);
 void CheckDownbeats(std::span<const double> downbeats, std::span<const double> beats,
                     const std::string& field);
 
-/// Throws Error(kInvalidArgument) if an interleaved sample is NaN or infinite, naming its index.
-/// `first_sample` is the absolute index of the first sample (one per set of channels).
-void CheckFinite(std::span<const float> interleaved, int channels, int64_t first_sample,
+/// The loudest sample: 40 dB above full scale, more than any mix has. Floats that are scaled as
+/// 16-bit integers exceed it.
+inline constexpr float kMaxLevel = 100;
+/// The quietest one that is heard: a step of 16-bit integers.
+inline constexpr float kMinLevel = 1.0F / 32768;
+
+/// Throws Error(kInvalidArgument) if an interleaved sample is NaN, infinite or beyond kMaxLevel,
+/// naming its index. `first_sample` is the absolute index of the first sample (one per set of
+/// channels).
+void CheckLevels(std::span<const float> interleaved, int channels, int64_t first_sample,
                  const std::string& name = "audio");
 
 }  // namespace choreo

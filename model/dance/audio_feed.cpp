@@ -26,7 +26,7 @@ void CheckSamples(std::span<const float> interleaved, int channels, int64_t firs
                                             " values are no multiple of the " +
                                             std::to_string(channels) + " channels");
   }
-  CheckFinite(interleaved, channels, first_sample);
+  CheckLevels(interleaved, channels, first_sample);
 }
 
 AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
@@ -34,6 +34,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
       channels_(channels),
       features_(sample_rate, channels, first_sample),
       silence_(SilenceRow()),
+      heard_(first_sample > 0),
       first_row_(features_.first_row()),
       ready_(features_.first_row()),
       first_sound_(first_row_ > 0 ? first_row_ + kRowSoundMemory : 0) {}
@@ -58,6 +59,8 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                           "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
                               " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
   }
+  heard_ = heard_ || std::ranges::any_of(interleaved,
+                                         [](float level) { return std::abs(level) >= kMinLevel; });
   const size_t second = static_cast<size_t>(sample_rate_) * channels;
   while (!interleaved.empty()) {
     const auto next = interleaved.first(std::min(second, interleaved.size()));

@@ -44,6 +44,11 @@ class AudioFeed {
   /// The number of frames, from time 0, that start before the end of the samples so far:
   /// ceil(samples fps / rate). Only the pushing side calls it.
   int64_t EndFrame(double fps) const;
+  /// The length of the music so far. Only the pushing side calls it.
+  double seconds() const { return static_cast<double>(features_.next_sample()) / sample_rate_; }
+  /// Whether the whole music so far is quieter than kMinLevel; false for one that begins later than
+  /// its first sample. Only the pushing side calls it.
+  bool silent() const { return !heard_; }
 
   /// Rows below this one can be read.
   int64_t ready() const;
@@ -66,6 +71,7 @@ class AudioFeed {
   int channels_;
   FeatureStream features_;
   RowValues silence_;
+  bool heard_;  // the music, or before this feed began
 
   mutable std::mutex mutex_;  // of what follows
   int64_t first_row_;

@@ -8,6 +8,7 @@
 #include "model/core/error.h"
 #include "model/dance/dance_chain.h"
 #include "model/dance/validation.h"
+#include "model/dance/warning.h"
 
 namespace choreo {
 
@@ -22,9 +23,21 @@ void DanceStream::FinishAudio() {
   if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
   if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
   // Sets the end of the music before rows after it can be danced.
-  chain_->Apply([&](DanceScore& score) { score.timeline.SetAudioEnd(audio.EndFrame(model_.fps)); });
+  chain_->Apply([&](DanceScore& score) {
+    const int64_t end = audio.EndFrame(model_.fps);
+    score.timeline.SetAudioEnd(end);
+    if (audio.silent()) chain_->Post(MusicSilent(end - 1, audio.seconds()));
+    WarnOfKeysBehind(score.timeline);
+  });
   audio.Finish();
   chain_->Apply([](DanceScore&) {});
+}
+
+void DanceStream::WarnOfKeysBehind(const Timeline& timeline, const std::string* only) {
+  for (const Key* key : timeline.KeysBehindMusic()) {
+    if (only != nullptr && key->id != *only) continue;
+    chain_->Post(KeyBehindMusic(key->id, key->frame, timeline.SecondsBehindMusic(key->frame)));
+  }
 }
 
 DanceStream::DanceStream(SampleQueue& queue, const ValidDance& config,
@@ -58,6 +71,10 @@ void DanceStream::SetMusic(const MusicAnalysis& music) {
   });
 }
 
+void DanceStream::NoteMusicDamaged(const std::vector<std::string>& notes, double seconds) {
+  chain_->Apply([&](DanceScore&) { chain_->Post(MusicDamaged(notes, seconds, model_.fps)); });
+}
+
 std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }
 std::string DanceStream::NextControls() const { return At("controls", controls_); }
 std::string DanceStream::NextMusicBeats() const { return At("music_beats", beats_); }
@@ -70,8 +87,11 @@ void DanceStream::SetKey(const Key& key, const KeyMoment& when) {
   ValidateMask(model_.skeleton, key.mask, field + ".mask");
   ValidateHit(key.hit, field + ".hit");
   chain_->Apply([&](DanceScore& score) {
-    if (auto rejection = score.timeline.Set(key, when, field))
+    if (auto rejection = score.timeline.Set(key, when, field)) {
       chain_->PostLate(*rejection, key.hands);
+    } else {
+      WarnOfKeysBehind(score.timeline, &key.id);
+    }
   });
   ++keyframes_;
 }

@@ -49,6 +49,9 @@ class DanceStream {
   /// Sets what is known about the whole music. Without beats the dance does not detect any. Call
   /// before the first sample. DanceConfig has precedence.
   void SetMusic(const MusicAnalysis& music);
+  /// Warns that the file of the music is damaged or ends early; `notes` as of DecodeMono, `seconds`
+  /// as could be read.
+  void NoteMusicDamaged(const std::vector<std::string>& notes, double seconds);
 
   /// The name that errors give the next message of a kind: "keyframes[i]", where i counts accepted
   /// ones. Code that parses messages uses it.
@@ -98,6 +101,8 @@ class DanceStream {
  private:
   AudioFeed& Audio(const char* field);
   void FinishAudio();
+  // `only`: the id of the one key to warn of. Only inside Apply.
+  void WarnOfKeysBehind(const Timeline& timeline, const std::string* only = nullptr);
 
   const ModelInfo& model_;
   std::shared_ptr<DanceChain> chain_;

@@ -236,6 +236,14 @@ void Timeline::SetCuts(std::vector<int64_t> frames) {
 
 void Timeline::SetAudioEnd(int64_t frame) { audio_end_ = frame; }
 
+std::vector<const Key*> Timeline::KeysBehindMusic() const {
+  std::vector<const Key*> keys;
+  if (options_.end_frame || !audio_end_) return keys;
+  for (auto at = keys_.lower_bound(*audio_end_); at != keys_.end(); ++at)
+    keys.push_back(&at->second);
+  return keys;
+}
+
 void Timeline::Grant(int64_t frame) {
   if (frame <= frontier_) return;
   Record(frame);

@@ -128,6 +128,13 @@ class Timeline {
 
   /// Says that the music ends before `frame`.
   void SetAudioEnd(int64_t frame);
+  /// The keys behind the music's end that prolong the dance: none with end_frame, or while the
+  /// music goes on.
+  std::vector<const Key*> KeysBehindMusic() const;
+  /// How far this frame lies behind the music's end, which must be known.
+  double SecondsBehindMusic(int64_t frame) const {
+    return static_cast<double>(frame - *audio_end_) / options_.fps;
+  }
 
   /// The current transition (0) or a later one; null while none may start. The `stop` of the last
   /// may change until it is done or a later one was asked for. After Complete, while the music has

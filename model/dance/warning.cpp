@@ -1,7 +1,10 @@
 #include "model/dance/warning.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "model/core/joined.h"
 #include "model/core/rounded.h"
 
 namespace choreo {
@@ -88,6 +91,26 @@ Warning PathAway(int64_t frame, double metres) {
           "the root path is " + Rounded(metres) + " m from the dancer at frame " +
               std::to_string(frame) + ": the root is led there first",
           Warning::Code::kPathAway};
+}
+
+Warning MusicDamaged(const std::vector<std::string>& notes, double seconds, double fps) {
+  const auto frames = static_cast<int64_t>(std::ceil(seconds * fps));
+  return {std::max<int64_t>(frames - 1, 0),
+          "the music's file: " + Joined(notes, std::identity(), "; "),
+          Warning::Code::kMusicDamaged};
+}
+
+Warning MusicSilent(int64_t last_frame, double seconds) {
+  return {last_frame,
+          "all " + Rounded(seconds) + " s of the music are silent: the dance follows nothing",
+          Warning::Code::kMusicSilent};
+}
+
+Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds) {
+  return {frame,
+          "key \"" + id + "\" at frame " + std::to_string(frame) + " lies " + Rounded(seconds) +
+              " s behind the end of the music: the dance goes on to it in silence",
+          Warning::Code::kKeyBehindMusic, id};
 }
 
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses) {

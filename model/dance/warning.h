@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "model/dance/transition.h"
 #include "model/messages/dance_event.h"
@@ -28,6 +29,11 @@ Warning KeyImpossible(const std::string& id, int64_t frame, const std::string& f
 Warning ControlsTooLate(int64_t last_frame, int64_t earliest);
 Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);
 Warning PathBehindEnd(int64_t first_frame, int64_t end);
+/// `seconds`: what could be read of the music. `notes`: at least one (decode.h).
+Warning MusicDamaged(const std::vector<std::string>& notes, double seconds, double fps);
+Warning MusicSilent(int64_t last_frame, double seconds);
+/// `seconds`: between the end of the music and the key.
+Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds);
 /// `misses`: "left_leg 1.69 instead of 0.70", for at least one part, centimetres a frame.
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses);
 

@@ -82,6 +82,9 @@ struct Warning {
     kBeatsTooLate,        ///< beats came after their frames were frozen; `frame` is the first's
     kTemperatureTooHigh,  ///< higher than the model was trained for; `frame` is the first
     kKeyImpossible,       ///< no body can be as the key at `frame` asks
+    kMusicDamaged,        ///< the music's file is damaged or ends early; `frame` is its last
+    kMusicSilent,         ///< nothing is heard in the whole music, whose last frame is `frame`
+    kKeyBehindMusic,      ///< the key at `frame` lies behind the music's end
   };
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit

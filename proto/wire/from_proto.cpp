@@ -164,7 +164,7 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
     }
     case v1::Event::kWarning:
       return Warning{frame, event.warning().message(),
-                     ToCode(event.warning().code(), Warning::Code::kKeyImpossible),
+                     ToCode(event.warning().code(), Warning::Code::kKeyBehindMusic),
                      event.warning().keyframe_id()};
     case v1::Event::EVENT_NOT_SET:
       break;

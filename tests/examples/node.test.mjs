@@ -256,6 +256,10 @@ test('stream_dance.js dances live and to a song', async () => {
     const recorded = await program('stream_dance.js', '--seconds', '2', '--song', song);
     assert.equal(recorded.code, 0, recorded.err);
     assert.match(recorded.out, /60 frames/);
+    assert.doesNotMatch(recorded.err, /warning/);
+    await writeFile(song, wav(clicks(2)).subarray(0, 40000));
+    const cut = await program('stream_dance.js', '--seconds', '2', '--song', song);
+    assert.match(cut.err, /warning: the music's file: its header says 88200 bytes of samples, 39956 are there/);
   } finally {
     await rm(scratch, { recursive: true });
   }

@@ -75,6 +75,10 @@ class PythonTest(unittest.TestCase):
             done = program("stream_dance.py", "--seconds", 2, "--song", song)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("60 frames", done.stdout)
+            self.assertNotIn("warning", done.stderr)
+            pathlib.Path(song).write_bytes(pathlib.Path(song).read_bytes()[:40000])
+            cut = program("stream_dance.py", "--seconds", 2, "--song", song)
+            self.assertRegex(cut.stderr, "warning: the music's file: its header says 88200 bytes of samples, 39956 are there")
 
     def test_live_edit_changes_keys_on_the_way(self):
         done = program("live_edit.py", "--seconds", 5, "--speed", 50)
