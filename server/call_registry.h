@@ -30,7 +30,7 @@ class Call {
   /// Ends the call with this error once its client took the answer on its way. Any thread may call
   /// it.
   virtual void Abort(const Error& error) = 0;
-  /// Ends the call as CANCELLED although its client takes nothing. Any thread may call it.
+  /// Ends an aborted call although its client takes nothing. Any thread may call it.
   virtual void Reset() = 0;
   virtual CallProgress progress() const = 0;
 };

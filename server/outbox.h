@@ -35,8 +35,9 @@ class Outbox {
     virtual ~Wire() = default;
     virtual void Write(const Response* message) = 0;  ///< ends in OnWriteDone
     virtual void Finish(const grpc::Status& status) = 0;
-    virtual void Read() {}   ///< the client's next message; only after RequestRead
-    virtual void Reset() {}  ///< ends the call, whatever the client does; OnWriteDone follows soon
+    virtual void Read() {}  ///< the client's next message; only after RequestRead
+    /// Ends the call with `status`, whatever the client does; OnWriteDone follows soon.
+    virtual void Reset(const grpc::Status& /*status*/) {}
   };
 
   enum class State {
@@ -106,7 +107,7 @@ class Outbox {
   /// Ends an aborted call even if the client does not take the answer on its way.
   void Reset() {
     const std::lock_guard lock(mutex_);
-    if (writing_ && state_ != State::kFinished) wire_->Reset();
+    if (writing_ && state_ != State::kFinished) wire_->Reset(status_);
   }
 
   /// The reactor has handled the client's last message and may read the next one, as soon as there

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <grpc/grpc.h>
 #include <grpcpp/server_context.h>
 #include <grpcpp/support/status.h>
 
@@ -26,7 +27,12 @@ class SessionReactor : public Grpc, public Outbox<Response>::Wire {
     this->StartWrite(&written_);
   }
   void Finish(const grpc::Status& status) override { Grpc::Finish(status); }
-  void Reset() override { context_->TryCancel(); }
+  // TryCancel would tell the client no more than CANCELLED. Details do not fit in such a status.
+  void Reset(const grpc::Status& status) override {
+    grpc_call_cancel_with_status(context_->c_call(),
+                                 static_cast<grpc_status_code>(status.error_code()),
+                                 status.error_message().c_str(), nullptr);
+  }
 
   // ---- gRPC's reactions
 

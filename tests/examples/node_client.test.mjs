@@ -296,6 +296,19 @@ test('calls wait for a server, and give up in time', async () => {
   });
 });
 
+test('who reads too slowly is told the limit', () =>
+  withServer(['--unread-seconds', '0.5', '--outbox-kib', '16'], ({ address, log }) =>
+    withClient(address, {}, async (client) => {
+      const dance = client.streamDance([{ config: { frames: 60000 } }]);
+      await dance.next();
+      while (!log().includes('DEADLINE_EXCEEDED')) await sleep(20);
+      const rest = async () => {
+        for await (const answer of dance) assert.ok(answer);
+      };
+      await assert.rejects(rest, { code: 'DEADLINE_EXCEEDED', message: /limits\.unread_s \(--unread-seconds\): read faster, or go on/ });
+    }),
+  ));
+
 test('calls take turns at the addresses of a list', () =>
   withServer([], (one) =>
     withServer([], (two) =>

@@ -312,6 +312,16 @@ class ClientTest(unittest.TestCase):
             self.assertTrue(info(server.address, even_draining=True).models)
             stop.set()
 
+    def test_who_reads_too_slowly_is_told_the_limit(self):
+        with Server("--unread-seconds", 0.5, "--outbox-kib", 16) as server, Client(server.address) as client:
+            with client.stream_dance([{"config": {"frames": 60000}}]) as dance:
+                next(dance)
+                while "DEADLINE_EXCEEDED" not in server.log():
+                    time.sleep(0.02)
+                with self.assertRaisesRegex(ChoreoError, r"limits\.unread_s \(--unread-seconds\): read faster, or go on") as raised:
+                    list(dance)
+        self.assertEqual(raised.exception.code, "DEADLINE_EXCEEDED")
+
     def test_a_mistake_in_the_requests_ends_the_call_with_that_mistake(self):
         def requests():
             yield {"config": {"audio_format": PCM}}

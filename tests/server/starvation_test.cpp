@@ -96,6 +96,7 @@ TEST_F(StarvationTest, CallThatSendsNothingEnds) {
   ExpectIdle();
 }
 
+// It finds out why when it reads on, also behind what has come before.
 TEST_F(StarvationTest, CallThatReadsNothingIsReset) {
   Start(1, [](ServerConfig& config) {
     config.outbox_kib = 16;
@@ -104,7 +105,10 @@ TEST_F(StarvationTest, CallThatReadsNothingIsReset) {
   const auto client = UnreadDance();
   ExpectEventually([this] { return server->calls() == 1; }, "it dances");
   ExpectIdle();
-  EXPECT_EQ(client->Finish().status.error_code(), grpc::StatusCode::CANCELLED);
+  const grpc::Status status = client->Finish().status;
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED) << status.error_message();
+  EXPECT_THAT(status.error_message(), HasSubstr("not taken within 0.5 s"));
+  EXPECT_THAT(status.error_message(), HasSubstr("unread_s (--unread-seconds)"));
 }
 
 TEST_F(StarvationTest, SlowReaderDoesNotBlockTheOnlyWorker) {
