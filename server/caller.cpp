@@ -1,5 +1,9 @@
 #include "server/caller.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <random>
@@ -39,6 +43,27 @@ std::string_view HeaderOf(const grpc::CallbackServerContext& context, const char
   if (headers.count(name) != 1) return {};
   const grpc::string_ref value = headers.find(name)->second;
   return {value.data(), value.size()};
+}
+
+std::string PeerOf(int connection) {
+  sockaddr_storage peer{};
+  socklen_t size = sizeof peer;
+  if (getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) return "";
+  char text[INET6_ADDRSTRLEN] = "";
+  if (peer.ss_family == AF_INET) {
+    const auto& of = reinterpret_cast<const sockaddr_in&>(peer);
+    inet_ntop(AF_INET, &of.sin_addr, text, sizeof text);
+    return "ipv4:" + std::string(text) + ':' + std::to_string(ntohs(of.sin_port));
+  }
+  if (peer.ss_family != AF_INET6) return "";
+  const auto& of = reinterpret_cast<const sockaddr_in6&>(peer);
+  const std::string port = ':' + std::to_string(ntohs(of.sin6_port));
+  if (IN6_IS_ADDR_V4MAPPED(&of.sin6_addr)) {
+    inet_ntop(AF_INET, &of.sin6_addr.s6_addr[12], text, sizeof text);
+    return "ipv4:" + std::string(text) + port;
+  }
+  inet_ntop(AF_INET6, &of.sin6_addr, text, sizeof text);
+  return "ipv6:%5B" + std::string(text) + "%5D" + port;
 }
 
 std::string AddressOf(const std::string& peer) { return SplitAddress(peer).host; }

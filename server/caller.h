@@ -29,6 +29,9 @@ inline constexpr const char* kResumedFromHeader = "choreo-resumed-from";
 std::string FreshStreamId();
 bool IsStreamId(std::string_view text);
 
+/// A connection's peer in gRPC's form; empty for other descriptors.
+std::string PeerOf(int connection);
+
 /// A peer without its port.
 std::string AddressOf(const std::string& peer);
 

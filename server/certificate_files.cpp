@@ -78,12 +78,16 @@ std::optional<bool> CertificateFiles::Refresh() {
   }
 }
 
-void CertificateFiles::WarnOfExpired() const {
-  if (HasExpired(expires_))
-    spdlog::warn("--tls-cert: expired on {}; clients refuse it", Date(expires_));
-  if (needs_client_ca_ && HasExpired(used_.client_ca_expires))
-    spdlog::warn("--tls-client-ca: expired on {}; no client is admitted",
-                 Date(used_.client_ca_expires));
+void CertificateFiles::LogExpiry() const {
+  const auto log = [](const char* field, int64_t expires, const char* effect) {
+    if (HasExpired(expires)) {
+      spdlog::warn("{}: expired on {}; {}", field, Date(expires), effect);
+    } else {
+      spdlog::info("{}: valid until {}", field, Date(expires));
+    }
+  };
+  log("--tls-cert", expires_, "clients refuse it");
+  if (needs_client_ca_) log("--tls-client-ca", used_.client_ca_expires, "no client is admitted");
 }
 
 }  // namespace choreo

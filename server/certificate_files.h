@@ -30,8 +30,10 @@ class CertificateFiles {
     return needs_client_ca_ ? client_ca_.path() : std::filesystem::path();
   }
   int64_t expires() const { return expires_; }  ///< of the certificate; seconds since 1970
-  /// Logs a warning of each file that has expired.
-  void WarnOfExpired() const;
+  /// When no client can be admitted any more; 0 if clients need no certificate.
+  int64_t client_ca_expires() const { return used_.client_ca_expires; }
+  /// Logs until when each file is valid; a warning if it has expired.
+  void LogExpiry() const;
 
  private:
   struct Content {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/handshakes.h"
 #include "server/process_usage.h"
 #include "server/refusal.h"
 #include "server/status.h"
@@ -200,6 +201,16 @@ class Figures {
               "When the certificate in use, or one of its chain, expires, since 1970.",
               MetricType::Gauge);
     out.Add(expires);
+    if (const double of_clients = serving_.reloads.client_ca_expires; of_clients > 0) {
+      out.Begin("client_ca_expiry_timestamp_seconds",
+                "When the last of --tls-client-ca expires, since 1970.", MetricType::Gauge);
+      out.Add(of_clients);
+    }
+    out.Begin("tls_handshake_failures_total", "TLS handshakes that failed, by reason.",
+              MetricType::Counter);
+    const HandshakeFaults faults = CountedHandshakeFaults();
+    for (size_t i = 0; i < faults.size(); ++i)
+      out.Add(static_cast<double>(faults[i]), {{"reason", kHandshakeFaults[i]}});
   }
 
   static void AddHistograms(const std::map<std::string, Models::Figures>& models, Families& out) {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "server/handshakes.h"
 #include "server/status.h"
 
 namespace choreo {
@@ -75,7 +76,8 @@ class LineLimit {
 };
 
 /// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY says otherwise.
-void ForwardGrpcLog(gpr_log_func_args* line) {
+void TakeGrpcLine(gpr_log_func_args* line) {
+  CountHandshakeFault(line->message);
   static LineLimit limit;
   int left_out = 0;
   if (!limit.Take(&left_out)) return;
@@ -137,8 +139,10 @@ void StartLog(const std::string& level, bool json) {
   }
   spdlog::set_default_logger(logger);
   spdlog::set_level(spdlog::level::from_str(level));
-  gpr_set_log_function(ForwardGrpcLog);
+  ForwardGrpcLog();
 }
+
+void ForwardGrpcLog() { gpr_set_log_function(TakeGrpcLine); }
 
 std::string JsonLine(const std::string& level, const std::string& message) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();

@@ -15,6 +15,9 @@ namespace choreo {
 /// Logs to stderr, from `level` on (spdlog's names), as text or as one JSON object per line.
 void StartLog(const std::string& level, bool json);
 
+/// Logs what gRPC would log itself, and counts the failed handshakes that it reports. Idempotent.
+void ForwardGrpcLog();
+
 /// A call that has ended.
 struct CallRecord {
   std::string_view method;

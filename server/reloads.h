@@ -35,6 +35,7 @@ class Reloads {
   }
 
   std::atomic<double> certificate_expires = 0;  ///< seconds since 1970; 0: no TLS
+  std::atomic<double> client_ca_expires = 0;    ///< the same; 0: no --tls-client-ca
 
  private:
   static double Now() {

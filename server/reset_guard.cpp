@@ -1,6 +1,5 @@
 #include "server/reset_guard.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <grpcpp/support/server_interceptor.h>
 #include <spdlog/spdlog.h>
@@ -18,28 +17,6 @@ namespace choreo {
 namespace {
 
 using grpc::experimental::Interceptor;
-
-// A connection's peer in gRPC's form; empty for other descriptors.
-std::string PeerOf(int connection) {
-  sockaddr_storage peer{};
-  socklen_t size = sizeof peer;
-  if (getpeername(connection, reinterpret_cast<sockaddr*>(&peer), &size) != 0) return "";
-  char text[INET6_ADDRSTRLEN] = "";
-  if (peer.ss_family == AF_INET) {
-    const auto& of = reinterpret_cast<const sockaddr_in&>(peer);
-    inet_ntop(AF_INET, &of.sin_addr, text, sizeof text);
-    return "ipv4:" + std::string(text) + ':' + std::to_string(ntohs(of.sin_port));
-  }
-  if (peer.ss_family != AF_INET6) return "";
-  const auto& of = reinterpret_cast<const sockaddr_in6&>(peer);
-  const std::string port = ':' + std::to_string(ntohs(of.sin6_port));
-  if (IN6_IS_ADDR_V4MAPPED(&of.sin6_addr)) {
-    inet_ntop(AF_INET, &of.sin6_addr.s6_addr[12], text, sizeof text);
-    return "ipv4:" + std::string(text) + port;
-  }
-  inet_ntop(AF_INET6, &of.sin6_addr, text, sizeof text);
-  return "ipv6:%5B" + std::string(text) + "%5D" + port;
-}
 
 // Ends a connection. gRPC owns the descriptor, notices the end, and closes it. Drops unread data,
 // which shutdown() would not.
@@ -107,6 +84,7 @@ bool ResetGuard::IsFull(int connection) const {
 void ResetGuard::Enter(const std::string& peer) {
   // gRPC gives no peer for calls of its own services; these are not counted.
   if (peer.empty()) return;
+  if (on_call_) on_call_(peer);
   {
     const std::lock_guard lock(mutex_);
     Connection& connection = connections_[peer];

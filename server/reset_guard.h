@@ -2,9 +2,11 @@
 
 #include <grpcpp/server_builder.h>
 
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace choreo {
 
@@ -14,7 +16,9 @@ namespace choreo {
 /// its address. Thread-safe.
 class ResetGuard {
  public:
-  explicit ResetGuard(int most) : most_(most) {}
+  /// `on_call`: told the peer of each call that begins.
+  explicit ResetGuard(int most, std::function<void(const std::string&)> on_call = {})
+      : most_(most), on_call_(std::move(on_call)) {}
 
   /// Watches every call of the server, which must not outlive this.
   void Watch(grpc::ServerBuilder* builder);
@@ -34,6 +38,7 @@ class ResetGuard {
   };
 
   const int most_;
+  const std::function<void(const std::string&)> on_call_;
   mutable std::mutex mutex_;
   std::map<std::string, Connection> connections_;  // those with calls, by peer. Lock: mutex_
 };

@@ -22,7 +22,9 @@
 #include "model/core/threads.h"
 #include "server/certificate_files.h"
 #include "server/connection_limits.h"
+#include "server/handshakes.h"
 #include "server/listener.h"
+#include "server/log.h"
 #include "server/metrics.h"
 #include "server/periodic_thread.h"
 #include "server/reset_guard.h"
@@ -152,12 +154,14 @@ struct Server::Impl {
                 static_cast<size_t>(config.outbox_kib) << 10,
                 int64_t{config.max_file_music_mib} << 20, config.io_threads),
         service(serving),
-        resets(kWaitingCalls * CallsOfConnection(config)),
+        resets(kWaitingCalls * CallsOfConnection(config),
+               [this](const std::string& peer) { handshakes.Began(peer); }),
         listener(config.listen) {
     if (!config.tls_certificate.empty()) {
       certificate.emplace(config);
-      certificate->WarnOfExpired();
-      serving.reloads.certificate_expires = static_cast<double>(certificate->expires());
+      certificate->LogExpiry();
+      NoteExpiry();
+      ForwardGrpcLog();  // failed handshakes are counted there
     }
     // Never released: a process's last grpc_shutdown can wait ten seconds for gRPC's threads.
     [[maybe_unused]] static const bool kept = (grpc_init(), true);
@@ -188,6 +192,7 @@ struct Server::Impl {
       serving.models.FreeUnused();
       serving.LookAtCost();
       UpdateHealth();
+      if (certificate) handshakes.Look();
     });
     if (serving.tokens.needed() || certificate) {
       file_watch.emplace(kFileInterval, [this] { RereadFiles(); });
@@ -198,6 +203,7 @@ struct Server::Impl {
         close(connection);
         return;
       }
+      if (certificate) handshakes.Accepted(connection);
       grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
       parameters.listener_fd = listening;
       parameters.fd = connection;
@@ -210,7 +216,12 @@ struct Server::Impl {
     if (const auto good = serving.tokens.Refresh()) reloads.Note(Reloads::kTokens, *good);
     if (!certificate) return;
     if (const auto good = certificate->Refresh()) reloads.Note(Reloads::kCertificate, *good);
-    reloads.certificate_expires = static_cast<double>(certificate->expires());
+    NoteExpiry();
+  }
+
+  void NoteExpiry() {
+    serving.reloads.certificate_expires = static_cast<double>(certificate->expires());
+    serving.reloads.client_ca_expires = static_cast<double>(certificate->client_ca_expires());
   }
 
   // Reports the health of each model and of the server as a whole: SERVING, unless the server
@@ -251,6 +262,7 @@ struct Server::Impl {
   const ServerConfig config;
   Serving serving;
   ChoreographyService service;
+  HandshakeWatch handshakes;
   ResetGuard resets;
   std::optional<CertificateFiles> certificate;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;

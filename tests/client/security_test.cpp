@@ -10,6 +10,7 @@
 
 #include "client/choreo_client.h"
 #include "server/certificate_files.h"
+#include "server/handshakes.h"
 #include "server/tokens.h"
 #include "tests/client/run_choreo.h"
 #include "tests/client/test_server.h"
@@ -211,6 +212,17 @@ TEST_F(TlsTest, AnExpiredCertificateIsTold) {
   EXPECT_THAT(log.text(), HasSubstr("--tls-cert: expired on "));
 }
 
+TEST_F(TlsTest, TheStartTellsHowLongFilesAreValid) {
+  const LogCapture log;
+  const Certificate own = authority_.Issue("own");
+  const auto server = Start([&](ServerConfig& config) {
+    Serve(own, config);
+    config.tls_client_ca = authority_.certificate();
+  });
+  EXPECT_THAT(log.text(), HasSubstr("[info] --tls-cert: valid until 20"));
+  EXPECT_THAT(log.text(), HasSubstr("[info] --tls-client-ca: valid until 20"));
+}
+
 TEST_F(TlsTest, AnExpiredClientAuthorityIsTold) {
   const LogCapture log;
   const Certificate own = authority_.Issue("own"), late = authority_.IssueExpired("late");
@@ -282,6 +294,46 @@ TEST_F(TlsTest, ClientsShowARequiredCertificate) {
   EXPECT_FALSE(serves({}));
   EXPECT_FALSE(serves(stranger_.Issue("intruder")));
   EXPECT_TRUE(serves(authority_.Issue("guest")));
+}
+
+// gRPC names no peer, so this cannot be more than likely.
+TEST_F(TlsTest, FailedHandshakesAreCountedAndTheirPeersNamed) {
+  const LogCapture log;
+  const Certificate own = authority_.Issue("own"), guest = authority_.Issue("guest"),
+                    intruder = stranger_.Issue("intruder");
+  const auto server = Start([&](ServerConfig& config) {
+    Serve(own, config);
+    config.tls_client_ca = authority_.certificate();
+  });
+  // Clients are other processes: their own failures would be counted, too.
+  const auto attempt = [&](const std::string& command, size_t fault) {
+    SCOPED_TRACE(kHandshakeFaults[fault]);
+    const HandshakeFaults before = CountedHandshakeFaults();
+    EXPECT_NE(Shell(command).code, 0);
+    Eventually([&] { return CountedHandshakeFaults()[fault] > before[fault]; }, "it is counted");
+    for (size_t other = 0; other < before.size(); ++other) {
+      if (other == fault) continue;
+      EXPECT_EQ(CountedHandshakeFaults()[other], before[other]) << kHandshakeFaults[other];
+    }
+  };
+  const std::string health = "'" CHOREO_PROGRAM "' health --server " + server->address();
+  const std::string trusting = health + " --tls --ca " + authority_.certificate().string();
+  attempt(trusting, 0);
+  attempt(trusting + " --client-cert " + intruder.certificate.string() + " --client-key " +
+              intruder.key.string(),
+          1);
+  // gRPC's clients do not say it; others do.
+  attempt("openssl s_client -connect " + server->address() +
+              " -alpn h2 -verify_return_error -CAfile " + stranger_.certificate().string() +
+              " -cert " + guest.certificate.string() + " -key " + guest.key.string() +
+              " </dev/null",
+          2);
+  attempt(health, 3);
+  Eventually([&] { return log.text().find("not_tls; likely of") != std::string::npos; },
+             "the last is logged");
+  EXPECT_THAT(log.text(), testing::ContainsRegex("\\[warning\\] TLS handshakes failed: [0-9]+ "
+                                                 "no_client_certificate.*; likely of "
+                                                 "ipv4:127.0.0.1:[0-9]+"));
 }
 
 TEST_F(TlsTest, FilesThatCannotBeUsedAreNamed) {

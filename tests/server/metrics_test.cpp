@@ -22,6 +22,7 @@
 #include "server/reloads.h"
 #include "tests/server/fixture.h"
 #include "tests/server/silent_connections.h"
+#include "tests/support/certificates.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/tcp_proxy.h"
 #include "tests/support/temporary_folder.h"
@@ -308,6 +309,27 @@ TEST_F(MetricsTest, ShowFailedReloads) {
   server->NoteModelReload(false);
   EXPECT_EQ(figure("successful", "models"), 0);
   EXPECT_EQ(Figure("choreo_certificate_expiry_timestamp_seconds"), -1) << "there is none";
+}
+
+TEST_F(MetricsTest, TellWhenCertificatesExpireAndHandshakesFail) {
+  const TemporaryFolder folder;
+  const Authority authority(folder.path(), "authority");
+  const Certificate own = authority.Issue("own");
+  Start(1, [&](ServerConfig& config) {
+    config.metrics = "0";
+    config.tls_certificate = own.certificate;
+    config.tls_key = own.key;
+    config.tls_client_ca = authority.certificate();
+  });
+  const auto now = static_cast<double>(std::time(nullptr));
+  EXPECT_GT(Figure("choreo_certificate_expiry_timestamp_seconds"), now);
+  EXPECT_GT(Figure("choreo_client_ca_expiry_timestamp_seconds"), now);
+  const std::string not_tls = "choreo_tls_handshake_failures_total{reason=\"not_tls\"}";
+  const double before = Figure(not_tls);
+  EXPECT_GE(before, 0);
+  DanceClient without_tls(stub());
+  EXPECT_FALSE(without_tls.Finish().status.ok());
+  ExpectEventually([&] { return Figure(not_tls) > before; }, "it is counted");
 }
 
 TEST_F(MetricsTest, CountRefusalsByReason) {
