@@ -144,6 +144,15 @@ void CallRegistry::AbortAll(const Error& error) {
   for (const auto& call : calls) call->Abort(error);
 }
 
+void CallRegistry::GiveUpAll() {
+  std::vector<std::shared_ptr<Call>> calls;
+  {
+    const std::lock_guard lock(mutex_);
+    calls = Calls(/*admitted=*/true);
+  }
+  for (const auto& call : calls) call->GiveUp();
+}
+
 bool CallRegistry::WaitUntilEmpty(std::chrono::milliseconds limit) const {
   std::unique_lock lock(mutex_);
   return left_.wait_for(lock, limit, [this] { return calls_.empty(); });

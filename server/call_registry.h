@@ -32,6 +32,8 @@ class Call {
   virtual void Abort(const Error& error) = 0;
   /// Ends an aborted call although its client takes nothing. Any thread may call it.
   virtual void Reset() = 0;
+  /// Logs the call as lost: the process ends at once. Any thread may call it.
+  virtual void GiveUp() noexcept = 0;
   virtual CallProgress progress() const = 0;
 };
 
@@ -66,6 +68,9 @@ class CallRegistry {
 
   /// Ends calls that were idle for too long. Call regularly.
   void EndIdle();
+
+  /// Call::GiveUp of each call that was admitted.
+  void GiveUpAll();
 
   /// Admits no more calls, and ends those not yet admitted.
   void StopAdmitting();

@@ -77,32 +77,23 @@ class CallSession : public Call {
   /// Call when the reactor is done: frees the dance, which holds this session, and counts the call.
   /// `lost`: the status never went out. gRPC shows a dead connection as a half-close first, so the
   /// dance may have ended well for nobody.
-  void Release(bool lost) noexcept {
+  void Release(bool lost) noexcept try {
     CancelDance();
     serving_.frames.GiveBack(this);
-    std::optional<Refusal> refusal;
     {
       const std::lock_guard lock(mutex_);
       dance_.reset();
-      refusal = refusal_;
     }
-    try {
-      grpc::Status status = outbox_.status();
-      if (status.ok()) refusal.reset();  // a refusal after the end does not count
-      if (status.ok() && lost) {
-        status = {grpc::StatusCode::CANCELLED, "the client left before its dance was over"};
-      }
-      serving_.tally.Count({.method = method_,
-                            .caller = caller_,
-                            .status = status,
-                            .seconds = Elapsed(),
-                            .frames = frames_,
-                            .first_frame_s = first_frame_s_,
-                            .model = model_,
-                            .seed = seed_,
-                            .refusal = refusal});
-    } catch (const std::bad_alloc&) {  // loses the log line, but keeps the server
-    }
+    grpc::Status status = outbox_.status();
+    if (status.ok() && lost)
+      status = {grpc::StatusCode::CANCELLED, "the client left before its dance was over"};
+    Count(status);
+  } catch (const std::bad_alloc&) {  // loses the log line, but keeps the server
+  }
+
+  void GiveUp() noexcept override try {
+    Count({grpc::StatusCode::UNAVAILABLE, "the server was told to leave at once"});
+  } catch (const std::bad_alloc&) {
   }
 
  protected:
@@ -190,6 +181,7 @@ class CallSession : public Call {
 
   /// Names model and seed in the call's log line. Message thread.
   void Name(const ModelInfo& model, uint64_t seed) {
+    const std::lock_guard lock(mutex_);
     model_ = model.name;
     seed_ = seed;
   }
@@ -216,6 +208,22 @@ class CallSession : public Call {
   Serving& serving_;
 
  private:
+  // Counts and logs the call, once.
+  void Count(const grpc::Status& status) {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(counted_, true)) return;
+    serving_.tally.Count({.method = method_,
+                          .caller = caller_,
+                          .status = status,
+                          .seconds = Elapsed(),
+                          .frames = frames_,
+                          .first_frame_s = first_frame_s_,
+                          .model = model_,
+                          .seed = seed_,
+                          // A refusal after the end does not count.
+                          .refusal = outbox_.status().ok() ? std::nullopt : refusal_});
+  }
+
   // Records why the call is refused; the first reason counts.
   void Note(std::optional<Refusal> refusal) {
     const std::lock_guard lock(mutex_);
@@ -249,11 +257,11 @@ class CallSession : public Call {
   Caller caller_;  // written before the call enters
   const Clock::time_point start_ = Clock::now();
   bool admitted_ = false;  // message thread
-  // Written on the message thread, read by Release.
+
+  mutable std::mutex mutex_;  // guards the seven below
   std::string model_;
   std::optional<uint64_t> seed_;
-
-  mutable std::mutex mutex_;      // guards the four below
+  bool counted_ = false;
   std::shared_ptr<Dance> dance_;  // null before the configuration and after the end
   bool ended_ = false;
   bool paused_ = false;  // the outbox's wish, with or without a dance

@@ -9,11 +9,13 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <ctime>
+#include <functional>
 #include <iostream>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "model/core/address.h"
@@ -35,7 +37,7 @@ sigset_t SetOf(std::initializer_list<int> signals) {
   return set;
 }
 
-// Exits without cleanup: loading cannot be interrupted, and nothing remains to be written.
+// Exits without cleanup: loading cannot be interrupted, and only the log remains to be written.
 [[noreturn]] void Leave() {
   spdlog::default_logger()->flush();
   std::_Exit(0);
@@ -44,14 +46,16 @@ sigset_t SetOf(std::initializer_list<int> signals) {
 /// While it lives, signals to stop end choreod at once.
 class LeaveAtOnce {
  public:
-  LeaveAtOnce()
-      : thread_([](const std::stop_token& stop) {
+  /// `last`: what is still done then.
+  explicit LeaveAtOnce(std::function<void()> last = {})
+      : thread_([last = std::move(last)](const std::stop_token& stop) {
           const sigset_t asked = SetOf({SIGTERM, SIGINT});
           constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 20'000'000};
           while (!stop.stop_requested()) {
             const int signal = sigtimedwait(&asked, nullptr, &kLook);
             if (signal <= 0) continue;
             spdlog::info("{}: leaves at once", strsignal(signal));
+            if (last) last();
             Leave();
           }
         }) {}
@@ -165,7 +169,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
                config.drain_seconds);
   reloader.Stop();
   {
-    const LeaveAtOnce leave;
+    const LeaveAtOnce leave([&server] { server.GiveUp(); });
     server.Drain(config.drain_seconds);
   }
   if (reloader.loads()) Leave();

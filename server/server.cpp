@@ -290,6 +290,8 @@ int Server::transitions() const { return impl_->serving.models.transitions(); }
 
 int Server::calls() const { return impl_->serving.calls.count(); }
 
+void Server::GiveUp() { impl_->serving.calls.GiveUpAll(); }
+
 bool Server::SetModels(const std::vector<std::string>& names, std::vector<Samplers> fresh) {
   if (impl_->drained) return false;
   impl_->serving.models.Set(names, MakeQueues(std::move(fresh), QueueingOf(impl_->config)));

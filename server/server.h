@@ -34,6 +34,10 @@ class Server {
   /// Calls in progress, except those without a first message.
   int calls() const;
 
+  /// Logs and counts each call in progress as lost, for a process that ends without Drain. Their
+  /// ends are not logged again.
+  void GiveUp();
+
   /// Serves these from now on, the first one as the default: by name, models of `fresh`, which are
   /// new or replace one of that name, and models already served. Calls in progress keep theirs; a
   /// model is freed once nobody dances it. Returns false, and does nothing, after Drain. Throws

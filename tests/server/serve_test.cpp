@@ -22,6 +22,7 @@
 /// How a choreod stops on request, in any state.
 namespace choreo::serve_test {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 class ServeTest : public testing::Test {
@@ -204,6 +205,10 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   const Outcome outcome = End();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("leaves at once"));
+  // The call that it leaves has its line all the same.
+  EXPECT_THAT(outcome.said,
+              ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));
+  EXPECT_THAT(outcome.said, HasSubstr("the server was told to leave at once"));
 }
 
 TEST_F(ServeTest, ContinuesWithoutALogReader) {
