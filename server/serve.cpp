@@ -25,6 +25,7 @@
 #include "server/listener.h"
 #include "server/log.h"
 #include "server/server.h"
+#include "server/service_manager.h"
 #include "server/tokens.h"
 
 namespace choreo {
@@ -75,7 +76,9 @@ class Reloader {
             asked_ = false;
             loads_ = true;
             lock.unlock();
+            TellManagerOfReload();
             folder.Reload(server, [&stop] { return stop.stop_requested(); });
+            if (!stop.stop_requested()) TellManager("READY=1");
             lock.lock();
             loads_ = false;
           }
@@ -155,6 +158,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   const std::string line = "choreod listens on " + SplitAddress(config.listen).host + ':' +
                            std::to_string(server.port());
   std::cout << (config.log_format == "json" ? JsonLine("info", line) : line) << std::endl;
+  TellManager("READY=1\nSTATUS=" + line);
 
   const sigset_t heard = SetOf({SIGTERM, SIGINT, SIGHUP});
   int signal = 0;
@@ -168,6 +172,7 @@ void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   spdlog::info("{}: draining for up to {} s; again to leave at once", strsignal(signal),
                config.drain_seconds);
   reloader.Stop();
+  TellManager("STOPPING=1\nSTATUS=drains for up to " + std::to_string(config.drain_seconds) + " s");
   {
     const LeaveAtOnce leave([&server] { server.GiveUp(); });
     server.Drain(config.drain_seconds);

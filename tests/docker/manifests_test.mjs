@@ -143,6 +143,7 @@ test('the unit of systemd stops as slowly as the pods, and may open enough', () 
   assert.ok(Number(unit.TimeoutStopSec) >= Number(setting('CHOREO_DRAIN_SECONDS')) + 10);
   assert.ok(Number(unit.LimitNOFILE) >= 65536);
   assert.match(unit.ExecReload, /-HUP/);
+  assert.equal(unit.Type, 'notify'); // ServeTest.TellsItsManagerHowFarItIs
   assert.match(unit.ExecStart, /\/choreod --config \/etc\/choreo\/choreod\.toml$/);
 });
 

@@ -1,9 +1,12 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <future>
@@ -209,6 +212,35 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   EXPECT_THAT(outcome.said,
               ContainsRegex("\"method\":\"StreamDance\".*\"status\":\"UNAVAILABLE\""));
   EXPECT_THAT(outcome.said, HasSubstr("the server was told to leave at once"));
+}
+
+// systemd's Type=notify: who depends on choreod starts once it serves.
+TEST_F(ServeTest, TellsItsManagerHowFarItIs) {
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  std::ranges::copy((folder_ / "notify").string(), address.sun_path);
+  const int manager = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(manager, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  const timeval patience{.tv_sec = 10, .tv_usec = 0};
+  setsockopt(manager, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const auto hear = [manager] {
+    char text[1024];
+    const ssize_t size = recv(manager, text, sizeof text, 0);
+    return std::string(text, static_cast<size_t>(std::max<ssize_t>(size, 0)));
+  };
+  std::filesystem::create_directory(folder_ / "models");
+  std::ofstream(folder_ / "models/a.safetensors").flush();
+  setenv("NOTIFY_SOCKET", (folder_ / "notify").c_str(), 1);
+  Start("--drain-seconds 1 --models '" + (folder_ / "models").string() + "'");
+  EXPECT_THAT(hear(), testing::StartsWith("READY=1\nSTATUS=choreod listens on 127.0.0.1:"));
+  unsetenv("NOTIFY_SOCKET");
+  AwaitListening();
+  Send(SIGHUP);
+  EXPECT_THAT(hear(), ContainsRegex("^RELOADING=1\nMONOTONIC_USEC=[0-9]+$"));
+  EXPECT_EQ(hear(), "READY=1");
+  Send(SIGTERM);
+  EXPECT_THAT(hear(), testing::StartsWith("STOPPING=1\n"));
+  EXPECT_EQ(End().code, 0);
+  close(manager);
 }
 
 TEST_F(ServeTest, ContinuesWithoutALogReader) {
