@@ -108,7 +108,7 @@ test('calls are limited to what the page counts on for these kernels and cores',
 });
 
 test('the metrics that others ask for are those that there are', () => {
-  const files = ['grafana.json', 'kubernetes.yaml', 'monitoring.yaml', 'prometheus-adapter.yaml'].map(read).join('');
+  const files = ['alerts.yaml', 'grafana.json', 'kubernetes.yaml', 'monitoring.yaml', 'prometheus-adapter.yaml'].map(read).join('');
   const asked = [...files.matchAll(/\bchoreo_[a-z_]+/g)].map(([name]) => name.replace(/_(bucket|sum|count)$/, ''));
   assert.ok(asked.length > 20);
   new Set(asked).forEach((name) => assert.ok(exported.has(name), `nobody exports ${name}`));
@@ -165,9 +165,17 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
   }
   ['choreo_draining', 'choreo_refused_calls_total', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures',
-    'choreo_last_reload_successful', 'choreo_certificate_expiry_timestamp_seconds']
+    'choreo_last_reload_successful', 'choreo_certificate_expiry_timestamp_seconds', 'choreo_tls_handshake_failures_total']
       .forEach((name) => assert.ok(asked.has(name), `nobody is woken for ${name}`));
   assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);
+});
+
+test('alerts are the same with and without the operator, and the runbook has each', () => {
+  assert.deepEqual(ofKind('PrometheusRule').spec.groups, yaml.load(read('alerts.yaml')).groups);
+  const known = [...readSource('docs/runbook.md').matchAll(/^\| `(\w+)` \|/gm)].map(([, name]) => name);
+  assert.deepEqual(known.filter((name) => name.startsWith('Choreo')), alerts.map(({alert}) => alert));
+  const [, reasons] = readSource('server/handshakes.h').match(/kHandshakeFaults = \{([^}]*)\}/);
+  [...reasons.matchAll(/"(\w+)"/g)].forEach(([, reason]) => assert.ok(known.includes(reason), reason));
 });
 
 test('the adapter hands on what the autoscaler scales by, of each pod', () => {
