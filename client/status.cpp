@@ -1,5 +1,8 @@
 #include "client/status.h"
 
+#include <algorithm>
+#include <string>
+
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -79,6 +82,13 @@ Error ToError(const grpc::Status& status) {
 
 Error ToError(const grpc::Status& status, const std::string& address, bool tls) {
   const Error error = ToError(status);
+  google::rpc::RetryInfo info;
+  if (error.code() == ErrorCode::kResourceExhausted && FindDetail(status, &info)) {
+    return {error.code(), address,
+            std::string(error.what()) + "; it asks to try again in " +
+                std::to_string(std::max<int64_t>(1, info.retry_delay().seconds())) +
+                " s; another server may have room"};
+  }
   if (error.code() != ErrorCode::kUnavailable) return error;
   std::string message = error.what();
   // This is the symptom of plain text sent to a TLS port.

@@ -12,8 +12,8 @@ namespace choreo::client {
 /// field.
 Error ToError(const grpc::Status& status);
 
-/// The same for a server at this address, with TLS or without: names an unreachable server, and one
-/// that may require TLS.
+/// The same for a server at this address, with TLS or without: names an unreachable server, one
+/// that may require TLS, and a full one, with when to come again.
 Error ToError(const grpc::Status& status, const std::string& address, bool tls);
 
 /// The error for a restarted dance on a server of another fingerprint, which would make other

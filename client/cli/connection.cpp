@@ -11,6 +11,7 @@
 #include "client/cli/options.h"
 #include "model/core/joined.h"
 #include "model/core/programs.h"
+#include "model/core/rounded.h"
 
 namespace choreo::cli {
 namespace {
@@ -87,13 +88,16 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
   }
   // The error itself reports a server that was never reached.
   const auto reached = std::make_shared<std::atomic<bool>>(false);
-  client_options.before_retry = [own = own_.get(), reached, told = Clock::time_point()]() mutable {
+  const std::string note = "note: " + Joined(client_options.addresses) +
+                           ": lost or full; asked again for up to " +
+                           Rounded(client_options.retry_s) + " s\n";
+  client_options.before_retry = [own = own_.get(), reached, note,
+                                 told = Clock::time_point()]() mutable {
     Interruption::Check();
     if (own) own->RequireRunning();
     // Retries are at most seconds apart; later failures are another loss.
     const Clock::time_point before = std::exchange(told, Clock::now());
-    if (*reached && told - before > kOfOneLoss)
-      std::cerr << "note: the server is lost or busy; it is asked again and again\n";
+    if (*reached && told - before > kOfOneLoss) std::cerr << note;
   };
   client_ = std::make_unique<client::Client>(client_options);
   server_ = client_->GetServerInfo();

@@ -511,7 +511,9 @@ TEST_F(TokensTest, EachHolderHasItsOwnPlaces) {
   const auto dance = alice.StartDance({.frames = 30});
   ASSERT_TRUE(dance->Next());
   ExpectError(ErrorCode::kResourceExhausted,
-              "holder \"alice\" has 1 calls in progress, of at most 1 for one caller",
+              server->address() +
+                  ": holder \"alice\" has 1 calls in progress, of at most 1 for one caller; it "
+                  "asks to try again in ",
               [&] { alice.GenerateTransition({.frames = 5}); });
   Write("bobs", "b\n");
   const Client bob(

@@ -327,10 +327,29 @@ TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
       Choreo("live " + At("song.wav") + " --server " + server->address() + " </dev/null");
   killer.join();
   EXPECT_EQ(outcome.code, 1);
-  const size_t lost = outcome.said.find("note: the server is lost");
+  const size_t lost = outcome.said.find("note: " + server->address() + ": lost or full");
   ASSERT_NE(lost, std::string::npos) << outcome.said;
   // Well before it is given up.
   EXPECT_THAT(outcome.said.substr(lost), HasSubstr(" s: 0 frames"));
+}
+
+TEST_F(CommandTest, ALiveDanceNamesAFullServerItsLimitAndWhenToComeAgain) {
+  WriteClicks(folder_ / "song.wav", 60);
+  setenv("CHOREO_MAX_STREAMS", "1", 1);
+  const authoring::LocalServer server(FAKE_CHOREOD);
+  unsetenv("CHOREO_MAX_STREAMS");
+  const client::Client other({.addresses = {server.address()}});
+  const auto dance = other.StartDance({.frames = 30, .generate_until = 0});
+  dance->GenerateUntil(10);
+  ASSERT_TRUE(dance->Next());
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + " --server " + server.address() + " </dev/null");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("note: " + server.address() + ": lost or full; asked again"));
+  EXPECT_THAT(outcome.said,
+              testing::ContainsRegex("choreo: " + server.address() +
+                                     ": the server is full: 1 calls are in progress, of at most 1; "
+                                     "it asks to try again in [0-9]+ s"));
 }
 
 TEST_F(CommandTest, ALiveDanceGoesOnInexactlyIfAsked) {
