@@ -54,6 +54,45 @@ TEST(KeyFileTest, ReadsAKeyAsItIsWritten) {
   EXPECT_TRUE(keys[0].mask.joints.empty());
 }
 
+// client/node and client/python have readers of their own; their tests compare them with this file.
+TEST(KeyFileTest, PackagesReadTheSameKeys) {
+  const std::filesystem::path source = SOURCE_FOLDER;
+  const auto read = [](const std::filesystem::path& file) {
+    return std::string(std::istreambuf_iterator<char>(std::ifstream(file).rdbuf()), {});
+  };
+  const auto known = nlohmann::json::parse(read(source / "tests/examples/read_keys.json"));
+  EXPECT_EQ(known.size(), 3U);
+  for (const auto& [name, keys] : known.items()) {
+    const auto mine = Parse(read(source / "examples" / name));
+    ASSERT_EQ(mine.size(), keys.size()) << name;
+    for (size_t i = 0; i < mine.size(); ++i) {
+      SCOPED_TRACE(mine[i].id);
+      const auto& key = keys[i];
+      const v1::Keyframe sent = client::ToProto(mine[i]);
+      EXPECT_EQ(sent.id(), key.at("id"));
+      EXPECT_NEAR(sent.time(), key.value("time", 0.0), 1e-5);
+      EXPECT_EQ(sent.frame(), key.value("frame", 0));
+      EXPECT_EQ(sent.has_hit() ? sent.hit() : -1, key.value("hit", -1.0));
+      EXPECT_EQ(v1::HandPose_Name(sent.hands()), key.value("hands", "HAND_POSE_UNSPECIFIED"));
+      const auto& mask = sent.mask().joints();
+      const auto joints = nlohmann::json(key.value("mask", nlohmann::json::object()))
+                              .value("joints", std::vector<int>());
+      EXPECT_EQ(std::vector<int>(mask.begin(), mask.end()), joints);
+      const auto& pose = key.at("pose");
+      EXPECT_EQ(sent.pose().has_root_position(), pose.contains("root_position"));
+      if (const auto root = pose.find("root_position"); root != pose.end()) {
+        EXPECT_NEAR(sent.pose().root_position().x(), root->at("x"), 1e-5);
+        EXPECT_NEAR(sent.pose().root_position().y(), root->at("y"), 1e-5);
+        EXPECT_NEAR(sent.pose().root_position().z(), root->at("z"), 1e-5);
+      }
+      const auto& rotations = sent.pose().rotations();
+      EXPECT_THAT(std::vector<float>(rotations.begin(), rotations.end()),
+                  testing::Pointwise(testing::FloatNear(1e-5F),
+                                     pose.at("rotations").get<std::vector<float>>()));
+    }
+  }
+}
+
 TEST(KeyFileTest, KeepsTheOrderAndNamesUnnamedKeys) {
   const std::string nameless = R"({"frame": 90, "rotations": )" + Rotations() + "}";
   const auto keys = Parse(R"({"keyframes": [)" + nameless + "," +
