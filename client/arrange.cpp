@@ -100,7 +100,7 @@ EditedDance Join(const Client& client, FinishedDance first, const FinishedDance&
   if (!between.contacts.empty())
     between.contacts.resize(between.motion.frames.size(), between.contacts.front());
   const FinishedDance whole = Join(Join(std::move(first), between), second);
-  return DanceFreely(
+  return DanceAnew(
       client, whole, options,
       {.from = Before(last, rate), .to = After(begin, rate), .to_id = "the second dance"});
 }

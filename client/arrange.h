@@ -33,7 +33,7 @@ bool BeginsIn(const Skeleton& skeleton, const FinishedDance& dance, const Pose& 
 FinishedDance Join(FinishedDance first, const FinishedDance& second);
 
 /// Joins them with `gap` frames of the model, at least kMinKeyDistance, between the last frame of
-/// one and the first of the other, which are danced. Fails like DanceFreely.
+/// one and the first of the other, which are danced. Fails like DanceAnew.
 EditedDance Join(const Client& client, FinishedDance first, const FinishedDance& second,
                  const EditOptions& options, int64_t gap);
 

@@ -45,6 +45,11 @@ class Edit {
   /// The poses from `first` on, at most `kLeadIn`.
   std::vector<Pose> From(int64_t first) const { return Poses(first, first + kLeadIn); }
   const Pose& pose(int64_t frame) const { return poses_[static_cast<size_t>(frame)]; }
+  int64_t FrameOf(const KeyPose& key) const {
+    return key.frame.value_or(std::llround(key.time_s * fps()));
+  }
+  /// The most frames of one transition.
+  int64_t longest() const { return options_.model.max_transition_frames; }
 
   /// The transition after frame `from` (-1: from rest at the origin).
   TransitionRequest After(int64_t from, int64_t frames) const {
@@ -207,6 +212,23 @@ struct Stop {
   std::optional<double> hit = {};
 };
 
+Stop StopAt(int64_t frame, const KeyPose& key) {
+  return {frame, key.pose, key.mask, key.id, key.hit};
+}
+
+/// Adds free stops where one transition cannot span the way to the next stop.
+std::vector<Stop> Spanned(int64_t from, const std::vector<Stop>& stops, int64_t longest) {
+  std::vector<Stop> spanned;
+  for (const Stop& stop : stops) {
+    const int64_t parts = (stop.frame - from + longest - 1) / longest;
+    for (int64_t part = 1; part < parts; ++part)
+      spanned.push_back({.frame = from + (stop.frame - from) * part / parts});
+    spanned.push_back(stop);
+    from = stop.frame;
+  }
+  return spanned;
+}
+
 /// Dances from frame `from` through the stops and on to `to`, which stays unchanged if it is a
 /// frame of the dance.
 EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int64_t to,
@@ -214,6 +236,7 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
   const bool leads_on = to < work.frames();
   if (leads_on)
     stops.push_back({to, work.pose(to), {}, to_id.empty() ? NameOfFrame(to) : to_id, to_hit});
+  stops = Spanned(from, stops, work.longest());
   Part part{from + 1, {}, {}};
   TransitionCandidate danced;
   for (size_t i = 0; i < stops.size(); ++i) {
@@ -288,12 +311,9 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
                    const KeyEdit& edit) {
   Edit work(client, dance, options);
   std::vector<Stop> stops;
-  const auto frame_of = [&](const KeyPose& key) {
-    return key.frame.value_or(std::llround(key.time_s * work.fps()));
-  };
-  stops.push_back({frame_of(edit.key), edit.key.pose, edit.key.mask, edit.key.id, edit.key.hit});
+  stops.push_back(StopAt(work.FrameOf(edit.key), edit.key));
   for (const KeyPose& key : edit.held) {
-    stops.push_back({frame_of(key), key.pose, key.mask, key.id});
+    stops.push_back({work.FrameOf(key), key.pose, key.mask, key.id});
     if (stops.back().frame - std::prev(stops.end(), 2)->frame < kMinKeyDistance) {
       throw InvalidArgument("key.frame", std::to_string(stops.back().frame) + " of a key that is " +
                                              "held is not " +
@@ -304,22 +324,32 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
   return DanceThrough(work, edit.from, stops, edit.to, edit.to_id, edit.to_hit);
 }
 
-EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
-                        const EditOptions& options, const Gap& gap) {
+EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
+                      const Gap& gap) {
   Edit work(client, dance, options);
   const int64_t frames = work.frames();
-  if (gap.from < 0 || gap.from > frames - 2) {
+  if (gap.from < -1 || gap.from > frames - 2) {
     throw InvalidArgument(
-        "from", std::to_string(gap.from) + " is not in [0, " + std::to_string(frames - 2) + "]");
+        "from", std::to_string(gap.from) + " is not in [-1, " + std::to_string(frames - 2) + "]");
   }
   if (gap.to < gap.from + 2 || gap.to > frames) {
     throw InvalidArgument("to", std::to_string(gap.to) + " is not in [" +
                                     std::to_string(gap.from + 2) + ", " + std::to_string(frames) +
                                     "]");
   }
+  std::vector<Stop> stops;
+  int64_t before = gap.from;
+  for (const KeyPose& key : gap.keys) {
+    const int64_t frame = work.FrameOf(key);
+    if (frame <= before || frame >= gap.to) {
+      throw InvalidArgument("keys", key.id + " at " + NameOfFrame(frame) + " is not between " +
+                                        NameOfFrame(before) + " and " + NameOfFrame(gap.to));
+    }
+    stops.push_back(StopAt(frame, key));
+    before = frame;
+  }
   // The end is free if no frame follows.
-  const std::vector<Stop> stops =
-      gap.to == frames ? std::vector<Stop>{{.frame = frames - 1}} : std::vector<Stop>{};
+  if (gap.to == frames && before < frames - 1) stops.push_back({.frame = frames - 1});
   return DanceThrough(work, gap.from, stops, gap.to, gap.to_id, gap.to_hit);
 }
 

@@ -55,12 +55,13 @@ struct KeyEdit {
   std::optional<double> to_hit = {};  ///< how hard it is hit, as KeyPose::hit
 };
 
-/// Frames between `from` and `to`, both exclusive, to dance without a key.
+/// Frames between `from` and `to`, both exclusive, to dance anew.
 struct Gap {
-  int64_t from = 0;        ///< in the dance
+  int64_t from = 0;        ///< in the dance; -1: from rest at the origin
   int64_t to = 0;          ///< at least 2 after `from`; the dance's frame count for an open end
   std::string to_id = {};  ///< as in KeyEdit, here and below
   std::optional<double> to_hit = {};
+  std::vector<KeyPose> keys = {};  ///< between them, with frames, in order
 };
 
 /// The result of an edit.
@@ -87,11 +88,11 @@ int64_t CountModelFrames(const FinishedDance& dance, const ModelDescription& mod
 EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditOptions& options,
                    const KeyEdit& edit);
 
-/// Dances the frames between two others again, without a key: removes one. Throws
-/// Error(kInvalidArgument) whose field is "from", "to", "audio" or "dance", and as
-/// GenerateTransition.
-EditedDance DanceFreely(const Client& client, const FinishedDance& dance,
-                        const EditOptions& options, const Gap& gap);
+/// Dances the frames between two others again, through the gap's keys alone: another take, or one
+/// without a key. Throws Error(kInvalidArgument) whose field is "from", "to", "keys", "audio" or
+/// "dance", and as GenerateTransition.
+EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
+                      const Gap& gap);
 
 /// Makes a dance loop: the frames after `from`, and `added` ones after the dance's end, at least
 /// one in all, lead back to the first ones. A dance at another rate than the model's also gets the

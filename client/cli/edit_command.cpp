@@ -23,7 +23,7 @@ constexpr double kMaxStretch = 4;
 bool EditsKeys(const EditOptions& options) {
   return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
          !options.repeats.empty() || !options.stretches.empty() || !options.mirrored.empty() ||
-         options.loop;
+         !options.retakes.empty() || options.loop;
 }
 
 bool EditsWhole(const EditOptions& options) {
@@ -49,6 +49,8 @@ void CheckTimes(const EditOptions& options) {
     for (const std::string& time : {from, until}) check("--stretch", time);
   for (const auto& [from, until] : options.mirrored)
     for (const std::string& time : {from, until}) check("--mirror-phrase", time);
+  for (const auto& [from, until] : options.retakes)
+    for (const std::string& time : {from, until}) check("--retake", time);
   check("--hold", options.hold);
   check("--from", options.from);
   check("--until", options.until);
@@ -109,13 +111,14 @@ void CheckOptions(const EditOptions& options) {
   if (!EditsKeys(options) && !EditsWhole(options)) {
     throw InvalidArgument("--key",
                           "is missing, and so are --move, --remove, --repeat, --stretch, "
-                          "--mirror-phrase, --loop, --from, --until, --mirror and --join: nothing "
-                          "is to be changed");
+                          "--mirror-phrase, --retake, --loop, --from, --until, --mirror and "
+                          "--join: nothing is to be changed");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
     throw InvalidArgument(
         "--key",
-        "and --move, --remove, --repeat, --stretch, --mirror-phrase, --loop go in a command of "
+        "and --move, --remove, --repeat, --stretch, --mirror-phrase, --retake, --loop go in a "
+        "command of "
         "their own, after --from, --until, --mirror, --join, which change the whole dance");
   }
   CheckReported(options);
@@ -169,6 +172,8 @@ void Run(const EditOptions& options) {
                            session.Second("--mirror-phrase", until));
     for (size_t i = 0; i < options.keys.size(); ++i)
       session.SetKey(options.keys[i], session.Second("--at", options.at[i]));
+    for (const auto& [from, until] : options.retakes)
+      session.Retake(session.Second("--retake", from), session.Second("--retake", until));
     if (options.loop) session.CloseLoop();
   } catch (const Error& error) {
     throw options.controls.InTermsOf(error);
@@ -182,14 +187,16 @@ void AddEditCommand(CLI::App& program) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command = program.add_subcommand(
       "edit",
-      "Set, move, remove and repeat key poses of a finished dance, or close it to a loop; or cut, "
-      "mirror and join whole dances.\n"
+      "Set, move, remove and repeat key poses of a finished dance, dance a part of it anew, or "
+      "close "
+      "it to a loop; or cut, mirror and join whole dances.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
       "away. A key at the frame of another one replaces it. A TIME is in seconds, or in counts of "
       "--song: 1c is its first downbeat, 9c the next eight's 1, 9.5c the half beat after it. Keys "
       "are removed first, then moved, "
-      "then stretched, repeated, mirrored, then set. Whole dances are cut first, then mirrored, "
+      "then stretched, repeated, mirrored, then set; takes come after them. Whole dances are cut "
+      "first, then mirrored, "
       "then "
       "joined.");
   command
@@ -251,6 +258,13 @@ void AddEditCommand(CLI::App& program) {
                    "and right exchanged, as seen from where the dancer stands and faces at the "
                    "first of them. May be given more than once.")
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--retake", options->retakes,
+          "FROM UNTIL: dances what lies between two times anew, through the keys of "
+          "--report there, which stay. With the seed after the dance's, unless --seed says "
+          "another. May be given more than once.")
+      ->allow_extra_args(false);
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files and moved ones, too, where the dancer is and faces at that "
                     "moment.");
@@ -303,8 +317,10 @@ void AddEditCommand(CLI::App& program) {
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit, and the "
                       "warnings of its edits and of frames that stay.");
-  AddSeed(*command, options->seed,
-          "Same seed, same edit. Default: the dance's, by --report; else 0. " + kOfChance);
+  AddSeed(
+      *command, options->seed,
+      "Same seed, same edit. Default: the dance's, by --report, else 0; with --retake one more. " +
+          kOfChance);
   AddTemperature(*command, options->temperature);
   AddMusicDynamics(*command, options->music_dynamics);
   AddVariation(*command, options->variation);

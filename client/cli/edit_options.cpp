@@ -78,6 +78,12 @@ void TakeReport(bool says_start, EditOptions* options) {
   if (options->beats != authoring::BeatOptions() || options->song.empty() || says_start)
     asked.beats.clear();
   take("model", asked.model, &options->model, asked.model);
+  // Another take needs another seed.
+  if (!options->retakes.empty() && !options->seed) {
+    options->seed = asked.seed.value_or(0) + 1;
+    std::cerr << "note: takes are danced with seed " << *options->seed
+              << "; another --seed gives others\n";
+  }
   take("seed", asked.seed, &options->seed, std::to_string(asked.seed.value_or(0)));
   take("temperature", asked.temperature, &options->temperature, number(asked.temperature));
   take("music dynamics", asked.music_dynamics, &options->music_dynamics,

@@ -30,6 +30,7 @@ struct EditOptions {
   std::vector<std::tuple<std::string, std::string, std::string>> repeats;
   std::vector<std::tuple<std::string, std::string, double>> stretches;  ///< start, end, factor
   std::vector<std::pair<std::string, std::string>> mirrored;            ///< start, end
+  std::vector<std::pair<std::string, std::string>> retakes;             ///< start, end
   std::string hold;                                                     ///< of `keys`; or empty
   std::optional<double> hit;                                            ///< of `keys` and `moves`
   std::string hands;                                                    ///< the same; or empty

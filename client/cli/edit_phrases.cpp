@@ -76,18 +76,24 @@ void EditSession::SetAll(const char* field, std::span<client::KeyEdit> phrase) {
   }
 }
 
+std::vector<client::KeyPose> EditSession::KeysAsDanced(int64_t first, int64_t end) const {
+  std::vector<client::KeyPose> danced;
+  for (auto key = keys_.lower_bound(first); key != keys_.end() && key->first < end; ++key) {
+    danced.push_back({.id = IdAt(key->first),
+                      .frame = key->first,
+                      .pose = PoseAt(dance_.motion, Seconds(key->first)),
+                      .hit = HitOf(key->second),
+                      .hands = HandsOf(key->second)});
+  }
+  return danced;
+}
+
 std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_s,
                                                  double until_s) const {
   std::vector<client::KeyEdit> phrase;
   const int64_t until = Frame(until_s);
-  for (auto key = keys_.lower_bound(Frame(from_s)); key != keys_.end() && key->first < until;
-       ++key) {
-    client::KeyPose danced{.id = IdAt(key->first),
-                           .frame = key->first,
-                           .pose = PoseAt(dance_.motion, Seconds(key->first)),
-                           .hit = HitOf(key->second),
-                           .hands = HandsOf(key->second)};
-    if (HoldsAnother(key->second) && !phrase.empty()) {
+  for (client::KeyPose& danced : KeysAsDanced(Frame(from_s), until)) {
+    if (HoldsAnother(keys_.at(*danced.frame)) && !phrase.empty()) {
       phrase.back().held.push_back(std::move(danced));
     } else {
       phrase.push_back({.key = std::move(danced)});

@@ -206,14 +206,8 @@ void EditSession::Free(const std::vector<int64_t>& frames, const std::string& wh
     gap.to_id = IdAt(gap.to);
     gap.to_hit = HitOf(keys_.at(gap.to));
   }
-  if (gap.to - gap.from > longest_) {
-    throw InvalidArgument("--around", "without the key " + Rounded(Seconds(gap.to - gap.from)) +
-                                          " s are danced at once, the model's most are " +
-                                          Rounded(Seconds(longest_)) +
-                                          " s: say how much is to be danced anew");
-  }
   DropWarnings(gap.from, gap.to);
-  Take(client::DanceFreely(client_, dance_, edit_, gap), what);
+  Take(client::DanceAnew(client_, dance_, edit_, gap), what);
 }
 
 void EditSession::WarnOfFaults(const client::KeyEdit& edit) {

@@ -46,6 +46,8 @@ class EditSession {
   /// Mirrors the report's keys in [from_s, until_s), relative to the dancer's place and facing at
   /// the first of them.
   void MirrorPhrase(double from_s, double until_s);
+  /// Dances the frames between two seconds anew, through the keys there.
+  void Retake(double from_s, double until_s);
   /// Leads the last frames back to the first; after a held pose at the end, adds new ones.
   void CloseLoop();
   /// Writes the dance and its report, as the options say.
@@ -59,6 +61,8 @@ class EditSession {
   void CheckAround(double seconds) const;
   /// Throws if a key at this second would be too near to `what` at this frame.
   void CheckDistance(const char* field, double at_s, int64_t other, const std::string& what) const;
+  /// The report's keys at frames in [first, end), as danced.
+  std::vector<client::KeyPose> KeysAsDanced(int64_t first, int64_t end) const;
   /// The report's keys in [from_s, until_s), as danced, each with what holds it; at least one.
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Sets the keys of a phrase at their present places; the dance has no others there.
@@ -84,6 +88,8 @@ class EditSession {
   int64_t Before(int64_t frame) const;
   int64_t After(int64_t frame) const;
 
+  /// Dances the frames between two others anew, through the keys there; `to`: as in client::Gap.
+  void DanceAnew(const std::string& what, int64_t from, int64_t to);
   /// Sets a moved or new key at this second, from `edit.key` to the last of `edit.held`, between
   /// its neighbours.
   void Set(const char* field, double at_s, client::KeyEdit edit);

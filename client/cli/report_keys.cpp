@@ -133,6 +133,11 @@ std::vector<HandKey> HandKeys(const nlohmann::ordered_json& report) {
   return keys;
 }
 
+void CopyMarks(const nlohmann::ordered_json& from, nlohmann::ordered_json* to) {
+  for (const char* mark : {kHolds, kHit, kHands})
+    if (from.contains(mark)) (*to)[mark] = from[mark];
+}
+
 void MarkHeld(const std::string& id, nlohmann::ordered_json* key) { (*key)[kHolds] = id; }
 
 }  // namespace choreo::cli

@@ -45,6 +45,9 @@ void MarkHit(const std::optional<double>& hit, nlohmann::ordered_json* key);
 std::optional<HandPose> HandsOf(const nlohmann::ordered_json& key);
 void MarkHands(const std::optional<HandPose>& hands, nlohmann::ordered_json* key);
 
+/// Marks a key as another one is marked: as holding a pose, hit, and with hands.
+void CopyMarks(const nlohmann::ordered_json& from, nlohmann::ordered_json* to);
+
 /// The hands' poses in a dance, from its report's keys (ReadReport), in order of time.
 std::vector<HandKey> HandKeys(const nlohmann::ordered_json& report);
 

@@ -1,0 +1,38 @@
+// Another take of a part of a dance.
+#include <algorithm>
+#include <iostream>
+
+#include "client/cli/edit_session.h"
+#include "client/cli/report.h"
+#include "model/core/limits.h"
+#include "model/core/rounded.h"
+
+namespace choreo::cli {
+
+void EditSession::Retake(double from_s, double until_s) {
+  const int64_t first = FrameInDance("--retake", from_s);
+  const int64_t from = first == 0 ? -1 : first;  // nothing is before the beginning
+  const int64_t until = Frame(until_s);
+  const int64_t to = until < frames_ - 1 ? until : frames_;
+  if (to - from <= kMinKeyDistance) {
+    throw InvalidArgument("--retake", Rounded(from_s) + " s to " + Rounded(until_s) +
+                                          " s leaves no room in the dance: at least " +
+                                          std::to_string(kMinKeyDistance) +
+                                          " frames between these two are danced anew");
+  }
+  DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
+}
+
+void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
+  client::Gap gap{.from = from, .to = to, .keys = KeysAsDanced(from + 1, to)};
+  if (keys_.contains(to)) {
+    gap.to_id = IdAt(to);
+    gap.to_hit = HitOf(keys_.at(to));
+  }
+  const ReportKeys before(keys_.upper_bound(from), keys_.lower_bound(to));
+  DropWarnings(from, to);
+  Take(client::DanceAnew(client_, dance_, edit_, gap), what);
+  for (const auto& [frame, key] : before) CopyMarks(key, &keys_.at(frame));
+}
+
+}  // namespace choreo::cli

@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/client/edit_fixture.h"
+
+namespace choreo::edit_retake_test {
+
+using testing::HasSubstr;
+
+class RetakeTest : public EditTest {
+ protected:
+  std::string Report(const std::string& name) const {
+    return " --report " + At("report.json") + " -o " + At(name + ".npz") + " --new-report " +
+           At(name + ".json") + " ";
+  }
+};
+
+TEST_F(RetakeTest, AnotherTakeKeepsItsKeysAndWhatIsAround) {
+  const std::string stretch = "--retake " + Seconds(keys_[1]) + " " + Seconds(keys_[3] + 5);
+  const Outcome outcome = Edit(stretch + Report("take"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("note: takes are danced with seed 4; another --seed gives"));
+  ExpectChanged("take.npz", keys_[1] + 1, keys_[3] + 5);
+  const Motion before = Read("dance.npz");
+  const Motion after = Read("take.npz");
+  for (const size_t key : {keys_[2], keys_[3]}) {
+    const PoseError error = ComparePoses(Skeleton::Smpl24(), after.frames[key], before.frames[key]);
+    EXPECT_LE(error.position_m, 0.001);
+    EXPECT_LE(error.angle_deg, 0.1);
+  }
+  const auto keys = [&](const char* report) {
+    std::vector<std::pair<std::string, int>> named;
+    const nlohmann::json read = ReadJson(folder_ / report);
+    for (const auto& key : read["keyframes"]) named.emplace_back(key["id"], key["frame"]);
+    return named;
+  };
+  EXPECT_EQ(keys("take.json"), keys("report.json"));
+
+  ASSERT_EQ(Edit(stretch + " --seed 4" + Report("same")).code, 0);
+  EXPECT_EQ(ReadFile(folder_ / "same.npz"), ReadFile(folder_ / "take.npz"));
+  ASSERT_EQ(Edit(stretch + " --seed 5" + Report("other")).code, 0);
+  EXPECT_NE(ReadFile(folder_ / "other.npz"), ReadFile(folder_ / "take.npz"));
+}
+
+TEST_F(RetakeTest, ATakeMayReachTheEndAndKeepsHolds) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0], "hold": 1,
+                            "hit": 2, "hands": "fist"}]})";
+  ASSERT_EQ(Choreo("dance -k " + At("keys.json") + Server() + "--seconds 5 -o " + At("dance.npz") +
+                   " --report " + At("report.json"))
+                .code,
+            0);
+  const Outcome outcome = Edit("--retake 0 5" + Report("take"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(Read("take.npz").frames.size(), 150U);
+  const nlohmann::json before = ReadJson(folder_ / "report.json")["keyframes"];
+  const nlohmann::json after = ReadJson(folder_ / "take.json")["keyframes"];
+  ASSERT_EQ(after.size(), before.size());
+  for (size_t i = 0; i < before.size(); ++i)
+    for (const char* mark : {"id", "frame", "holds", "hit", "hands"})
+      EXPECT_EQ(after[i].value(mark, nlohmann::json()), before[i].value(mark, nlohmann::json()));
+}
+
+TEST_F(RetakeTest, RefusesWhatIsNoStretch) {
+  const auto refused = [&](const std::string& stretch, const std::string& message) {
+    const Outcome outcome = Edit("--retake " + stretch + Report("take"));
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.said, HasSubstr(message));
+  };
+  refused("3 2", "--retake: 3 s to 2 s leaves no room in the dance");
+  refused("30 40", "--retake: 30 s is after the dance");
+}
+
+// A model's transition lasts a minute at most.
+TEST_F(RetakeTest, ATakeMayBeLongerThanATransition) {
+  ASSERT_EQ(Choreo("dance -k none" + Server() + "--seconds 65 -o " + At("dance.npz") +
+                   " --report " + At("report.json"))
+                .code,
+            0);
+  const Outcome outcome = Edit("--retake 1 64.5" + Report("take"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  ExpectChanged("take.npz", 31, 1935);
+}
+
+}  // namespace choreo::edit_retake_test
