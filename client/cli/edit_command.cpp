@@ -49,8 +49,13 @@ void CheckTimes(const EditOptions& options) {
     for (const std::string& time : {from, until}) check("--stretch", time);
   for (const auto& [from, until] : options.mirrored)
     for (const std::string& time : {from, until}) check("--mirror-phrase", time);
-  for (const auto& [from, until] : options.retakes)
+  for (const auto& [from, until] : options.retakes) {
     for (const std::string& time : {from, until}) check("--retake", time);
+    const auto [begin, end] =
+        std::pair(authoring::ParseTime(from, "--retake"), authoring::ParseTime(until, "--retake"));
+    if (begin.counts == end.counts && begin.amount >= end.amount)
+      throw InvalidArgument("--retake", until + " is not after " + from);
+  }
   check("--hold", options.hold);
   check("--from", options.from);
   check("--until", options.until);
@@ -108,11 +113,18 @@ void CheckMarkers(const EditOptions& options) {
 void CheckOptions(const EditOptions& options) {
   if (!options.marks.empty() || !options.unmarked.empty())
     throw InvalidArgument("--mark", "goes with a project, and " + options.dance + " is none");
-  if (!EditsKeys(options) && !EditsWhole(options)) {
+  const bool otherwise = options.changed != DanceChange::kNothing;
+  if (!EditsKeys(options) && !EditsWhole(options) && otherwise && options.report.empty()) {
+    throw InvalidArgument("--report",
+                          "is missing: the whole dance is danced anew, through the keys that it "
+                          "names");
+  }
+  if (!EditsKeys(options) && !EditsWhole(options) && !otherwise) {
     throw InvalidArgument("--key",
                           "is missing, and so are --move, --remove, --repeat, --stretch, "
                           "--mirror-phrase, --retake, --loop, --from, --until, --mirror and "
-                          "--join: nothing is to be changed");
+                          "--join, and --seed, --style, --path and --velocity, which change the "
+                          "whole dance: nothing is to be changed");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
     throw InvalidArgument(
@@ -174,6 +186,7 @@ void Run(const EditOptions& options) {
       session.SetKey(options.keys[i], session.Second("--at", options.at[i]));
     for (const auto& [from, until] : options.retakes)
       session.Retake(session.Second("--retake", from), session.Second("--retake", until));
+    if (!EditsKeys(options)) session.DanceOtherwise();
     if (options.loop) session.CloseLoop();
   } catch (const Error& error) {
     throw options.controls.InTermsOf(error);
@@ -187,18 +200,15 @@ void AddEditCommand(CLI::App& program) {
   auto options = std::make_shared<EditOptions>();
   CLI::App* command = program.add_subcommand(
       "edit",
-      "Set, move, remove and repeat key poses of a finished dance, dance a part of it anew, or "
-      "close "
-      "it to a loop; or cut, mirror and join whole dances.\n"
+      "Set, move, remove and repeat key poses of a finished dance, dance a part or all of it anew, "
+      "or close it to a loop; or cut, mirror and join whole dances.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
       "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
       "away. A key at the frame of another one replaces it. A TIME is in seconds, or in counts of "
       "--song: 1c is its first downbeat, 9c the next eight's 1, 9.5c the half beat after it. Keys "
-      "are removed first, then moved, "
-      "then stretched, repeated, mirrored, then set; takes come after them. Whole dances are cut "
-      "first, then mirrored, "
-      "then "
-      "joined.");
+      "are removed first, then moved, stretched, repeated, mirrored and set; takes come after "
+      "them. With --seed, --style, --path or --velocity alone all is danced anew, through the "
+      "same keys. Whole dances are cut first, then mirrored, then joined.");
   command
       ->add_option("dance", options->dance,
                    MotionFileExtensions() + " file; with --mark and --unmark a project.")
@@ -259,11 +269,10 @@ void AddEditCommand(CLI::App& program) {
                    "first of them. May be given more than once.")
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--retake", options->retakes,
-          "FROM UNTIL: dances what lies between two times anew, through the keys of "
-          "--report there, which stay. With the seed after the dance's, unless --seed says "
-          "another. May be given more than once.")
+      ->add_option("--retake", options->retakes,
+                   "FROM UNTIL: dances what lies between two times anew, through the keys of "
+                   "--report there, which stay: with the seed after the dance's, or as --seed, "
+                   "--style, --path and --velocity say. May be given more than once.")
       ->allow_extra_args(false);
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files and moved ones, too, where the dancer is and faces at that "

@@ -57,6 +57,15 @@ void CheckSketch(const std::string& path, const nlohmann::ordered_json& report, 
                "tells\n";
 }
 
+DanceChange ChangeOf(const EditOptions& options) {
+  const bool other = !options.style.empty() || !options.controls.velocities.empty() ||
+                     options.temperature || options.music_dynamics || options.variation;
+  if (other) return DanceChange::kOther;
+  if (!options.controls.path.empty())
+    return options.seed ? DanceChange::kOther : DanceChange::kPath;
+  return options.seed ? DanceChange::kSeed : DanceChange::kNothing;
+}
+
 }  // namespace
 
 void TakeReport(bool says_start, EditOptions* options) {
@@ -78,8 +87,9 @@ void TakeReport(bool says_start, EditOptions* options) {
   if (options->beats != authoring::BeatOptions() || options->song.empty() || says_start)
     asked.beats.clear();
   take("model", asked.model, &options->model, asked.model);
-  // Another take needs another seed.
-  if (!options->retakes.empty() && !options->seed) {
+  options->changed = ChangeOf(*options);
+  // Another take needs another seed, unless it is danced otherwise.
+  if (!options->retakes.empty() && options->changed == DanceChange::kNothing) {
     options->seed = asked.seed.value_or(0) + 1;
     std::cerr << "note: takes are danced with seed " << *options->seed
               << "; another --seed gives others\n";

@@ -17,6 +17,9 @@
 
 namespace choreo::cli {
 
+/// What the command line changes of how a dance is danced.
+enum class DanceChange { kNothing, kSeed, kPath, kOther };
+
 /// The options of `choreo edit`.
 struct EditOptions {
   ServerOptions server;
@@ -51,6 +54,8 @@ struct EditOptions {
   authoring::WrittenControls controls;
   std::string model;
   std::string out;
+
+  DanceChange changed = DanceChange::kNothing;  ///< before the report is read (TakeReport)
 
   // Edits of projects (edit_markers.h).
   std::vector<std::pair<std::string, std::string>> marks;  ///< names and times

@@ -23,8 +23,26 @@ void EditSession::Retake(double from_s, double until_s) {
   DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
 }
 
+void EditSession::DanceOtherwise() {
+  const auto& path = edit_.controls.root_path;
+  const bool begins_later = options_.changed == DanceChange::kPath && path->frames.front() > 0;
+  DanceAnew("danced anew", begins_later ? path->frames.front() : -1, frames_);
+  Asked& asked = known_.asked;
+  asked.style = edit_.style;
+  asked.seed = edit_.seed;
+  asked.temperature = edit_.temperature;
+  asked.music_dynamics = edit_.music_dynamics;
+  asked.variation = edit_.variation;
+}
+
 void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   client::Gap gap{.from = from, .to = to, .keys = KeysAsDanced(from + 1, to)};
+  if (const auto& path = edit_.controls.root_path) {
+    // The path says where they are.
+    for (client::KeyPose& key : gap.keys)
+      if (*key.frame >= path->frames.front() && *key.frame <= path->frames.back())
+        key.mask.root_position = false;
+  }
   if (keys_.contains(to)) {
     gap.to_id = IdAt(to);
     gap.to_hit = HitOf(keys_.at(to));

@@ -48,6 +48,9 @@ class EditSession {
   void MirrorPhrase(double from_s, double until_s);
   /// Dances the frames between two seconds anew, through the keys there.
   void Retake(double from_s, double until_s);
+  /// Dances the whole dance anew as the options say, through its keys; with another path alone,
+  /// from where that begins.
+  void DanceOtherwise();
   /// Leads the last frames back to the first; after a held pose at the end, adds new ones.
   void CloseLoop();
   /// Writes the dance and its report, as the options say.

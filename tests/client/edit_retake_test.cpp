@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "model/core/atomic_file.h"
 #include "tests/client/edit_fixture.h"
 
 namespace choreo::edit_retake_test {
@@ -69,7 +70,8 @@ TEST_F(RetakeTest, RefusesWhatIsNoStretch) {
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.said, HasSubstr(message));
   };
-  refused("3 2", "--retake: 3 s to 2 s leaves no room in the dance");
+  refused("3 2", "--retake: 2 is not after 3");
+  refused("3 3.05", "--retake: 3 s to 3.05 s leaves no room in the dance");
   refused("30 40", "--retake: 30 s is after the dance");
 }
 
@@ -82,6 +84,52 @@ TEST_F(RetakeTest, ATakeMayBeLongerThanATransition) {
   const Outcome outcome = Edit("--retake 1 64.5" + Report("take"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   ExpectChanged("take.npz", 31, 1935);
+}
+
+TEST_F(RetakeTest, TheWholeDanceIsDancedAnewAsAsked) {
+  ASSERT_EQ(Edit("--seed 5" + Report("other")).code, 0);
+  const Motion before = Read("dance.npz");
+  const Motion other = Read("other.npz");
+  EXPECT_NE(ReadFile(folder_ / "other.npz"), ReadFile(folder_ / "dance.npz"));
+  for (const size_t key : keys_) {
+    EXPECT_LE(ComparePoses(Skeleton::Smpl24(), other.frames[key], before.frames[key]).position_m,
+              0.001);
+  }
+  EXPECT_EQ(ReadJson(folder_ / "other.json")["seed"], 5) << "for the next edit";
+
+  const Outcome without = Edit("--style sad -o " + At("new.npz"));
+  EXPECT_EQ(without.code, 1);
+  EXPECT_THAT(without.said, HasSubstr("--report: is missing"));
+}
+
+TEST_F(RetakeTest, KeysMoveOntoAnotherPath) {
+  const TestServer server(std::make_unique<ControlledSampler>());
+  const std::string there = " --server " + server.address() + " ";
+  ASSERT_EQ(Choreo("dance " + At("song.wav") + there + "-o " + At("dance.npz") + " --report " +
+                   At("report.json"))
+                .code,
+            0);
+  const Motion before = Read("dance.npz");
+  const Pose& start = before.frames[60];
+  std::ofstream(folder_ / "path.json")
+      << R"({"points": [{"time": 2, "x": )" << start.root_position.x() << R"(, "z": )"
+      << start.root_position.z() << R"(}, {"time": 8, "x": 3, "z": 1}]})";
+  const auto edit = [&](const std::string& arguments) {
+    return Choreo("edit " + At("dance.npz") + there + arguments + Report("led"));
+  };
+  const Outcome outcome = edit("--path " + At("path.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion led = Read("led.npz");
+  EXPECT_EQ(ChangedRows(folder_ / "dance.npz", folder_ / "led.npz", "rotations").first, 61U);
+  // Half way; its end bends to the next key, which stays.
+  EXPECT_NEAR(led.frames[150].root_position.x(), (start.root_position.x() + 3) / 2, 0.1);
+  EXPECT_NEAR(led.frames[150].root_position.z(), (start.root_position.z() + 1) / 2, 0.1);
+  EXPECT_EQ(ReadJson(folder_ / "led.json")["keyframes"].size(),
+            ReadJson(folder_ / "report.json")["keyframes"].size());
+
+  const Outcome styled = edit("--style wild");
+  ASSERT_EQ(styled.code, 0) << styled.said;
+  EXPECT_EQ(ReadJson(folder_ / "led.json")["style"], "wild") << "for the next edit";
 }
 
 }  // namespace choreo::edit_retake_test
