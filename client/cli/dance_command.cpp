@@ -90,6 +90,7 @@ void CheckFiles(const DanceOptions& options, const std::vector<std::filesystem::
     inputs.push_back(
         {options.project.empty() ? "--keyframes" : "--project", authoring::FileOf(keys)});
   inputs.push_back({"--dancers", options.dancers});
+  if (!options.end.empty()) inputs.push_back({"--end", authoring::FileOf(options.end)});
   RequireOutputs(outputs, inputs);
 }
 
@@ -144,6 +145,11 @@ void AddDanceCommand(CLI::App& program) {
               "s at second 4 of the dance; =9c: on count 9 of the song, whose first downbeat is "
               "1). May be given more than once. none: no key at all. "
               "`choreo analyze SONG --suggest-keys N` names seconds that suit the song.");
+  command->add_option(
+      "--end", options->end,
+      "A pose to end in: of the library (bow, stand, ...), or as --keyframes takes one. It is "
+      "reached on the last beat that leaves a second, and held to the end; keys that stand there "
+      "make way. A library pose faces the audience.");
   AddAllowBends(*command, options->allow_bends);
   command
       ->add_option("--project", options->project,

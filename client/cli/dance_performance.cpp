@@ -8,9 +8,11 @@
 
 #include "client/authoring/choreography.h"
 #include "client/authoring/dance_keys.h"
+#include "client/authoring/ending.h"
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
+#include "client/authoring/pose_source.h"
 #include "client/cli/dance_display.h"
 #include "client/cli/interruption.h"
 #include "client/cli/options.h"
@@ -88,6 +90,23 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
   return keys;
 }
 
+/// Lets the dance end in the pose of --end.
+void AddEnding(const DanceOptions& options, const std::optional<authoring::Music>& music,
+               const ControlRequest& controls, const authoring::DanceLength& length,
+               const client::ModelDescription& model, authoring::DanceKeys* keys) {
+  if (options.end.empty()) return;
+  const authoring::NamedPose pose =
+      authoring::ReadPose(options.end, model.skeleton, CountsOf(options, music));
+  if (pose.has_place && !options.allow_bends)
+    authoring::RefuseBends({{pose.key}, {options.end}}, model.skeleton);
+  std::vector<double> beats = options.project_beats;
+  if (beats.empty() && music) beats = music->track.Seconds();
+  const std::vector<std::string> gone = authoring::EndIn(pose, beats, controls, length, keys);
+  if (options.keys.empty()) return;  // nobody set those
+  for (const std::string& id : gone)
+    std::cerr << "note: key \"" << id << "\" makes way for the ending\n";
+}
+
 client::DanceResult Dance(const client::Client& client, const client::DanceConfig& config,
                           const authoring::DanceKeys& keys, const client::Audio& audio,
                           double model_fps, const DanceOptions& options,
@@ -157,7 +176,8 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   }
   authoring::CheckInADance(std::round(seconds * model.fps) / model.fps, "--seconds");
   const authoring::DanceLength length{std::llround(seconds * model.fps), model.fps};
-  const authoring::DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
+  authoring::DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
+  AddEnding(options, music, controls, length, model, &keys);
   options.controls.RequireBegun(controls, length);
   const std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
   ShowWarnings(faults);

@@ -21,6 +21,7 @@ struct DanceOptions {
   std::string song;
   authoring::BeatOptions beats;
   std::vector<std::string> keys;
+  std::string end;  ///< the pose to end in, as ReadPose takes it; or empty
   std::string project;
   /// Seconds of the dance; `project_ones` begin an eight.
   std::vector<double> project_beats, project_downbeats, project_ones;

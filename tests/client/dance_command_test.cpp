@@ -196,6 +196,52 @@ TEST_F(CommandTest, AKeyAtTheVeryEndIsDancedOnTheLastFrame) {
   EXPECT_THAT(Choreo(dance + " --seconds 2.9").said, HasSubstr("is after the dance's end"));
 }
 
+TEST_F(CommandTest, ADanceEndsInAPoseThatIsHeld) {
+  WriteClicks(folder_ / "song.wav", 10);
+  const auto dance = [&](const std::string& options) {
+    const Outcome outcome = Choreo("dance " + At("song.wav") + Server() + "-o " + At("d.npz") +
+                                   " --report " + At("r.json") + " --end bow " + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return outcome.said;
+  };
+  const auto expect_ending = [&] {
+    const Motion motion = ReadMotion(folder_ / "d.npz", Body());
+    const Pose& bow = authoring::FindLibraryPose("bow").pose;
+    PoseMask mask;
+    mask.root_position = false;
+    for (const size_t frame : {size_t{285}, motion.frames.size() - 1})
+      EXPECT_LT(ComparePoses(Body(), motion.frames[frame], bow, mask).angle_deg, 0.1) << frame;
+    const nlohmann::json report = ReadJson(folder_ / "r.json")["keyframes"];
+    const auto end =
+        std::ranges::find_if(report, [](const auto& key) { return key["id"] == "end-bow"; });
+    ASSERT_NE(end, report.end());
+    EXPECT_LE((*end)["frame"].get<int>(), 299 - 30);
+    EXPECT_GE((*end)["frame"].get<int>(), 299 - 60);
+    EXPECT_EQ((*end)["hit"], 1);
+    EXPECT_EQ(report.back()["frame"], 299);
+    EXPECT_EQ(report.back()["holds"], "end-bow");
+  };
+  dance("");
+  expect_ending();
+  dance("-k none");
+  expect_ending();
+  // It stands where the last key does, and those after it make way.
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 5, "pose": "stand", "place": [1, -0.5], "hold": 4},
+                           {"id": "b", "time": 9.6, "pose": "kick", "place": [0, 0]}]})";
+  const std::string said = dance("-k " + At("keys.json"));
+  EXPECT_THAT(said, HasSubstr("note: key \"b\" makes way for the ending\n"));
+  expect_ending();
+  const Motion motion = ReadMotion(folder_ / "d.npz", Body());
+  EXPECT_NEAR(motion.frames.back().root_position.x(), 1, 0.3);
+  EXPECT_NEAR(motion.frames.back().root_position.z(), -0.5, 0.3);
+
+  const Outcome brief =
+      Choreo("dance --seconds 2 --end bow -k none" + Server() + "-o " + At("d.npz"));
+  EXPECT_EQ(brief.code, 1);
+  EXPECT_THAT(brief.said, HasSubstr("--end: the dance has its last frame at 1.97 s"));
+}
+
 TEST_F(CommandTest, TheSameSeedWritesTheSameBytes) {
   WriteClicks(folder_ / "song.wav", 3);
   const auto dance = [&](const std::string& name) {
