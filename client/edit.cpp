@@ -103,6 +103,10 @@ class Edit {
     for (int64_t frame = first; frame < end; ++frame) {
       motion.frames[static_cast<size_t>(frame)] = PoseAt(
           curve, static_cast<double>(frame) / motion.fps - static_cast<double>(start) / fps());
+      // The frames before may be wound up.
+      if (frame > 0)
+        MakeContinuous(motion.frames[static_cast<size_t>(frame)],
+                       motion.frames[static_cast<size_t>(frame) - 1]);
     }
     SpliceContacts(part, first, end);
   }

@@ -254,11 +254,26 @@ Motion ReadLayout(const NpzArchive& npz, const Layout& layout, const MotionReadi
 Eigen::Vector3d SmplRestPelvis() { return {-0.00179506, -0.22333382, 0.02821918}; }
 Eigen::Vector3d SmplXRestPelvis() { return {0.00312326, -0.35140747, 0.01203655}; }
 
+namespace {
+
+/// The vector of which QuaternionFromExp makes q itself, not -q: its angle is in [0, 2 pi]. It
+/// follows q without jumps, except through -1.
+Eigen::Vector3d ExpWithSign(const Eigen::Quaterniond& q) {
+  const double sine = q.vec().norm();
+  if (sine < 1e-150) return Eigen::Vector3d::Zero();
+  return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
+}
+
+}  // namespace
+
 Pose ToAmass(const Pose& pose) {
   const Eigen::Matrix3d z_up = kYUpFromZUp.transpose();
   Pose amass = pose;
   amass.root_position = z_up * pose.root_position - SmplRestPelvis();
-  amass.rotations.col(0) = LogMap(z_up * ExpMap(pose.rotations.col(0)));
+  // Dancers who turn stay away from where this jumps, so importers see no jump, and no frame
+  // depends on others.
+  amass.rotations.col(0) =
+      ExpWithSign(Eigen::Quaterniond(z_up) * QuaternionFromExp(pose.rotations.col(0)));
   return amass;
 }
 
@@ -306,10 +321,8 @@ void AddSmplMotion(const Motion& motion, const std::vector<Contacts>* contacts, 
   AddOwnArrays(Skeleton::Smpl24(), motion, contacts, npz);
   const auto frames = static_cast<int64_t>(motion.frames.size());
   std::vector<double> trans, poses;
-  Motion amass = motion;
-  for (Pose& pose : amass.frames) pose = ToAmass(pose);
-  MakeContinuous(amass);
-  for (const Pose& pose : amass.frames) {
+  for (const Pose& own : motion.frames) {
+    const Pose pose = ToAmass(own);
     trans.insert(trans.end(), pose.root_position.begin(), pose.root_position.end());
     poses.insert(poses.end(), pose.rotations.data(), pose.rotations.data() + 3 * kBodyJoints);
     poses.resize(trans.size() * kSmplHJoints, 0.0);  // the hands at rest

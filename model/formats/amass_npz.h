@@ -32,7 +32,8 @@ Eigen::Vector3d SmplRestPelvis();
 Eigen::Vector3d SmplXRestPelvis();
 
 /// Converts a pose of our world (Y up, position of the pelvis) to AMASS's (Z up, SMPL's translation
-/// in `root_position`). Changes only the root, whose angle is then in [0, pi].
+/// in `root_position`). Changes only the root, whose vector then follows its quaternion: its angle
+/// is in [0, 2 pi].
 Pose ToAmass(const Pose& pose);
 
 /// SMPL's 24 joints at the file's own rate (AIST++ 60, others 30 if no key states it); if several

@@ -190,6 +190,22 @@ TEST_F(EditTest, EditsADanceOfSeveralTurns) {
   EXPECT_LT(ComparePoses(Body(), edited.frames[110], spin.frames[110]).position_m, 1e-4);
 }
 
+// The first new frames continue the numbers of those before, and the last ones are as they were.
+TEST_F(EditTest, KeepsTheNumbersOfADanceOfSeveralTurns) {
+  Motion spin{.fps = 30, .frames = std::vector<Pose>(120, RestPose(Body()))};
+  for (size_t i = 0; i < spin.frames.size(); ++i)
+    spin.frames[i].rotations(1, 0) = 4 * M_PI * static_cast<double>(i) / 119;
+  WriteMotion(folder_ / "dance.npz", Body(), spin);
+  const Outcome outcome = Edit("--key kick --at 3 --around 0.5 -o " + At("new.npz"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  for (const char* key : {"rotations", "poses"}) {
+    const auto [first, end] = ChangedRows(folder_ / "dance.npz", folder_ / "new.npz", key);
+    EXPECT_EQ(first, 76U) << key;
+    EXPECT_EQ(end, 105U) << key;
+  }
+  EXPECT_LT((Read("new.npz").frames[76].rotations - spin.frames[75].rotations).norm(), 1);
+}
+
 TEST_F(EditTest, RefusesImpossibleEdits) {
   std::ofstream(folder_ / "other.json")
       << R"({"fps": 30.0, "keyframes": [{"id": "far", "frame": 900}]})";

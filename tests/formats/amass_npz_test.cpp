@@ -70,6 +70,31 @@ TEST(AmassPose, StandingUprightIsAQuarterTurn) {
   EXPECT_EQ(amass.rotations.rightCols(23).norm(), 0);
 }
 
+// An edit of a dance leaves the numbers of all other frames as they are, and a dancer who turns on
+// the spot causes no jump of numbers.
+TEST(AmassNpz, FramesAreWrittenByThemselvesAndWithoutJumps) {
+  constexpr int kFrames = 120;
+  Motion spin{.fps = 30, .frames = {}};
+  Pose pose;
+  pose.rotations.setZero(3, 24);
+  for (int i = 0; i < kFrames; ++i) {
+    pose.rotations.col(0) = Vector3d(0.1, 6 * kPi * i / kFrames, 0.1);
+    spin.frames.push_back(pose);
+  }
+  const auto poses = [](const Motion& motion) {
+    NpzArchive npz;
+    AddSmplMotion(motion, nullptr, npz);
+    const NpyArray array = npz.Array("poses");
+    return std::pair(array.As<double>(), static_cast<size_t>(array.shape[1]));
+  };
+  const auto [whole, width] = poses(spin);
+  for (size_t i = 1; i < kFrames; ++i)
+    for (size_t j = 0; j < 3; ++j)
+      EXPECT_LT(std::abs(whole[i * width + j] - whole[(i - 1) * width + j]), 0.4) << i;
+  const auto [last, same_width] = poses({.fps = 30, .frames = {spin.frames.back()}});
+  for (size_t j = 0; j < same_width; ++j) EXPECT_EQ(last[j], whole[(kFrames - 1) * width + j]);
+}
+
 // Largest distance of a joint or difference of a local rotation (radians) between two motions.
 double Difference(const Motion& a, const Motion& b) {
   EXPECT_EQ(a.frames.size(), b.frames.size());
