@@ -26,6 +26,7 @@
 #include "model/core/limits.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/resample.h"
 
 namespace choreo::cli {
 namespace {
@@ -134,15 +135,26 @@ std::string Say(const live::LiveFigures& figures) {
   return line.str();
 }
 
-Asked AskedFor(const LiveCommand& options, const client::Header& header) {
-  return {.model = header.model,
-          .seed = header.seed,
-          .temperature = options.temperature,
-          .music_dynamics = options.music_dynamics,
-          .variation = options.variation,
-          .style = options.style,
-          .song = options.song,
-          .song_start_s = options.song_start_s};
+Asked AskedFor(const LiveCommand& options, const live::LiveDance& live) {
+  const client::Header& header = live.header();
+  Asked asked{.model = header.model,
+              .seed = header.seed,
+              .temperature = options.temperature,
+              .music_dynamics = options.music_dynamics,
+              .variation = options.variation,
+              .style = options.style,
+              .song = options.song,
+              .song_start_s = options.song_start_s};
+  if (options.song.empty() || options.beats == authoring::BeatOptions()) return asked;
+  // Edits count like `analyze` with these options.
+  client::DanceConfig config;
+  const double seconds = Duration(live.motion());
+  authoring::ConfigureMusic(
+      authoring::ReadMusic(options.song, seconds, options.song_start_s, options.beats), seconds,
+      &config);
+  asked.beats = config.music_beats;
+  asked.downbeats = config.music_downbeats;
+  return asked;
 }
 
 void Run(const LiveCommand& options) {
@@ -207,9 +219,14 @@ void Run(const LiveCommand& options) {
             << (options.song.empty() ? options.input : options.song) << '\n';
   live::LiveDance live(connection.client(), model, std::move(dance), std::move(observer));
   const auto write = [&] {
-    if (options.out.empty() || live.motion().frames.empty()) return;
-    WriteMotion(options.out, live.header().skeleton, live.motion(), &live.contacts());
-    std::cout << options.out << '\n';
+    if (live.motion().frames.empty()) return;
+    if (!options.out.empty()) {
+      WriteMotion(options.out, live.header().skeleton, live.motion(), &live.contacts());
+      std::cout << options.out << '\n';
+    }
+    if (options.report.empty()) return;
+    WriteFile(options.report, ReportJson(Examine(live, keys, AskedFor(options, live))));
+    std::cout << options.report << '\n';
   };
   try {
     live.Run(*sound, cues, midi ? &*midi : nullptr);
@@ -218,8 +235,6 @@ void Run(const LiveCommand& options) {
     throw options.controls.InTermsOf(error);
   }
   write();
-  if (options.report.empty() || !live.report()) return;
-  WriteFile(options.report, ReportJson(Examine(live, keys, AskedFor(options, live.header()))));
 }
 
 }  // namespace

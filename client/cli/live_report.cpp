@@ -1,21 +1,43 @@
 #include "client/cli/live_report.h"
 
+#include <cmath>
 #include <utility>
 
+#include "model/motion/resample.h"
+
 namespace choreo::cli {
+namespace {
+
+/// What is known of a dance whose server was lost.
+client::Report CutOff(const live::LiveDance& live) {
+  client::Report report;
+  report.frames = static_cast<int64_t>(
+                      std::floor(Duration(live.motion()) * live.header().model_fps + kOnFrame)) +
+                  1;
+  report.keys = live.reached();
+  return report;
+}
+
+}  // namespace
 
 WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys, Asked asked) {
-  WrittenDance written = Examine(live.header(), *live.report(), live.motion(), live.DancedKeys());
+  WrittenDance written = Examine(live.header(), live.report() ? *live.report() : CutOff(live),
+                                 live.motion(), live.DancedKeys());
+  written.is_complete = live.report().has_value();
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     for (WrittenKey& key : written.keys)
       if (key.reached.id == keys.poses[i].id) key.holds = authoring::HeldKey(keys, i);
   }
+  std::vector<double> beats, downbeats;
   for (const client::Beat& beat : live.beats()) {
-    asked.beats.push_back(beat.time_s);
-    if (beat.downbeat) asked.downbeats.push_back(beat.time_s);
+    beats.push_back(beat.time_s);
+    if (beat.downbeat) downbeats.push_back(beat.time_s);
   }
-  written.beat_hit_chance =
-      BeatHitChance(asked.beats, written.report.frames, live.header().model_fps);
+  written.beat_hit_chance = BeatHitChance(beats, written.report.frames, live.header().model_fps);
+  if (asked.song.empty()) {
+    asked.beats = std::move(beats);
+    asked.downbeats = std::move(downbeats);
+  }
   written.asked = std::move(asked);
   written.warnings = keys.warnings;
   written.warnings.insert(written.warnings.end(), live.warnings().begin(), live.warnings().end());

@@ -6,8 +6,8 @@
 
 namespace choreo::cli {
 
-/// A live dance that has ended in order. `keys`: those known from the beginning; `asked` gets the
-/// beats that were danced to.
+/// A live dance, as far as it was danced. `keys`: those known from the beginning; `asked` gets the
+/// beats that were danced to, unless its song's file tells them.
 WrittenDance Examine(const live::LiveDance& live, const authoring::DanceKeys& keys, Asked asked);
 
 }  // namespace choreo::cli

@@ -101,6 +101,7 @@ std::string ReportJson(const WrittenDance& dance) {
     written["output_error_deg"] = key.error.angle_deg;
   }
   json["warnings"] = WarningsJson(dance.warnings);
+  if (!dance.is_complete) return json.dump(2) + "\n";
   json["measured_from"] = report.measured_from;
   json["log_likelihood"] = or_null(report.log_likelihood);
   json["beat_hit_rate"] = or_null(report.beat_hit_rate);

@@ -14,7 +14,8 @@ namespace choreo::cli {
 /// `holds`: the key whose pose it only holds, if any; output_... is measured at the file's nearest
 /// frame. `measured_from`: the frame from which on the rest is measured, 0 or where the last server
 /// took over. `motion_sketch`: a MotionSketch, by which edits know the dance. Beats are null if
-/// there are none, `part_speeds` is absent without velocity factors.
+/// there are none, `part_speeds` is absent without velocity factors; figures are absent if the
+/// server was lost.
 std::string ReportJson(const WrittenDance& dance);
 
 /// One key of such a report, without what is measured in the file.

@@ -29,9 +29,10 @@ struct WrittenKey {
 struct WrittenDance {
   client::Header header = {};
   client::Report report = {};
-  Asked asked = {};        ///< Examine leaves it empty
-  int64_t frames = 0;      ///< of the file
-  double fps = kModelFps;  ///< of the file
+  bool is_complete = true;  ///< false: the server was lost, and its figures with it
+  Asked asked = {};         ///< Examine leaves it empty
+  int64_t frames = 0;       ///< of the file
+  double fps = kModelFps;   ///< of the file
   MotionSketch sketch = {};
   std::vector<WrittenKey> keys = {};
   std::vector<client::Warning> warnings = {};  ///< from the server; Examine leaves them empty

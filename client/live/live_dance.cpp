@@ -154,8 +154,7 @@ void LiveDance::SendKey(const client::KeyPose& key, int64_t frame) {
 
 std::vector<client::KeyPose> LiveDance::DancedKeys() const {
   std::vector<client::KeyPose> danced;
-  if (!report_) return danced;
-  for (const client::KeyReached& reached : report_->keys) {
+  for (const client::KeyReached& reached : report_ ? report_->keys : reached_) {
     const auto is_it = [&](const client::KeyPose& key) { return key.id == reached.id; };
     danced.push_back(*std::ranges::find_if(sent_, is_it));
   }
@@ -242,7 +241,10 @@ void LiveDance::Take(const client::Message& message) {
       clock_.Hear(*beat);
       beats_.push_back(*beat);
     }
-    since_.keys_danced += std::holds_alternative<client::KeyReached>(message);
+    if (const auto* reached = std::get_if<client::KeyReached>(&message)) {
+      reached_.push_back(*reached);
+      ++since_.keys_danced;
+    }
   }
 }
 

@@ -76,7 +76,9 @@ class LiveDance {
   const std::vector<client::Beat>& beats() const { return beats_; }
   const std::vector<client::Warning>& warnings() const { return warnings_; }
   const std::optional<client::Report>& report() const { return report_; }
-  /// The keys that were danced, in order of time.
+  /// The keys that the server said were reached.
+  const std::vector<client::KeyReached>& reached() const { return reached_; }
+  /// The keys that were danced, in order of time; of a dance that was cut off, those reached.
   std::vector<client::KeyPose> DancedKeys() const;
 
  private:
@@ -114,6 +116,7 @@ class LiveDance {
   std::vector<Contacts> contacts_;
   std::vector<client::Beat> beats_;
   std::vector<client::Warning> warnings_;
+  std::vector<client::KeyReached> reached_;
   std::optional<client::Report> report_;
   std::exception_ptr failure_;
   std::unique_ptr<PosePlayer> player_;

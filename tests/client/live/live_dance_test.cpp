@@ -245,8 +245,9 @@ TEST_F(CommandTest, ALiveDanceHasKeysOnCountsOfItsSong) {
   const auto one =
       std::ranges::find(heard["beats"], heard["downbeats"][0]) - heard["beats"].begin();
   const double fifth = heard["beats"][static_cast<size_t>(one) + 4];
-  const Outcome outcome = Choreo("live " + At("song.wav") + Server() + "-k " + At("keys.json") +
-                                 " -o " + At("d.npz") + " </dev/null");
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + Server() + "-k " + At("keys.json") + " -o " + At("d.npz") +
+             " --report " + At("r.json") + " </dev/null");
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const Motion motion = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24());
   const auto frame = static_cast<size_t>(std::llround(fifth * motion.fps));
@@ -256,6 +257,13 @@ TEST_F(CommandTest, ALiveDanceHasKeysOnCountsOfItsSong) {
                          authoring::FindLibraryPose("kick").pose, mask)
                 .angle_deg,
             0.1);
+  // Edits count alike.
+  const Outcome edited =
+      Choreo("edit " + At("d.npz") + Server() + "--key dab --at 5c --report " + At("r.json") +
+             " -o " + At("e.npz") + " --new-report " + At("e.json"));
+  ASSERT_EQ(edited.code, 0) << edited.said;
+  EXPECT_EQ(ReadJson(folder_ / "e.json")["keyframes"][0]["id"], "dab");
+  EXPECT_EQ(ReadJson(folder_ / "e.json")["keyframes"][0]["frame"], frame);
 }
 
 TEST_F(CommandTest, ALiveDanceHasAStyleAPathAndAReport) {
@@ -323,14 +331,27 @@ TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
     std::this_thread::sleep_for(std::chrono::seconds(2));
     kill(server->process(), SIGKILL);
   });
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "k", "time": 0.7, "pose": "kick", "hold": 0.4}]})";
   const Outcome outcome =
-      Choreo("live " + At("song.wav") + " --server " + server->address() + " </dev/null");
+      Choreo("live " + At("song.wav") + " -k " + At("keys.json") + " -o " + At("d.npz") +
+             " --report " + At("r.json") + " --server " + server->address() + " </dev/null");
   killer.join();
   EXPECT_EQ(outcome.code, 1);
   const size_t lost = outcome.said.find("note: " + server->address() + ": lost or full");
   ASSERT_NE(lost, std::string::npos) << outcome.said;
   // Well before it is given up.
   EXPECT_THAT(outcome.said.substr(lost), HasSubstr(" s: 0 frames"));
+  // What was danced can be edited.
+  EXPECT_THAT(outcome.said, HasSubstr("r.json"));
+  const nlohmann::json report = ReadJson(folder_ / "r.json");
+  EXPECT_EQ(report["frames"], ReadMotion(folder_ / "d.npz", Skeleton::Smpl24()).frames.size());
+  EXPECT_FALSE(report.contains("skate_ratio")) << "nobody measured it";
+  ASSERT_EQ(report["keyframes"].size(), 3U);
+  EXPECT_EQ(report["keyframes"][2]["holds"], "k");
+  const Outcome edited = Choreo("edit " + At("d.npz") + Server() + "--remove k --report " +
+                                At("r.json") + " -o " + At("e.npz"));
+  EXPECT_EQ(edited.code, 0) << edited.said;
 }
 
 TEST_F(CommandTest, ALiveDanceNamesAFullServerItsLimitAndWhenToComeAgain) {
@@ -374,15 +395,16 @@ TEST_F(CommandTest, ALiveDanceEndsInOrderWhenInterrupted) {
     pid_t process = 0;
     if (std::ifstream(pid_file) >> process) kill(process, SIGINT);
   });
-  const Outcome outcome =
-      Choreo("live " + At("song.wav") + Server() + "-o " + At("d.npz") + " </dev/null",
-             "echo $$ > '" + pid_file + "'; exec ");
+  const Outcome outcome = Choreo("live " + At("song.wav") + Server() + "-o " + At("d.npz") +
+                                     " --report " + At("r.json") + " </dev/null",
+                                 "echo $$ > '" + pid_file + "'; exec ");
   over = true;
   sender.join();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   const size_t frames = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24()).frames.size();
   EXPECT_GT(frames, 0U);
   EXPECT_LT(frames, 1800U);
+  EXPECT_EQ(ReadJson(folder_ / "r.json")["frames"], frames);
 }
 
 TEST_F(CommandTest, ALiveDanceRefusesImpossibleOptions) {
