@@ -12,6 +12,7 @@
 #include "client/authoring/key_joints.h"
 #include "client/authoring/key_numbers.h"
 #include "client/authoring/motion_input.h"
+#include "client/authoring/pose_library.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
@@ -214,6 +215,12 @@ std::vector<KeyPose> ReadKeys(const std::string& source, const Skeleton& skeleto
   const std::string chosen = chooses ? source.substr(file.size() + 1) : "";
   std::vector<std::string> own_places;
   if (!places) places = &own_places;
+  const auto is_it = [&](const LibraryPose& pose) { return pose.id == source; };
+  if (!std::filesystem::exists(file) && std::ranges::any_of(PoseLibrary(), is_it)) {
+    throw InvalidArgument(source,
+                          "is a pose of the library and no file: a key file says when it comes, "
+                          "or choreo edit --key sets it in a dance");
+  }
   if (!IsMotionFile(file)) {
     std::vector<KeyPose> keys =
         ParseKeyFile(ReadText(file, "key file"), file, skeleton, places, counts);

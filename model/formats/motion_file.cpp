@@ -164,6 +164,7 @@ const Format& FormatOf(const std::filesystem::path& path, bool to_write) {
   for (const auto& [extension, way] : kOtherFormats) {
     if (!to_write && SmallExtension(path) == extension) way_out = std::string("; ") + way;
   }
+  if (to_write && SmallExtension(path) == ".fbx") way_out = "; Blender exports FBX from these";
   throw InvalidArgument(path.string(), "has the extension '" + path.extension().string() +
                                            "', must be " + Extensions(to_write) + way_out);
 }

@@ -346,7 +346,8 @@ TEST_F(CommandTest, FailsWithOneLineAndCodeOne) {
                  "song.wav: has the extension '.wav', must be .npz, .bvh, .glb");
   WriteMotion(folder_ / "a.npz", Body(), {.fps = 30, .frames = {RestPose(Body())}});
   expect_failure("convert " + At("a.npz") + " " + At("b.fbx"),
-                 "b.fbx: has the extension '.fbx', must be .npz, .bvh, .glb");
+                 "b.fbx: has the extension '.fbx', must be .npz, .bvh, .glb or .vrma; Blender "
+                 "exports FBX from these");
   expect_failure("render " + At("a.npz"), "--out: is missing, and so is --video");
   expect_failure("render " + At("a.npz") + " --out x.png --song " + At("song.wav"),
                  "--song: pictures have no sound");

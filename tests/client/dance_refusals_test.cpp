@@ -31,6 +31,12 @@ TEST_F(CommandTest, WarnsOfKeysThatNoBodyCouldDance) {
               HasSubstr("the body would be in the air"));
 }
 
+TEST_F(CommandTest, APoseOfTheLibraryIsNoKeyFile) {
+  const Outcome outcome = Choreo("dance --seconds 4 --keyframes kick -o " + At("d.npz") + Server());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("kick: is a pose of the library and no file: a key file"));
+}
+
 TEST_F(CommandTest, WarnsOnceOfAPoseThatIsHeld) {
   std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
     {"id": "a", "time": 1, "rotations": )"
