@@ -4,10 +4,11 @@ import { beats } from './beats';
 import { heading, turned } from './body';
 import type { Triple } from './body';
 import { onPath } from './floor_path';
-import { edit } from './history';
+import { edit, total } from './history';
 import { freeFrame, isTooNear, keyOf } from './keys';
 import { dancer } from './link';
-import { freeId, sorted } from './project';
+import { limits } from './limits';
+import { freeId, sorted, spoken } from './project';
 import type { Key } from './project';
 import { audio } from './songs';
 import { chosen, complain, live, motion, project, selectedKey, tell } from './state';
@@ -52,6 +53,28 @@ export function duplicateKey() {
   const isTaken = (frame: number) => project.value.keys.some((other) => isTooNear(other.frame, frame));
   const next = beats.value.list.map(({ time }) => Math.round(time * dancer.fps)).find((frame) => frame > key.frame && !isTaken(frame));
   set([key], isTaken(now) ? next ?? now + 15 : now);
+}
+
+const endHold = 1; // seconds that an ending is held at least, as in the program (client/authoring/ending.cpp)
+const endHoldUncounted = 1.5; // without beats
+
+/// Lets the dance come to rest in a key's pose where the dancer is then: on the last beat that leaves time to hold it, and to the last frame.
+export function endIn(id: string) {
+  const key = keyOf(id);
+  const last = total.value - 1;
+  const { fps } = dancer;
+  if (!key || live.value) return;
+  const beat = beats.value.list.findLast(({ time }) => time >= endHold && time <= last / fps - endHold);
+  const frame = Math.round((beat?.time ?? last / fps - endHoldUncounted) * fps);
+  if (frame < limits.keyDistance) return complain(new Error('The dance is too short for an ending.'));
+  const way = Math.round(limits.wayFromHoldS * fps);
+  const stay = project.value.keys.filter((other) => other.frame === 0 || other.frame <= frame - way);
+  const gone = project.value.keys.filter((other) => !stay.includes(other));
+  const end = onPath(project.value.path, { ...moved(key, key, frame), id: freeId(stay, key.id), frame, hold: last - frame, hit: key.hit ?? limits.usualHit });
+  selectedKey.value = end.id;
+  edit({ ...project.value, keys: [...stay, end] }, [frame, ...gone.map((other) => other.frame)]);
+  const others = gone.filter((other) => other !== key).length;
+  tell(`The dance ends in ${spoken(key.id)}.${others ? ` ${others === 1 ? 'One key makes' : `${others} keys make`} way.` : ''} Undo takes that back.`);
 }
 
 function set(keys: Key[], at: number) {

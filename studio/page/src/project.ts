@@ -83,6 +83,9 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   apart: limits.usualApartM,
 });
 
+/// A number as project files have it.
+export const round = (value: number) => Math.round(value * 1e5) / 1e5;
+
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
 
 /// The nearest time, in frames, for which a pose can be held: whole steps, rounded down.
@@ -95,22 +98,27 @@ export function holdOf(frames: number, fps: number) {
 export const isInHold = (key: Key, frame: number) => key.hold > 0 && key.frame < frame && frame <= key.frame + key.hold;
 
 /// The keys. None is held until the next one, or past the last frame; one that would be held over the next ends in time for the way there, as in the
-/// program (client/authoring/dance_keys.cpp).
+/// program (client/authoring/dance_keys.cpp). What is held to the last frame is held to just that one.
 export const trimmed = (keys: Key[], frames: number, fps: number) =>
   keys.map((key, i) => {
     const next = keys[i + 1]?.frame ?? Infinity;
     const way = isInHold(key, next) ? Math.round(limits.wayFromHoldS * fps) : limits.keyDistance;
-    return { ...key, hold: holdOf(Math.min(key.hold, next - way - key.frame, frames - 1 - key.frame), fps) };
+    const end = frames - 1 - key.frame;
+    const most = Math.min(key.hold, next - way - key.frame, end);
+    return { ...key, hold: most === end && holdOf(most, fps) > 0 ? most : holdOf(most, fps) };
   });
 
 /// The keys, each followed by the repeated keys that hold its pose, as the program reads them (client/authoring/key_file.cpp).
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
-    const steps = Math.round(key.hold / (limits.holdStepS * fps));
+    const steps = Math.floor(key.hold / (limits.holdStepS * fps) + 1e-9);
     const hit = key.hit ?? (steps > 0 ? limits.usualHit : null); // who holds a pose comes to rest in it
-    return [{ ...key, hold: 0, hit }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, Math.round(key.frame + (key.hold * (i + 1)) / steps)))];
+    return [{ ...key, hold: 0, hit }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, heldAt(key, i + 1, steps, fps)))];
   });
 }
+/// In terms of what is written, as the program reckons: no rounding differs.
+const heldAt = ({ frame, hold }: Key, nth: number, steps: number, fps: number) =>
+  Math.round((round(frame / fps) + (round(hold / fps) * nth) / steps) * fps);
 const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0, hit: null });
 
 /// The inverse: repeated keys become holds.

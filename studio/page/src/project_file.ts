@@ -1,7 +1,7 @@
 // A project as a readable JSON file: `choreo dance --project FILE` dances it, and it is a key file, too.
 import type { Beats } from './counts';
 import { limits } from './limits';
-import { emptyProject, parts, sorted, trimmed, withHolds } from './project';
+import { emptyProject, parts, round, sorted, trimmed, withHolds } from './project';
 import type { Key, Marker, Project, Step } from './project';
 
 const format = 1; // version of the file format
@@ -10,7 +10,6 @@ type Json = Record<string, unknown>;
 /// What a project must be compatible with.
 export type Known = { fps: number; styles: string[] };
 
-const round = (value: number) => Math.round(value * 1e5) / 1e5;
 
 /// The dancers of a project, in the form of a dancers' file; with keys of their own as `said`.
 export const dancersJson = ({ dancers, apart }: Project, said?: (keys: Key[]) => Json[]) => ({

@@ -73,6 +73,10 @@ test('a held pose is a key and those that hold it, as far as the next key', () =
   assert.deepEqual(all.map(({ hit }) => hit), [3, null, 1, null, 0]);
   assert.deepEqual(withHolds(all).map(({ id, hold }) => [id, hold]), [['bow', 6], ['kick', 6], ['dab', 0]]);
   assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
+  // What is held to the last frame is held to just that one.
+  const ending = [{ ...keys[1], frame: 60, hold: 39 }];
+  assert.deepEqual(withHeld(ending, 100, 30).map(({ frame }) => frame), [60, 67, 73, 80, 86, 92, 99]);
+  assert.equal(trimmed(ending, 101, 30)[0].hold, 36);
   // A key that comes in the middle of a hold leaves time for the way to it.
   const inside = [{ ...keys[0], frame: 0, hold: 90 }, { ...keys[0], frame: 60, hold: 0 }];
   assert.deepEqual(trimmed(inside, 200, 30).map(({ hold }) => hold), [42, 0]);

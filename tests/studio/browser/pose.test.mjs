@@ -171,6 +171,25 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
     assert.deepEqual([asks, hasPlace], [null, true]);
   });
 
+  await check('the dance ends in a key\'s pose, held to its last frame, and the command line ends it likewise', async () => {
+    await choose(1);
+    const { id } = await key(1);
+    await panel.getByRole('button', { name: 'End in it' }).click();
+    await settle();
+    const [total, last] = await page.evaluate(() => [window.choreo.total.value, window.choreo.project.value.keys.at(-1)]);
+    assert.ok(last.id.startsWith(id.replace(/-\d+$/, '')), last.id);
+    assert.deepEqual([last.frame + last.hold, last.hit], [total - 1, 1]);
+    assert.ok(last.hold >= 30 && last.hold < 60, `held for ${last.hold} frames`);
+    const [first, end] = [await danced(last.frame), await danced(total - 1)];
+    assert.ok(first.rotations.every((value, i) => Math.abs(value - end.rotations[i]) < 0.02));
+    const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
+    writeFileSync(inFolder('ending.json'), text);
+    execFileSync(program, ['dance', '--project', inFolder('ending.json'), '--out', inFolder('ending.npz'), '--report', inFolder('ending-report.json')], { stdio: 'ignore' });
+    const reported = JSON.parse(readFileSync(inFolder('ending-report.json'), 'utf8')).keyframes;
+    assert.equal(reported.at(-1).frame, total - 1);
+    await page.screenshot({ path: inFolder('pose-ending.png') });
+  });
+
   await check('a key file with names of poses, degrees, limbs and a held pose is opened', async () => {
     await give(['words.json', JSON.stringify({ keyframes: [
       { id: 'begin', time: 0, pose: 'stand', place: [0, 0] },
