@@ -52,12 +52,13 @@ std::string Octave(const std::vector<double>& found, const std::vector<double>& 
 std::vector<double> HearLive(const std::vector<float>& mono) {
   AudioFeed feed(kModelSampleRate, 1, 0);
   feed.Push(mono, 0, [] {});
-  MusicBeats music(30, {}, std::nullopt, &feed);
+  MusicBeats music(30, {}, &feed);
+  BeatReport report(30, &feed, std::nullopt);
   for (int64_t from = 0; from + kTypicalFrames <= feed.ready(); from += kTypicalFrames) {
-    music.StartReporting(music.BeatsFor(from, from + kTypicalFrames), from);
-    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) music.TakeBeatsAt(frame);
+    report.Start(music.PlanFrom(from).For(from, from + kTypicalFrames), from);
+    for (int64_t frame = from; frame < from + kTypicalFrames; ++frame) report.TakeAt(frame);
   }
-  return music.reported();
+  return report.reported();
 }
 
 /// The beats that `choreo live` sends to its server, as soon as they are found.

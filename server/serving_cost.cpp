@@ -24,12 +24,12 @@ double MeasureMusic() {
   Random random(1);
   for (float& sample : samples) sample = static_cast<float>(0.1 * random.Normal());
   AudioFeed audio(kRate, 1, 0);
-  MusicBeats beats(kModelFps, {}, std::nullopt, &audio);
+  MusicBeats beats(kModelFps, {}, &audio);
   const double begin = ThreadCpuSeconds();
   audio.Push(samples, 0, [] {});
   audio.Finish();
   for (int frame = 0; frame < kFrames; frame += kTypicalFrames)
-    beats.BeatsFor(frame, frame + kTypicalFrames);
+    beats.PlanFrom(frame).For(frame, frame + kTypicalFrames);
   return (ThreadCpuSeconds() - begin) / kFrames;
 }
 

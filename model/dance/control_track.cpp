@@ -47,17 +47,18 @@ void ControlTrack::Set(const ControlRequest& request, int64_t from, const std::s
   }
   ++requests_;
   values_ = values;
-  if (request.root_path) paths_.push_back({from, PathCurve(*request.root_path)});
-  if (request.velocity_factors) velocities_.push_back({from, *request.velocity_factors});
+  if (request.root_path) paths_.push_back({from, std::make_shared<PathCurve>(*request.root_path)});
+  if (request.velocity_factors)
+    velocities_.push_back({from, std::make_shared<VelocityRequest>(*request.velocity_factors)});
 }
 
 // Finds the curve for a transition from `first_frame` on, and for the frame right before it.
 const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const {
   const int64_t known = std::min(frame, first_frame);
   const auto said = std::find_if(paths_.rbegin(), paths_.rend(), [&](const auto& path) {
-    return path.from <= known && path.control.Covers(frame);
+    return path.from <= known && path.control->Covers(frame);
   });
-  return said != paths_.rend() ? &said->control : nullptr;
+  return said != paths_.rend() ? said->control.get() : nullptr;
 }
 
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
@@ -156,19 +157,19 @@ void ControlTrack::FillVelocities(TransitionSpec* spec) const {
   for (int part = 0; part < kBodyParts; ++part) {
     const auto body_part = static_cast<BodyPart>(part);
     const auto said = std::find_if(velocities_.rbegin(), velocities_.rend(), [&](const auto& one) {
-      return one.from <= first_frame && Names(one.control, body_part);
+      return one.from <= first_frame && Names(*one.control, body_part);
     });
     const bool is_asked = said != velocities_.rend();
     factors.requested[static_cast<size_t>(part)] = is_asked;
-    const VelocityRequest& asked = is_asked ? said->control : usual;
+    const VelocityRequest& asked = is_asked ? *said->control : usual;
     for (int frame = 0; frame < spec->frames; ++frame)
       factors.values(part, frame) = SpeedAt(asked, first_frame + frame, body_part, *model_);
   }
 }
 
 std::optional<Warning> ControlTrack::BehindEnd(int64_t end) const {
-  if (paths_.empty() || paths_.back().control.first() < end) return std::nullopt;
-  return PathBehindEnd(paths_.back().control.first(), end);
+  if (paths_.empty() || paths_.back().control->first() < end) return std::nullopt;
+  return PathBehindEnd(paths_.back().control->first(), end);
 }
 
 std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) const {
@@ -176,7 +177,7 @@ std::optional<Warning> ControlTrack::SpeedsMissed(const QualityReport& report) c
   std::string misses;
   for (size_t i = 0; i < kBodyParts; ++i) {
     const auto named = [part = static_cast<BodyPart>(i)](const auto& one) {
-      return Names(one.control, part);
+      return Names(*one.control, part);
     };
     const auto [asked, danced] = report.part_speeds[i];
     const double miss = std::abs(danced - asked);

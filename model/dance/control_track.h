@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ void ValidateControls(const ControlRequest& request, const ModelInfo& model,
 /// start and to the key at its end (LeadPath); the key wins, and a warning gives the distance.
 /// Where no path sets the height, the root is led to the key's height: the one it states, or the
 /// one at which its pose stands on the floor. A path with heights overrides the latter. Transitions
-/// that no path covers are left to the model. Not thread-safe.
+/// that no path covers are left to the model. Cheap to copy. Not thread-safe.
 class ControlTrack {
  public:
   /// The model must outlive the track.
@@ -62,7 +63,7 @@ class ControlTrack {
   template <typename Control>
   struct Since {
     int64_t from;
-    Control control;
+    std::shared_ptr<const Control> control;  // shared by copies of the track
   };
 
   const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;

@@ -1,16 +1,14 @@
 #include "model/dance/dance_chain.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "model/core/error.h"
-#include "model/dance/prepared_transition.h"
 
 namespace choreo {
 namespace {
 
-const std::vector<Passage> kNoPassages;
 constexpr size_t kMaxAhead = 1;  // transitions sampled ahead of the one being handed out
 
 }  // namespace
@@ -18,21 +16,21 @@ constexpr size_t kMaxAhead = 1;  // transitions sampled ahead of the one being h
 /// One transition of the chain, from its submission until its last frame is handed out.
 class DanceChain::Job : public SampleJob {
  public:
-  Job(std::shared_ptr<DanceChain> chain, const Segment& segment, PreparedTransition prepared,
-      std::vector<Beat> beats)
+  Job(std::shared_ptr<DanceChain> chain, DanceScore::Next next)
       : chain_(std::move(chain)),
-        segment_(segment),
-        deadline_(chain_->start_time_ + chain_->Seconds(segment.from - chain_->first_frame_)),
-        run_(chain_->model_, prepared.request),
-        beats_(std::move(beats)) {
-    WarnOfSpeed(chain_->model_, run_, &prepared);
-    warnings_ = std::move(prepared.warnings);
-  }
+        segment_(next.inputs.segment),
+        deadline_(chain_->start_time_ + chain_->Seconds(segment_.from - chain_->first_frame_)),
+        next_(std::move(next)) {}
 
-  /// Samples the transition slice by slice; once it is sampled, each slice hands out frames.
+  /// Prepares the transition, then samples it slice by slice; once it is sampled, each slice hands
+  /// out frames.
   bool Continue(Sampler& sampler) override {
     if (worker_has_sampled_) return chain_->HandOut(kFramesASlice);
-    if (run_.Continue(sampler)) return true;
+    if (next_) {
+      Prepare(*std::exchange(next_, {}));
+      return true;
+    }
+    if (run_->Continue(sampler)) return true;
     worker_has_sampled_ = true;
     std::lock_guard lock(chain_->mutex_);
     sampled_ = true;
@@ -42,40 +40,60 @@ class DanceChain::Job : public SampleJob {
 
   void OnDone(const Error* failure) noexcept override {
     if (failure == nullptr || retired_) return;
-    chain_->React([this, failure] { chain_->Fail(*this, *failure); });
+    chain_->React([this, failure] {
+      if (!sampled_) {
+        Fail(*failure);
+      } else if (failure->code() != ErrorCode::kUnavailable) {
+        // The sink threw it. A closing queue (kUnavailable) does not take back sampled frames.
+        chain_->mailbox_.PostError(*failure);
+      }
+    });
   }
 
   double Deadline() const override { return deadline_; }
-  int frames() const override { return run_.spec().frames; }
+  int frames() const override { return static_cast<int>(segment_.to - segment_.from); }
   bool Cancelled() const override { return retired_ || chain_->cancelled_; }
 
   /// The chain no longer needs this transition: the queue drops it.
   void Retire() { retired_ = true; }
+  /// The failure is reported once all frames before the transition are handed out.
   void Fail(const Error& failure) { failure_ = failure; }
 
-  /// The chain's mutex guards what the functions below read, except constants.
+  /// The chain's mutex guards these.
   bool sampled() const { return sampled_; }
   const std::optional<Error>& failure() const { return failure_; }
   const Segment& segment() const { return segment_; }
+
+  /// Constant once it is sampled.
   const std::vector<Warning>& warnings() const { return warnings_; }
   const std::vector<Beat>& beats() const { return beats_; }
-  /// Valid once it is sampled.
-  const TransitionRun& run() const { return run_; }
+  const TransitionRun& run() const { return *run_; }
   const DanceFrame& FrameAt(int64_t frame) const {
-    return run_.frames()[static_cast<size_t>(frame - segment_.from)];
+    return run_->frames()[static_cast<size_t>(frame - segment_.from)];
   }
   /// The state from which a transition that begins at `frame`, in or right after this one, starts.
   DancedState StateBefore(int64_t frame) const {
     const auto danced = static_cast<size_t>(frame - segment_.from);
-    return {run_.HistoryAfter(danced), run_.StageAfter(danced)};
+    return {run_->HistoryAfter(danced), run_->StageAfter(danced)};
   }
 
  private:
+  void Prepare(const DanceScore::Next& next) {
+    const ModelInfo& model = chain_->model_;
+    beats_ = next.beats.For(segment_.from, segment_.to);
+    PreparedTransition prepared = PrepareTransition(
+        model, next.inputs, BeatsAround(SecondsOf(beats_), model.fps, segment_.from, frames()));
+    run_.emplace(model, prepared.request);
+    WarnOfSpeed(model, *run_, &prepared);
+    warnings_ = std::move(prepared.warnings);
+  }
+
   const std::shared_ptr<DanceChain> chain_;
   const Segment segment_;
   const double deadline_;
-  TransitionRun run_;
-  const std::vector<Beat> beats_;
+  std::optional<DanceScore::Next> next_;  // until it is prepared
+  std::optional<TransitionRun> run_;      // from then on
+  std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
   bool worker_has_sampled_ = false;  // read and written without a lock by the worker alone
   bool sampled_ = false;             // the same for all other threads; guarded by the chain's mutex
@@ -92,36 +110,20 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
                  ? std::make_unique<AudioFeed>(asked->audio->sample_rate, asked->audio->channels,
                                                asked->audio->first_sample)
                  : nullptr),
+      report_(model_, asked, audio(), mailbox_),
       start_time_(PlaybackClock()),
-      score_{*asked,
-             Timeline({model_.fps, first_frame_, asked->end_frame, asked->audio.has_value(),
-                       asked->generate_until, model_.max_transition_frames, model_.sight_frames}),
-             ControlTrack(model_),
-             MusicBeats(model_.fps, asked->music_beats,
-                        asked->continuation ? asked->continuation->last_beat : std::nullopt,
-                        audio(), asked->music_downbeats),
-             Recurrence(model_.fps, asked->variation < 1 ? asked->music_passages : kNoPassages)},
-      next_frame_(first_frame_),
-      meter_(model_.skeleton, model_.fps, first_frame_,
-             asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
-      output_(model_.fps, asked->output_fps, first_frame_,
-              asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
-                                  : std::nullopt),
-      // A model that hears music hears that of the transition itself.
-      turn_(asked->music_dynamics > 0 && !model_.hears_music) {
+      score_(model_, asked, audio()),
+      next_frame_(first_frame_) {
   if (!asked->Before().empty()) danced_.history = FillHistory(model_, asked->Before());
-  if (asked->continuation) {
-    danced_.stage = asked->continuation->stage;
-    reached_before_ = asked->continuation->reached;
-  }
-  if (!score_.recurrence.empty())
-    score_.timeline.SetCuts(CutsOf(asked->music_passages, model_.fps));
+  if (asked->continuation) danced_.stage = asked->continuation->stage;
 }
 
-void DanceChain::Begin() {
-  for (const Warning& warning : score_.config.Warnings(model_, first_frame_)) Post(warning);
+void DanceChain::Begin(const ValidDance& asked) {
+  for (const Warning& warning : asked->Warnings(model_, first_frame_)) Post(warning);
   Apply([](DanceScore&) {});  // starts frames that the config has granted
 }
+
+void DanceChain::Post(const DanceEvent& event) { PostEvent(mailbox_, event); }
 
 void DanceChain::Apply(const std::function<void(DanceScore&)>& change) {
   {
@@ -173,199 +175,93 @@ bool DanceChain::HandOut(int most) {
   std::unique_lock lock(mutex_);
   look_again_ = true;
   if (std::exchange(handing_out_, true)) return false;
-  for (int count = 0; count < most && look_again_; ++count) {
-    look_again_ = HandOutNext();
-    lock.unlock();
-    try {
-      mailbox_.Deliver();  // the sink may pause the dance
-    } catch (...) {
+  try {
+    for (int count = 0; count < most && look_again_; ++count) {
+      std::function<void()> report = TakeNext();
+      look_again_ = report != nullptr;
+      lock.unlock();
+      if (report) std::exchange(report, {})();  // and frees what it holds
+      mailbox_.Deliver();                       // the sink may pause the dance
       lock.lock();
-      handing_out_ = false;
-      throw;
     }
-    lock.lock();
+  } catch (...) {
+    if (!lock.owns_lock()) lock.lock();
+    handing_out_ = false;
+    throw;
   }
   handing_out_ = false;
   return look_again_;
 }
 
-void DanceChain::Fail(Job& job, const Error& failure) {
-  if (!job.sampled()) {
-    job.Fail(failure);  // reported when all frames before it are handed out
-  } else if (failure.code() != ErrorCode::kUnavailable) {
-    // The sink threw it. A closing queue (kUnavailable) does not take back sampled frames.
-    mailbox_.PostError(failure);
-  }
-}
-
-bool DanceChain::IsOver(const Segment& segment) const {
-  const std::optional<int64_t> end = score_.timeline.End();
-  return next_frame_ >= segment.stop || (end && next_frame_ >= *end);
-}
-
-bool DanceChain::HandOutNext() {
+std::function<void()> DanceChain::TakeNext() {
   if (over()) {
     DropJobs();
-    return false;
+    return {};
   }
-  if (paused_) return false;
+  if (paused_) return {};
   if (jobs_.empty()) {
-    const std::optional<int64_t> end = score_.timeline.End();
-    if (failure_) {
-      mailbox_.PostError(*failure_);
-    } else if (score_.timeline.complete() && end && next_frame_ >= *end) {
-      Summarise();
-    } else {
-      return false;
-    }
-    return true;
+    if (!score_.timeline.complete() || !score_.EndsBy(next_frame_)) return {};
+    return
+        [this, end = next_frame_, controls = score_.controls] { report_.Summarise(end, controls); };
   }
-  const int64_t ready = audio_ ? audio_->ready() : 0;
-  TurnWithMusic(ready);
-  Job& job = *jobs_.front();
-  if (IsOver(*score_.timeline.Planned())) {
-    if (!job.sampled()) {  // a sampled job may be handing out frames right now
-      job.Retire();
-      queue_.CheckCancelled();
-    }
-    score_.timeline.Finish();
-    if (next_frame_ > job.segment().from) {
-      danced_ = job.StateBefore(next_frame_);
-      PostContinuation();
-    }
-    jobs_.pop_front();
-    // No frame follows the end, so no transition is needed any more.
-    if (const std::optional<int64_t> end = score_.timeline.End(); end && next_frame_ >= *end)
-      DropJobs();
-    SubmitNext();
-    return true;
-  }
-  if (job.failure()) {
-    mailbox_.PostError(*job.failure());
-    return true;
-  }
-  if (!job.sampled() || !score_.timeline.IsCertain(next_frame_)) return false;
-  if (audio_ && ready <= next_frame_) return false;
-  Emit(job, job.FrameAt(next_frame_));
-  return true;
+  const int64_t ready = Ready();
+  score_.TurnWithMusic(jobs_.size(), ready);
+  if (score_.Overtakes(next_frame_)) return FinishTransition();
+  const std::shared_ptr<Job>& job = jobs_.front();
+  if (job->failure()) return [this, failure = *job->failure()] { mailbox_.PostError(failure); };
+  if (!job->sampled() || !score_.timeline.IsCertain(next_frame_)) return {};
+  if (audio_ && ready <= next_frame_) return {};
+  std::optional<Key> key;
+  if (next_frame_ + 1 == job->segment().to && job->run().arrival())
+    key = score_.timeline.Planned()->key;  // its hands may be newer than the job's
+  return [this, job, frame = next_frame_++, key = std::move(key)] { Report(*job, frame, key); };
 }
 
-bool DanceChain::TurnWithMusic(int64_t ready) {
-  if (!audio_ || jobs_.empty()) return true;
-  const int64_t stop = score_.timeline.Planned(jobs_.size() - 1)->stop;
-  const std::optional<int64_t> turn = turn_.Find(*audio_, ready, stop);
-  if (turn) score_.timeline.StopAt(*turn);
-  return turn || ready >= stop;
+std::function<void()> DanceChain::FinishTransition() {
+  std::shared_ptr<Job> job = std::move(jobs_.front());
+  jobs_.pop_front();
+  if (!job->sampled()) {  // a sampled job may be handing out frames right now
+    job->Retire();
+    queue_.CheckCancelled();
+  }
+  score_.timeline.Finish();
+  if (next_frame_ > job->segment().from) danced_ = job->StateBefore(next_frame_);
+  // No frame follows the end, so no transition is needed any more.
+  if (score_.EndsBy(next_frame_)) DropJobs();
+  SubmitNext();
+  return [this, job = std::move(job), frame = next_frame_, danced = danced_] {
+    if (frame > job->segment().from) report_.End(frame, danced);
+  };
+}
+
+void DanceChain::Report(const Job& job, int64_t frame, const std::optional<Key>& key) {
+  const int64_t from = job.segment().from;
+  if (frame == from) {
+    report_.Begin(from, job.warnings(), job.beats());
+    // A resumed dance may begin a frame later.
+    if (audio_) audio_->Forget(from - model_.history_frames);
+  }
+  report_.Add(frame, job.FrameAt(frame));
+  if (key) report_.Reach(*key, *job.run().arrival());
 }
 
 void DanceChain::SubmitNext() {
-  if (over() || cancelled_ || failure_ || jobs_.size() > kMaxAhead) return;
+  if (over() || cancelled_ || jobs_.size() > kMaxAhead) return;
   if (!jobs_.empty() && !jobs_.back()->sampled()) return;  // the start of the next is not known yet
-  const int64_t ready = audio_ ? audio_->ready() : 0;
-  if (!TurnWithMusic(ready)) return;
-  const Segment* segment = score_.timeline.Planned(jobs_.size());
-  const std::optional<int64_t> end = score_.timeline.End();
-  if (segment == nullptr || (end && segment->from >= *end) ||
-      !score_.timeline.IsCertain(segment->from))
-    return;
-  int64_t rows_end = segment->from;
-  if (model_.hears_music)
-    rows_end = std::min(segment->to, score_.config.end_frame.value_or(segment->to));
-  // Beats of the whole music are set before its first row is ready, so a transition that waits for
-  // one row knows them.
-  if (!audio_ || ready >= std::max(rows_end, first_frame_ + 1)) Submit(*segment, rows_end);
-}
-
-void DanceChain::Submit(const Segment& segment, int64_t rows_end) {
+  std::optional<DanceScore::Next> next = score_.TakeNext(jobs_.size(), Ready());
+  if (!next) return;
+  const int64_t from = next->inputs.segment.from;
+  next->inputs.before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(from);
   // A dance that waited for its client's messages is due from now on. Its old start time would let
   // it overtake dances that waited for nobody.
-  start_time_ = std::max(start_time_, PlaybackClock() - Seconds(segment.from - first_frame_));
-  score_.recurrence.Begin(segment.from);
+  start_time_ = std::max(start_time_, PlaybackClock() - Seconds(from - first_frame_));
+  auto job = std::make_shared<Job>(shared_from_this(), *std::move(next));
   try {
-    const DancedState before = jobs_.empty() ? danced_ : jobs_.back()->StateBefore(segment.from);
-    std::vector<Beat> beats = score_.beats.BeatsFor(segment.from, segment.to);
-    PreparedTransition prepared =
-        PrepareTransition({.start = score_.config,
-                           .model = model_,
-                           .controls = score_.controls,
-                           .recurrence = score_.recurrence,
-                           .audio = audio(),
-                           .segment = segment,
-                           .rows_end = rows_end,
-                           .before = before.history,
-                           .stage = before.stage,
-                           .beats = score_.beats.BeatTimes(beats, segment.from, segment.to)});
-    if (audio_) turn_.Watch(*audio_, segment);
-    auto job =
-        std::make_shared<Job>(shared_from_this(), segment, std::move(prepared), std::move(beats));
     queue_.Submit(job);
-    jobs_.push_back(std::move(job));  // its reports wait for mutex_
   } catch (const Error& error) {
-    failure_ = error;
+    job->Fail(error);
   }
-}
-
-void DanceChain::Emit(const Job& job, const DanceFrame& frame) {
-  const TransitionRun& run = job.run();
-  const Segment& segment = job.segment();
-  if (next_frame_ == segment.from) {
-    for (const Warning& warning : job.warnings()) Post(warning);
-    score_.beats.StartReporting(job.beats(), segment.from);
-    // A resumed dance may begin a frame later.
-    if (audio_) audio_->Forget(segment.from - model_.history_frames);
-  }
-  const int64_t emitted = next_frame_++;
-  meter_.Add(frame);
-  OutputFrames frames = output_.Push(frame);
-  if (!frames.poses.empty()) {
-    mailbox_.Post([frames = std::move(frames)](DanceSink& sink) {
-      sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
-    });
-  }
-  for (const Beat& beat : score_.beats.TakeBeatsAt(emitted)) Post(beat);
-  if (next_frame_ == segment.to && run.arrival()) {
-    const Key& key = *score_.timeline.Planned()->key;  // its hands may be newer than the job's
-    KeyReached reached = *run.arrival();
-    reached.id = key.id;
-    meter_.AddKey(reached);
-    reached.hands = key.hands;
-    Post(reached);
-  }
-}
-
-void DanceChain::Post(const DanceEvent& event) {
-  mailbox_.Post([event](DanceSink& sink) { sink.OnEvent(event); });
-}
-
-void DanceChain::PostLate(const KeyRejected& rejection, std::optional<HandPose> hands) {
-  const auto reached = std::ranges::find_if(reached_before_, [&](const KeyReached& key) {
-    return key.id == rejection.id && key.frame == rejection.frame;
-  });
-  if (reached == reached_before_.end()) return Post(rejection);
-  reached->hands = hands;
-  Post(*reached);
-  reached_before_.erase(reached);
-}
-
-void DanceChain::PostContinuation() {
-  Continuation continuation{next_frame_, danced_.history, model_.fingerprint};
-  if (audio_) {
-    continuation.audio_from_sample =
-        ResumeSample(score_.config, next_frame_, model_, score_.config.music_beats.empty());
-  }
-  continuation.last_beat = score_.beats.last_reported();
-  continuation.stage = danced_.stage;
-  continuation.reached = meter_.keys();
-  mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
-    sink.OnContinuation(continuation);
-  });
-}
-
-void DanceChain::Summarise() {
-  if (const auto warning = score_.controls.BehindEnd(next_frame_)) Post(*warning);
-  const QualityReport report = meter_.Report(score_.beats.reported());
-  if (const auto warning = score_.controls.SpeedsMissed(report)) Post(*warning);
-  mailbox_.PostLast([report](DanceSink& sink) { sink.OnSummary(report); });
+  jobs_.push_back(std::move(job));  // its reports wait for mutex_
 }
 
 }  // namespace choreo

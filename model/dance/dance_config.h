@@ -16,8 +16,8 @@
 
 namespace choreo {
 
-/// The part that a dance and a single transition share: how to dance, and from where.
-struct DanceStart {
+/// How to dance, in all of a dance's transitions.
+struct DanceManner {
   uint64_t seed = 0;
   /// Identifies the music (MusicId). It is part of the seed: two songs differ as two seeds do. 0:
   /// unknown.
@@ -26,6 +26,13 @@ struct DanceStart {
   std::string style;                 ///< one of the model's, or empty: any
   double music_dynamics =
       kDefaultDynamics;  ///< 0..1: how closely the dance's energy follows the music's (HearEnergy)
+  /// 0: passages of music that repeat (DanceStart::music_passages) are danced with the same noise;
+  /// 1: without any repetition.
+  double variation = kDefaultVariation;
+};
+
+/// The part that a dance and a single transition share: how to dance, and from where.
+struct DanceStart : DanceManner {
   double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
   /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
@@ -39,10 +46,9 @@ struct DanceStart {
   /// in the music.
   std::vector<double> music_beats;
   std::vector<double> music_downbeats;  ///< those that begin a bar; reported, not danced
-  /// Passages that repeat earlier ones (see CheckPassages). The dance repeats, too, with this much
-  /// `variation`; 0: the same noise, 1: no repetition.
+  /// Passages that repeat earlier ones (see CheckPassages). The dance repeats, too, with
+  /// `variation`.
   std::vector<Passage> music_passages;
-  double variation = kDefaultVariation;
 
   struct Audio {
     double sample_rate = 0;  ///< 8000..192000

@@ -42,9 +42,10 @@ void DanceStream::WarnOfKeysBehind(const Timeline& timeline, const std::string* 
 
 DanceStream::DanceStream(SampleQueue& queue, const ValidDance& config,
                          std::shared_ptr<DanceSink> sink)
-    : model_(queue.model()) {
-  chain_ = std::make_shared<DanceChain>(queue, config, std::move(sink));
-  chain_->Begin();
+    : model_(queue.model()),
+      first_frame_(config->FirstFrame()),
+      chain_(std::make_shared<DanceChain>(queue, config, std::move(sink))) {
+  chain_->Begin(config);
 }
 
 DanceStream::~DanceStream() { chain_->Cancel(); }
@@ -62,13 +63,7 @@ void DanceStream::EndOfAudio() {
 }
 
 void DanceStream::SetMusic(const MusicAnalysis& music) {
-  chain_->Apply([&](DanceScore& score) {
-    if (score.config.music_id == 0) score.config.music_id = music.id;
-    if (score.config.music_beats.empty()) score.beats.ReplaceAll(music.beats, music.downbeats);
-    if (!score.recurrence.empty() || music.passages.empty() || score.config.variation >= 1) return;
-    score.recurrence = Recurrence(model_.fps, music.passages);
-    score.timeline.SetCuts(CutsOf(music.passages, model_.fps));
-  });
+  chain_->Apply([&](DanceScore& score) { score.SetMusic(music); });
 }
 
 void DanceStream::NoteMusicDamaged(const std::vector<std::string>& notes, double seconds) {
@@ -88,7 +83,7 @@ void DanceStream::SetKey(const Key& key, const KeyMoment& when) {
   ValidateHit(key.hit, field + ".hit");
   chain_->Apply([&](DanceScore& score) {
     if (auto rejection = score.timeline.Set(key, when, field)) {
-      chain_->PostLate(*rejection, key.hands);
+      chain_->Post(score.AnswerLate(*rejection, key.hands));
     } else {
       WarnOfKeysBehind(score.timeline, &key.id);
     }
@@ -128,7 +123,7 @@ void DanceStream::SetControls(const ControlRequest& request) {
     const int64_t last = request.root_path->frames.back();
     score.timeline.NoteChange(request.root_path->frames.front(), last);
     // A path that lies before the first frame was danced before the resume: it is not late.
-    if (last < from && last >= score.config.FirstFrame()) chain_->Post(ControlsTooLate(last, from));
+    if (last < from && last >= first_frame_) chain_->Post(ControlsTooLate(last, from));
   });
   ++controls_;
 }

@@ -105,7 +105,8 @@ class DanceStream {
   void WarnOfKeysBehind(const Timeline& timeline, const std::string* only = nullptr);
 
   const ModelInfo& model_;
-  std::shared_ptr<DanceChain> chain_;
+  const int64_t first_frame_;
+  const std::shared_ptr<DanceChain> chain_;
   std::mutex messages_;  // one message at a time; locked before the chain's
   // Accepted so far:
   std::atomic<int> keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0, passages_ = 0;

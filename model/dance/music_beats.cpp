@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/core/quantile.h"
-#include "model/dance/transition.h"
 #include "model/plan/plan_stages.h"
 
 namespace choreo {
@@ -45,21 +45,29 @@ double StepAt(std::span<const double> seconds, size_t i) {
   return step > kPauseSeconds ? 0 : step;
 }
 
+}  // namespace
+
 std::vector<double> SecondsOf(std::span<const Beat> beats) {
   std::vector<double> seconds;
   for (const Beat& beat : beats) seconds.push_back(beat.time_s);
   return seconds;
 }
 
-}  // namespace
+HeardBeats HeardMusic::Before(int64_t row) {
+  std::lock_guard lock(mutex_);
+  if (row != until_) {
+    heard_ = HearBefore(*audio_, row);
+    until_ = row;
+  }
+  return heard_;
+}
 
-MusicBeats::MusicBeats(double fps, const std::vector<double>& given, std::optional<double> last,
-                       const AudioFeed* audio, std::span<const double> downbeats)
+MusicBeats::MusicBeats(double fps, const std::vector<double>& given, const AudioFeed* audio,
+                       std::span<const double> downbeats)
     : fps_(fps),
       audio_(audio),
-      hears_(audio != nullptr && given.empty()),
-      count_(given.size()),
-      last_(last) {
+      heard_(audio != nullptr && given.empty() ? std::make_shared<HeardMusic>(*audio) : nullptr),
+      count_(given.size()) {
   if (!given.empty()) Replace(given.front(), given, downbeats, Beat::Source::kGiven);
 }
 
@@ -84,7 +92,7 @@ void MusicBeats::Replace(double begin, std::span<const double> seconds,
 }
 
 void MusicBeats::ReplaceAll(const std::vector<double>& seconds, std::span<const double> downbeats) {
-  hears_ = false;
+  heard_.reset();
   known_.clear();
   if (!seconds.empty()) Replace(seconds.front(), seconds, downbeats, Beat::Source::kFound);
 }
@@ -105,22 +113,25 @@ int64_t MusicBeats::AddGiven(std::span<const double> seconds, int64_t from,
   return ahead - seconds.begin();
 }
 
-std::vector<Beat> MusicBeats::BeatsFor(int64_t from, int64_t to) {
+PlannedBeats MusicBeats::PlanFrom(int64_t from) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front()) {
     const Given& given = given_.front();
     Replace(given.begin, given.seconds, given.downbeats, Beat::Source::kGiven);
   }
+  return {fps_, known_, spans_, heard_};
+}
+
+PlannedBeats::PlannedBeats(double fps, std::vector<Beat> known, std::vector<Span> spans,
+                           std::shared_ptr<HeardMusic> heard)
+    : fps_(fps), known_(std::move(known)), spans_(std::move(spans)), heard_(std::move(heard)) {}
+
+std::vector<Beat> PlannedBeats::For(int64_t from, int64_t to) const {
   std::vector<Beat> beats = known_;
-  if (hears_) Predict(from, to, &beats);
+  if (heard_) Predict(from, to, &beats);
   return beats;
 }
 
-std::vector<double> MusicBeats::BeatTimes(std::span<const Beat> beats, int64_t from,
-                                          int64_t to) const {
-  return BeatsAround(SecondsOf(beats), fps_, from, static_cast<int>(to - from));
-}
-
-void MusicBeats::StartReporting(std::span<const Beat> beats, int64_t from) {
+void BeatReport::Start(std::span<const Beat> beats, int64_t from) {
   const std::vector<double> seconds = SecondsOf(beats);
   ahead_.clear();
   std::optional<double> last = last_;
@@ -135,17 +146,14 @@ void MusicBeats::StartReporting(std::span<const Beat> beats, int64_t from) {
   }
 }
 
-void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) {
+void PlannedBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) const {
   const int64_t until = from - from % kTracked;
-  if (until != heard_until_) {
-    heard_until_ = until;
-    heard_ = HearBefore(*audio_, until);
-  }
+  const HeardBeats heard = heard_->Before(until);
   // The span from a beat before the transition to one after it.
   const double slowest_s = 60 / TempoLimits().slowest_bpm;
-  const BeatsAhead ahead = PredictBeats(heard_.track, Seconds(until), Seconds(to) + slowest_s);
-  if (!heard_.Certain() || ahead.beats.empty()) return;
-  std::vector<double> seconds = heard_.track.Seconds(), downbeats = heard_.track.DownbeatSeconds();
+  const BeatsAhead ahead = PredictBeats(heard.track, Seconds(until), Seconds(to) + slowest_s);
+  if (!heard.Certain() || ahead.beats.empty()) return;
+  std::vector<double> seconds = heard.track.Seconds(), downbeats = heard.track.DownbeatSeconds();
   std::erase_if(seconds, [&](double second) { return second < Seconds(from) - 2 * slowest_s; });
   seconds.insert(seconds.end(), ahead.beats.begin(), ahead.beats.end());
   downbeats.insert(downbeats.end(), ahead.downbeats.begin(), ahead.downbeats.end());
@@ -157,13 +165,13 @@ void MusicBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) {
     if (is_given) continue;
     Beat& beat = beats->emplace_back(Beat{.time_s = second,
                                           .source = Beat::Source::kPredicted,
-                                          .confidence = heard_.track.confidence.back()});
+                                          .confidence = heard.track.confidence.back()});
     beat.downbeat = std::ranges::binary_search(downbeats, second);
   }
   std::ranges::stable_sort(*beats, {}, &Beat::time_s);
 }
 
-std::vector<Beat> MusicBeats::TakeBeatsAt(int64_t frame) {
+std::vector<Beat> BeatReport::TakeAt(int64_t frame) {
   std::vector<Beat> beats;
   for (; !ahead_.empty() && ahead_.front().time_s < Seconds(frame + 1); ahead_.pop_front()) {
     Beat& beat = beats.emplace_back(ahead_.front());

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/dance_score.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
-#include "model/dance/prepared_transition.h"
 
 namespace choreo {
 
@@ -195,16 +195,17 @@ void TransitionGroup::Impl::Begin() {
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
   PreparedTransition prepared = PrepareTransition(
-      {.start = request_,
-       .model = model_,
+      model_,
+      {.manner = request_,
        .controls = controls_,
-       .recurrence = Recurrence(model_.fps, request_.music_passages),
-       .audio = audio_.get(),
        .segment = segment,
-       .rows_end = end,
-       .before = request_.Before(),
-       .stage = request_.continuation ? request_.continuation->stage : std::nullopt,
-       .beats = BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames)});
+       .before = {request_.Before(),
+                  request_.continuation ? request_.continuation->stage : std::nullopt},
+       .noise_like =
+           Recurrence(model_.fps, request_.music_passages).Origins(segment.from, segment.to),
+       .audio = audio_.get(),
+       .rows_end = end},
+      BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames));
   TransitionRequest& transition = prepared.request;
   transition.after = request_.after;
   if (const auto warning = controls_.BehindEnd(end)) prepared.warnings.push_back(*warning);

@@ -12,6 +12,11 @@
 
 namespace choreo {
 
+/// The clock of SampleJob::Deadline, in seconds. It orders jobs and never changes a dance.
+inline double PlaybackClock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// A transition for the queue to sample. Continue and OnDone run on one worker's thread without a
 /// lock of the queue, so they may call the queue; neither may block.
 class SampleJob {
@@ -26,7 +31,7 @@ class SampleJob {
   /// after a failure. A job that never began ends on any worker's thread.
   virtual void OnDone(const Error* failure) noexcept = 0;
 
-  /// When its first frame is due for its listener, seconds of std::steady_clock. Read once.
+  /// When its first frame is due for its listener, by PlaybackClock. Read once.
   virtual double Deadline() const = 0;
   /// Its number of frames.
   virtual int frames() const = 0;

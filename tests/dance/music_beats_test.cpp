@@ -6,16 +6,17 @@
 #include <limits>
 #include <random>
 
+#include "model/dance/transition.h"
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::music_beats_test {
 
-// A transition begins.
-std::vector<double> Begin(MusicBeats* music, int64_t from, int64_t to) {
-  const std::vector<Beat> beats = music->BeatsFor(from, to);
-  music->StartReporting(beats, from);
-  return music->BeatTimes(beats, from, to);
+// The beats of a transition that begins.
+std::vector<Beat> Begin(MusicBeats* music, BeatReport* report, int64_t from, int64_t to) {
+  const std::vector<Beat> beats = music->PlanFrom(from).For(from, to);
+  report->Start(beats, from);
+  return beats;
 }
 
 // Of a song that beats every half second.
@@ -190,14 +191,15 @@ TEST(MusicBeats, AreReportedOnce) {
     for (const bool cut : {false, true}) {
       SCOPED_TRACE(std::to_string(bpm) + (cut ? ", cut" : ", whole"));
       std::mt19937 random(static_cast<uint32_t>(bpm));
-      MusicBeats music(30, {}, std::nullopt, &feed);
+      MusicBeats music(30, {}, &feed);
+      BeatReport report(30, &feed, std::nullopt);
       for (int64_t from = 0, to = 0; from < 900; from = to) {
         const int64_t frames = cut ? 1 + static_cast<int64_t>(random() % 100) : 60;
         to = from + (cut ? 1 + static_cast<int64_t>(random()) % frames : frames);
-        Begin(&music, from, from + frames);
-        for (int64_t frame = from; frame < to; ++frame) music.TakeBeatsAt(frame);
+        Begin(&music, &report, from, from + frames);
+        for (int64_t frame = from; frame < to; ++frame) report.TakeAt(frame);
       }
-      std::vector<double> told = music.reported();
+      std::vector<double> told = report.reported();
       std::erase_if(told, [](double second) { return second < 8; });
       ASSERT_GT(told.size(), 16U);
       for (size_t i = 1; i < told.size(); ++i)
@@ -213,7 +215,8 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.005, 0.005);
   for (const int64_t lead : {0, 6, 20}) {
-    MusicBeats beats(30, {}, {}, nullptr);
+    MusicBeats beats(30, {}, nullptr);
+    BeatReport report(30, nullptr, std::nullopt);
     std::vector<Beat> told;
     for (int64_t from = 0; from < 600; from += 9) {
       std::vector<double> grid;
@@ -222,9 +225,9 @@ TEST(MusicBeats, RepeatedGridIsReportedOnce) {
         if (0.5 * beat > static_cast<double>(from) / 30) grid.push_back(0.5 * beat + off);
       }
       if (!grid.empty()) beats.AddGiven(grid, from + lead, "music_beats");
-      Begin(&beats, from, from + 9);
+      Begin(&beats, &report, from, from + 9);
       for (int64_t frame = from; frame < from + 9; ++frame) {
-        for (const Beat& beat : beats.TakeBeatsAt(frame)) {
+        for (const Beat& beat : report.TakeAt(frame)) {
           told.push_back(beat);
           EXPECT_LE(beat.frame, frame) << "it has been danced";
           EXPECT_NEAR(static_cast<double>(beat.frame), 30 * beat.time_s, 1);
@@ -241,14 +244,15 @@ TEST(MusicBeats, AreDetectedAroundGivenOnes) {
   AudioFeed feed(22050, 1, 0);
   feed.Push(Song(22050, 20), 0, [] {});
   feed.Finish();
-  MusicBeats music(30, {}, std::nullopt, &feed);
+  MusicBeats music(30, {}, &feed);
+  BeatReport report(30, &feed, std::nullopt);
   EXPECT_EQ(music.AddGiven(std::vector<double>{9, 11.7, 12.2, 12.7}, 284, "beats"), 1);
   EXPECT_EQ(music.AddGiven(std::vector<double>{12.4, 12.9}, 284, "beats"), 0);
   std::vector<Beat> beats;
   for (int64_t from = 224; from < 524; from += 60) {
-    Begin(&music, from, from + 60);
+    Begin(&music, &report, from, from + 60);
     for (int64_t frame = from; frame < from + 60; ++frame)
-      for (const Beat& beat : music.TakeBeatsAt(frame)) beats.push_back(beat);
+      for (const Beat& beat : report.TakeAt(frame)) beats.push_back(beat);
   }
   std::vector<double> given;
   for (size_t i = 0; i < beats.size(); ++i) {
@@ -272,8 +276,8 @@ TEST(MusicBeats, LaterMusicChangesNothing) {
     AudioFeed feed(22050, 1, 0);
     feed.Push(song, 0, [] {});
     feed.Finish();
-    MusicBeats music(30, {}, std::nullopt, &feed);
-    return Begin(&music, 300, 360);
+    MusicBeats music(30, {}, &feed);
+    return BeatsAround(SecondsOf(music.PlanFrom(300).For(300, 360)), 30, 300, 60);
   };
   const std::vector<double> heard = around();
   ASSERT_FALSE(heard.empty());

@@ -1,0 +1,64 @@
+#include "model/dance/dance_report.h"
+
+#include <utility>
+
+namespace choreo {
+
+DanceReport::DanceReport(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio,
+                         Mailbox<DanceSink>& mailbox)
+    : model_(model),
+      asked_(*asked),
+      mailbox_(mailbox),
+      beats_(model.fps, audio, asked->continuation ? asked->continuation->last_beat : std::nullopt),
+      meter_(model.skeleton, model.fps, asked->FirstFrame(),
+             asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
+      output_(model.fps, asked->output_fps, asked->FirstFrame(),
+              asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
+                                  : std::nullopt) {}
+
+void DanceReport::Begin(int64_t from, const std::vector<Warning>& warnings,
+                        const std::vector<Beat>& beats) {
+  for (const Warning& warning : warnings) Post(warning);
+  beats_.Start(beats, from);
+}
+
+void DanceReport::Add(int64_t number, const DanceFrame& frame) {
+  meter_.Add(frame);
+  OutputFrames frames = output_.Push(frame);
+  if (!frames.poses.empty()) {
+    mailbox_.Post([frames = std::move(frames)](DanceSink& sink) {
+      sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
+    });
+  }
+  for (const Beat& beat : beats_.TakeAt(number)) Post(beat);
+}
+
+void DanceReport::Reach(const Key& key, KeyReached reached) {
+  reached.id = key.id;
+  meter_.AddKey(reached);
+  reached.hands = key.hands;
+  Post(reached);
+}
+
+void DanceReport::End(int64_t frame, const DancedState& danced) {
+  Continuation continuation{frame, danced.history, model_.fingerprint};
+  if (asked_.audio) {
+    continuation.audio_from_sample =
+        ResumeSample(asked_, frame, model_, asked_.music_beats.empty());
+  }
+  continuation.last_beat = beats_.last();
+  continuation.stage = danced.stage;
+  continuation.reached = meter_.keys();
+  mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
+    sink.OnContinuation(continuation);
+  });
+}
+
+void DanceReport::Summarise(int64_t frame, const ControlTrack& controls) {
+  if (const auto warning = controls.BehindEnd(frame)) Post(*warning);
+  const QualityReport report = meter_.Report(beats_.reported());
+  if (const auto warning = controls.SpeedsMissed(report)) Post(*warning);
+  mailbox_.PostLast([report](DanceSink& sink) { sink.OnSummary(report); });
+}
+
+}  // namespace choreo

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/dance/audio_feed.h"
+#include "model/dance/control_track.h"
+#include "model/dance/dance_config.h"
+#include "model/dance/dance_score.h"
+#include "model/dance/dance_sink.h"
+#include "model/dance/mailbox.h"
+#include "model/dance/music_beats.h"
+#include "model/dance/output_rate.h"
+#include "model/dance/quality_meter.h"
+#include "model/dance/timeline.h"
+
+namespace choreo {
+
+/// Tells a dance's sink of an event.
+inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
+  mailbox.Post([event](DanceSink& sink) { sink.OnEvent(event); });
+}
+
+/// Tells the sink of a dance what is danced: frames at the client's rate, their beats and keys,
+/// continuations, the summary. Not thread-safe.
+class DanceReport {
+ public:
+  /// The mailbox must outlive it, as must model and music. `audio`: null without music.
+  DanceReport(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio,
+              Mailbox<DanceSink>& mailbox);
+
+  /// Starts the transition that begins at `from`.
+  void Begin(int64_t from, const std::vector<Warning>& warnings, const std::vector<Beat>& beats);
+  /// The next frame, whose number is `number`.
+  void Add(int64_t number, const DanceFrame& frame);
+  /// That frame reaches this key.
+  void Reach(const Key& key, KeyReached reached);
+  /// A transition is over, and the dance continues with `frame`.
+  void End(int64_t frame, const DancedState& danced);
+  /// The dance ended before `frame`; these were its controls.
+  void Summarise(int64_t frame, const ControlTrack& controls);
+
+ private:
+  void Post(const DanceEvent& event) { PostEvent(mailbox_, event); }
+
+  const ModelInfo& model_;
+  const DanceConfig asked_;
+  Mailbox<DanceSink>& mailbox_;
+  BeatReport beats_;
+  QualityMeter meter_;
+  OutputRate output_;
+};
+
+}  // namespace choreo

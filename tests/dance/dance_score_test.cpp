@@ -1,0 +1,133 @@
+#include "model/dance/dance_score.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/dance/dances.h"
+
+// Which transition follows from a dance's messages, without queue, threads and sampler.
+namespace choreo::dance_score_test {
+
+ModelInfo Model() { return FakeSampler().model(); }
+
+Key KeyAt(const std::string& id, int64_t frame) {
+  std::mt19937 random(static_cast<uint32_t>(frame));
+  return {.id = id, .frame = frame, .pose = RandomPose(random)};
+}
+
+class DanceScoreTest : public ::testing::Test {
+ protected:
+  DanceScore Score(const DanceConfig& config, const AudioFeed* audio = nullptr) const {
+    return {model, ValidDance(config, model), audio};
+  }
+  static void Set(DanceScore* score, const Key& key) {
+    ASSERT_FALSE(score->timeline.Set(key, AtFrame{key.frame}, "key"));
+  }
+
+  const ModelInfo model = Model();
+};
+
+TEST_F(DanceScoreTest, NothingFollowsBeforeItIsGranted) {
+  DanceScore score = Score({});
+  EXPECT_FALSE(score.TakeNext(0, 0));
+  Set(&score, KeyAt("a", 40));
+  const auto next = score.TakeNext(0, 0);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->inputs.segment.from, 0);
+  EXPECT_EQ(next->inputs.segment.to, 41);
+  EXPECT_EQ(next->inputs.segment.key->id, "a");
+  EXPECT_FALSE(score.TakeNext(1, 0)) << "no key after it";
+}
+
+TEST_F(DanceScoreTest, NothingFollowsTheEnd) {
+  DanceScore score = Score({});
+  Set(&score, KeyAt("a", 40));
+  score.timeline.Complete();
+  EXPECT_FALSE(score.EndsBy(40));
+  EXPECT_TRUE(score.EndsBy(41));
+  ASSERT_TRUE(score.TakeNext(0, 0));
+  EXPECT_FALSE(score.Overtakes(40));
+  EXPECT_TRUE(score.Overtakes(41));
+  EXPECT_FALSE(score.TakeNext(1, 0));
+}
+
+TEST_F(DanceScoreTest, ATransitionWaitsForItsMusic) {
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  AudioFeed feed(22050, 1, 0);
+  DanceScore score = Score(config, &feed);
+  Set(&score, KeyAt("a", 40));
+  EXPECT_FALSE(score.TakeNext(0, 0));
+  feed.Push(Song(22050, 3), 0, [] {});
+  ASSERT_GT(feed.ready(), 0);
+  EXPECT_TRUE(score.TakeNext(0, feed.ready()));
+}
+
+// A change ahead ends the transition under way where it is granted.
+TEST_F(DanceScoreTest, AMessageOvertakesATransition) {
+  DanceScore score = Score({});
+  score.timeline.GenerateUntil(20);
+  const auto first = score.TakeNext(0, 0);
+  ASSERT_TRUE(first);
+  const int64_t planned = first->inputs.segment.to;
+  EXPECT_FALSE(score.Overtakes(20));
+  Set(&score, KeyAt("a", 30));
+  score.timeline.GenerateUntil(31);
+  ASSERT_TRUE(score.TakeNext(1, 0));
+  EXPECT_LT(20, planned);
+  EXPECT_TRUE(score.Overtakes(20));
+}
+
+// Workers prepare transitions while messages come.
+TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  AudioFeed feed(22050, 1, 0);
+  feed.Push(Song(22050, 20), 0, [] {});
+  DanceScore score = Score(config, &feed);
+  Set(&score, KeyAt("a", 300));
+  Set(&score, KeyAt("b", 400));
+  ASSERT_TRUE(score.TakeNext(0, feed.ready()));
+  const auto next = score.TakeNext(1, feed.ready());
+  ASSERT_TRUE(next);
+  const Segment& segment = next->inputs.segment;
+  const auto prepare = [&] {
+    return PrepareTransition(
+               model, next->inputs,
+               BeatsAround(SecondsOf(next->beats.For(segment.from, segment.to)), model.fps,
+                           segment.from, static_cast<int>(segment.to - segment.from)))
+        .request.spec;
+  };
+  const TransitionSpec before = prepare();
+  score.beats.AddGiven(std::vector<double>{14.1, 14.7, 15.3}, 401, "beats");
+  ControlRequest controls;
+  controls.root_path = ControlRequest::RootPath{{401, 500}, {{0, 0}, {1, 1}}, {}};
+  score.controls.Set(controls, 401, "controls");
+  score.recurrence.Give(std::vector<Passage>{{14, 16, 2}}, 401, "passages");
+  score.SetMusic({.beats = {1, 2, 3}, .id = 5});
+  const TransitionSpec after = prepare();
+  EXPECT_FALSE(before.beats.empty());
+  EXPECT_EQ(before.beats, after.beats);
+  EXPECT_EQ(before.seed, after.seed);
+  EXPECT_EQ(before.noise_like, after.noise_like);
+  EXPECT_FALSE(after.controls[kRootPath].IsGiven());
+}
+
+TEST_F(DanceScoreTest, AKeyReachedBeforeTheResumeIsReportedAgainOnce) {
+  DanceConfig config;
+  config.continuation = Continuation{.frame = 50,
+                                     .poses = FillHistory(model, {}),
+                                     .fingerprint = model.fingerprint,
+                                     .reached = {{.id = "a", .frame = 40, .raw_error_m = 0.5}}};
+  DanceScore score = Score(config);
+  const Key key = KeyAt("a", 40);
+  const auto late = score.timeline.Set(key, AtFrame{40}, "key");
+  ASSERT_TRUE(late);
+  const DanceEvent again = score.AnswerLate(*late, std::nullopt);
+  ASSERT_TRUE(std::holds_alternative<KeyReached>(again));
+  EXPECT_EQ(std::get<KeyReached>(again).raw_error_m, 0.5);
+  EXPECT_TRUE(std::holds_alternative<KeyRejected>(score.AnswerLate(*late, std::nullopt)));
+}
+
+}  // namespace choreo::dance_score_test
