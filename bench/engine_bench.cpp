@@ -69,10 +69,9 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.target = Target{key, {}};
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
-  spec.has_audio = model.hears_music;
-  if (spec.has_audio) {
-    spec.audio_history = Eigen::MatrixXf::Zero(model.audio_features, model.history_frames);
-    spec.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
+  if (model.hears_music) {
+    spec.paper.music = {Eigen::MatrixXf::Zero(model.audio_features, model.history_frames),
+                        Eigen::MatrixXf::Zero(model.audio_features, spec.frames)};
   }
   if (model.Takes(kRootPath)) {
     const Eigen::Vector3d from = spec.history.back().root_position;

@@ -51,12 +51,12 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
   }
   spec.stage = before.stage;
   if (audio != nullptr) {
-    spec.has_audio = true;
     if (model.hears_music) {
-      spec.audio_history = audio->History(segment.from, model.history_frames);
       const auto heard = static_cast<int>(rows_end - segment.from);
-      spec.audio_rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
-      spec.audio_rows.leftCols(heard) = audio->History(rows_end, heard);
+      auto& music = spec.paper.music.emplace();
+      music.history = audio->History(segment.from, model.history_frames);
+      music.rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
+      music.rows.leftCols(heard) = audio->History(rows_end, heard);
     }
     spec.energy = {HearEnergyAt(*audio, manner, segment.from - kTypicalFrames),
                    HearEnergyAt(*audio, manner, segment.from)};

@@ -153,9 +153,9 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   else if (request.hit || held_)
     after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
   hit_ = request.hit;
-  spec_.arrival.emplace(request.arrival_frames, request.spec.frames, *spec_.target, spec_.history,
-                        after);
-  arrival_window_ = spec_.arrival->window();
+  arrival_.emplace(request.arrival_frames, request.spec.frames, *spec_.target, spec_.history,
+                   after);
+  spec_.paper.arrival = arrival_;
 }
 
 bool TransitionRun::Continue(Sampler& sampler) {
@@ -186,7 +186,7 @@ void TransitionRun::Steer() {
   }
   plan_.reserve(drawn_.poses.size());
   frames_.reserve(drawn_.poses.size());
-  std::optional<Arrival> arrival = spec_.arrival;
+  std::optional<Arrival> arrival = arrival_;
   for (size_t at = 0; at < drawn_.poses.size(); ++at) {
     const Pose& drawn = drawn_.poses[at];
     CheckFinite(at, drawn, drawn_.contacts[at], "as the model makes it");
@@ -197,7 +197,7 @@ void TransitionRun::Steer() {
                       " is not finite");
     }
     plan_.push_back(arrival ? arrival->Apply(drawn) : drawn);
-    if (drawn_.poses.size() - at <= static_cast<size_t>(arrival_window_)) {
+    if (arrival && drawn_.poses.size() - at <= static_cast<size_t>(arrival->window())) {
       correction_m_ = std::max(
           correction_m_,
           ComparePoses(model_->skeleton, drawn, plan_.back(), spec_.target->mask).position_m);
@@ -227,7 +227,7 @@ void TransitionRun::PutOnFeet() {
     history.insert(history.end(), plan_.begin(), from);
     const FootworkContext context{.skeleton = model_->skeleton,
                                   .history = std::span(history).last(spec_.history.size()),
-                                  .keyed = ends && spec_.arrival,
+                                  .keyed = ends && arrival_,
                                   .held = held_,
                                   .has_path = spec_.controls[kRootPath].IsGiven(),
                                   .offset_before = offset_,

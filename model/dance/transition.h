@@ -96,7 +96,7 @@ class TransitionRun {
   TransitionSpec spec_;
   std::optional<Target> world_target_;
   GroundFrame ground_;
-  int arrival_window_ = 0;  // 0: no steering
+  std::optional<Arrival> arrival_;  // none: no steering
   std::optional<double> hit_;
   bool held_ = false;  // the dancer holds the pose
   bool footwork_;

@@ -55,9 +55,9 @@ void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
   }
   if (spec.target) CheckTarget(*spec.target, model, "target");
   if (spec.later) CheckTarget(spec.later->target, model, "later");
-  if (spec.has_audio && model.hears_music) {
-    CheckRows(spec.audio_history, history, model, "audio_history");
-    CheckRows(spec.audio_rows, spec.frames, model, "audio_rows");
+  if (const auto& music = spec.paper.music; music && model.hears_music) {
+    CheckRows(music->history, history, model, "audio_history");
+    CheckRows(music->rows, spec.frames, model, "audio_rows");
   }
   const size_t like = spec.noise_like.size();
   if (like != 0 && static_cast<int>(like) != spec.frames) {

@@ -59,6 +59,19 @@ struct LaterTarget {
   int frames = 0;  ///< >= 1, from the transition's last frame to the key's
 };
 
+/// What only the papers' models read, which make frame after frame.
+struct PaperInputs {
+  /// MFCC rows, oldest first.
+  struct Music {
+    Eigen::MatrixXf history;  ///< [audio_features, tau], of the history's frames
+    Eigen::MatrixXf rows;     ///< [audio_features, frames], of the transition's own
+  };
+  std::optional<Music> music = {};  ///< none: dances without
+  /// Steers each frame before the next is made, so that the model continues from where the dance
+  /// is.
+  std::optional<Arrival> arrival = {};
+};
+
 /// All inputs of a transition. All poses are in its canonical frame (motion/canonical.h).
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
@@ -69,10 +82,6 @@ struct TransitionSpec {
   /// audience, which the dancer faces if nothing fixes the facing. None: where the history ends and
   /// faces.
   std::optional<GroundFrame> stage = {};
-  bool has_audio = false;  ///< false: ignores audio rows and dances without music
-  /// MFCC rows, for models that hear music: [audio_features, tau] for the history's frames and
-  /// [audio_features, frames] for its own, oldest first.
-  Eigen::MatrixXf audio_history, audio_rows;
   /// The music's beats, in frames from frame 0, ascending; a dance without a path is timed to them
   /// (plan/plan_stages.h). Empty: unknown.
   std::vector<double> beats;
@@ -88,9 +97,7 @@ struct TransitionSpec {
   double variation = 0;
   float temperature = 0.3F;
   std::string style = {};  ///< one of the model's, or empty for any
-  /// Steers each frame before the next is made, in models that make frame after frame, so that the
-  /// model continues from where the dance is.
-  std::optional<Arrival> arrival = {};
+  PaperInputs paper = {};
 };
 
 /// Whether its target fixes the root's position or a joint.

@@ -44,11 +44,11 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
   }
   if (plan.audio.cols() > 0 && model.hears_music) {
     const int history = model.history_frames;
-    spec.has_audio = true;
-    spec.audio_history = plan.audio.middleCols(at, history);
     // Nothing is danced after the plan's end, whatever its audio.
-    spec.audio_rows = Eigen::MatrixXf::Zero(plan.audio.rows(), spec.frames);
-    spec.audio_rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
+    PaperInputs::Music& music = spec.paper.music.emplace();
+    music.history = plan.audio.middleCols(at, history);
+    music.rows = Eigen::MatrixXf::Zero(plan.audio.rows(), spec.frames);
+    music.rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
   }
   return out;
 }

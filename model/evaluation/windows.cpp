@@ -48,9 +48,8 @@ TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const Ev
   spec.beats = set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
   for (double& beat : spec.beats) beat -= kBeatMargin;
   if (clip.audio.cols() > 0 && model.hears_music) {
-    spec.has_audio = true;
-    spec.audio_history = clip.audio.middleCols(window.start - history, history);
-    spec.audio_rows = clip.audio.middleCols(window.start, frames);
+    spec.paper.music = {clip.audio.middleCols(window.start - history, history),
+                        clip.audio.middleCols(window.start, frames)};
   }
   return request;
 }

@@ -43,7 +43,7 @@ TEST(Runner, DancesEachAsIfAlone) {
     for (size_t t = 0; t < dances[i].size(); ++t)
       ASSERT_EQ(dances[i][t].rotations, alone.frames()[t].pose.rotations);
   }
-  requests[1].spec.audio_rows.conservativeResize(Eigen::NoChange, 5);
+  requests[1].spec.paper.music->rows.conservativeResize(Eigen::NoChange, 5);
   ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { runner.Dance(sampler, requests); });
 }
 

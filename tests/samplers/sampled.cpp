@@ -63,12 +63,13 @@ TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames) {
     spec.target->mask.joints[5] = false;
   }
   if (seed % 5 == 0) spec.target.reset();
-  if (spec.target && seed % 4 == 3) spec.arrival.emplace(6, frames, *spec.target, spec.history);
-  spec.has_audio = seed % 2 == 1;
-  if (spec.has_audio) {
-    spec.audio_history.resize(model.audio_features, model.history_frames);
-    spec.audio_rows.resize(model.audio_features, frames);
-    for (auto* rows : {&spec.audio_history, &spec.audio_rows})
+  if (spec.target && seed % 4 == 3)
+    spec.paper.arrival.emplace(6, frames, *spec.target, spec.history);
+  if (seed % 2 == 1) {
+    PaperInputs::Music& music = spec.paper.music.emplace();
+    music.history.resize(model.audio_features, model.history_frames);
+    music.rows.resize(model.audio_features, frames);
+    for (auto* rows : {&music.history, &music.rows})
       for (float& value : rows->reshaped()) value = static_cast<float>(random.Normal());
   }
   spec.seed = seed;

@@ -65,8 +65,8 @@ class FakeSampling : public Sampling {
         spec_.noise_like.empty() ? own : spec_.noise_like[static_cast<size_t>(frame)];
     FillNormalLike(spec_.seed, spec_.candidate, own, like, spec_.variation, noise_);
     double music = 0;
-    if (spec_.has_audio && model_.hears_music)
-      music = std::tanh(spec_.audio_rows.col(frame).cast<double>().sum() / 100.0);
+    if (spec_.paper.music && model_.hears_music)
+      music = std::tanh(spec_.paper.music->rows.col(frame).cast<double>().sum() / 100.0);
     const double left = spec_.frames - frame;  // reaches the goal in this many steps
     const Eigen::VectorXd now = Flat(pose_);
     velocity_ = 0.5 * velocity_ + 0.5 * (Goal() - now) / left;
@@ -95,7 +95,7 @@ class FakeSampling : public Sampling {
         static_cast<float>(-0.5 * energy - 0.9189385332046727 * Width()));
     sampler_.OnFrame(spec_, &plan_);
     const Pose& drawn = plan_.poses.back();
-    pose_ = spec_.arrival ? spec_.arrival->Apply(drawn) : drawn;
+    pose_ = spec_.paper.arrival ? spec_.paper.arrival->Apply(drawn) : drawn;
     return left > 1;
   }
 

@@ -37,8 +37,7 @@ class TransitionWindow {
   PoseCodec codec_;
   std::vector<float> past_;   // [tau, width], oldest first
   std::vector<float> audio_;  // [tau + 1, audio_features]
-  bool hears_;
-  Eigen::MatrixXf audio_rows_;
+  std::optional<PaperInputs::Music> music_;
 
   int frame_ = 0;
   FrameNoise noise_;           // the frame's
@@ -57,8 +56,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
       codec_(model.skeleton),
       past_(static_cast<size_t>(model.history_frames * codec_.width())),
       audio_(static_cast<size_t>((model.history_frames + 1) * model.audio_features)),
-      hears_(spec.has_audio && model.hears_music),
-      audio_rows_(spec.audio_rows),
+      music_(model.hears_music ? spec.paper.music : std::nullopt),
       noise_{.seed = spec.seed,
              .frame = spec.first_frame,
              .candidate = spec.candidate,
@@ -83,8 +81,8 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
     PastRow(0).segment<3>(codec_.velocity_at()) = PastRow(1).segment<3>(codec_.velocity_at());
   }
   last_placement_ = std::move(placements.back());
-  if (hears_)
-    Eigen::Map<Eigen::MatrixXf>(audio_.data(), model.audio_features, tau) = spec.audio_history;
+  if (music_)
+    Eigen::Map<Eigen::MatrixXf>(audio_.data(), model.audio_features, tau) = music_->history;
 }
 
 void TransitionWindow::Advance(const Pose* previous) {
@@ -97,11 +95,11 @@ void TransitionWindow::Advance(const Pose* previous) {
     last_ = *previous;
     std::swap(last_placement_, placement_);
   }
-  if (hears_) {
+  if (music_) {
     const int row = model_->audio_features;
     // Before frame 0 the last row is still free.
     if (frame_ > 0) std::copy(audio_.begin() + row, audio_.end(), audio_.begin());
-    std::copy_n(audio_rows_.col(frame_).data(), row, audio_.end() - row);
+    std::copy_n(music_->rows.col(frame_).data(), row, audio_.end() - row);
   }
 }
 
@@ -109,7 +107,7 @@ void TransitionWindow::Fill(FlowFrame* frame) const {
   frame->frame = frame_;
   frame->past = past_;
   frame->audio = audio_;
-  frame->has_audio = hears_;
+  frame->has_audio = music_.has_value();
   frame->noise = noise_;
   frame->noise.like = like_.empty() ? noise_.frame : like_[static_cast<size_t>(frame_)];
 }
@@ -126,7 +124,7 @@ class FlowSampling : public Sampling {
   FlowSampling(const ModelInfo& model, const FlowConfig& config, const TransitionSpec& spec,
                std::unique_ptr<FlowStepper> stepper)
       : window_(model, spec),
-        arrival_(spec.arrival),
+        arrival_(spec.paper.arrival),
         frames_(static_cast<size_t>(spec.frames)),
         stepper_(std::move(stepper)),
         features_(static_cast<size_t>(PoseCodec(model.skeleton).width())) {

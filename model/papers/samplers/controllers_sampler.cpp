@@ -70,7 +70,7 @@ class Walk : public Sampling {
 Walk::Walk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec)
     : model_(model),
       network_(std::move(network)),
-      arrival_(spec.arrival),
+      arrival_(spec.paper.arrival),
       frames_(spec.frames),
       fitter_(model.skeleton, DrawnPositions(model.skeleton), kFitOptions, model.fps) {
   const c10::InferenceMode inference;

@@ -70,7 +70,7 @@ TEST_F(ControllersSamplerTest, NeitherSeedNorTemperatureNorMusicChangeIt) {
   spec.seed = 99;
   spec.candidate = 5;
   spec.temperature = 0;
-  spec.has_audio = false;
+  spec.paper.music.reset();
   ExpectSameBits(once, sampler_->Sample(spec));
 }
 

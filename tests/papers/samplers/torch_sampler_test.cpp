@@ -42,7 +42,7 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
     const int tau = model_->config().history_frames, joints = skeleton.joints();
     Motion motion;
     motion.frames = spec.history;
-    std::optional<Arrival> arrival = spec.arrival;
+    std::optional<Arrival> arrival = spec.paper.arrival;
     for (const Pose& pose : plan.poses)
       motion.frames.push_back(arrival ? arrival->Apply(pose) : pose);
     const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
@@ -98,14 +98,13 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
       std::copy(x.data(), x.data() + width, features[i].data_ptr<float>());
     }
     torch::Tensor audio = torch::zeros({tau + spec.frames, model_->config().audio_features});
-    if (spec.has_audio) {
+    if (const auto& music = spec.paper.music) {
       for (int i = 0; i < tau + spec.frames; ++i) {
-        const Eigen::VectorXf row =
-            i < tau ? spec.audio_history.col(i) : spec.audio_rows.col(i - tau);
+        const Eigen::VectorXf row = i < tau ? music->history.col(i) : music->rows.col(i - tau);
         audio[i] = torch::tensor(std::vector<float>(row.begin(), row.end()));
       }
     }
-    const torch::Tensor has_audio = torch::full({1, 1}, spec.has_audio ? 1.0F : 0.0F);
+    const torch::Tensor has_audio = torch::full({1, 1}, spec.paper.music ? 1.0F : 0.0F);
     const auto inverse_weights = model_->InverseWeights();
     FlowState state = torch::zeros({1, model_->StateWidth()});
     double largest_effect_of_state = 0;
