@@ -56,15 +56,16 @@ void TakeBeats(const json& list, int bar, const std::string& field, Project* pro
   CheckBeats(out, field);
 }
 
-/// "left_arm=1.5" for each part, unless all have the usual factor.
-std::vector<std::string> Velocities(const json& lively, const std::string& field) {
+/// None where all parts have the usual factor.
+PartFactors FactorsIn(const json& lively, const std::string& field) {
   if (!lively.is_object()) throw InvalidArgument(field, Shown(lively) + " is no object");
-  std::vector<std::string> out;
+  PartFactors out;
   bool as_usual = true;
   for (const auto& [member, value] : lively.items()) {
     std::string part = member;
     std::ranges::replace(part, ' ', '_');
-    if (std::ranges::find(kBodyPartNames, part) == kBodyPartNames.end())
+    const auto named = std::ranges::find(kBodyPartNames, part);
+    if (named == kBodyPartNames.end())
       throw InvalidArgument(field + "." + member, "is none of " + BodyPartNames());
     const double factor = JsonNumber(value, field + "." + member);
     if (!(factor >= 0 && factor <= kMaxVelocityFactor)) {
@@ -73,9 +74,9 @@ std::vector<std::string> Velocities(const json& lively, const std::string& field
       throw InvalidArgument(field + "." + member, message.str());
     }
     as_usual = as_usual && factor == 1;
-    out.push_back(part + '=' + value.dump());  // all digits
+    out[static_cast<size_t>(named - kBodyPartNames.begin())] = factor;
   }
-  return as_usual ? std::vector<std::string>{} : out;
+  return as_usual ? PartFactors() : out;
 }
 
 /// Markers are for people.
@@ -143,13 +144,13 @@ Project ParseProject(const json& file, const std::string& name) {
     TakeBeats(file["beats"], file.value("bar", kDefaultBar), name + ":beats", &project);
   if (file.contains("lively")) {
     project.controls.velocity_name = name + ":lively";
-    project.controls.velocities = Velocities(file["lively"], project.controls.velocity_name);
+    project.controls.lively = FactorsIn(file["lively"], project.controls.velocity_name);
   }
   if (file.contains("path")) {
     if (!file["path"].is_object())
       throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");
-    project.controls.path_text = file["path"].dump();
-    project.controls.path_text_name = name + ":path";
+    project.controls.project_path = file["path"];
+    project.controls.project_path_name = name + ":path";
   }
   if (file.contains("markers")) CheckMarkers(file["markers"], name + ":markers");
   project.has_dancers = file.contains("dancers");

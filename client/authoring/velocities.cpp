@@ -1,9 +1,7 @@
 #include "client/authoring/velocities.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -47,6 +45,14 @@ bool IsWithinLimits(double value, bool speeds) {
 class Asked {
  public:
   Asked(double fps, const Counts& counts) : fps_(fps), counts_(counts) {}
+
+  void AddFactors(const PartFactors& factors) {
+    for (size_t part = 0; part < kBodyParts; ++part) {
+      if (!factors[part]) continue;
+      speeds_ = false;
+      values_[part] = std::vector{*factors[part]};
+    }
+  }
 
   /// PART=VALUE
   void AddConstant(const std::string& source) {
@@ -152,8 +158,9 @@ bool IsVelocityFile(const std::string& source) { return source.ends_with(".json"
 
 ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
                                                const std::string& reference, double fps,
-                                               const Counts& counts) {
+                                               const Counts& counts, const PartFactors& usual) {
   Asked asked(fps, counts);
+  asked.AddFactors(usual);
   for (const std::string& source : sources) {
     if (IsVelocityFile(source)) {
       asked.AddFile(source);

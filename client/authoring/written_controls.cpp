@@ -27,11 +27,8 @@ void RequireControl(size_t row, const std::string& field, const client::ModelDes
                                                    : "but these of the server do: " + others));
 }
 
-}  // namespace
-
-ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
-                                       const Counts& counts) {
-  const nlohmann::json file = ParseJson(text, name);
+ControlRequest::RootPath ReadPath(const nlohmann::json& file, const std::string& name, double fps,
+                                  const Counts& counts) {
   const nlohmann::json& list = ListIn(file, name, "points");
   CheckFileMembers(file, name, {"points", "about"}, "a path file has points and perhaps about");
   if (list.size() < 2) {
@@ -57,26 +54,33 @@ ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string&
   return path;
 }
 
+}  // namespace
+
+ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
+                                       const Counts& counts) {
+  return ReadPath(ParseJson(text, name), name, fps, counts);
+}
+
 void WrittenControls::Follow(const WrittenControls& project) {
-  path_text = project.path_text;
-  path_text_name = project.path_text_name;
+  project_path = project.project_path;
+  project_path_name = project.project_path_name;
   if (velocities.empty()) velocity_name = project.velocity_name;
-  // The last source that names a part counts, so the command line's come after the project's.
-  velocities.insert(velocities.begin(), project.velocities.begin(), project.velocities.end());
+  lively = project.lively;
 }
 
 ControlRequest WrittenControls::Read(const client::ModelDescription& model,
                                      const client::ServerDescription& server,
                                      const Counts& counts) const {
   ControlRequest controls;
-  if (!path.empty() || !path_text.empty()) {
+  if (!path.empty() || !project_path.is_null()) {
     RequireControl(kRootPath, NameOf(kRootPath), model, server);
-    controls.root_path = ParsePathFile(path.empty() ? path_text : ReadText(path, "path file"),
-                                       PathName(), model.fps, counts);
+    controls.root_path = path.empty()
+                             ? ReadPath(project_path, project_path_name, model.fps, counts)
+                             : ParsePathFile(ReadText(path, "path file"), path, model.fps, counts);
   }
-  if (!velocities.empty()) {
+  if (!velocities.empty() || lively != PartFactors()) {
     RequireControl(kVelocityFactors, velocity_name, model, server);
-    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps, counts);
+    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps, counts, lively);
   } else if (!reference.empty()) {
     throw InvalidArgument("velocity_factors.reference", "there is no velocity that it could be of");
   }
@@ -100,7 +104,8 @@ void WrittenControls::RequireBegun(const ControlRequest& controls,
 
 std::string WrittenControls::NameOf(size_t row) const {
   if (row == kVelocityFactors) return velocity_name;
-  return path.empty() && !path_text.empty() ? path_text_name : std::string(kControls[row].name);
+  return path.empty() && !project_path.is_null() ? project_path_name
+                                                 : std::string(kControls[row].name);
 }
 
 Error WrittenControls::InTermsOf(const Error& error) const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "client/authoring/counts.h"
 #include "client/authoring/dance_keys.h"
+#include "client/authoring/velocities.h"
 #include "client/choreo_client.h"
 
 /// The controls of a dance as people write them down.
@@ -22,9 +24,10 @@ ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string&
 /// The controls of every dance. Errors name the place in a file, or a control as the API does.
 struct WrittenControls {
   std::string path;
-  /// The text of a path file inside another file, and its name in errors; `path` wins.
-  std::string path_text, path_text_name;
-  std::vector<std::string> velocities;             ///< as ReadVelocities (velocities.h) takes them
+  nlohmann::json project_path;          ///< what a path file has, inside a project; `path` wins
+  std::string project_path_name;        ///< its name in errors
+  PartFactors lively = {};              ///< a project's; `velocities` win
+  std::vector<std::string> velocities;  ///< as ReadVelocities (velocities.h) takes them
   std::string velocity_name = "velocity_factors";  ///< how errors call them
   std::string reference;
 
@@ -39,7 +42,7 @@ struct WrittenControls {
   /// begins after the end of a dance, which it is not meant for.
   void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;
   /// How errors call the path.
-  const std::string& PathName() const { return path.empty() ? path_text_name : path; }
+  const std::string& PathName() const { return path.empty() ? project_path_name : path; }
   /// Translates an error about sent controls to the written ones; returns others unchanged.
   Error InTermsOf(const Error& error) const;
 

@@ -78,8 +78,9 @@ TEST_F(ProjectTest, AHitChangesTheWayToItsKey) {
 
 TEST_F(ProjectTest, ItsFactorsKeepAllTheirDigits) {
   project_["lively"] = {{"left arm", 1.23456789}};
-  EXPECT_EQ(authoring::ParseProject(json::parse(project_.dump()), "p.json").controls.velocities,
-            std::vector<std::string>{"left_arm=1.23456789"});
+  const auto part = static_cast<size_t>(BodyPart::kLeftArm);
+  EXPECT_EQ(authoring::ParseProject(json::parse(project_.dump()), "p.json").controls.lively[part],
+            1.23456789);
 }
 
 TEST_F(ProjectTest, TheCommandLineWins) {

@@ -50,4 +50,21 @@ TEST(WrittenControls, ErrorsNameWhereAControlWasWritten) {
             "server do: \"free\"");
 }
 
+TEST(WrittenControls, AProjectsAreReadAsTheyStand) {
+  nlohmann::json file = kProject;
+  file["lively"] = {{"left arm", 1.23456789}, {"trunk", 1}};
+  file["path"]["points"] = {{{"time", 0}, {"x", 0}, {"z", 0.5}}, {{"time", 2}, {"x", 1}, {"z", 1}}};
+  const client::ModelDescription model{.controls = {"root_path", "velocity_factors"}};
+  WrittenControls options;
+  options.velocities = {"trunk=2"};
+  options.Follow(ParseProject(file, "p.json").controls);
+  const ControlRequest read = options.Read(model, {.models = {}, .limits = {}});
+  EXPECT_EQ(read.velocity_factors->factors, (std::vector<double>{2, 1.23456789}));
+  EXPECT_EQ(read.root_path->frames, (std::vector<int64_t>{0, 60}));
+  EXPECT_EQ(read.root_path->points[0].y(), 0.5);
+  options.velocities = {"trunk=1cm"};
+  ExpectError(ErrorCode::kInvalidArgument, "velocity_factors",
+              [&] { options.Read(model, {.models = {}, .limits = {}}); });
+}
+
 }  // namespace choreo::authoring::written_controls_test
