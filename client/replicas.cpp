@@ -217,10 +217,9 @@ void Patience::Reset() {
   verdict_ = grpc::Status();
 }
 
-std::optional<std::chrono::duration<double>> Patience::Next(const grpc::Status& failed,
-                                                            bool elsewhere) {
+std::optional<std::chrono::duration<double>> Patience::Next(
+    const grpc::Status& failed, bool elsewhere, std::chrono::steady_clock::time_point now) {
   const RetryAdvice advice = AdviceFor(failed);
-  const auto now = std::chrono::steady_clock::now();
   if (failures_ == 0) failing_since_ = now;
   if (!advice.here || verdict_.ok() || AdviceFor(verdict_).here) verdict_ = failed;
   // Counts refusals until all replicas have refused.

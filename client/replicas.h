@@ -61,7 +61,9 @@ class Patience {
   /// How long to wait after `failed` before trying again, on the same server or another one
   /// (`elsewhere`); none if a retry is useless or no longer allowed. Throws what
   /// Options::before_retry throws.
-  std::optional<std::chrono::duration<double>> Next(const grpc::Status& failed, bool elsewhere);
+  std::optional<std::chrono::duration<double>> Next(
+      const grpc::Status& failed, bool elsewhere,
+      std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
   /// The status for the caller after Next gave none. A reachable server's refusal says more than
   /// that another one is unreachable.
   const grpc::Status& Verdict() const { return verdict_; }

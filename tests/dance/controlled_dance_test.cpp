@@ -32,8 +32,11 @@ double LeftArm(const Pose& pose) {
 class ControlledDanceTest : public testing::Test {
  protected:
   Recording Perform(const std::function<void(DanceStream&)>& messages, int64_t frames = 300) {
+    return Perform(messages, std::make_shared<Recorder>(), frames);
+  }
+  Recording Perform(const std::function<void(DanceStream&)>& messages,
+                    const std::shared_ptr<Recorder>& sink, int64_t frames = 300) {
     config_.end_frame = frames;
-    auto sink = std::make_shared<Recorder>();
     DanceStream stream(*queue_, config_, sink);
     messages(stream);
     stream.HalfClose();
@@ -194,22 +197,21 @@ TEST_F(ControlledDanceTest, FeetLandWhereAKeyWithoutAPlaceStandsOnThePath) {
 }
 
 TEST_F(ControlledDanceTest, DoesNotDependOnWhenMessagesCome) {
-  const auto messages = [](DanceStream& s, const std::function<void()>& between) {
+  const auto messages = [](DanceStream& s, const std::function<void(size_t)>& granted) {
     s.SetControls(PathRequest(0, 200, 0, 1));
-    between();
     s.GenerateUntil(70);
-    between();
+    granted(70);
     s.SetControls(PathRequest(50, 250, 0.5, -1));
-    between();
     s.SetControls(Factor(BodyPart::kTrunk, 0.5F));
     s.GenerateUntil(200);
-    between();
+    granted(200);
     s.SetKey({.id = "end", .pose = KeyAt(-1, 0)}, AtFrame{280});
   };
-  const Recording at_once = Perform([&](DanceStream& s) { messages(s, [] {}); });
-  const Recording slowly = Perform([&](DanceStream& s) {
-    messages(s, [] { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
-  });
+  const Recording at_once = Perform([&](DanceStream& s) { messages(s, [](size_t) {}); });
+  auto sink = std::make_shared<Recorder>();
+  const Recording slowly = Perform(
+      [&](DanceStream& s) { messages(s, [&](size_t frames) { sink->WaitForFrames(frames); }); },
+      sink);
   ASSERT_TRUE(at_once.summary && slowly.summary);
   EXPECT_TRUE(SameDance(at_once, slowly));
 }
