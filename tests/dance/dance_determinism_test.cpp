@@ -34,14 +34,6 @@ TEST(DanceStream, SameSeedGivesSameBitsBesideOtherDances) {
   EXPECT_FALSE(SameDance(expected, Perform(*alone, dance)));
 }
 
-TEST(DanceStream, ModelReceivesTheBeats) {
-  const auto queue = FakeQueue();
-  Dance dance = RandomDance(13, 4);
-  const Recording timed = Perform(*queue, dance);
-  dance.config.music_beats.clear();
-  EXPECT_FALSE(SameDance(timed, Perform(*queue, dance)));
-}
-
 TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
   const auto queue = FakeQueue();
   const Dance dance = RandomDance(14, 4);

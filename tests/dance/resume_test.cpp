@@ -108,21 +108,6 @@ TEST(Resume, GoesOnBitForBitWithMusicAlone) {
   ExpectResumesEverywhere(*queue, dance, [](DanceStream&) {});
 }
 
-// Only the music needed for beats is sent again.
-TEST(Resume, GoesOnBitForBitListeningForBeats) {
-  const auto queue = FakeQueue();
-  for (const bool keyed : {false, true}) {
-    Dance dance = LiveDance(31, 36);
-    if (!keyed) dance.keys.clear();
-    const Recording whole = Perform(*queue, dance);
-    EXPECT_GT(whole.beats.size(), 20U);
-    EXPECT_GT(*whole.continuations.back().audio_from_sample, 22050);
-    ExpectResumesEverywhere(*queue, dance, [&dance](DanceStream& stream) {
-      for (const Key& key : dance.keys) SendKey(stream, key);
-    });
-  }
-}
-
 TEST(Resume, GoesOnBitForBitWithoutMusic) {
   const auto queue = FakeQueue();
   const Dance dance = RandomDance(6);
