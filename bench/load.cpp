@@ -65,7 +65,7 @@ class Load {
         client_({.addresses = {server_->address()}}),
         song_(options.song.empty()
                   ? ClickSong(options.seconds, 44100, 1)
-                  : authoring::AudioFor(authoring::ReadMusic(options.song, options.seconds).audio,
+                  : authoring::AudioFor(authoring::ReadSong(options.song, options.seconds + 1, 0),
                                         options.seconds)) {
     const client::ServerDescription server = client_.GetServerInfo();
     std::printf("model %s on %s, %u cores; dances of %g s in real time, a key each 2 s\n",

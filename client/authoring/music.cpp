@@ -13,14 +13,33 @@
 
 namespace choreo::authoring {
 
+namespace {
+
+constexpr double kAll = std::numeric_limits<double>::infinity();
+
+void KeepSamples(double seconds, DecodedAudio* audio) {
+  const double samples = std::ceil(seconds * audio->sample_rate);
+  if (samples >= static_cast<double>(audio->samples())) return;
+  audio->interleaved.resize(static_cast<size_t>(samples) * static_cast<size_t>(audio->channels));
+  audio->interleaved.shrink_to_fit();
+}
+
+}  // namespace
+
+DecodedAudio ReadSong(const std::filesystem::path& path, double seconds, double start,
+                      double more) {
+  DecodedAudio audio = DecodeSong(path, seconds, start, more);
+  if (audio.interleaved.empty()) {
+    throw InvalidArgument("song_start", InFull(start) + " s is after the end of " + path.string() +
+                                            " at " + Rounded(audio.end_s) + " s");
+  }
+  return audio;
+}
+
 Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
                 const BeatOptions& beats) {
   Music music;
-  music.audio = DecodeSong(path, seconds + kTempoWindowSeconds, start);
-  if (music.audio.interleaved.empty()) {
-    throw InvalidArgument("song_start", InFull(start) + " s is after the end of " + path.string() +
-                                            " at " + Rounded(music.audio.end_s) + " s");
-  }
+  music.audio = ReadSong(path, seconds, start, kAll);
   music.mono = ToModelRate(music.audio);
   const std::vector<Onset> onsets = FindOnsets(music.mono);
   music.onset_strength = OnsetStrength(onsets);
@@ -28,7 +47,20 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   MusicAnalysis analysis = AnalyseMusic(music.mono, music.track.Seconds());
   music.passages = std::move(analysis.passages);
   music.id = analysis.id;
+  KeepSamples(seconds + client::kMusicBeyond_s, &music.audio);
   return music;
+}
+
+void KeepFirst(double seconds, Music* music) {
+  KeepSamples(seconds, &music->audio);
+  BeatTrack& track = music->track;
+  const std::vector<double> beats = BeatsBefore(*music, seconds);
+  track.frames.resize(beats.size());
+  track.in_bar.resize(beats.size());
+  track.confidence.resize(beats.size());
+  if (beats.size() != 1) track.tempo_bpm = TempoOf(beats);
+  std::erase_if(music->passages,
+                [seconds](const Passage& passage) { return passage.from >= seconds; });
 }
 
 Counts CountsOf(const Music& music) {

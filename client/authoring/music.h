@@ -16,7 +16,7 @@ namespace choreo::authoring {
 
 /// A song for the commands.
 struct Music {
-  DecodedAudio audio;
+  DecodedAudio audio;                 ///< from `start` on, of which only its beginning may be kept
   std::vector<float> mono;            ///< at 22 050 Hz
   std::vector<float> onset_strength;  ///< that the beats were found in
   BeatTrack track;
@@ -24,13 +24,21 @@ struct Music {
   uint64_t id = 0;                ///< MusicId
 };
 
-/// Decodes a song and finds its beats: all of it, or its first `seconds` plus what they depend on.
-/// With `start` the song begins there. Throws what DecodeSong and BeatsAsAsked throw;
-/// Error(kInvalidArgument) whose field is "song_start" for a start after its end. Writes notes to
-/// standard error.
+/// Decodes a song from second `start` on: all of it, or `seconds` and `more` (DecodeSong). Throws
+/// what that throws; Error(kInvalidArgument) whose field is "song_start" for a start after its end.
+/// Writes notes to standard error.
+DecodedAudio ReadSong(const std::filesystem::path& path, double seconds, double start,
+                      double more = 0);
+
+/// Decodes a song and finds its beats. All of it is heard, as far as the limits allow, so that
+/// beats are the same however much is danced to; samples are kept for a dance of `seconds`. With
+/// `start` the song begins there. Throws what ReadSong and BeatsAsAsked throw.
 Music ReadMusic(const std::filesystem::path& path,
                 double seconds = std::numeric_limits<double>::infinity(), double start = 0,
                 const BeatOptions& beats = {});
+
+/// Keeps what is heard in the first `seconds`.
+void KeepFirst(double seconds, Music* music);
 
 /// The counts of the whole song.
 Counts CountsOf(const Music& music);

@@ -90,7 +90,7 @@ FfmpegSays Listen(const MemoryFile& log) {
 }
 
 std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, double seconds,
-                                           double start) {
+                                           double start, double more) {
   if (!std::filesystem::is_regular_file(path)) return std::nullopt;
   const MemoryFile wav, log;
   // Starts at the container's second 0, as players do, even if the sound begins later.
@@ -111,7 +111,7 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
                            (says.tracks > 0 ? "fails: " : "finds no sound in it: ") + says.error);
   }
   try {
-    DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start);
+    DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start, more);
     // ffmpeg cannot write the length into a pipe.
     audio.notes = {"read by ffmpeg"};
     if (!says.error.empty()) {
@@ -130,16 +130,17 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
 
 }  // namespace
 
-DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start) {
+DecodedAudio DecodeSong(const std::filesystem::path& path, double seconds, double start,
+                        double more) {
   std::optional<DecodedAudio> audio;
   try {
-    audio = DecodeAudioFile(path, seconds, start);
+    audio = DecodeAudioFile(path, seconds, start, more);
   } catch (const Error& error) {
     // The refusal suggests ffmpeg; try it if it is installed.
     if (error.code() != ErrorCode::kInvalidArgument ||
         std::string_view(error.what()).find(kAskFfmpeg) == std::string_view::npos)
       throw;
-    audio = DecodeByFfmpeg(path, seconds, start);
+    audio = DecodeByFfmpeg(path, seconds, start, more);
     if (!audio) throw;
   }
   for (const std::string& note : audio->notes)

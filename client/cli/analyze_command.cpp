@@ -14,6 +14,7 @@
 #include "client/cli/output_file.h"
 #include "model/audio/mfcc.h"
 #include "model/core/error.h"
+#include "model/core/grid.h"
 #include "model/core/npy.h"
 #include "model/core/rounded.h"
 
@@ -40,7 +41,7 @@ std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOpt
   };
   const double from = second("--from", options.from, 0);
   const double said = second("--until", options.until, std::numeric_limits<double>::infinity());
-  // Music is heard beyond --seconds, but a dance of that length has no keys there.
+  // All of the song is heard, but a dance of --seconds has no keys beyond them.
   const double until = std::min(said, options.seconds);
   const auto seconds = [](double value) { return InFull(value) + " s"; };
   if (from >= until) {
@@ -63,15 +64,15 @@ std::vector<authoring::ProposedKey> Propose(const authoring::Music& music,
 }
 
 /// The count of a beat, as authoring::Counts.
-int64_t CountOf(const authoring::Music& music, size_t beat) {
-  return static_cast<int64_t>(beat) - static_cast<int64_t>(authoring::CountsOf(music).one) + 1;
+int64_t CountOf(const authoring::Counts& counts, size_t beat) {
+  return static_cast<int64_t>(beat) - static_cast<int64_t>(counts.one) + 1;
 }
 
 /// In the order of Phrase.
 constexpr const char* kBegins[] = {"a beat", "a bar", "an eight", "a passage"};
 const char* Begins(const SuggestedKey& key) { return kBegins[static_cast<size_t>(key.begins)]; }
 
-void PrintJson(const authoring::Music& music,
+void PrintJson(const authoring::Music& music, const authoring::Counts& counts,
                const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   nlohmann::ordered_json json;
   json["duration_s"] = music.audio.seconds();
@@ -93,7 +94,7 @@ void PrintJson(const authoring::Music& music,
     for (const auto& [on, id, pose] : *keys) {
       json["suggested_keys"].push_back({{"time_s", on.time_s},
                                         {"beat", on.beat},
-                                        {"count", CountOf(music, on.beat)},
+                                        {"count", CountOf(counts, on.beat)},
                                         {"strength", on.strength},
                                         {"begins", Begins(on)}});
       json["keyframes"].push_back({{"id", id}, {"time", on.time_s}, {"pose", pose}});
@@ -128,14 +129,13 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
-void PrintText(const authoring::Music& music,
+void PrintText(const authoring::Music& music, const authoring::Counts& counts,
                const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   const int channels = music.audio.channels;
   std::printf("%.2f s at %d Hz, %d channel%s; %.1f beats a minute, %zu beats, %zu bars of %d",
               music.audio.seconds(), music.audio.sample_rate, channels, channels == 1 ? "" : "s",
               music.track.tempo_bpm, music.track.frames.size(),
               music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
-  const authoring::Counts counts = authoring::CountsOf(music);
   if (!counts.beats.empty()) std::printf(", count 1 at %.3f s", counts.beats[counts.one]);
   std::printf("\n");
   PrintStretches(music.track);
@@ -146,23 +146,28 @@ void PrintText(const authoring::Music& music,
   std::printf("key poses would sit well at\n");
   for (const auto& [on, id, pose] : *keys)
     std::printf("%9.3f s  count %lld, strength %.2f, begins %s: %s\n", on.time_s,
-                static_cast<long long>(CountOf(music, on.beat)), on.strength, Begins(on),
+                static_cast<long long>(CountOf(counts, on.beat)), on.strength, Begins(on),
                 pose.c_str());
 }
 
 void Run(const AnalyzeOptions& options) {
   RequireOutputs({{"--features", options.features}}, {{"song", options.song}});
   if (!options.features.empty()) RequireExtension("--features", options.features, ".npy");
-  const authoring::Music music =
+  authoring::Music music =
       authoring::ReadMusic(options.song, options.seconds, options.song_start_s, options.beats);
   if (!options.features.empty()) {
-    const FeatureMatrix rows = Mfcc(music.mono);
+    const FeatureMatrix all = Mfcc(music.mono);
+    const double kept = std::floor(options.seconds * kModelFps) + 1;
+    const FeatureMatrix rows =
+        all.topRows(static_cast<Eigen::Index>(std::min(kept, static_cast<double>(all.rows()))));
     WriteNpy(options.features, {{rows.rows(), rows.cols()},
                                 std::vector<float>(rows.data(), rows.data() + rows.size())});
   }
   std::optional<std::vector<authoring::ProposedKey>> keys;
   if (options.suggest_keys) keys = Propose(music, options);
-  options.json ? PrintJson(music, keys) : PrintText(music, keys);
+  const authoring::Counts counts = authoring::CountsOf(music);
+  authoring::KeepFirst(options.seconds, &music);
+  options.json ? PrintJson(music, counts, keys) : PrintText(music, counts, keys);
 }
 
 }  // namespace
@@ -184,8 +189,8 @@ void AddAnalyzeCommand(CLI::App& program) {
   command
       ->add_option(
           "--seconds", options->seconds,
-          "Hear so much of the song, and what a dance of this length hears beyond it; keys are "
-          "suggested within it.")
+          "Show so much of the song, as a dance of this length hears it; keys are suggested within "
+          "it.")
       ->check(TimeInSeconds());
   AddBeatOptions(*command, &options->beats);
   command->add_flag(

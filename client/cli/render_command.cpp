@@ -102,7 +102,7 @@ void DrawFilm(const RenderOptions& options, const Stage& stage, std::vector<doub
   }
   // Fails if the song ends before the film.
   if (film.format.song_start_s > 0)
-    authoring::ReadMusic(film.format.song, 1, film.format.song_start_s);
+    authoring::ReadSong(film.format.song, 1, film.format.song_start_s);
   std::unique_ptr<ProgressBar> bar;
   film.on_frame = [&](int64_t frames) {
     Interruption::Check();

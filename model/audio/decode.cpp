@@ -82,6 +82,10 @@ class LimitedReader {
   int sample_rate() const { return reader_->sample_rate(); }
   int channels() const { return reader_->channels(); }
   int64_t read() const { return read_; }
+  /// The most samples per channel that may be kept.
+  int64_t most() const {
+    return std::min(int64_t{kMaxAudioSeconds} * sample_rate(), kMaxFileSamples / channels());
+  }
   const std::vector<std::string>& notes() const { return reader_->notes(); }
 
   /// Reads like SoundReader; `is_kept`: whether these samples count towards the limits.
@@ -161,20 +165,23 @@ bool MendCancelled(std::span<float> interleaved, int channels) {
 
 }  // namespace
 
-DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, double start) {
+DecodedAudio DecodeAudioFile(const std::filesystem::path& path, double seconds, double start,
+                             double more) {
   const std::filesystem::path file = path == "-" ? "/dev/stdin" : path;
   LimitedReader reader(FileBytes(file, kMaxPipeBytes), path.string());
   DecodedAudio audio{.sample_rate = reader.sample_rate(), .channels = reader.channels()};
   const size_t channels = static_cast<size_t>(audio.channels);
   const int64_t skipped = std::llround(start * audio.sample_rate);
+  const bool stops = more > 0 && seconds * audio.sample_rate <= static_cast<double>(reader.most());
   for (;;) {
     const int64_t left_out = std::min<int64_t>(skipped - reader.read(), kPieceSamples);
     const size_t size = audio.interleaved.size();
-    const int64_t wanted = left_out > 0 ? left_out : static_cast<int64_t>(kPieceSamples);
+    int64_t wanted = left_out > 0 ? left_out : static_cast<int64_t>(kPieceSamples);
+    if (stops) wanted = std::min(wanted, reader.most() - audio.samples());
     audio.interleaved.resize(size + static_cast<size_t>(wanted) * channels);
     const int64_t got = reader.Read(std::span(audio.interleaved).subspan(size), left_out <= 0);
     audio.interleaved.resize(size + (left_out > 0 ? 0 : static_cast<size_t>(got) * channels));
-    if (got == 0 || (left_out <= 0 && audio.seconds() >= seconds)) break;
+    if (got == 0 || (left_out <= 0 && audio.seconds() >= seconds + more)) break;
   }
   audio.notes = reader.notes();
   audio.end_s = static_cast<double>(reader.read()) / audio.sample_rate;

@@ -35,13 +35,13 @@ struct DecodedAudio {
 };
 
 /// Decodes a sound file from second `start` on (seeking past up to a gigabyte), or `seconds` of it,
-/// rounded up to whole pieces; the rest is not read. Limits apply to what is kept. Returns no
-/// samples if `start` lies beyond the end. `-` reads standard input; pipes are read to their end.
-/// In seconds where channels cancel each other by 6 dB or more, the loudest replaces all, with a
-/// note.
+/// rounded up to whole pieces, and `more` seconds after them as far as the limits allow; the rest
+/// is not read. Limits apply to what is kept. Returns no samples if `start` lies beyond the end.
+/// `-` reads standard input; pipes are read to their end. In seconds where channels cancel each
+/// other by 6 dB or more, the loudest replaces all, with a note.
 DecodedAudio DecodeAudioFile(const std::filesystem::path& path,
                              double seconds = std::numeric_limits<double>::infinity(),
-                             double start = 0);
+                             double start = 0, double more = 0);
 
 /// All of it as mono samples at 22 050 Hz: the input of Mfcc, FindOnsets and FindBeats.
 std::vector<float> ToModelRate(const DecodedAudio& audio);

@@ -95,7 +95,8 @@ TEST_F(CommandTest, AnalyzesASong) {
   // A part of it, as of a song that is too long.
   const nlohmann::json part = nlohmann::json::parse(
       Choreo("analyze " + At("song.wav") + " --json --song-start 3.25 --seconds 4").said);
-  EXPECT_NEAR(part["duration_s"], 4.75, 1e-3);
+  EXPECT_NEAR(part["duration_s"], 4, 1e-3);
+  EXPECT_LT(part["beats"].back().get<double>(), 4);
   for (const double beat : part["beats"]) EXPECT_NEAR(std::remainder(beat - 0.25, 0.5), 0, 0.07);
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --song-start 9").said,
               HasSubstr("--song-start: 9 s is after the end"));
@@ -163,12 +164,11 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   }
 }
 
-// Beats are heard beyond them.
 TEST_F(CommandTest, SuggestsKeysWithinTheSecondsOfADance) {
   WriteClicks(folder_ / "song.wav", 20);
   const std::string suggest = "analyze " + At("song.wav") + " --seconds 6 --suggest-keys ";
   const nlohmann::json heard = nlohmann::json::parse(Choreo(suggest + "3 --json").said);
-  EXPECT_GT(heard["beats"].back().get<double>(), 6.5);
+  EXPECT_LT(heard["beats"].back().get<double>(), 6);
   for (const nlohmann::json& key : heard["keyframes"]) EXPECT_LE(key["time"].get<double>(), 6);
   EXPECT_THAT(Choreo(suggest + "9").said, HasSubstr("--suggest-keys: 9 keys, must be 1 to "));
   EXPECT_THAT(Choreo(suggest + "1 --from 7").said,

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "client/authoring/music.h"
 #include "client/authoring/project_file.h"
 #include "model/audio/format.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/music_files.h"
 #include "tests/support/temporary_folder.h"
 
 // Beats that a choreographer gives, and corrections of those that are found.
@@ -110,6 +113,41 @@ TEST_F(MusicBeats, KnownOnesAreChangedAsTheOptionsSay) {
   const auto counted = changed({.downbeat_s = 2.1}, 0.5);
   EXPECT_EQ(counted.first, beats);
   EXPECT_EQ(counted.second, (std::vector<double>{1.507, 3.004}));
+}
+
+// A song of even strokes whose bass begins late, and tells where bars begin.
+TEST_F(MusicBeats, AreThoseOfTheWholeSongHoweverMuchIsDanced) {
+  std::vector<float> samples(60 * kModelSampleRate);
+  const auto strike = [&](double second, double loudness, double hertz) {
+    const auto begin = static_cast<size_t>(second * kModelSampleRate);
+    for (size_t i = 0; i < kModelSampleRate / 12; ++i) {
+      const double t = static_cast<double>(i) / kModelSampleRate;
+      samples[begin + i] += static_cast<float>(loudness * std::exp(-40 * t) *
+                                               std::sin(2 * std::numbers::pi * hertz * t));
+    }
+  };
+  for (int i = 0; i < 119; ++i) {
+    strike(0.5 * i, 0.3, 1000);
+    if (i > 48 && i % 4 == 2) strike(0.5 * i, 0.6, 60);
+  }
+  WriteWav(folder_ / "song.wav", samples);
+  Music whole = ReadMusic(folder_ / "song.wav"), part = ReadMusic(folder_ / "song.wav", 8);
+  EXPECT_NEAR(part.audio.seconds(), 8.5, 0.01);
+  EXPECT_EQ(AudioFor(part.audio, 8).samples, AudioFor(whole.audio, 8).samples);
+  EXPECT_EQ(part.id, whole.id);
+  for (Music* music : {&whole, &part}) KeepFirst(8, music);
+  EXPECT_GE(part.track.frames.size(), 14U);
+  EXPECT_EQ(part.track.frames, whole.track.frames);
+  EXPECT_EQ(part.track.in_bar, whole.track.in_bar);
+}
+
+// It is refused only where so much of it is asked for.
+TEST_F(MusicBeats, OfASongThatIsTooLongAreFoundInItsFirstTenMinutes) {
+  WriteWav(folder_ / "song.wav", std::vector<float>(620 * size_t{kModelSampleRate}));
+  EXPECT_NEAR(ReadMusic(folder_ / "song.wav", 8).audio.seconds(), 8.5, 0.01);
+  EXPECT_EQ(ReadMusic(folder_ / "song.wav", 8).mono.size(), 600 * size_t{kModelSampleRate});
+  ExpectError(ErrorCode::kInvalidArgument, "choose a part of it",
+              [&] { ReadMusic(folder_ / "song.wav", 610); });
 }
 
 TEST_F(MusicBeats, AutoNeedsNoSong) {
