@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <sstream>
 
@@ -100,6 +101,32 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   return track;
 }
 
+/// Whether this tempo, or one that listeners confuse with it, is that of eight beats somewhere.
+bool HasTempo(std::span<const double> beats, double bpm) {
+  constexpr size_t kBeats = 8;
+  constexpr double kWithin = 1.06;  // a semitone
+  for (size_t i = 0; i + kBeats < beats.size(); ++i) {
+    for (const double times : {1.0, 2.0, 3.0, 1.5}) {
+      const double ratio = times * TempoOf(beats.subspan(i, kBeats + 1)) / bpm;
+      for (const double off : {ratio, ratio / (times * times)})
+        if (std::max(off, 1 / off) <= kWithin) return true;
+    }
+  }
+  return false;
+}
+
+/// Finds beats near the tempo of the options, and warns if nothing in the music has it.
+BeatTrack FindAsAsked(std::span<const Onset> onsets, const BeatHint& hint) {
+  BeatTrack track = TrackBeats(onsets, LimitsOf(hint));
+  if (!hint.tempo_bpm) return track;
+  const BeatTrack heard = TrackBeats(onsets);
+  if (heard.tempo_bpm > 0 && !HasTempo(heard.Seconds(), *hint.tempo_bpm)) {
+    std::cerr << "warning: --tempo " + InFull(*hint.tempo_bpm) + " is far from what is heard, " +
+                     std::to_string(std::lround(heard.tempo_bpm)) + " beats a minute\n";
+  }
+  return track;
+}
+
 void Change(const BeatOptions& options, double start, BeatTrack* track) {
   Follow(options.hint, track);
   if (!options.downbeat_s) return;
@@ -117,8 +144,8 @@ void RequireSong(const BeatOptions& options, const std::string& song) {
 }
 
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
-  BeatTrack track = options.FindsThem() ? TrackBeats(onsets, LimitsOf(options.hint))
-                                        : ReadBeats(*options.beats, start);
+  BeatTrack track =
+      options.FindsThem() ? FindAsAsked(onsets, options.hint) : ReadBeats(*options.beats, start);
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +

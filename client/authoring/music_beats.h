@@ -26,8 +26,9 @@ struct BeatOptions {
 /// Throws Error(kInvalidArgument) for beat options without a song.
 void RequireSong(const BeatOptions& options, const std::string& song);
 
-/// A song's beats from second `start` on, found or read, depending on the options. Throws
-/// Error(kInvalidArgument), whose field is "beats", "downbeat" or a line of the file.
+/// A song's beats from second `start` on, found or read, depending on the options. Warns on
+/// standard error of a tempo that is not heard in it. Throws Error(kInvalidArgument), whose field
+/// is "beats", "downbeat" or a line of the file.
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
 
 /// Changes known beats and their downbeats by the options for half and double time and a downbeat.

@@ -150,6 +150,21 @@ TEST_F(MusicBeats, OfASongThatIsTooLongAreFoundInItsFirstTenMinutes) {
               [&] { ReadMusic(folder_ / "song.wav", 610); });
 }
 
+TEST_F(MusicBeats, ATempoThatTheMusicDoesNotHaveIsWarnedOf) {
+  std::vector<Onset> onsets(static_cast<size_t>(30 * kOnsetRate));  // at 120 bpm
+  for (size_t i = 0; i < onsets.size(); i += 45) {
+    onsets[i].rise = {8, 8, 8};
+    for (size_t k = i; k < std::min(i + 45, onsets.size()); ++k) onsets[k].loud_db = -10;
+  }
+  const auto said = [&](double tempo) {
+    testing::internal::CaptureStderr();
+    BeatsAsAsked(onsets, 0, {.hint = {.tempo_bpm = tempo}});
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(said(97), testing::StartsWith("warning: --tempo 97 is far from what is heard, 120 "));
+  for (const double tempo : {120.0, 123.0, 60.0, 80.0, 180.0}) EXPECT_EQ(said(tempo), "") << tempo;
+}
+
 TEST_F(MusicBeats, AutoNeedsNoSong) {
   RequireSong({.beats = "auto"}, "");
   ExpectError(ErrorCode::kInvalidArgument, "need a song",
