@@ -129,16 +129,22 @@ void PrintStretches(const BeatTrack& track) {
   }
 }
 
+/// "1 bar", "2 bars".
+std::string Counted(size_t count, const std::string& what) {
+  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
 void PrintText(const authoring::Music& music, const authoring::Counts& counts,
                const std::optional<std::vector<authoring::ProposedKey>>& keys) {
-  const int channels = music.audio.channels;
-  std::printf("%.2f s at %d Hz, %d channel%s; %.1f beats a minute, %zu beats, %zu bars of %d",
-              music.audio.seconds(), music.audio.sample_rate, channels, channels == 1 ? "" : "s",
-              music.track.tempo_bpm, music.track.frames.size(),
-              music.track.DownbeatSeconds().size(), music.track.beats_in_bar);
+  const BeatTrack& track = music.track;
+  std::printf("%.2f s at %d Hz, %s; %.1f beats a minute, %s, %s of %d", music.audio.seconds(),
+              music.audio.sample_rate,
+              Counted(static_cast<size_t>(music.audio.channels), "channel").c_str(),
+              track.tempo_bpm, Counted(track.frames.size(), "beat").c_str(),
+              Counted(track.DownbeatSeconds().size(), "bar").c_str(), track.beats_in_bar);
   if (!counts.beats.empty()) std::printf(", count 1 at %.3f s", counts.beats[counts.one]);
   std::printf("\n");
-  PrintStretches(music.track);
+  PrintStretches(track);
   for (const Passage& passage : music.passages)
     std::printf("%9.3f s  to %.3f s comes back as from %.3f s\n", passage.from, passage.to,
                 passage.like);

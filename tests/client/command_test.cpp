@@ -120,6 +120,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   }
   const Outcome text = Choreo(analyze + "4");
   EXPECT_THAT(text.said, HasSubstr(" Hz, 1 channel; "));
+  EXPECT_THAT(Choreo("analyze --seconds 0.6 " + At("song.wav")).said, HasSubstr(" 1 bar of 4, "));
   EXPECT_EQ(text.code, 0);
   EXPECT_EQ(std::count(text.said.begin(), text.said.end(), '\n'), 6) << text.said;
   char line[32];
