@@ -12,8 +12,9 @@ namespace choreo {
 inline constexpr int64_t kMaxMessageBytes = 16 << 20;
 /// The most bytes of one message on the wire, without its music.
 inline constexpr int64_t kMaxOtherBytes = 4 << 20;
-/// The most fields of one message on the wire, nested ones included; an array of numbers is one.
-inline constexpr int kMaxFields = 16'384;
+/// The most fields of one message on the wire, nested ones included; an array of numbers is one. A
+/// passage has four, and kMaxPassages of them fit.
+inline constexpr int kMaxFields = 32'768;
 
 inline constexpr int kMaxHistoryPoses = 1'000;
 inline constexpr int kMaxAfterPoses = 60;

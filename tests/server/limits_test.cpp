@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "model/audio/format.h"
 #include "tests/server/fixture.h"
 #include "tests/server/raw_call.h"
 
@@ -56,8 +57,20 @@ TEST_P(WireLimitsTest, AThousandPosesAreRead) {
 
 TEST_P(WireLimitsTest, RefusesTooManyUnknownFields) {
   const std::string unknown = WireField(1000, "");
-  ExpectRefused(Repeated(unknown, 16'385), "unknown field", "16384");
-  ExpectRefused(WireField(kConfig, Repeated(unknown, 16'384)), "config.unknown field", "16384");
+  ExpectRefused(Repeated(unknown, 32'769), "unknown field", "32768");
+  ExpectRefused(WireField(kConfig, Repeated(unknown, 32'768)), "config.unknown field", "32768");
+}
+
+TEST_P(WireLimitsTest, ReadsAsManyPassagesAsADanceMayHave) {
+  v1::DanceConfig config;
+  for (size_t i = 0; i <= kMaxPassages; ++i) {
+    v1::MusicPassage* passage = config.add_music_passages();
+    passage->set_from(10 + 0.05 * static_cast<double>(i));
+    passage->set_to(10.01 + 0.05 * static_cast<double>(i));
+    passage->set_like(1);
+  }
+  ExpectRefused(WireField(kConfig, config.SerializeAsString()), "config.music_passages",
+                "6001 passages, the limit is 6000");
 }
 
 TEST_P(WireLimitsTest, RefusesTooManyBytesBesideMusic) {
