@@ -61,6 +61,12 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   return report.reported();
 }
 
+/// Whether a server does not report a beat, because the music has fallen silent.
+bool IsInSilence(const std::vector<Onset>& onsets, double beat, double step) {
+  const auto heard = static_cast<size_t>(std::llround(beat * kOnsetRate)) + 1;
+  return EndInPause(std::span(onsets).first(std::min(heard, onsets.size())), step);
+}
+
 /// The beats that `choreo live` sends to its server, as soon as they are found.
 std::vector<double> HearByClient(const std::vector<float>& mono) {
   const double settled_s = live::LiveOptions().look_ahead_s;
@@ -78,6 +84,9 @@ std::vector<double> HearByClient(const std::vector<float>& mono) {
     std::erase_if(told, [&](double beat) { return beat > ahead.front() - half; });
     told.insert(told.end(), ahead.begin(), ahead.end());
   }
+  const std::vector<Onset> onsets = FindOnsets(mono);
+  const double period = 60 / TempoOf(told);
+  std::erase_if(told, [&](double beat) { return IsInSilence(onsets, beat, period); });
   return told;
 }
 

@@ -179,11 +179,13 @@ void RemoteDance::GenerateUntil(int64_t frame) {
   impl_->Send(std::move(request));
 }
 
-void RemoteDance::SendBeats(std::span<const double> seconds, std::span<const double> downbeats) {
+void RemoteDance::SendBeats(std::span<const double> seconds, std::span<const double> downbeats,
+                            std::optional<double> confidence) {
   v1::StreamDanceRequest request;
   v1::MusicBeats& beats = *request.mutable_music_beats();
   beats.mutable_times()->Add(seconds.begin(), seconds.end());
   beats.mutable_downbeats()->Add(downbeats.begin(), downbeats.end());
+  if (confidence) beats.set_confidence(*confidence);
   impl_->Send(std::move(request));
 }
 

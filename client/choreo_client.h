@@ -93,8 +93,10 @@ class RemoteDance {
   void GenerateUntil(int64_t frame);
   /// Beats ahead, seconds, strictly ascending, at least one: from the first on they replace known
   /// ones, for transitions that begin after the frozen frames. `downbeats`: those that begin a bar.
-  /// Must come before CompleteKeys.
-  void SendBeats(std::span<const double> seconds, std::span<const double> downbeats = {});
+  /// `confidence`, 0 to 1: of a client that predicts them from the music it sends; such beats are
+  /// not reported in silence. Must come before CompleteKeys.
+  void SendBeats(std::span<const double> seconds, std::span<const double> downbeats = {},
+                 std::optional<double> confidence = {});
   /// Passages ahead, ascending, at least one: from the first on they replace known ones, for
   /// transitions that begin after the frozen frames. Must come before CompleteKeys.
   void SendPassages(std::span<const Passage> passages);

@@ -129,9 +129,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kControls:
         return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
       case DanceRequest::kMusicBeats:
-        return stream->GiveBeats(
-            {request.music_beats().times().begin(), request.music_beats().times().end()},
-            {request.music_beats().downbeats().begin(), request.music_beats().downbeats().end()});
+        return GiveBeats(*stream, request.music_beats());
       case DanceRequest::kMusicPassages:
         return stream->GivePassages(ToPassages(request.music_passages().passages()));
       case DanceRequest::kGenerateUntil:
@@ -197,6 +195,12 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       stream.NoteMusicDamaged(notes, static_cast<double>(mono.size()) / kModelSampleRate);
     stream.SetMusic(music_beats_.empty() ? AnalyseMusic(mono) : AnalyseMusic(mono, music_beats_));
     stream.PushAudio(mono, 0);
+  }
+
+  static void GiveBeats(DanceStream& stream, const v1::MusicBeats& beats) {
+    stream.GiveBeats({beats.times().begin(), beats.times().end()},
+                     {beats.downbeats().begin(), beats.downbeats().end()},
+                     beats.has_confidence() ? std::optional(beats.confidence()) : std::nullopt);
   }
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {

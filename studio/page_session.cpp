@@ -107,7 +107,7 @@ void PageSession::TakeMusic(Dancing* dancing, const v1::Audio& audio) {
     heard.beats.Keep(static_cast<double>(dancing->granted) / context_.model().fps,
                      kMaxAudioSeconds);
     if (!heard.beats.beats.empty())
-      dancing->dance->SendBeats(heard.beats.beats, heard.beats.downbeats);
+      dancing->dance->SendBeats(heard.beats.beats, heard.beats.downbeats, heard.beats.confidence);
     if (heard.passage) dancing->dance->SendPassages(std::array{*heard.passage});
   }
   dancing->dance->SendSamples(samples);

@@ -63,6 +63,8 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
   song.heard.set_beats_in_bar(static_cast<uint32_t>(song.music.track.beats_in_bar));
   for (const int place : song.music.track.in_bar)
     song.heard.add_counts(static_cast<uint32_t>(place + 1));
+  const std::vector<double>& confidence = song.music.track.confidence;
+  song.heard.mutable_confidence()->Add(confidence.begin(), confidence.end());
   for (const Passage& passage : song.music.passages) {
     v1::MusicPassage* added = song.heard.add_passages();
     added->set_from(passage.from);

@@ -81,7 +81,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     for (const auto& source : cues) {
       for (const Cue& cue : source->Take()) Follow(cue, now);
     }
-    if (midi) SendBeats({.beats = midi->Take(now), .downbeats = {}}, now);
+    if (midi) SendBeats({.beats = midi->Take(now)}, now);
     // It receives all music, so that it knows the beats when the clock stops.
     MusicEar::Ahead heard = ear.Hear(piece);
     if (!midi || !midi->runs()) SendBeats(std::move(heard.beats), now);
@@ -106,7 +106,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
 // Beats in the settled part would come too late, and none are accepted after the longest music.
 void LiveDance::SendBeats(BeatsAhead ahead, double now) {
   ahead.Keep(now + options_.look_ahead_s, kMaxAudioSeconds);
-  if (!ahead.beats.empty()) dance_->SendBeats(ahead.beats, ahead.downbeats);
+  if (!ahead.beats.empty()) dance_->SendBeats(ahead.beats, ahead.downbeats, ahead.confidence);
 }
 
 void LiveDance::Follow(const Cue& cue, double now) {

@@ -239,6 +239,12 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
   return track;
 }
 
+bool EndInPause(std::span<const Onset> onsets, double period_s) {
+  if (onsets.empty()) return true;
+  return IsInPause(Sounding(onsets), std::ssize(onsets) - 1,
+                   static_cast<int>(std::lround(period_s * kOnsetRate)));
+}
+
 BeatTrack FindBeats(std::span<const float> mono) { return TrackBeats(FindOnsets(mono)); }
 
 }  // namespace choreo

@@ -43,6 +43,9 @@ enum class MusicExtent { kWhole, kPart };
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {},
                      MusicExtent extent = MusicExtent::kWhole);
 
+/// Whether these onsets end in silence, more than `period_s` after the last sound.
+bool EndInPause(std::span<const Onset> onsets, double period_s);
+
 /// The beats of mono samples at 22 050 Hz. Throws what FindOnsets throws.
 BeatTrack FindBeats(std::span<const float> mono);
 

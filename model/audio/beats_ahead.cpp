@@ -75,7 +75,7 @@ BeatsAhead PredictBeats(const BeatTrack& track, double now, double until) {
   const std::vector<double> beats = track.Seconds();
   if (beats.size() < kMinBeats || now - beats.back() > kStoppedSeconds) return {};
   const double period = PeriodOf(std::span(beats).last(std::min(kSureBeats + 1, beats.size())));
-  BeatsAhead ahead;
+  BeatsAhead ahead{.confidence = track.confidence.back()};
   int in_bar = track.in_bar.back();
   const int bar = track.beats_in_bar;
   for (double beat = beats.back() + period; beat < until; beat += period) {

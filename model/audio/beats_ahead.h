@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,8 @@ HeardBeats HearBeats(std::span<const Onset> onsets, int64_t first);
 
 /// Beats to come, seconds, ascending, and those of them that begin a bar.
 struct BeatsAhead {
-  std::vector<double> beats, downbeats;
+  std::vector<double> beats = {}, downbeats = {};
+  std::optional<double> confidence = {};  ///< of the beats that predict them, 0 to 1; none: known
 
   /// Keeps only those in [from, to].
   void Keep(double from, double to);

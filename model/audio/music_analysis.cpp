@@ -10,13 +10,18 @@ namespace choreo {
 
 MusicAnalysis AnalyseMusic(std::span<const float> mono) {
   const BeatTrack track = FindBeats(mono);
-  return AnalyseMusic(mono, track.Seconds(), track.DownbeatSeconds());
+  MusicAnalysis music = AnalyseMusic(mono, track.Seconds(), track.DownbeatSeconds());
+  music.confidence = track.confidence;
+  return music;
 }
 
 MusicAnalysis AnalyseMusic(std::span<const float> mono, std::vector<double> beats,
                            std::vector<double> downbeats) {
   std::vector<Passage> passages = FindPassages(mono, beats);
-  return {std::move(beats), std::move(downbeats), std::move(passages), MusicId(mono)};
+  return {.beats = std::move(beats),
+          .downbeats = std::move(downbeats),
+          .passages = std::move(passages),
+          .id = MusicId(mono)};
 }
 
 }  // namespace choreo

@@ -10,10 +10,11 @@ namespace choreo {
 
 /// What a complete piece of music tells.
 struct MusicAnalysis {
-  std::vector<double> beats = {};      ///< seconds, ascending
-  std::vector<double> downbeats = {};  ///< those of the beats that begin a bar
-  std::vector<Passage> passages = {};  ///< repeats
-  uint64_t id = 0;                     ///< MusicId
+  std::vector<double> beats = {};       ///< seconds, ascending
+  std::vector<double> downbeats = {};   ///< those of the beats that begin a bar
+  std::vector<double> confidence = {};  ///< of each beat, as BeatTrack's; empty if not found here
+  std::vector<Passage> passages = {};   ///< repeats
+  uint64_t id = 0;                      ///< MusicId
 };
 
 /// Finds the beats of mono samples at 22 050 Hz, and the rest. Throws like FindOnsets. Thread-safe.

@@ -101,7 +101,7 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
 
 void DanceScore::SetMusic(const MusicAnalysis& music) {
   if (manner_.music_id == 0) manner_.music_id = music.id;
-  if (!has_beats_) beats.ReplaceAll(music.beats, music.downbeats);
+  if (!has_beats_) beats.ReplaceAll(music);
   if (!recurrence.empty() || music.passages.empty() || manner_.variation >= 1) return;
   recurrence = Recurrence(model_.fps, music.passages);
   timeline.SetCuts(CutsOf(music.passages, model_.fps));

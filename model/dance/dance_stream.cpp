@@ -129,15 +129,18 @@ void DanceStream::SetControls(const ControlRequest& request) {
 }
 
 void DanceStream::GiveBeats(const std::vector<double>& seconds,
-                            const std::vector<double>& downbeats) {
+                            const std::vector<double>& downbeats,
+                            std::optional<double> confidence) {
   std::lock_guard lock(messages_);
   const std::string field = NextMusicBeats() + ".times";
   if (seconds.empty()) throw InvalidArgument(field, "empty");
   CheckBeats(seconds, field);
   CheckDownbeats(downbeats, seconds, NextMusicBeats() + ".downbeats");
+  if (confidence) ValidateShare(*confidence, NextMusicBeats() + ".confidence");
   chain_->Apply([&](DanceScore& score) {
     const int64_t from = score.timeline.Frontier(field);
-    if (const int64_t late = score.beats.AddGiven(seconds, from, field, downbeats); late > 0)
+    if (const int64_t late = score.beats.AddGiven(seconds, from, field, downbeats, confidence);
+        late > 0)
       chain_->Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
   });
   ++beats_;

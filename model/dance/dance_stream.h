@@ -74,7 +74,8 @@ class DanceStream {
   /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats: see
   /// MusicBeats::AddGiven. Beats in frozen frames are dropped with a Warning. Errors name
   /// NextMusicBeats(); none may come after KeysComplete.
-  void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {});
+  void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {},
+                 std::optional<double> confidence = {});
   /// Takes at least one passage, valid by CheckPassages. From the first on they replace known ones,
   /// for transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may
   /// come after KeysComplete.

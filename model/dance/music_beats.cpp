@@ -19,13 +19,18 @@ constexpr int kHeard = 12 * static_cast<int>(kModelFps);  // rows
 constexpr int kTracked = static_cast<int>(kModelFps);
 static_assert(kHeard + kTracked <= kBeatMemory);
 
+// Of the rows before `row`.
+std::vector<Onset> OnsetsBefore(const AudioFeed& audio, int64_t row) {
+  std::vector<Onset> onsets;
+  for (const RowSound& sound : audio.Sounds(row, kHeard))
+    onsets.insert(onsets.end(), sound.onsets.begin(), sound.onsets.end());
+  return onsets;
+}
+
 // The beats heard in the rows before `row`.
 HeardBeats HearBefore(const AudioFeed& audio, int64_t row) {
-  const std::vector<RowSound> sounds = audio.Sounds(row, kHeard);
-  std::vector<Onset> onsets;
-  for (const RowSound& sound : sounds)
-    onsets.insert(onsets.end(), sound.onsets.begin(), sound.onsets.end());
-  return HearBeats(onsets, kRowOnsets * (row - std::ssize(sounds)));
+  const std::vector<Onset> onsets = OnsetsBefore(audio, row);
+  return HearBeats(onsets, kRowOnsets * row - std::ssize(onsets));
 }
 
 // Whether the music rose in the frame of a beat or in the one before.
@@ -68,11 +73,11 @@ MusicBeats::MusicBeats(double fps, const std::vector<double>& given, const Audio
       audio_(audio),
       heard_(audio != nullptr && given.empty() ? std::make_shared<HeardMusic>(*audio) : nullptr),
       count_(given.size()) {
-  if (!given.empty()) Replace(given.front(), given, downbeats, Beat::Source::kGiven);
+  if (!given.empty()) Replace(given.front(), given, downbeats, {.source = Beat::Source::kGiven});
 }
 
 void MusicBeats::Replace(double begin, std::span<const double> seconds,
-                         std::span<const double> downbeats, Beat::Source source) {
+                         std::span<const double> downbeats, const Beat& like) {
   const auto at = [&](double time) {
     return std::ranges::lower_bound(known_, time, {}, &Beat::time_s);
   };
@@ -85,20 +90,24 @@ void MusicBeats::Replace(double begin, std::span<const double> seconds,
   while (!spans_.empty() && spans_.back().begin >= first) spans_.pop_back();
   if (!spans_.empty()) spans_.back().end = std::min(spans_.back().end, first);
   for (const double second : seconds) {
-    Beat& beat = known_.emplace_back(Beat{.time_s = second, .source = source});
+    Beat& beat = known_.emplace_back(like);
+    beat.time_s = second;
     beat.downbeat = std::ranges::binary_search(downbeats, second);
   }
   spans_.push_back({first, seconds.back()});
 }
 
-void MusicBeats::ReplaceAll(const std::vector<double>& seconds, std::span<const double> downbeats) {
+void MusicBeats::ReplaceAll(const MusicAnalysis& music) {
   heard_.reset();
   known_.clear();
-  if (!seconds.empty()) Replace(seconds.front(), seconds, downbeats, Beat::Source::kFound);
+  if (music.beats.empty()) return;
+  Replace(music.beats.front(), music.beats, music.downbeats, {.source = Beat::Source::kFound});
+  for (size_t i = 0; i < music.confidence.size(); ++i) known_[i].confidence = music.confidence[i];
 }
 
 int64_t MusicBeats::AddGiven(std::span<const double> seconds, int64_t from,
-                             const std::string& field, std::span<const double> downbeats) {
+                             const std::string& field, std::span<const double> downbeats,
+                             std::optional<double> confidence) {
   if (count_ + seconds.size() > kMaxBeats) {
     throw InvalidArgument(field, "bring the dance's beats to " +
                                      std::to_string(count_ + seconds.size()) + ", the limit is " +
@@ -107,8 +116,11 @@ int64_t MusicBeats::AddGiven(std::span<const double> seconds, int64_t from,
   count_ += seconds.size();
   const auto ahead = std::ranges::lower_bound(seconds, Seconds(from));
   if (ahead != seconds.end()) {
-    given_.push_back(
-        {from, seconds.front(), {ahead, seconds.end()}, {downbeats.begin(), downbeats.end()}});
+    given_.push_back({from,
+                      seconds.front(),
+                      {ahead, seconds.end()},
+                      {downbeats.begin(), downbeats.end()},
+                      confidence});
   }
   return ahead - seconds.begin();
 }
@@ -116,7 +128,10 @@ int64_t MusicBeats::AddGiven(std::span<const double> seconds, int64_t from,
 PlannedBeats MusicBeats::PlanFrom(int64_t from) {
   for (; !given_.empty() && given_.front().from <= from; given_.pop_front()) {
     const Given& given = given_.front();
-    Replace(given.begin, given.seconds, given.downbeats, Beat::Source::kGiven);
+    const bool is_predicted = given.confidence && audio_ != nullptr;
+    Replace(given.begin, given.seconds, given.downbeats,
+            {.source = is_predicted ? Beat::Source::kPredicted : Beat::Source::kGiven,
+             .confidence = given.confidence.value_or(1)});
   }
   return {fps_, known_, spans_, heard_};
 }
@@ -141,7 +156,7 @@ void BeatReport::Start(std::span<const Beat> beats, int64_t from) {
   for (size_t i = last && first > 0 ? first - 1 : first; i < beats.size(); ++i) {
     if (last && seconds[i] - *last <= 0.5 * StepAt(seconds, i))
       continue;  // reported a little earlier
-    ahead_.push_back(beats[i]);
+    ahead_.push_back({beats[i], StepAt(seconds, i)});
     last = seconds[i];
   }
 }
@@ -173,13 +188,17 @@ void PlannedBeats::Predict(int64_t from, int64_t to, std::vector<Beat>* beats) c
 
 std::vector<Beat> BeatReport::TakeAt(int64_t frame) {
   std::vector<Beat> beats;
-  for (; !ahead_.empty() && ahead_.front().time_s < Seconds(frame + 1); ahead_.pop_front()) {
-    Beat& beat = beats.emplace_back(ahead_.front());
-    if (beat.source == Beat::Source::kPredicted && HasOnset(*audio_, frame))
-      beat.source = Beat::Source::kHeard;
+  for (; !ahead_.empty() && ahead_.front().beat.time_s < Seconds(frame + 1); ahead_.pop_front()) {
+    auto [beat, step] = ahead_.front();
+    if (beat.source == Beat::Source::kPredicted) {
+      const auto row = std::min(frame, static_cast<int64_t>(beat.time_s * fps_));
+      if (step > 0 && EndInPause(OnsetsBefore(*audio_, row + 1), step)) continue;
+      if (HasOnset(*audio_, frame)) beat.source = Beat::Source::kHeard;
+    }
     beat.frame = std::min<int64_t>(frame, std::llround(beat.time_s * fps_));
     reported_.push_back(beat.time_s);
     last_ = beat.time_s;
+    beats.push_back(beat);
   }
   return beats;
 }

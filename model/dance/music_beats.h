@@ -12,6 +12,7 @@
 
 #include "model/audio/beats_ahead.h"
 #include "model/audio/format.h"
+#include "model/audio/music_analysis.h"
 #include "model/dance/audio_feed.h"
 #include "model/messages/dance_event.h"
 
@@ -73,17 +74,17 @@ class MusicBeats {
   MusicBeats(double fps, const std::vector<double>& given, const AudioFeed* audio,
              std::span<const double> downbeats = {});
 
-  /// Replaces all beats by those found in the whole music, and stops detection. Downbeats are
-  /// always a subset of the beats.
-  void ReplaceAll(const std::vector<double>& seconds, std::span<const double> downbeats = {});
+  /// Replaces all beats by those found in the whole music, and stops detection.
+  void ReplaceAll(const MusicAnalysis& music);
 
   /// Gives beats, ascending, for transitions that begin at `from` or later. From the first to the
   /// last they replace beats given or detected. Beats given earlier are dropped if they are after
   /// the last, or less than half a beat before the first. Beats before `from` are late and are
-  /// dropped; returns how many. `from` never decreases between calls. Throws
-  /// Error(kInvalidArgument) beyond kMaxBeats.
+  /// dropped; returns how many. `from` never decreases between calls. `downbeats`: those of the
+  /// beats that begin a bar. `confidence`: of a client that predicts them from this music, else
+  /// none. Throws Error(kInvalidArgument) beyond kMaxBeats.
   int64_t AddGiven(std::span<const double> seconds, int64_t from, const std::string& field,
-                   std::span<const double> downbeats = {});
+                   std::span<const double> downbeats = {}, std::optional<double> confidence = {});
 
   /// What is known for a transition that begins at `from`; call in order of time.
   PlannedBeats PlanFrom(int64_t from);
@@ -95,11 +96,12 @@ class MusicBeats {
     double begin;                 // its first beat, late or not
     std::vector<double> seconds;  // without late ones
     std::vector<double> downbeats;
+    std::optional<double> confidence;  // of predicted ones
   };
 
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
   void Replace(double begin, std::span<const double> seconds, std::span<const double> downbeats,
-               Beat::Source source);
+               const Beat& like);
 
   double fps_;
   const AudioFeed* audio_;
@@ -123,7 +125,8 @@ class BeatReport {
   /// The beats to report with a frame of that transition. Call once per frame, in order; its row
   /// must be ready. Every beat is reported once, even if two transitions place it on different
   /// sides of their boundary; a beat that each leaves to the other comes with the first frame after
-  /// it.
+  /// it. Drops beats that were predicted before the music fell silent, from one period after its
+  /// last sound on.
   std::vector<Beat> TakeAt(int64_t frame);
 
   /// The last beat reported, in seconds: all the state that resuming a dance here needs.
@@ -133,11 +136,17 @@ class BeatReport {
   const std::vector<double>& reported() const { return reported_; }
 
  private:
+  // A beat to report, and its distance to the nearer neighbour; 0 without neighbours.
+  struct Ahead {
+    Beat beat;
+    double step;
+  };
+
   double Seconds(int64_t frame) const { return static_cast<double>(frame) / fps_; }
 
   double fps_;
   const AudioFeed* audio_;
-  std::deque<Beat> ahead_;  // of the transition, not yet reported
+  std::deque<Ahead> ahead_;  // of the transition, not yet reported
   std::optional<double> last_;
   std::vector<double> reported_;
 };

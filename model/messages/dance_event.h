@@ -61,8 +61,9 @@ struct Beat {
   int64_t frame = 0;  ///< once reported: the nearest danced frame
   double time_s = 0;  ///< exact
   Source source = Source::kUnknown;
-  double confidence =
-      1;  ///< how much more begins on the beats that predicted it, 0 to 1; 1 if not predicted
+  /// How much more begins on the beats around it, or on those that predicted it, than elsewhere: 0
+  /// to 1. 1 if given.
+  double confidence = 1;
   bool downbeat = false;  ///< begins a bar, as far as known
 };
 

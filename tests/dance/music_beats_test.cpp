@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -85,6 +87,56 @@ TEST(MusicBeats, NoiseAndSilenceHaveNone) {
     for (float& sample : dance.samples) sample = loudness * noise(random);
     EXPECT_TRUE(Perform(*queue, dance).beats.empty()) << loudness;
   }
+}
+
+// So do beats that a client predicts from the music, but not those that it knows.
+TEST(MusicBeats, StopAPeriodAfterTheMusic) {
+  std::vector<float> samples = Drum(36, 0.5);
+  std::fill(samples.begin() + 12 * 22050 + 11025, samples.begin() + 18 * 22050, 0.0F);
+  AudioFeed feed(22050, 1, 0);
+  feed.Push(samples, 0, [] {});
+  feed.Finish();
+  std::vector<double> by_client;
+  for (double beat = 0.5; beat < 38; beat += 0.5) by_client.push_back(beat);
+  enum class Who { kServer, kClient, kGiven };
+  for (const Who who : {Who::kServer, Who::kClient, Who::kGiven}) {
+    MusicBeats music(30, {}, &feed);
+    BeatReport report(30, &feed, std::nullopt);
+    if (who == Who::kClient) music.AddGiven(by_client, 0, "beats", {}, 0.7);
+    if (who == Who::kGiven) music.AddGiven(by_client, 0, "beats");
+    std::vector<Beat> beats;
+    for (int64_t from = 0; from < 36 * 30; from += 60) {
+      Begin(&music, &report, from, from + 60);
+      for (int64_t frame = from; frame < from + 60; ++frame)
+        std::ranges::copy(report.TakeAt(frame), std::back_inserter(beats));
+    }
+    int silent = 0;
+    for (const Beat& beat : beats) {
+      silent += beat.time_s > 13.1 && beat.time_s < 17.9 ? 1 : 0;
+      EXPECT_EQ(beat.source == Beat::Source::kGiven, who == Who::kGiven);
+      if (who == Who::kClient) {
+        EXPECT_EQ(beat.confidence, 0.7);
+      }
+    }
+    EXPECT_EQ(silent, who == Who::kGiven ? 9 : 0);
+    EXPECT_GT(std::ranges::count_if(beats, [](const Beat& b) { return b.time_s > 11; }), 8);
+    EXPECT_GT(beats.back().time_s, 35);
+  }
+}
+
+TEST(MusicBeats, OfAWholeSongAreAsSureAsTheyWereFound) {
+  MusicBeats music(30, {}, nullptr);
+  BeatReport report(30, nullptr, std::nullopt);
+  music.ReplaceAll({.beats = {0.5, 1}, .downbeats = {1}, .confidence = {0.8, 0.9}});
+  Begin(&music, &report, 0, 60);
+  std::vector<Beat> beats;
+  for (int64_t frame = 0; frame < 60; ++frame)
+    std::ranges::copy(report.TakeAt(frame), std::back_inserter(beats));
+  ASSERT_EQ(beats.size(), 2U);
+  EXPECT_EQ(beats[0].source, Beat::Source::kFound);
+  EXPECT_EQ(beats[0].confidence, 0.8);
+  EXPECT_EQ(beats[1].confidence, 0.9);
+  EXPECT_TRUE(beats[1].downbeat);
 }
 
 // Neither the chunks of the music nor their time of arrival change the beats.

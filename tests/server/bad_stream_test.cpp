@@ -297,6 +297,16 @@ INSTANTIATE_TEST_SUITE_P(
                       kInvalidStatus,
                       "config.music_downbeats[1]",
                       {"2 s", "none of the beats"}},
+        BadStreamCase{"BeatsConfidence",
+                      [](const KeyMessage&) {
+                        v1::StreamDanceRequest beats;
+                        beats.mutable_music_beats()->add_times(1);
+                        beats.mutable_music_beats()->set_confidence(1.5);
+                        return Requests{ConfigRequest(), beats};
+                      },
+                      kInvalidStatus,
+                      "music_beats[0].confidence",
+                      {"1.5", "[0, 1]"}},
         BadStreamCase{"Passages",
                       WithConfig([](auto& c) {
                         c.add_music_passages()->set_from(3);

@@ -197,7 +197,12 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   std::vector<double> beats;
   int downbeats = 0;
   for (const auto& event : answer.events) {
-    if (event.has_beat()) beats.push_back(event.time());
+    if (event.has_beat()) {
+      beats.push_back(event.time());
+      EXPECT_EQ(event.beat().source(), v1::BEAT_SOURCE_FOUND);
+      EXPECT_GT(event.beat().confidence(), 0.5);
+      EXPECT_LT(event.beat().confidence(), 1);
+    }
     downbeats += event.beat().downbeat();
   }
   EXPECT_GE(downbeats, 1);
@@ -249,6 +254,7 @@ TEST_F(StreamTest, BeatsMayComeAheadOfTheFrontier) {
   v1::StreamDanceRequest beats;
   for (const double time : {0.5, 1.5, 2.0, 2.5}) beats.mutable_music_beats()->add_times(time);
   beats.mutable_music_beats()->add_downbeats(2.5);
+  beats.mutable_music_beats()->set_confidence(0.5);
   client.Send(beats);
   const Answer& answer = client.Finish();
   ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();

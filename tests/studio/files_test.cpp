@@ -138,6 +138,7 @@ TEST_F(StudioTest, FindsReturningPassages) {
   }
   WriteWav(folder_ / "song.wav", samples);
   const Song song = HearSong(folder_ / "song.wav", "song.wav", 600);
+  EXPECT_EQ(song.heard.confidence_size(), song.heard.beats_size());
   double again = 0;  // seconds
   for (const v1::MusicPassage& passage : song.heard.passages()) {
     if (std::abs(passage.from() - passage.like() - 48) < 1) again += passage.to() - passage.from();
