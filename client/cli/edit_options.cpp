@@ -31,6 +31,22 @@ authoring::Counts CountsOf(const EditOptions& options,
   return authoring::CountsOf(*music);
 }
 
+/// Which of the report's beats the options leave.
+void TakeBeats(bool says_start, EditOptions* options) {
+  Asked& asked = options->asked;
+  const BeatHint& hint = options->beats.hint;
+  if (options->beats.beats || hint.tempo_bpm || options->song.empty() || says_start)
+    asked.beats.clear();
+  if (asked.beats.empty()) return;
+  if (hint.half_time || hint.double_time) {
+    throw InvalidArgument(hint.half_time ? "--half-time" : "--double-time",
+                          options->report +
+                              " has the beats that were danced to, maybe changed so; "
+                              "say of which beats: --beats auto, or --beats FILE");
+  }
+  authoring::ChangeBeats(options->beats, options->song_start_s, &asked.beats, &asked.downbeats);
+}
+
 /// Whether a dance of so many frames at `fps` has the file's number of frames at the file's rate.
 /// Its last ones, after the file's last frame, may be missing.
 bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, double fps) {
@@ -84,8 +100,7 @@ void TakeReport(bool says_start, EditOptions* options) {
                      &options->song, &options->song_start_s)) {
     taken.push_back("song " + options->song);
   }
-  if (options->beats != authoring::BeatOptions() || options->song.empty() || says_start)
-    asked.beats.clear();
+  TakeBeats(says_start, options);
   take("model", asked.model, &options->model, asked.model);
   options->changed = ChangeOf(*options);
   // Another take needs another seed, unless it is danced otherwise.

@@ -69,6 +69,33 @@ TEST_F(EditTest, TimesAreAlsoCountsOfTheMusic) {
   EXPECT_THAT(without.said, HasSubstr("--at: 9c: counts need music that has beats; name a song"));
 }
 
+// The report's beats may be halved already.
+TEST_F(EditTest, TheReportsBeatsAreCountedAsAskedOrRefused) {
+  std::ofstream(folder_ / "beats.txt") << "1\n2\n3\n4\n5\n6\n7\n8\n9\n";
+  const std::string given = " --song " + At("song.wav") + " --beats " + At("beats.txt");
+  ASSERT_EQ(Choreo("dance " + At("song.wav") + Server() + "--beats " + At("beats.txt") + " -o " +
+                   At("dance.npz") + " --report " + At("report.json"))
+                .code,
+            0);
+  const auto edit = [&](const std::string& options) {
+    const Outcome outcome = Edit("--key kick --at 3c --report " + At("report.json") + " -o " +
+                                 At("new.npz") + " --new-report " + At("new.json") + options);
+    if (outcome.code != 0) return outcome.said;
+    for (const nlohmann::json report = ReadJson(folder_ / "new.json");
+         const auto& key : report["keyframes"]) {
+      if (key["id"] == "kick") return key["frame"].dump();
+    }
+    return std::string("no key");
+  };
+  EXPECT_EQ(edit(""), "90") << "the third of them";
+  EXPECT_EQ(edit(" --downbeat 2"), "120") << "the third from there";
+  EXPECT_EQ(edit(given + " --half-time"), "150");
+  for (const std::string option : {"--half-time", "--double-time"}) {
+    EXPECT_THAT(edit(" " + option), HasSubstr(option + ": "));
+    EXPECT_THAT(edit(" " + option), HasSubstr("say of which beats: --beats auto, or --beats FILE"));
+  }
+}
+
 TEST_F(EditTest, NewFramesAreDancedAsTheReportSays) {
   const auto edit = [&](const std::string& options) {
     const Outcome outcome =
