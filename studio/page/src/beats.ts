@@ -19,7 +19,7 @@ const tooFew = 'Tap four beats at least.';
 
 const heardBeats = computed(() => {
   const heard = shownSong.value?.heard;
-  return heard ? counted(heard.beats, heard.counts, heard.beatsInBar) : none;
+  return heard ? counted(heard.beats, heard.counts, heard.beatsInBar, heard.confidence) : none;
 });
 
 export const beats = computed(() => (live.value ? liveBeats.value : project.value?.beats ?? heardBeats.value));

@@ -1,7 +1,7 @@
 // Counting a song: its beats, its bars, and dancers' eights.
 
-/// `count`: in its eight, from 1 on; 0 if not counted.
-export type Beat = { time: number; count: number };
+/// `count`: in its eight, from 1 on; 0 if not counted. `sure`: how sure the program is, 0 to 1, of a beat that it found.
+export type Beat = { time: number; count: number; sure?: number };
 /// `bar`: beats in a bar.
 export type Beats = { bar: number; list: Beat[] };
 
@@ -23,7 +23,7 @@ const median = (values: number[]) => [...values].sort((a, b) => a - b)[Math.floo
 const intervals = (times: number[]) => times.slice(1).map((time, i) => time - times[i]);
 
 /// From the program's beats: `inBar` counts from 1 in each bar. Eights begin with the first bar, and again after a short bar.
-export function counted(times: number[], inBar: number[], bar: number): Beats {
+export function counted(times: number[], inBar: number[], bar: number, sure: number[] = []): Beats {
   const length = bar || usualBar;
   const bars = eight(length) / length;
   let nth = bars - 1;
@@ -35,17 +35,17 @@ export function counted(times: number[], inBar: number[], bar: number): Beats {
       nth = isWhole ? (nth + 1) % bars : 0;
       isFirst = false;
     }
-    return { time, count: at && nth * length + at };
+    return { time, count: at && nth * length + at, ...(sure[i] === undefined ? {} : { sure: sure[i] }) };
   });
   return { bar: length, list };
 }
 
 /// From beats as they come one after another: a bar lasts from downbeat to downbeat.
-export function countedLive(heard: { time: number; isDown: boolean }[]): Beats {
+export function countedLive(heard: { time: number; isDown: boolean; sure: number }[]): Beats {
   let at = 0;
   const inBar = heard.map(({ isDown }) => (at = isDown ? 1 : at && at + 1));
   const bars = inBar.filter((count, i) => count > 0 && inBar[i + 1] === 1);
-  return counted(heard.map(({ time }) => time), inBar, bars.length ? median(bars) : usualBar);
+  return counted(heard.map(({ time }) => time), inBar, bars.length ? median(bars) : usualBar, heard.map(({ sure }) => sure));
 }
 
 /// Counts forwards and backwards from one of the beats.
@@ -104,6 +104,12 @@ export const nudged = ({ bar, list }: Beats, by: number, seconds: number): Beats
   bar,
   list: list.map(({ time, count }) => ({ time: kept(time + by), count })).filter(({ time }) => time >= 0 && time <= seconds),
 });
+
+/// The mean certainty of beats that were found, in percent; null for others.
+export function certainty({ list }: Beats): number | null {
+  const sure = list.flatMap((beat) => beat.sure ?? []);
+  return sure.length ? Math.round((100 * sure.reduce((sum, one) => sum + one, 0)) / sure.length) : null;
+}
 
 /// The tempo of most beats, per minute; 0 without beats.
 export function tempo({ list }: Beats): number {

@@ -113,7 +113,7 @@ function hearOf(said: Said, motion: Motion) {
   else if (said.case === 'summary') ended?.();
   else if (said.case === 'event') {
     const { event, time } = said.value;
-    if (event.case === 'beat') update({ beats: [...live.value!.beats, { time, isDown: event.value.downbeat }] });
+    if (event.case === 'beat') update({ beats: [...live.value!.beats, { time, isDown: event.value.downbeat, sure: event.value.confidence }] });
     else if (event.case === 'warning') tell(event.value.message);
     else if (event.case === 'keyframeRejected') {
       const { id, reason } = event.value;

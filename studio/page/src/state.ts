@@ -32,7 +32,7 @@ export type Sketch = { id: string; pose: Pose; photo: Photo };
 /// they are; `one`: a second at which a bar began.
 export type LiveHint = { tempo: number | null; pace: 'half' | 'double' | null; later: number; one: number | null };
 /// A live dance in progress; `beats`: those heard, seconds.
-export type Live = { project: Project; motion: Motion; beats: { time: number; isDown: boolean }[]; hint: LiveHint };
+export type Live = { project: Project; motion: Motion; beats: { time: number; isDown: boolean; sure: number }[]; hint: LiveHint };
 export type Take = { seed: number; motion: Motion };
 
 export const welcome = signal<Welcome | null>(null);

@@ -61,7 +61,8 @@ function Ruler() {
     const isOne = beat.count === 1;
     const isCounted = beat.count > 0 && (room >= digit || (isOne && room * eight(bar) >= digit));
     return (
-      <i class={`beat${isDownbeat(beat, bar) ? ' down' : ''}${isOne ? ' one' : ''}`} key={beat.time} style={{ left: `${x(beat.time)}px` }}>
+      <i class={`beat${isDownbeat(beat, bar) ? ' down' : ''}${isOne ? ' one' : ''}`} key={beat.time} style={{ left: `${x(beat.time)}px`, '--sure': beat.sure ?? 1 }}
+        title={beat.sure === undefined ? undefined : `A beat, ${Math.round(100 * beat.sure)} % sure`}>
         {isCounted && beat.count}
       </i>
     );

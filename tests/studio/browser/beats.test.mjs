@@ -29,6 +29,11 @@ await inStudio(async ({ page, until, settle, message, frames, give, download }) 
     for (let i = 0; i < 6; ++i) await press('Show less of the song');
   });
 
+  await check('how sure each beat is', async () => {
+    assert.match(await tempo(), /^120\.\d a minute, \d\d % sure$/);
+    assert.match(await page.locator('.beat').nth(4).getAttribute('title'), /^A beat, \d\d % sure$/);
+  });
+
   await check('the part that comes back has the letter and colour of the first one', async () => {
     const sections = await page.locator('.section').evaluateAll((all) => all.map((at) => [at.textContent, getComputedStyle(at).borderTopColor, at.title]));
     assert.deepEqual(sections.map(([letter]) => letter), ['A', 'A']);
