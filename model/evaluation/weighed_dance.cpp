@@ -9,7 +9,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kHalfTurn = 150, kWholeTurn = 270;  // degrees
+constexpr double kHalfTurn = 150, kWholeTurn = 270, kBent = 45;  // degrees
 
 constexpr WeightRow kRows[] = {
     {"both feet > 5 cm above the floor %",
@@ -26,6 +26,8 @@ constexpr WeightRow kRows[] = {
      [](const WeighedDance& one) { return one.weight.contact_frames; }, 1},
     {"windows that turn > 150° %", [](const WeighedDance& one) { return one.half_turns; }, 100},
     {"windows that turn > 270° %", [](const WeighedDance& one) { return one.whole_turns; }, 100},
+    {"trunk's lean, median °", [](const WeighedDance& one) { return one.lean; }, 1},
+    {"trunk leans > 45° %", [](const WeighedDance& one) { return one.bent; }, 100},
     {"hands at rest %", [](const WeighedDance& one) { return one.at_rest; }, 100},
 };
 
@@ -41,11 +43,16 @@ double ShareBeyond(const std::vector<double>& turns, double degrees) {
 WeighedDance Weigh(const Skeleton& skeleton, double fps, size_t clip, const JointTrack& track,
                    const std::vector<double>& turns) {
   const double floor = DancedFloor(skeleton, track);
+  std::vector<double> lean = TrunkLean(skeleton, track);
+  std::ranges::sort(lean);
+  const auto bent = std::ranges::count_if(lean, [](double angle) { return angle > kBent; });
   WeighedDance weighed{.clip = clip,
                        .weight = MeasureWeight(skeleton, fps, track, floor),
                        .floor = floor,
                        .half_turns = ShareBeyond(turns, kHalfTurn),
                        .whole_turns = ShareBeyond(turns, kWholeTurn),
+                       .lean = lean.empty() ? NAN : lean[lean.size() / 2],
+                       .bent = static_cast<double>(bent) / static_cast<double>(lean.size()),
                        .at_rest = HandsAtRest(skeleton, fps, track),
                        .spread = PaceSpread(fps, track),
                        .windows = {}};

@@ -16,6 +16,8 @@ struct WeighedDance {
   double floor = 0;  ///< DancedFloor, m
   double half_turns = 0,
          whole_turns = 0;  ///< share of windows of 2 s that turn > 150 and > 270 degrees
+  double lean = 0;         ///< the median TrunkLean, degrees
+  double bent = 0;         ///< share of poses that lean > 45 degrees
   double at_rest = 0;      ///< HandsAtRest
   double spread = 0;       ///< PaceSpread
   FamilyWindows windows;   ///< features for the critics

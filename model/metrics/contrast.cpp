@@ -50,6 +50,18 @@ double HandsAtRest(const Skeleton& skeleton, double fps, const JointTrack& track
   return all > 0 ? static_cast<double>(still) / static_cast<double>(all) : 0;
 }
 
+std::vector<double> TrunkLean(const Skeleton& skeleton, const JointTrack& track) {
+  if (skeleton.left_shoulder < 0 || skeleton.right_shoulder < 0)
+    throw InvalidArgument("skeleton", skeleton.Describe() + " has no shoulders");
+  std::vector<double> lean;
+  for (const Eigen::Matrix3Xd& at : track) {
+    const Eigen::Vector3d trunk =
+        0.5 * (at.col(skeleton.left_shoulder) + at.col(skeleton.right_shoulder)) - at.col(0);
+    lean.push_back(std::atan2(std::hypot(trunk.x(), trunk.z()), trunk.y()) * kDegrees);
+  }
+  return lean;
+}
+
 double PaceSpread(double fps, const JointTrack& track) {
   const std::vector<float> speeds = MeanSpeeds(track, fps);
   const auto length = WindowFrames(fps);

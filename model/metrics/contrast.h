@@ -7,7 +7,8 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Measures how a dance varies: its turns, rests and changes of pace. Pure functions, thread-safe.
+/// Measures how a dance varies: its turns, bends, rests and changes of pace. Pure functions,
+/// thread-safe.
 namespace choreo {
 
 inline constexpr double kContrastSeconds = 2;  ///< of a window
@@ -26,6 +27,10 @@ inline constexpr double kRestSpeed = 0.16;
 /// Share of (wrist, step) pairs in which the wrist (the elbow's first child) is at rest. 0 for
 /// fewer than two frames. Throws Error(kInvalidArgument) for a skeleton without elbows or wrists.
 double HandsAtRest(const Skeleton& skeleton, double fps, const JointTrack& track);
+
+/// The angle between the vertical and the line from the pelvis to between the shoulders, degrees,
+/// by pose. Throws Error(kInvalidArgument) for a skeleton without shoulders.
+std::vector<double> TrunkLean(const Skeleton& skeleton, const JointTrack& track);
 
 /// How much liveliness varies: the standard deviation over adjoining windows of 2 s of the
 /// logarithm of their mean joint speed. NaN for fewer than two windows.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "tests/metrics/moving_body.h"
 #include "tests/support/expect_error.h"
@@ -56,6 +57,21 @@ TEST(MeanFacing, IsADirection) {
     behind.push_back(pose);
   }
   EXPECT_NEAR(std::abs(MeanFacing(behind)), std::numbers::pi, 1e-9);
+}
+
+TEST(TrunkLean, IsTheTrunksAngleToTheVertical) {
+  JointTrack track;
+  for (const double lean : {0.0, 30.0, 120.0}) {
+    Pose pose = RestPose(Body());
+    pose.rotations.col(0) = Eigen::Vector3d(0.6, 0, 0.8) * lean / kDegrees;
+    track.push_back(JointPositions(Body(), pose));
+  }
+  const std::vector<double> lean = TrunkLean(Body(), track);
+  ASSERT_EQ(lean.size(), 3U);
+  const double rest = lean[0];  // shoulders are slightly behind the pelvis
+  EXPECT_LT(rest, 10);
+  EXPECT_NEAR(lean[1], 30, rest);
+  EXPECT_NEAR(lean[2], 120, rest);
 }
 
 TEST(HandsAtRest, AreSlowHands) {
