@@ -16,6 +16,11 @@ constexpr double kStands = 1e-3;  // metres: points that move less stand
 // a window's joint spread; white coordinates have 1. They stay small: at equal weight the pelvis
 // would compensate for what limbs can't know, and stand still.
 constexpr double kPlaces = 0.06, kSlips = 12;
+// White coordinates weigh each frame's change alike, so errors that add up over a window hardly
+// count. A key bounds those; without one these two weigh where a window leads: joints relative to
+// the pelvis, and each coordinate.
+constexpr double kPosture = 0.5, kDrift = 0.5;
+constexpr double kUnmoved = 1e-12;      // square metres or radians: no coordinate moves less
 constexpr double kStandingStep = 0.01;  // metres that a standing foot may move in a frame
 
 Tensor SpreadsOf(const std::vector<MotionPrior::Bridge>& bridges) {
@@ -97,19 +102,25 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
   // Metres that a coordinate of the window is expected to move joints: half of its weight, so that
   // the body's turn counts more than a wrist's.
-  const Tensor importance = (variance * batch.scales.square().mean(1) * reach_).sqrt();
+  const Tensor expected = variance * batch.scales.square().mean(1);
+  const Tensor importance = (expected * reach_).sqrt();
   const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
   const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
   // Measures the motion where F says that the flow ends, not F itself, which says little near the
   // end.
-  const Tensor moved = ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, motion(miss));
+  const Tensor way = motion(miss);
+  const Tensor moved = ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, way);
+  const Tensor drift = way.square() * window / (expected + kUnmoved).unsqueeze(1);
   const auto squares = [&](const Tensor& metres) { return metres.square().sum(-1) / strays; };
   const auto feet_steps = [&](const Tensor& places) {
     return places.index_select(2, body_.feet()).diff(1, 1);
   };
   const Tensor real = body_.Place(batch, motion(batch.z)).reshape(moved.sizes());
   const Tensor stands = feet_steps(real).norm(2, -1) < kStandingStep;
+  const Tensor free = (1 - batch.keyed.amax(1)).view({-1, 1, 1});
   return {{"white_mse", 1.0, (weights.unsqueeze(1) * miss.square()).mean()},
+          {"drift_mse", kDrift, (free * weights.unsqueeze(1) * drift).mean()},
+          {"posture_mse", kPosture, (free * squares(moved - moved.narrow(2, 0, 1))).mean()},
           {"places_mse", kPlaces, squares(moved).mean()},
           {"slips_mse", kSlips, (stands * squares(feet_steps(moved))).mean()}};
 }

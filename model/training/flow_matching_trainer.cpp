@@ -24,7 +24,7 @@ constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 1
               kResponseBatches = 4;
 constexpr int kMatchingValidationWindows = 24;
 constexpr double kAverage = 0.999;                                  // of the weights, per step
-constexpr double kFarKeys = 0.12, kNoKeys = 0.2, kNoLabels = 0.35;  // shares of steps
+constexpr double kFarKeys = 0.12, kNoKeys = 0.3, kNoLabels = 0.35;  // shares of steps
 constexpr double kEnergy = 0.9;  // share of windows whose energy is given, as when serving
 // Lengths of training windows in frames: few, so that data per length is made once.
 constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
@@ -149,6 +149,7 @@ class FlowMatchingRun : public TrainingRun {
                                      .hold_history = 0.05,
                                      .other_style = 0.6,
                                      .even_styles = 0.5,
+                                     .standing = 0.05,
                                      .astray = 0.2};
     if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;

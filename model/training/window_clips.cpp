@@ -7,6 +7,7 @@
 
 #include "model/core/smooth_step.h"
 #include "model/motion/canonical.h"
+#include "model/motion/kinematics.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
@@ -18,17 +19,20 @@ namespace {
 constexpr double kTempi[] = {1.0, 0.8, 0.9, 1.12, 1.25};
 constexpr double kDrawnSigma = 6;  // frames: smooths a path as if drawn by hand
 constexpr double kConstant = 0.3;  // share of energies that are given as their mean
-constexpr double kFarAstray = 3;   // times a velocity's spread
+// How far from where dancers stand windows begin: with a key, in spreads of velocities; without
+// one, in spreads of poses, as nothing bounds a free dance.
+constexpr double kAstray = 3, kFreeAstray = 1;
 
 // Displaces the first `tau` poses equally, to where no dancer stands, and leads the following ones
-// back within about a second and before the last. `spread`: of velocities.
-void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vector<Pose>* poses) {
+// back within about a second and before the last. `most_far`: the largest spread of the offset.
+void LeadAstray(const Eigen::VectorXd& most_far, int tau, Random* random,
+                std::vector<Pose>* poses) {
   const int64_t most = static_cast<int64_t>(poses->size()) - tau;
   const auto back = static_cast<double>(std::min(most, random->Integer(12, 40)));
-  const double far = random->Uniform(0, kFarAstray);
-  Eigen::VectorXd offset(spread.size());
-  for (Eigen::Index d = 0; d < offset.size(); ++d) offset[d] = far * spread[d] * random->Normal();
-  offset[0] = offset[2] = 0;  // floor positions are equivalent
+  const double far = random->Uniform();
+  Eigen::VectorXd offset(most_far.size());
+  for (Eigen::Index d = 0; d < offset.size(); ++d) offset[d] = far * most_far[d] * random->Normal();
+  offset[0] = offset[2] = offset[MotionPrior::kTurn] = 0;  // all places and facings are equivalent
   for (size_t i = 0; i < poses->size(); ++i) {
     const double way = std::clamp((static_cast<double>(i) - tau + 1) / back, 0.0, 1.0);
     const double left = 1 - SmoothStep(way);
@@ -40,6 +44,19 @@ void LeadAstray(const Eigen::VectorXd& spread, int tau, Random* random, std::vec
   }
 }
 
+// Leads from `before`, at least tau + turn poses of another motion, into the first poses after the
+// history, where these stand and face.
+void LeadOver(std::span<const Pose> before, int tau, int64_t turn, std::vector<Pose>* poses) {
+  const GroundFrame theirs = GroundFrame::Of(before[tau - 1]),
+                    ours = GroundFrame::Of((*poses)[tau - 1]);
+  for (int64_t i = 0; i < tau + turn; ++i) {
+    Pose& pose = (*poses)[i];
+    const double way = static_cast<double>(i - tau + 1) / static_cast<double>(turn + 1);
+    pose = InterpolatePoses(ours.ToWorld(theirs.ToLocal(before[i])), pose,
+                            SmoothStep(std::clamp(way, 0.0, 1.0)));
+  }
+}
+
 // Puts a history in another style first, from which the dance turns into its own: from a dancer's
 // own history alone the network would know the style and ignore the label.
 void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
@@ -47,15 +64,13 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
   const int64_t turn = std::min<int64_t>(random->Integer(12, 25), std::ssize(*poses) - tau);
   const int64_t room = std::ssize(other.poses) - tau - turn;
   if (other.style < 0 || other.style == style || room <= 0) return;
-  const auto begin = other.poses.begin() + random->Integer(0, room);
-  const GroundFrame theirs = GroundFrame::Of(begin[tau - 1]),
-                    ours = GroundFrame::Of((*poses)[tau - 1]);
-  for (int64_t i = 0; i < tau + turn; ++i) {
-    Pose& pose = (*poses)[i];
-    const double way = static_cast<double>(i - tau + 1) / static_cast<double>(turn + 1);
-    pose = InterpolatePoses(ours.ToWorld(theirs.ToLocal(begin[i])), pose,
-                            SmoothStep(std::clamp(way, 0.0, 1.0)));
-  }
+  LeadOver(std::span(other.poses).subspan(random->Integer(0, room)), tau, turn, poses);
+}
+
+// Stands still first, as dances begin.
+void BeginStanding(const Skeleton& skeleton, int tau, Random* random, std::vector<Pose>* poses) {
+  const int64_t turn = std::min<int64_t>(random->Integer(12, 40), std::ssize(*poses) - tau);
+  LeadOver(std::vector<Pose>(tau + turn, StandingPose(skeleton)), tau, turn, poses);
 }
 
 // The request for a window of `frames` frames, the track's from `first` on. `history`, `way`, which
@@ -128,6 +143,9 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       if (tracks_[i].style != style) own[i] = 0;
     if (std::ranges::max(own) > needed) of_style.emplace_back(own, needed);
   }
+  const MotionPrior& prior = model.prior;
+  Eigen::VectorXd astray = kAstray * prior.covariance().col(0).cwiseSqrt();
+  if (variation.no_key > 0) astray = kFreeAstray * prior.usual().variance.cwiseSqrt();
   std::vector<WindowBatch> windows;
   while (std::ssize(windows) < batch) {
     const bool even = !of_style.empty() && random->Uniform() < variation.even_styles;
@@ -147,8 +165,8 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       const ClipTrack& other = tracks_[random->Integer(0, std::ssize(tracks_))];
       BeginOtherwise(other, track.style, tau, random, &poses);
     }
-    if (random->Uniform() < variation.astray)
-      LeadAstray(model.prior.covariance().col(0).cwiseSqrt(), tau, random, &poses);
+    if (random->Uniform() < variation.standing) BeginStanding(skeleton_, tau, random, &poses);
+    if (random->Uniform() < variation.astray) LeadAstray(astray, tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
     for (size_t i = tau; i < poses.size(); ++i)
       turning += RotationDifference(poses[i - 1].rotations.col(0), poses[i].rotations.col(0));

@@ -27,8 +27,9 @@ class WindowClips {
     double hold_history = 0;  ///< only the last few poses are known, and the earliest is held
     double other_style = 0;   ///< begins in another style, if the label is given
     double even_styles =
-        0;              ///< draws a style first, all equally likely; else any place in the clips
-    double astray = 0;  ///< starts out of balance, as a model's dances do, and recovers
+        0;                ///< draws a style first, all equally likely; else any place in the clips
+    double standing = 0;  ///< begins from StandingPose, as dances do
+    double astray = 0;    ///< starts out of balance, as a model's dances do, and recovers
   };
   /// Draws windows of `frames` frames with a key `to_key` frames after the history.
   WindowBatch Draw(const FlowModelParts& model, int batch, int frames, int to_key,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/motion/kinematics.h"
 #include "model/motion/mirror.h"
 #include "model/training/clip_statistics.h"
 #include "model/training/flow_statistics.h"
@@ -141,6 +142,20 @@ TEST_F(WindowClipsTest, PerturbedHistoryReturnsToTheRecording) {
   const double before = apart(real.requests[0].history.back(), astray.requests[0].history.back());
   EXPECT_GT(before, 1e-3);
   EXPECT_LT(apart(real.truth[0][12], astray.truth[0][12]), before);
+}
+
+TEST_F(WindowClipsTest, WindowsBeginStandingAsDancesDo) {
+  const WindowBatch real = Draw({}), standing = Draw({.standing = 1});
+  const auto apart = [](const Pose& a, const Pose& b) {
+    return (a.rotations - b.rotations).rightCols(a.rotations.cols() - 1).norm();
+  };
+  const Pose stance = StandingPose(clips_.skeleton());
+  for (const Pose& pose : standing.requests[0].history) {
+    EXPECT_LT(apart(pose, stance), 1e-9);
+    EXPECT_NEAR(pose.root_position.y(), stance.root_position.y(), 1e-9);
+  }
+  EXPECT_LT(apart(real.truth[0].back(), standing.truth[0].back()), 1e-9);
+  EXPECT_LT(apart(standing.truth[0].front(), stance), apart(real.truth[0].front(), stance));
 }
 
 TEST_F(WindowClipsTest, EnergyPredictsTheSpread) {
