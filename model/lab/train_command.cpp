@@ -66,6 +66,9 @@ void AddTrainCommand(CLI::App& app,
       ->required();
   command->add_option("--from", options->from,
                       "Checkpoint whose network the run starts from (same preset)");
+  command->add_option("--blend", options->blend,
+                      "Share of the trained weights in the checkpoint of the preset default, the "
+                      "rest is --from's; also rewrites a finished run with it");
   command->add_option("--run", options->run, "Folder for state, curves and the checkpoint")
       ->required();
   command->option_defaults()->always_capture_default();
@@ -92,6 +95,8 @@ void AddTrainCommand(CLI::App& app,
       throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
                                         " of the preset " + options->preset);
     });
+    if (options->blend != 1 && options->preset != kDefaultPreset)
+      throw InvalidArgument("--blend", "is no option of the preset " + options->preset);
     const bool small = options->IsControllers() || options->IsInbetweener();
     if (small && options->device == "auto") options->device = "cpu";
     options->device = read_device(options->device);

@@ -96,10 +96,9 @@ class FlowMatchingRun : public TrainingRun {
         throw InvalidArgument("--keep-statistics", "the recordings have other styles than --from");
       config.median_factors = base.model->config().median_factors;
       model_ = ContinuousFlow(config, train_.skeleton());
-      Safetensors weights;
-      ExportTensors(*base.model, "", &weights);
-      KeepStyles(base.model->config().styles, *model_, &weights);
-      ImportTensors(weights, "", model_.get());
+      ExportTensors(*base.model, "", &from_);
+      KeepStyles(base.model->config().styles, *model_, &from_);
+      ImportTensors(from_, "", model_.get());
     }
     model_->to(device_);
     average_ = ContinuousFlow(config, train_.skeleton());
@@ -169,7 +168,7 @@ class FlowMatchingRun : public TrainingRun {
 
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
-    const auto network = MakeTorchFlowNetwork(average_, device_);
+    const auto network = MakeTorchFlowNetwork(Blended(), device_);
     const FlowModelParts& parts = matching_->parts();
     const Skeleton& skeleton = train_.skeleton();
     NamedFigures figures;
@@ -222,14 +221,15 @@ class FlowMatchingRun : public TrainingRun {
   }
 
   std::string SaveModel(const std::filesystem::path& path, const nlohmann::json& card) override {
-    average_->SetResponse(Response());
+    ContinuousFlow blended = Blended();
+    blended->SetResponse(Response(blended));
     Safetensors weights;
-    ExportTensors(*average_, "", &weights);
+    ExportTensors(*blended, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
       // Stores weights as bfloat16: half the bytes, the same figures. The prior stays exact.
       if (name.ends_with(".weight")) RoundToBfloat16(&tensor);
     }
-    return SaveContinuousFlow(path, average_, weights, card);
+    return SaveContinuousFlow(path, blended, weights, card);
   }
   std::string Limits() const override {
     return "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
@@ -274,8 +274,28 @@ class FlowMatchingRun : public TrainingRun {
     model_->SetCurve({});
   }
 
-  EnergyResponse Response() const {
-    FlowModelParts parts = average_->Parts();
+  // The average, as far as options say, and for the rest where the run started.
+  ContinuousFlow Blended() const {
+    const torch::NoGradGuard no_grad;
+    Safetensors weights;
+    ExportTensors(*average_, "", &weights);
+    const auto blend = static_cast<float>(options().blend);
+    for (const auto& parameter : average_->named_parameters()) {
+      if (blend == 1) break;
+      std::vector<float>& trained = weights.tensors.at(parameter.key()).data;
+      const std::vector<float>& before = from_.tensors.at(parameter.key()).data;
+      std::ranges::transform(trained, before, trained.begin(),
+                             [&](float to, float at) { return std::lerp(at, to, blend); });
+    }
+    ContinuousFlow blended(average_->config(), average_->skeleton());
+    ImportTensors(weights, "", blended.get());
+    blended->to(device_);
+    blended->eval();
+    return blended;
+  }
+
+  EnergyResponse Response(const ContinuousFlow& model) const {
+    FlowModelParts parts = model->Parts();
     parts.response = {};
     std::vector<WindowRequest> requests;
     for (uint32_t i = 0; i < kResponseBatches; ++i) {
@@ -290,7 +310,7 @@ class FlowMatchingRun : public TrainingRun {
       }
     }
     const torch::NoGradGuard no_grad;
-    return MeasureResponse(parts, *MakeTorchFlowNetwork(average_, device_), requests);
+    return MeasureResponse(parts, *MakeTorchFlowNetwork(model, device_), requests);
   }
 
   // Uses many windows, because dancers seldom turn far.
@@ -323,6 +343,7 @@ class FlowMatchingRun : public TrainingRun {
   torch::Device device_;
   WindowClips train_, validation_;
   ContinuousFlow model_{nullptr}, average_{nullptr};
+  Safetensors from_;  // the weights that the run started with
   std::unique_ptr<FlowMatching> matching_;
   std::deque<std::future<WindowBatch>> drawn_;  // for this step and later ones; ends first
 };

@@ -15,6 +15,11 @@ std::string TrainOptions::Command() const {
   command += " --splits " + splits.filename().string() + ' ' + Fixed();
   if (!from.empty()) command += " --from " + from.filename().string();
   if (!name.empty()) command += " --name " + name;
+  if (blend != 1) {
+    OptionText text;
+    text("--blend", blend, "");
+    command += text.Text();
+  }
   return command;
 }
 
@@ -34,6 +39,8 @@ void TrainOptions::Validate() const {
   Require(clip >= 0, "--clip", std::to_string(clip), "at least 0");
   Require(tempo >= 0 && tempo <= 1, "--tempo", std::to_string(tempo), "0 to 1");
   Require(!keep_statistics || !from.empty(), "--keep-statistics", "alone", "given with --from");
+  Require(blend > 0 && blend <= 1, "--blend", std::to_string(blend), "above 0, at most 1");
+  Require(blend == 1 || !from.empty(), "--blend", "alone", "given with --from");
   Require(report_every >= 1, "--report-every", std::to_string(report_every), "at least 1");
   Require(stop_after >= 0, "--stop-after", std::to_string(stop_after), "at least 0");
   Require(rate >= 0 && rate <= 1, "--rate", std::to_string(rate), "0 to 1");

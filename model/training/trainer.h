@@ -27,6 +27,9 @@ struct TrainOptions {
   std::string device = "cpu";  ///< "cpu" or "cuda:N"
   /// Keeps the statistics of `from`'s data, for continuous flows, and measures only missing ones.
   bool keep_statistics = false;
+  /// The trained weights' share in the checkpoint of a continuous flow; the rest is `from`'s
+  /// (Wortsman et al. 2022). Also rewrites a finished run with it.
+  double blend = 1;
   bool resume = false;         ///< continue from the run's state if there is one
   int64_t report_every = 250;  ///< steps between validation, curves and saved state
   int64_t stop_after = 0;      ///< stop after this many steps, resumable; 0: run to the end

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <torch/torch.h>
 
+#include <cmath>
+
 #include "model/core/error.h"
 #include "model/core/safetensors.h"
 #include "model/training/adam.h"
@@ -57,6 +59,25 @@ TEST_F(TrainerTest, ContinuousFlowResumesExactlyAndContinuesFromAnother) {
   EXPECT_EQ(weights(further).tensors.at("head.weight").data, whole.tensors.at("head.weight").data);
 }
 
+TEST_F(TrainerTest, BlendsWithTheWeightsThatItStartedFrom) {
+  TrainOptions base = Options("base", 1), further = Options("further", 2);
+  TrainContinuousFlow(base);
+  further.from = base.run / "checkpoint.safetensors";
+  further.keep_statistics = true;
+  const auto bias = [](const TrainOptions& options) {
+    return ReadSafetensors(options.run / "checkpoint.safetensors").tensors.at("head.bias").data;
+  };
+  TrainContinuousFlow(further);
+  const std::vector<float> before = bias(base), trained = bias(further);
+  ASSERT_NE(before, trained);
+  further.resume = true;  // rewrites the finished run
+  further.blend = 0.25;
+  TrainContinuousFlow(further);
+  const std::vector<float> blended = bias(further);
+  for (size_t i = 0; i < blended.size(); ++i)
+    EXPECT_FLOAT_EQ(blended[i], std::lerp(before[i], trained[i], 0.25F));
+}
+
 TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   const auto failure = [](TrainOptions options) -> std::string {
     try {
@@ -74,6 +95,13 @@ TEST_F(TrainerTest, UnusableOptionsAreNamed) {
   options = Options("x", 4);
   options.keep_statistics = true;
   EXPECT_EQ(failure(options), "--keep-statistics");
+  options = Options("x", 4);
+  options.blend = 0.5;
+  EXPECT_EQ(failure(options), "--blend") << "with nothing";
+  options.from = "base";
+  EXPECT_EQ(failure(options), "");
+  options.blend = 0;
+  EXPECT_EQ(failure(options), "--blend");
 }
 
 TEST_F(TrainerTest, ResumesWithTheOriginalOptions) {
@@ -106,10 +134,11 @@ TEST_F(TrainerTest, ItsCommandNamesItsOwnOptions) {
   TrainOptions options = Options("x", 4);
   options.keep_statistics = true;
   options.name = "mine";
+  options.blend = 0.7;
   EXPECT_EQ(options.Command(), "choreo-lab train --data " + folder_.path().filename().string() +
                                    " --splits splits.json --preset default --steps 4 --batch 4 "
                                    "--rate 0.001 --clip 1 --tempo 0.5 --seed 1 --keep-statistics "
-                                   "--name mine");
+                                   "--name mine --blend 0.7");
 }
 
 TEST(AdamTest, TakesTheStepsOfTheReference) {
