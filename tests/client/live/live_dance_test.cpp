@@ -182,8 +182,8 @@ TEST_F(LiveDanceTest, AMinuteOfPosesWaitsAtMost) {
   EXPECT_GT(figures_.back().keys_taken, 100);
   EXPECT_LT(figures_.back().keys_taken, 130);
   EXPECT_EQ(figures_.back().keys_taken + figures_.back().keys_refused, 500);
-  EXPECT_LE(notes_.size(), 6U);
-  EXPECT_THAT(notes_.back(), HasSubstr(" more, not shown"));
+  EXPECT_LE(notes_.size(), 7U);  // the last one tells of a pose behind the music's end
+  EXPECT_THAT(notes_, testing::Contains(HasSubstr(" more, not shown")));
 }
 
 TEST_F(LiveDanceTest, NotesAreEscaped) {
@@ -328,7 +328,7 @@ TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
   WriteClicks(folder_ / "song.wav", 60);
   auto server = std::make_unique<authoring::LocalServer>(FAKE_CHOREOD);
   std::thread killer([&] {
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(std::chrono::seconds(4));
     kill(server->process(), SIGKILL);
   });
   std::ofstream(folder_ / "keys.json")
