@@ -36,8 +36,8 @@ class FrameBudget {
   /// exceeds what is left. A lone caller is always accepted: slow engines serve one at a time. Call
   /// it once per call, which any address of its own identifies.
   void TakeDance(const void* call, const SampleQueue& model, const std::string& party);
-  /// Charges a transition of this many frames, candidates included; may be called repeatedly.
-  /// Charges at most half of all time, however long it is: it yields to dances anyway.
+  /// Charges a transition of this many frames, candidates included; once per call, too. Charges at
+  /// most half of all time, however long it is: it yields to dances anyway.
   void TakeTransition(const void* call, const SampleQueue& model, const std::string& party,
                       int frames);
   /// Accepts calls that took nothing.

@@ -27,7 +27,8 @@ class PageSession {
   PageSession(const PageSession&) = delete;
   PageSession& operator=(const PageSession&) = delete;
 
-  /// Never blocks. Call from one thread.
+  /// Only forwards the request, but ending a dance waits until its reader has stopped. Call from
+  /// one thread.
   void Take(Request request);
 
  private:

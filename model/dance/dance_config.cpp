@@ -48,11 +48,11 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.frame_rate");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
-    throw InvalidArgument("config.history", std::to_string(history.size()) +
-                                                " poses, the limit is " +
-                                                std::to_string(model.history_frames));
+    throw InvalidArgument("config.history.poses", std::to_string(history.size()) +
+                                                      " poses, the limit is " +
+                                                      std::to_string(model.history_frames));
   }
-  ValidateHistory(model.skeleton, history, "config.history");
+  ValidateHistory(model.skeleton, history, "config.history.poses");
   if (!continuation) return;
   if (!history.empty())
     throw InvalidArgument("config.history", "and a continuation exclude each other");

@@ -69,7 +69,7 @@ struct DanceStart : DanceManner {
   std::vector<Warning> Warnings(const ModelInfo& model, int64_t first_frame) const;
 
   /// Throws Error(kInvalidArgument), or Error(kFailedPrecondition) for a continuation of another
-  /// fingerprint. Fields are named as the API names them: "config.history[0]".
+  /// fingerprint. Fields are named as the API names them: "config.history.poses[0]".
   void ValidateStart(const ModelInfo& model) const;
 };
 

@@ -107,12 +107,12 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),
             "config.frame_rate: 121 is not in [1, 120]");
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.history.assign(11, rest); }),
-            "config.history: 11 poses, the limit is 10");
+            "config.history.poses: 11 poses, the limit is 10");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.history.assign(2, rest);
               c.history[1].rotations = Eigen::Matrix3Xd::Zero(3, 23);
             }),
-            "config.history[1].rotations: 23 joints, the model has 24");
+            "config.history.poses[1].rotations: 23 joints, the model has 24");
   EXPECT_EQ(refusal([&](DanceConfig& c) { c.continuation = good; }), "accepted");
   EXPECT_EQ(refusal([&](DanceConfig& c) {
               c.continuation = good;
