@@ -104,7 +104,7 @@ class Figures {
     for (size_t i = 0; i < kRefusals.size(); ++i)
       out.Add(static_cast<double>(refusals[i]), {{"reason", kRefusals[i]}});
     const CallRegistry& calls = serving_.calls;
-    out.Begin("draining", "1 from when the server is told to go, 0 before.", MetricType::Gauge);
+    out.Begin("draining", "1 once the server is shutting down, 0 before.", MetricType::Gauge);
     out.Add(calls.admitting() ? 0 : 1);
     out.Begin("streams", "Calls in progress that have sent their first message.",
               MetricType::Gauge);
@@ -132,7 +132,7 @@ class Figures {
     out.Begin("key_error_metres", "How far the model's own frames were off their keys.",
               MetricType::Histogram);
     out.Add(serving_.tally.key_error_m.snapshot());
-    out.Begin("support_ratio", "Share of a dance's frames in which something bears the body.",
+    out.Begin("support_ratio", "Share of a dance's frames in which something supports the body.",
               MetricType::Histogram);
     out.Add(serving_.tally.support.snapshot());
   }

@@ -16,7 +16,7 @@ struct Project {
   std::string song = {};  ///< the file's name; empty: it has none
   std::optional<double> seconds = {};
   std::optional<uint64_t> seed = {};
-  std::string style = {};                                     ///< empty: as it comes
+  std::string style = {};                                     ///< empty: none in particular
   std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
   /// The song's, seconds; none: those that are found. Downbeats are beats, too.
   std::vector<double> beats = {}, downbeats = {};

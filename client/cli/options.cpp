@@ -140,9 +140,9 @@ void AddStyle(CLI::App& command, std::string& style) {
   command
       .add_option("--style", style,
                   "How to dance, as happy or tired: a style that `choreo info` lists, with "
-                  "whether they show. Default: as it comes.")
+                  "whether they show. Default: no style in particular.")
       ->check([](const std::string& name) {
-        return name.empty() ? std::string("is empty; leave it out for whatever comes")
+        return name.empty() ? std::string("is empty; leave it out for no style in particular")
                             : std::string();
       });
 }

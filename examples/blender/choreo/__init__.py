@@ -30,7 +30,7 @@ class ChoreoKey(bpy.types.PropertyGroup):
 class ChoreoSettings(bpy.types.PropertyGroup):
     address: StringProperty(name="Studio", default="http://127.0.0.1:8765", description="Where `choreo studio` says that it is open")
     song: StringProperty(name="Song", subtype="FILE_PATH", description="WAV, FLAC, Ogg or MP3. Without one the dance is silent")
-    style: StringProperty(name="Style", description="A style of the model's, as happy or tired. Empty: as it comes")
+    style: StringProperty(name="Style", description="A style of the model's, as happy or tired. Empty: none in particular")
     seed: IntProperty(name="Seed", min=0, default=1, description="Another seed, another dance")
     seconds: FloatProperty(name="Seconds", min=0, max=3600, description="Length of the dance. 0: the song's, or up to a second after the last key")
 

@@ -58,8 +58,8 @@ export function keyNear(frame: number): Key | undefined {
   return near.sort((a, b) => away(a) - away(b))[0];
 }
 
-/// Sets a pose of the library where the dancer is at that moment, facing as she does; in place of a key that stands there.
-/// While it is danced live, on a beat to come, or at `at`.
+/// Sets a pose of the library at the dancer's place and facing of that moment. It replaces a key that is too near.
+/// In a live dance the pose goes on a beat ahead, or at `at`.
 export function addKey(pose: LibraryPose, at?: number) {
   if (!project.value) return;
   if (live.value) return addLiveKey(pose, at ?? null);

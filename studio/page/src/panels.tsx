@@ -65,7 +65,7 @@ function StylePanel() {
       <h2>Style</h2>
       <select aria-label="How to dance" disabled={!value} value={value?.style ?? ''}
         onChange={(event) => studio.change({ style: event.currentTarget.value })}>
-        <option value="">as it comes</option>
+        <option value="">none in particular</option>
         {styles.map((style) => <option key={style} value={style}>{style}</option>)}
       </select>
       <p class="small">{shown}</p>

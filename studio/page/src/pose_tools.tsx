@@ -42,7 +42,7 @@ function Parts() {
           Ask for these parts alone
         </label>
       )}
-      {key?.asks && <p class="small">The key asks for {studio.inWords(key.asks, studio.skeleton.names)}. The rest is danced as it comes.</p>}
+      {key?.asks && <p class="small">The key asks for {studio.inWords(key.asks, studio.skeleton.names)}. The model chooses the rest.</p>}
     </>
   );
 }
