@@ -92,7 +92,8 @@ void GroupRequest::Validate(const ModelInfo& model) const {
                                          "\" has no likelihood; RANK_BY_QUALITY is possible");
   CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
   ValidateStart(model);
-  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "config.history.first_frame");
+  CheckedIn(FirstFrame(), 0, kMaxDanceFrames,
+            continuation ? "config.continuation.frame" : "config.history.first_frame");
   if (target) {
     ValidatePose(model.skeleton, target->pose, "target");
     ValidateMask(model.skeleton, target->mask, "target_mask");

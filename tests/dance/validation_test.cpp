@@ -146,4 +146,17 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             "accepted");
 }
 
+// A dance may end with frame 108000, and so may its continuation; no transition goes on from there.
+TEST(Validation, TransitionsNameTheFieldTheirFirstFrameCameFrom) {
+  const FakeSampler sampler;
+  GroupRequest request;
+  request.frames = 10;
+  request.first_frame = kMaxDanceFrames + 1;
+  const auto refusal = [&] { return Refusal([&] { request.Validate(sampler.model()); }); };
+  EXPECT_EQ(refusal(), "config.history.first_frame: 108001 is not in [0, 108000]");
+  request.continuation = Continuation{
+      kMaxDanceFrames + 1, std::vector<Pose>(10, RestPose(Skeleton::Smpl24())), "fake-1"};
+  EXPECT_EQ(refusal(), "config.continuation.frame: 108001 is not in [0, 108000]");
+}
+
 }  // namespace choreo::validation_test
