@@ -163,7 +163,7 @@ bool TransitionRun::Continue(Sampler& sampler) {
     sampling_ = sampler.Begin(spec_);
     return true;
   }
-  if (plan_.empty()) {
+  if (!steered_) {
     if (!sampling_->Continue()) Steer();
     return true;
   }
@@ -175,6 +175,8 @@ bool TransitionRun::Continue(Sampler& sampler) {
 
 void TransitionRun::Steer() {
   drawn_ = sampling_->TakePlan();
+  CheckLength();
+  steered_ = true;
   const ControlCurve& path = spec_.controls[kRootPath];
   if (hit_) {
     HitKey({.skeleton = model_->skeleton,
@@ -203,6 +205,19 @@ void TransitionRun::Steer() {
           ComparePoses(model_->skeleton, drawn, plan_.back(), spec_.target->mask).position_m);
     }
   }
+}
+
+void TransitionRun::CheckLength() const {
+  const auto frames = static_cast<size_t>(spec_.frames);
+  const size_t likelihoods = drawn_.log_likelihoods.size();
+  if (drawn_.poses.size() == frames && drawn_.contacts.size() == frames &&
+      (likelihoods == 0 || likelihoods == frames))
+    return;
+  throw Error(ErrorCode::kInternal, "",
+              "the model's plan of " + std::to_string(frames) + " frames has " +
+                  std::to_string(drawn_.poses.size()) + " poses, " +
+                  std::to_string(drawn_.contacts.size()) + " contacts and " +
+                  std::to_string(likelihoods) + " likelihoods");
 }
 
 void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const float> contacts,

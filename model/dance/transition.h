@@ -68,8 +68,8 @@ class TransitionRun {
   const TransitionSpec& spec() const { return spec_; }
 
   /// Makes the next slice; the sampler must be the same each time. Returns true while more are
-  /// left. Throws Error(kInternal) for a value that is not finite, whether the model made it or
-  /// this class, and Error(kInvalidArgument) as Sampler::Begin does.
+  /// left. Throws Error(kInternal) for a plan of another length and for a value that is not finite,
+  /// whether the model made it or this class, and Error(kInvalidArgument) as Sampler::Begin does.
   bool Continue(Sampler& sampler);
 
   /// All frames, once Continue has returned false.
@@ -85,6 +85,7 @@ class TransitionRun {
   std::optional<RequiredSpeed> required_speed() const;
 
  private:
+  void CheckLength() const;
   void Steer();
   void PutOnFeet();
   DanceFrame Finish(size_t at);
@@ -105,7 +106,8 @@ class TransitionRun {
   Pose world_;                // the newest frame, whose signs are kept
 
   std::unique_ptr<Sampling> sampling_;
-  Plan drawn_;              // once it is sampled
+  bool steered_ = false;    // whether drawn_ and plan_ are there
+  Plan drawn_;              // as sampled
   std::vector<Pose> plan_;  // canonical, steered; those of frames_ stand on their feet
   Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset
   std::vector<DanceFrame> frames_;

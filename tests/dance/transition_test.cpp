@@ -4,6 +4,7 @@
 
 #include "model/core/error.h"
 #include "tests/dance/poses.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
 
 namespace choreo::transition_test {
@@ -222,6 +223,31 @@ TEST(Transition, RefusesRequestsOfTheWrongShape) {
               r.spec.target.reset();
             }),
             "after");
+}
+
+/// Spoils its plan after the last frame.
+class OddSampler final : public FakeSampler {
+ public:
+  explicit OddSampler(void (*spoil)(Plan&)) : spoil_(spoil) {}
+  void OnFrame(const TransitionSpec& spec, Plan* plan) override {
+    if (plan->poses.size() == static_cast<size_t>(spec.frames)) spoil_(*plan);
+  }
+
+ private:
+  void (*spoil_)(Plan&);
+};
+
+TEST(Transition, RefusesAPlanOfAnotherLength) {
+  for (void (*spoil)(Plan&) :
+       {+[](Plan& plan) { plan.poses.push_back(plan.poses.back()); },
+        +[](Plan& plan) { plan.contacts.pop_back(); }, +[](Plan& plan) { plan.contacts.clear(); },
+        +[](Plan& plan) { plan.log_likelihoods.pop_back(); }}) {
+    OddSampler sampler(spoil);
+    ExpectError(ErrorCode::kInternal, "the model's plan of 30 frames has ",
+                [&] { DanceTransition(sampler, RandomRequest(4)); });
+  }
+  OddSampler unlikely([](Plan& plan) { plan.log_likelihoods.clear(); });
+  EXPECT_EQ(DanceTransition(unlikely, RandomRequest(4)).frames().size(), 30U);
 }
 
 TEST(BeatsAround, IncludeOneOnEitherSideOfTheTransition) {
