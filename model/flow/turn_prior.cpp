@@ -12,8 +12,8 @@
 namespace choreo {
 namespace {
 
-constexpr double kUpright =
-    0.95;  // cosine of the largest angle between a turn's axis and the vertical
+// Cosine of the largest angle between a turn's axis and the vertical.
+constexpr double kUpright = 0.95;
 // Units and bounds of the inputs.
 constexpr double kAheadFrames = 15;                // for which a dancer is expected to keep turning
 constexpr double kMaxDistance = 3;                 // metres in two seconds
