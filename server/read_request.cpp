@@ -12,7 +12,6 @@
 #include "model/dance/validation.h"
 #include "proto/wire/continuation.h"
 #include "proto/wire/controls.h"
-#include "proto/wire/convert.h"
 #include "proto/wire/read_pose.h"
 
 namespace choreo {
@@ -94,15 +93,11 @@ DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
 
 Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field) {
   if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
-  if (!v1::HandPose_IsValid(keyframe.hands())) {
-    throw InvalidArgument(field + ".hands", std::to_string(keyframe.hands()) + ", must be 0 to " +
-                                                std::to_string(v1::HandPose_MAX));
-  }
   Target target = wire::ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
                                  skeleton, field, field + ".mask");
   Key key{.id = keyframe.id(), .pose = std::move(target.pose), .mask = std::move(target.mask)};
   if (keyframe.has_hit()) key.hit = keyframe.hit();
-  key.hands = wire::FromProto(keyframe.hands());
+  key.hands = wire::ToHands(keyframe.hands(), field + ".hands");
   return key;
 }
 

@@ -49,9 +49,7 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
   out.pose = std::move(target.pose);
   out.mask = std::move(target.mask);
   if (key.has_hit()) out.hit = key.hit();
-  if (!v1::HandPose_IsValid(key.hands()))
-    throw InvalidArgument("keyframe.hands", std::to_string(key.hands()) + " is no hand pose");
-  out.hands = wire::FromProto(key.hands());
+  out.hands = wire::ToHands(key.hands(), "keyframe.hands");
   return out;
 }
 

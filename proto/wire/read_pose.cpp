@@ -7,6 +7,7 @@
 #include "model/core/error.h"
 #include "model/core/field.h"
 #include "model/motion/rotation.h"
+#include "proto/wire/convert.h"
 
 namespace choreo::wire {
 namespace {
@@ -109,6 +110,14 @@ Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton&
     }
   }
   return target;
+}
+
+std::optional<HandPose> ToHands(v1::HandPose hands, const std::string& field) {
+  if (!v1::HandPose_IsValid(hands)) {
+    throw InvalidArgument(
+        field, std::to_string(hands) + ", must be 0 to " + std::to_string(v1::HandPose_MAX));
+  }
+  return FromProto(hands);
 }
 
 }  // namespace choreo::wire

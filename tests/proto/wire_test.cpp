@@ -7,6 +7,8 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
 #include "proto/wire/continuation.h"
+#include "proto/wire/read_pose.h"
+#include "tests/support/expect_error.h"
 
 namespace choreo::wire_test {
 
@@ -152,6 +154,14 @@ TEST(Wire, HandsRoundTrip) {
   }
   EXPECT_EQ(wire::FromProto(v1::HAND_POSE_UNSPECIFIED), std::nullopt);
   EXPECT_EQ(wire::FromProto(static_cast<v1::HandPose>(v1::HandPose_MAX + 1)), std::nullopt);
+}
+
+TEST(Wire, HandsOfAClientAreChecked) {
+  EXPECT_EQ(wire::ToHands(v1::HAND_POSE_UNSPECIFIED, "hands"), std::nullopt);
+  EXPECT_EQ(wire::ToHands(v1::HAND_POSE_FIST, "hands"), HandPose::kFist);
+  ExpectError(ErrorCode::kInvalidArgument,
+              "keyframe.hands: 99, must be 0 to " + std::to_string(v1::HandPose_MAX),
+              [] { wire::ToHands(static_cast<v1::HandPose>(99), "keyframe.hands"); });
 }
 
 TEST(Wire, CodesOfLaterVersionsAreUnknown) {
