@@ -82,6 +82,7 @@ TEST_F(GoldenDanceTest, HasTheSameBitsOnAllKernelsOfThisCpu) {
       std::string(gnu_get_libc_version()) != kLibrary)
     GTEST_SKIP() << "the bits are those of " << kBuild << "with glibc " << kLibrary;
   SetTorchThreads(1);
+  std::string unknown;
   for (const auto kernels_here : {PackedKernelsHere(), Bf16KernelsHere()}) {
     for (const PackedKernels* kernels : kernels_here) {
       const std::string name = kernels->name;
@@ -89,12 +90,13 @@ TEST_F(GoldenDanceTest, HasTheSameBitsOnAllKernelsOfThisCpu) {
       const std::string hash = Dance();
       const auto golden = kGolden.find(name);
       if (golden == kGolden.end()) {
-        std::cout << "no golden dance of " << name << " is known yet; here it is " << hash << "\n";
+        unknown += " {\"" + name + "\", \"" + hash + "\"}";
       } else {
         EXPECT_EQ(hash, golden->second) << name;
       }
     }
   }
+  if (!unknown.empty()) GTEST_SKIP() << "no golden dance is known of these kernels:" << unknown;
 }
 
 }  // namespace choreo::golden_dance_test
