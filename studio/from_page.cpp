@@ -1,8 +1,13 @@
 #include "studio/from_page.h"
 
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
 #include <algorithm>
 #include <climits>
 #include <cstring>
+#include <initializer_list>
+#include <string_view>
 
 #include "client/convert.h"
 #include "model/audio/format.h"
@@ -19,6 +24,19 @@ void RequireCount(const std::string& field, int count, int wanted) {
   if (count == wanted) return;
   throw InvalidArgument(field,
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
+}
+
+constexpr const char* kAbsent = "must be absent: the studio decides it";
+
+/// Refuses all fields that are set, except those that the caller reads.
+void RequireOnly(const google::protobuf::Message& message, const std::string& prefix,
+                 std::initializer_list<std::string_view> read) {
+  std::vector<const google::protobuf::FieldDescriptor*> set;
+  message.GetReflection()->ListFields(message, &set);
+  for (const auto* field : set) {
+    if (std::ranges::find(read, field->name()) == read.end())
+      throw InvalidArgument(prefix + field->name(), kAbsent);
+  }
 }
 
 /// A pose of a file, whose rotations may be wound up, with the shortest ones.
@@ -55,13 +73,10 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
 
 client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton) {
   client::DanceConfig out;
-  const auto refuse = [](const char* field) {
-    throw InvalidArgument(field, "must be absent: the studio sees to it");
-  };
-  if (!config.model().empty()) refuse("config.model");
-  if (config.music_id() != 0) refuse("config.music_id");
-  if (config.music_passages_size() > 0) refuse("config.music_passages");
-  if (config.frame_rate() != 0) refuse("config.frame_rate");
+  RequireOnly(config, "config.",
+              {"seed", "temperature", "history", "continuation", "audio_format", "frames",
+               "music_beats", "music_downbeats", "generate_until", "style", "music_dynamics",
+               "variation", "reject_invalid_keys"});
   if (config.has_audio_format()) {
     const v1::AudioFormat& format = config.audio_format();
     if (format.encoding() != v1::AUDIO_ENCODING_PCM_F32LE)
@@ -69,7 +84,8 @@ client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& ske
     CheckAudioFormat(format.sample_rate(),
                      static_cast<int>(std::min(format.channels(), uint32_t{INT_MAX})),
                      "config.audio_format");
-    if (format.first_sample() != 0) refuse("config.audio_format.first_sample");
+    if (format.first_sample() != 0)
+      throw InvalidArgument("config.audio_format.first_sample", kAbsent);
     out.audio = {client::AudioKind::kPcmFloat, static_cast<int>(format.sample_rate()),
                  static_cast<int>(format.channels())};
   }
@@ -129,11 +145,13 @@ std::vector<float> SamplesOf(const v1::Audio& audio) {
 client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
                                     const Skeleton& skeleton) {
   client::TransitionRequest out;
+  RequireOnly(request, "",
+              {"config", "frames", "target", "target_mask", "target_id", "target_hit", "after",
+               "candidates", "controls"});
+  if (request.config().has_audio_format()) throw InvalidArgument("config.audio_format", kAbsent);
   out.config = FromProto(request.config(), skeleton);
   out.config.controls = wire::FromProto(request.controls(), "controls");
   out.frames = request.frames();
-  if (request.has_audio() || request.config().has_audio_format())
-    throw InvalidArgument("audio", "must be absent: the studio sees to it");
   if (request.has_target()) {
     Target target = wire::ToTarget(request.target(),
                                    request.has_target_mask() ? &request.target_mask() : nullptr,

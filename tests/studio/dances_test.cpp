@@ -163,6 +163,32 @@ TEST_F(StudioTest, DancesAnIntervalAnew) {
   EXPECT_EQ(end.transition().summary().candidates(0).continuation().frame(), 50);
 }
 
+TEST_F(StudioTest, RefusesFieldsThatItDoesNotRead) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const auto failure = [&](const auto& ask) {
+    Request request;
+    request.mutable_transition()->set_frames(20);
+    ask(*request.mutable_transition());
+    return page.Ask(request).failure().message();
+  };
+  const std::string absent = ": must be absent: the studio decides it";
+  using Asked = v1::GenerateTransitionRequest;
+  EXPECT_EQ(failure([](Asked& asked) { asked.set_rank_by(v1::RANK_BY_LIKELIHOOD); }),
+            "rank_by" + absent);
+  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_audio(); }), "audio" + absent);
+  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_config()->mutable_audio_format(); }),
+            "config.audio_format" + absent);
+  EXPECT_EQ(failure([](Asked& asked) {
+              asked.mutable_config()->set_encoding(v1::ROTATION_ENCODING_QUATERNION);
+            }),
+            "config.encoding" + absent);
+  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_config()->set_allow_inexact_resume(true); }),
+            "config.allow_inexact_resume" + absent);
+  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_config()->set_model("fake"); }),
+            "config.model" + absent);
+}
+
 // Music from the page's microphone: frames come while it plays, independent of the song.
 TEST_F(StudioTest, DancesToMusicAsItSounds) {
   const Opened studio(server_.address());
