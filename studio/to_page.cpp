@@ -63,6 +63,10 @@ std::vector<v1::GenerateTransitionResponse> ToProto(const client::TransitionResu
     *added->mutable_report() = wire::ToProto(candidate.report);
     *added->mutable_continuation() = ToContinuation(candidate.continuation);
   }
+  // The client library gives each candidate the call's timing.
+  if (!result.candidates.empty())
+    *summary.mutable_summary()->mutable_timing() =
+        wire::ToProto(result.candidates.front().report.timing);
   out.push_back(std::move(summary));
   return out;
 }

@@ -161,6 +161,7 @@ TEST_F(StudioTest, DancesAnIntervalAnew) {
   const Response end = page.Read();
   ASSERT_EQ(end.transition().summary().candidates_size(), 2);
   EXPECT_EQ(end.transition().summary().candidates(0).continuation().frame(), 50);
+  EXPECT_GT(end.transition().summary().timing().elapsed_s(), 0);
 }
 
 TEST_F(StudioTest, RefusesFieldsThatItDoesNotRead) {
