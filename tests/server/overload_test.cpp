@@ -5,6 +5,7 @@
 #include "model/engine/sampling_cost.h"
 #include "tests/server/fixture.h"
 #include "tests/server/real_time.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/setting.h"
 
 /// Four times the dances that an engine has time for. CHOREO_FAULT_SECONDS makes it longer.
@@ -16,6 +17,10 @@ using std::chrono::milliseconds;
 constexpr milliseconds kFrameTime{2};  // of the engine, for each frame
 constexpr int kHolds = 16;             // real-time dances that it has time for: 16 x 30 x 2 ms
 constexpr int kGrantsOfDance = 40;
+
+// 15 % of the time may not be promised, and a busy machine needs more than kFrameTime for a frame.
+// What is left must not stay idle. Sanitizers make serving too slow to tell.
+constexpr int kAdmittedAtLeast = kSanitized ? 1 : kHolds / 2;
 
 /// Takes this long for each frame, on any machine.
 class CostlySampler final : public FakeSampler {
@@ -80,7 +85,7 @@ TEST_F(OverloadTest, ABurstIsAdmittedAsFarAsTheEngineHolds) {
       std::this_thread::sleep_for(std::chrono::seconds(3) / kComing);
     }
   }
-  EXPECT_GE(seen.admitted, 1);
+  EXPECT_GE(seen.admitted, kAdmittedAtLeast);
   EXPECT_LE(seen.admitted, kHolds);
   EXPECT_EQ(seen.admitted + seen.refused, kComing);
   std::cout << kComing << " dances in 3 s for an engine that holds " << kHolds << ": "
@@ -107,7 +112,7 @@ TEST_F(OverloadTest, AdmitsSomeAndTellsTheOthersWhenToRetry) {
       std::this_thread::sleep_for(milliseconds(50));
     }
   }
-  EXPECT_GT(seen.admitted, 0);
+  EXPECT_GE(seen.admitted, kAdmittedAtLeast);
   EXPECT_GT(seen.refused, 0);
   const auto over = Clock::now();
   Seen after;
