@@ -69,8 +69,15 @@ Response ComposeKeys(const StudioContext& context, const Song* music, const Comp
   composition.named = "compose.seconds";
   composition.beats.assign(request.beats().begin(), request.beats().end());
   CheckBeats(composition.beats, "compose.beats");
-  if (music && composition.beats.empty()) composition.beats = music->music.track.Seconds();
-  if (music) composition.passages = music->music.passages;
+  if (music && composition.beats.empty()) {
+    authoring::Counts counts = authoring::CountsOf(music->music);
+    composition.beats = std::move(counts.beats);
+    composition.one = counts.one;
+  }
+  if (music) {
+    composition.passages = music->music.passages;
+    composition.seed ^= music->music.id;  // other songs get other poses
+  }
   Response response;
   response.mutable_keyframes();
   const auto library = authoring::PosesToDance(context.model().skeleton);

@@ -31,23 +31,25 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// The seconds of keys, the first at 0. With beats there is a key every 1, 2, 4, 8 ... beats, the
-/// fewest that leave time to move; the count continues before the first and after the last beat.
+/// The seconds of keys, the first at 0. With beats there is a key on count 1 and every 1, 2, 4, 8
+/// ... beats from it, the fewest that leave time to move; the count continues before the first and
+/// after the last beat.
 std::vector<double> KeyTimes(const CompositionRequest& request) {
-  const auto& [seconds, beats, passages, seed, way, end, named] = request;
+  const auto& [seconds, beats, first, passages, seed, way, end, named] = request;
   double period = kPlainInterval;
   std::vector<double> counts = {0};
   if (beats.size() >= 2) {
     period = (beats.back() - beats.front()) / static_cast<double>(beats.size() - 1);
     counts = beats;
   }
-  while (counts.front() > period) counts.insert(counts.begin(), counts.front() - period);
+  size_t one = beats.size() >= 2 ? first : 0;
+  for (; counts.front() > period; ++one) counts.insert(counts.begin(), counts.front() - period);
   while (counts.back() + period < seconds) counts.push_back(counts.back() + period);
 
   size_t stride = 1;
   while (period * static_cast<double>(stride) < kMinPeriod) stride *= 2;
   std::vector<double> times = {0};
-  for (size_t i = 0; i < counts.size(); i += stride) {
+  for (size_t i = one % stride; i < counts.size(); i += stride) {
     // Drops counts that an unsteady tempo brings too close, and those after the last frame.
     if (counts[i] - times.back() >= kMinKeyInterval && counts[i] <= seconds - 1 / kModelFps)
       times.push_back(counts[i]);

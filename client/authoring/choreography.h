@@ -16,6 +16,7 @@ namespace choreo::authoring {
 struct CompositionRequest {
   double seconds = 0;
   std::vector<double> beats = {};      ///< seconds, ascending; may be empty
+  size_t one = 0;                      ///< index of the beat that is count 1
   std::vector<Passage> passages = {};  ///< repeats in the music
   uint64_t seed = 0;
   /// The seed of the way over the floor, shared so that a formation keeps its shape.
@@ -34,10 +35,10 @@ std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Pas
 /// The id of a dance's key, counted from 1.
 std::string IdOfKey(size_t number, const LibraryPose& pose);
 
-/// Makes keys of library poses on the music's beats: one at second 0, then about one per bar, drawn
-/// by DrawPoses, walking within two metres of the origin and turning gradually. Every two seconds
-/// without beats. Deterministic. Throws Error(kInvalidArgument, named) for a dance of less than two
-/// seconds.
+/// Makes keys of library poses on the music's beats: one at second 0, then about one per bar, on
+/// count 1 and on those that follow it at equal distances, drawn by DrawPoses, walking within two
+/// metres of the origin and turning gradually. Every two seconds without beats. Deterministic.
+/// Throws Error(kInvalidArgument, named) for a dance of less than two seconds.
 std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
                                          std::span<const LibraryPose> poses);
 

@@ -75,8 +75,11 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
       .seconds = seconds, .seed = options.seed.value_or(0), .way = options.way_seed};
   if (!options.seconds) request.named = music ? options.song : "--path";
   if (music) {
-    request.beats = music->track.Seconds();
+    const authoring::Counts counts = CountsOf(options, music);
+    request.beats = counts.beats;
+    request.one = counts.one;
     request.passages = music->passages;
+    request.seed ^= music->id;  // other songs get other poses
   }
   // A deterministic model's dancer hardly moves without a next key.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;

@@ -32,6 +32,19 @@ TEST(ChoreographyTest, PutsKeysOnBeats) {
   }
 }
 
+TEST(ChoreographyTest, PutsKeysOnCountOneAndThoseThatFollowIt) {
+  for (const size_t one : {0, 1, 3, 6}) {
+    const auto beats = EvenBeats(0.3, 0.5, 60);
+    const auto keys =
+        ComposeKeys({.seconds = 24, .beats = beats, .one = one, .seed = 5}, PoseLibrary());
+    ASSERT_GE(keys.size(), 8U);
+    for (size_t i = 1; i < keys.size(); ++i) {
+      const double count = (keys[i].time_s - beats[one]) / 0.5;
+      EXPECT_NEAR(count, 4 * std::round(count / 4), 1e-6) << one;
+    }
+  }
+}
+
 TEST(ChoreographyTest, FollowsAGivenPath) {
   // The library's poses stand elsewhere about the origin; these stand on it.
   std::vector<LibraryPose> poses(PoseLibrary().begin(), PoseLibrary().begin() + 6);
