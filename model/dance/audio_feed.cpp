@@ -34,7 +34,7 @@ AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
       channels_(channels),
       features_(sample_rate, channels, first_sample),
       silence_(SilenceRow()),
-      heard_(first_sample > 0),
+      whole_(first_sample == 0),
       first_row_(features_.first_row()),
       ready_(features_.first_row()),
       first_sound_(first_row_ > 0 ? first_row_ + kRowSoundMemory : 0) {}
@@ -59,8 +59,14 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                           "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
                               " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
   }
-  heard_ = heard_ || std::ranges::any_of(interleaved,
-                                         [](float level) { return std::abs(level) >= kMinLevel; });
+  for (size_t i = 0; i < interleaved.size(); i += channels) {
+    float mixed = 0;
+    for (const float level : interleaved.subspan(i, channels)) {
+      peak_ = std::max(peak_, std::abs(level));
+      mixed += level;
+    }
+    mixed_peak_ = std::max(mixed_peak_, std::abs(mixed) / static_cast<float>(channels));
+  }
   const size_t second = static_cast<size_t>(sample_rate_) * channels;
   while (!interleaved.empty()) {
     const auto next = interleaved.first(std::min(second, interleaved.size()));

@@ -48,7 +48,9 @@ class AudioFeed {
   double seconds() const { return static_cast<double>(features_.next_sample()) / sample_rate_; }
   /// Whether the whole music so far is quieter than kMinLevel; false for one that begins later than
   /// its first sample. Only the pushing side calls it.
-  bool silent() const { return !heard_; }
+  bool silent() const { return whole_ && peak_ < kMinLevel; }
+  /// Whether its channels cancel each other in the mix, of which a hundredth at most is left.
+  bool cancels() const { return whole_ && !silent() && mixed_peak_ <= 0.01F * peak_; }
 
   /// Rows below this one can be read.
   int64_t ready() const;
@@ -71,7 +73,8 @@ class AudioFeed {
   int channels_;
   FeatureStream features_;
   RowValues silence_;
-  bool heard_;  // the music, or before this feed began
+  bool whole_;                       // begins with the music's first sample
+  float peak_ = 0, mixed_peak_ = 0;  // of its channels, and of their mix
 
   mutable std::mutex mutex_;  // of what follows
   int64_t first_row_;

@@ -27,6 +27,7 @@ void DanceStream::FinishAudio() {
     const int64_t end = audio.EndFrame(model_.fps);
     score.timeline.SetAudioEnd(end);
     if (audio.silent()) chain_->Post(MusicSilent(end - 1, audio.seconds()));
+    if (audio.cancels()) chain_->Post(ChannelsCancel(end - 1));
     WarnOfKeysBehind(score.timeline);
   });
   audio.Finish();

@@ -106,6 +106,13 @@ Warning MusicSilent(int64_t last_frame, double seconds) {
           Warning::Code::kMusicSilent};
 }
 
+Warning ChannelsCancel(int64_t last_frame) {
+  return {last_frame,
+          "the channels of the music cancel each other in their mix: the dance follows nothing; "
+          "send one of them, or the file",
+          Warning::Code::kMusicSilent};
+}
+
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds) {
   return {frame,
           "key \"" + id + "\" at frame " + std::to_string(frame) + " lies " + Rounded(seconds) +

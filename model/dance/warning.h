@@ -32,6 +32,7 @@ Warning PathBehindEnd(int64_t first_frame, int64_t end);
 /// `seconds`: what could be read of the music. `notes`: at least one (decode.h).
 Warning MusicDamaged(const std::vector<std::string>& notes, double seconds, double fps);
 Warning MusicSilent(int64_t last_frame, double seconds);
+Warning ChannelsCancel(int64_t last_frame);
 /// `seconds`: between the end of the music and the key.
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds);
 /// `misses`: "left_leg 1.69 instead of 0.70", for at least one part, centimetres a frame.

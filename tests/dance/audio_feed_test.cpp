@@ -4,6 +4,8 @@
 
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "model/audio/mfcc.h"
 #include "model/core/error.h"
@@ -39,6 +41,22 @@ TEST(AudioFeedTest, ForgottenRowsAreGoneAndTheOthersStay) {
   Row values{};
   EXPECT_THROW(feed.CopyRow(kept - 1, values), Error);
   EXPECT_EQ(RowOf(feed, -1), RowOf(whole, -1));  // silence's, before all music
+}
+
+TEST(AudioFeedTest, KnowsSilenceAndChannelsThatCancelEachOther) {
+  const auto stereo = [](float left, float right, int64_t first_sample) {
+    AudioFeed feed(22050, 2, first_sample);
+    std::vector<float> wave;
+    for (const float level : Noise(22050, 5)) wave.insert(wave.end(), {left * level, right * level});
+    feed.Push(wave, first_sample, [] {});
+    return std::pair(feed.silent(), feed.cancels());
+  };
+  EXPECT_EQ(stereo(1, 1, 0), std::pair(false, false));
+  EXPECT_EQ(stereo(1, 0, 0), std::pair(false, false));
+  EXPECT_EQ(stereo(0, 0, 0), std::pair(true, false));
+  EXPECT_EQ(stereo(1, -1, 0), std::pair(false, true));
+  EXPECT_EQ(stereo(1, -0.999F, 0), std::pair(false, true));
+  EXPECT_EQ(stereo(1, -1, 735), std::pair(false, false)) << "what came before is unknown";
 }
 
 TEST(AudioFeedTest, RefusesPartialFramesAndNonFiniteSamples) {
