@@ -14,8 +14,6 @@
 namespace choreo::authoring {
 namespace {
 
-constexpr const char* kNoKeys = "none";
-
 /// The keys that hold the pose of each one, by index, of keys in order of time.
 std::map<size_t, std::vector<size_t>> HoldsOf(const DanceKeys& keys) {
   std::map<std::string, size_t> index_of;  // by place

@@ -9,7 +9,9 @@
 
 namespace choreo::authoring {
 
-/// Whether `--keyframes none` asks for no keys. Throws Error(kInvalidArgument) if others are given,
+/// What `--keyframes` says for a dance without keys.
+inline constexpr const char* kNoKeys = "none";
+/// Whether it asks for no keys. Throws Error(kInvalidArgument) if others are given,
 /// too.
 bool SaysNoKeys(const std::vector<std::string>& sources);
 /// The key files and motions in --keyframes.

@@ -102,7 +102,9 @@ void CheckMarkers(const json& list, const std::string& field) {
 }  // namespace
 
 Project ParseProject(const json& file, const std::string& name) {
-  ListIn(file, name, "keyframes");  // which says what else the file may be
+  const bool has_no_keys = file.is_object() && file.contains("keyframes") &&
+                           file["keyframes"] == nlohmann::json::array();
+  if (!has_no_keys) ListIn(file, name, "keyframes");  // which says what else the file may be
   if (!file.contains("studio"))
     throw InvalidArgument(
         name + ":studio",
@@ -119,6 +121,7 @@ Project ParseProject(const json& file, const std::string& name) {
       "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
       "beats, bar, lively, path, markers, dancers, apart, keyframes and perhaps about");
   Project project;
+  project.has_keys = !has_no_keys;
   project.song = Text(file, name, "song");
   project.style = Text(file, name, "style");
   project.music_dynamics = Share(file, name, "music_dynamics");

@@ -22,6 +22,7 @@ struct Project {
   std::vector<double> beats = {}, downbeats = {};
   std::vector<double> ones = {};  ///< downbeats that begin an eight
   WrittenControls controls = {};  ///< no velocities where all are 1
+  bool has_keys = false;          ///< which ReadDanceKeys reads
   bool has_dancers = false;       ///< several dancers, for ReadDancers (dancers.h)
 };
 

@@ -26,7 +26,7 @@ namespace {
 /// Fills in settings that the command line leaves open from the project.
 void TakeProject(DanceOptions* options) {
   const authoring::Project project = authoring::ReadProject(options->project);
-  options->keys = {options->project};
+  options->keys = {project.has_keys ? options->project : authoring::kNoKeys};
   if (options->song.empty() && !project.song.empty()) {
     if (!std::filesystem::is_regular_file(project.song)) {
       throw Error(

@@ -47,6 +47,17 @@ class ProjectTest : public testing::Test {
   json project_;
 };
 
+TEST_F(ProjectTest, WithoutKeysIsDancedWithoutAny) {
+  project_["keyframes"] = json::array();
+  const Outcome outcome = Dance("--project " + At("p.json"), "a.bvh");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Outcome spelt = Dance(
+      At("song.wav") + " -k none --seed 3 --seconds 4 --style wild" + " --velocity left_arm=1.5",
+      "b.bvh");
+  ASSERT_EQ(spelt.code, 0) << spelt.said;
+  EXPECT_EQ(Bytes("a.bvh"), Bytes("b.bvh"));
+}
+
 TEST_F(ProjectTest, IsDancedWithItsSettings) {
   const Outcome outcome = Dance("--project " + At("p.json"), "a.bvh");
   ASSERT_EQ(outcome.code, 0) << outcome.said;
