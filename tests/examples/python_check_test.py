@@ -11,6 +11,8 @@ import os
 import pathlib
 import queue
 import re
+import subprocess
+import sys
 import threading
 import time
 import typing
@@ -53,6 +55,8 @@ class CheckTest(unittest.TestCase):
             (keyframe(pose=choreography.Vector3()), "keyframe.pose", "a choreo.v1.Vector3 is no Pose, "),
             (keyframe(pose={"rotations": [0, float("nan")]}), "keyframe.pose.rotations[1]", "nan is no finite number$"),
             (keyframe(pose={"rotations": "none"}), "keyframe.pose.rotations", "'none' is no list$"),
+            (keyframe(pose={"rotations": 5}), "keyframe.pose.rotations", "5 is no list$"),
+            (keyframe(pose={"rotations": [[0, 0, 0]]}), "keyframe.pose.rotations[0]", r"\[0, 0, 0\] is no number; rotations is one flat list: give "),
             (keyframe(mask={"joints": ["head"]}), "keyframe.mask.joints[0]", "'head' is no whole number from -2147483648 to 2147483647$"),
             (keyframe(id=5), "keyframe.id", "5 is no str$"),
             (keyframe(frame=3), "keyframe.frame", "given beside time; there is one of frame, time, interval_after_previous$"),
@@ -70,6 +74,33 @@ class CheckTest(unittest.TestCase):
         self.assert_refused("requests: None is no iterable", lambda: list(self.client.stream_dance(None)))
         self.assert_refused("rank_by: 'LIKELIHOOD' is no RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
         self.assert_refused("request: None is no GenerateTransitionRequest", self.client.generate_transition, None)
+
+    def test_lists_of_messages_are_lists_by_whatever_protobuf_there_is(self):
+        program = """
+from google.protobuf.internal import api_implementation
+from choreo_client import choreography
+from choreo_client._check import checked
+
+pose = choreography.Pose(rotations=[1, 2, 3])
+history = choreography.History(poses=[pose])
+mask = choreography.JointMask(joints=[1, 2])
+continuation = choreography.Continuation(root_positions=[1, 2, 3])
+key = {"pose": {"rotations": pose.rotations}, "mask": {"joints": mask.joints}}
+for kind, fields, message in (
+    (choreography.History, {"poses": history.poses}, history),
+    (choreography.Continuation, {"root_positions": continuation.root_positions}, continuation),
+    (choreography.Keyframe, key, choreography.Keyframe(pose=pose, mask=mask)),
+):
+    read = checked(kind, fields, "fields")
+    assert read == message, read
+print(api_implementation.Type())
+"""
+        for implementation in ("cpp", "python"):
+            environment = {**os.environ, "PROTOCOL_BUFFERS_PYTHON_IMPLEMENTATION": implementation, "PYTHONPATH": os.pathsep.join(sys.path)}
+            done = subprocess.run([sys.executable, "-B", "-c", program], env=environment, capture_output=True, text=True, check=False)
+            if "ImportError" in done.stderr:
+                continue  # this protobuf is without that one
+            self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_source_whose_request_is_refused_is_ended(self):
         ended = threading.Event()

@@ -73,10 +73,17 @@ def _is_repeated(field):
 
 
 def _list(field, value, path, encoding):
-    texts = (str, bytes, collections.abc.Mapping)
-    if isinstance(value, texts) or not hasattr(value, "__iter__"):
+    try:
+        # By iter(): the lists of protobuf's C++ have no __iter__.
+        entries = None if isinstance(value, (str, bytes, collections.abc.Mapping)) else iter(value)
+    except TypeError:
+        entries = None
+    if entries is None:
         raise invalid(path, f"{quoted(value)} is no list")
-    return [_single(field, one, f"{path}[{index}]", encoding) for index, one in enumerate(value)]
+    entries = list(entries)
+    if field.message_type is None and entries and isinstance(entries[0], (list, tuple)):
+        raise invalid(f"{path}[0]", f"{quoted(entries[0])} is no number; {field.name} is one flat list: give [number for one in lists for number in one]")
+    return [_single(field, one, f"{path}[{index}]", encoding) for index, one in enumerate(entries)]
 
 
 def _single(field, value, path, encoding):
