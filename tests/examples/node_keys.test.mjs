@@ -45,17 +45,40 @@ test('a key that is set into a hold ends it', () => {
   assert.deepEqual(keys.map(({ keyframe: { time } }) => rounded(time)), [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5]);
 });
 
+test('keys come in order', () => {
+  const order = (keyframes, when) => readKeys({ keyframes }, skeleton).map(({ keyframe }) => keyframe[when]);
+  assert.deepEqual(order([{ time: 3, pose: 'kick', hold: 0.4 }, { time: 1, pose: 'bow' }, { time: 3.3, pose: 'dab' }], 'time'), [1, 3, 3.3]);
+  assert.deepEqual(order([{ frame: 9, pose: 'kick' }, { frame: 3, pose: 'bow' }], 'frame'), [3, 9]);
+});
+
+test('what choreo refuses is refused', () => {
+  for (const { file, said } of JSON.parse(read('tests/examples/refused_keys.json'))) {
+    assert.throws(() => readKeys(JSON.stringify(file), skeleton), ({ name, message }) => {
+      assert.equal(name, 'ChoreoError', said);
+      const plain = (text) => text.replaceAll("'", '"');
+      assert.ok(plain(message).includes(plain(said)), `${message}\n${said}`);
+      return true;
+    });
+  }
+});
+
+test('what is no JSON is refused', () => {
+  for (const text of ['hello', Buffer.from('ff', 'hex'), '{"keyframes": [']) {
+    assert.throws(() => readKeys(text, skeleton), { name: 'ChoreoError', message: /^file: is not JSON: / });
+  }
+});
+
 test('what cannot be read is named', () => {
   for (const [key, field, said] of [
     [{ pose: 'stand' }, '.time', 'is missing, and so is frame'],
     [{ time: 1, frame: 2, pose: 'stand' }, '.time', 'stands beside frame'],
-    [{ time: '9c', pose: 'stand' }, '.time', "'9c' is no number; counts need a song's beats: say seconds"],
+    [{ time: '9c', pose: 'stand' }, '.time', "'9c' is not a number; counts need a song's beats: say seconds"],
     [{ time: 1, pose: 'stnad' }, '.pose', "'stnad' is no pose of the library; "],
     [{ time: 1, poze: 'stand' }, '.poze', 'is not known; did you mean pose?'],
     [{ time: 1 }, '.rotations', 'is missing, and so is pose'],
     [{ time: 1, rotations: [[0, 0, 0]] }, '.rotations', 'is not one vector for each of 24 joints'],
     [{ time: 1, pose: 'stand', place: [1] }, '.place', '[ 1 ] is not a list of 2 numbers'],
-    [{ time: 1, joints: { left_knee: [1, 2, 3] } }, '.joints.left_knee', 'is no number'],
+    [{ time: 1, joints: { left_knee: [1, 2, 3] } }, '.joints.left_knee', 'is not a number'],
     [{ time: 1, joints: { tail: [1, 2, 3] } }, '.joints.tail', "'tail' is no joint of smpl24"],
     [{ time: 1, pose: 'stand', joints: ['tail'] }, '.joints', "'tail' is no joint of smpl24"],
     [{ frame: 1, pose: 'stand', hold: 1 }, '.hold', 'goes with time'],

@@ -56,17 +56,35 @@ class KeysTest(unittest.TestCase):
         times = [request["keyframe"]["time"] for request in read_keys({"keyframes": keys}, self.skeleton)]
         self.assertEqual([round(time, 6) for time in times], [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5])
 
+    def test_keys_come_in_order(self):
+        keys = [{"time": 3, "pose": "kick", "hold": 0.4}, {"time": 1, "pose": "bow"}, {"time": 3.3, "pose": "dab"}]
+        self.assertEqual([one["keyframe"]["time"] for one in read_keys({"keyframes": keys}, self.skeleton)], [1, 3, 3.3])
+        frames = [{"frame": 9, "pose": "kick"}, {"frame": 3, "pose": "bow"}]
+        self.assertEqual([one["keyframe"]["frame"] for one in read_keys({"keyframes": frames}, self.skeleton)], [3, 9])
+
+    def test_what_choreo_refuses_is_refused(self):
+        for refused in json.loads((ROOT / "tests/examples/refused_keys.json").read_text("utf-8")):
+            with self.assertRaises(ChoreoError, msg=refused["said"]) as raised:
+                read_keys(json.dumps(refused["file"]), self.skeleton)
+            said = str(raised.exception).replace("'", '"').replace("None", "null").replace("True", "true")
+            self.assertIn(refused["said"].replace("'", '"'), said)
+
+    def test_what_is_no_json_is_refused(self):
+        for text in ("hello", b"\xff", '{"keyframes": ['):
+            with self.assertRaisesRegex(ChoreoError, "^file: is not JSON: "):
+                read_keys(text, self.skeleton)
+
     def test_what_cannot_be_read_is_named(self):
         for key, field, said in (
             ({"pose": "stand"}, ".time", "is missing, and so is frame"),
             ({"time": 1, "frame": 2, "pose": "stand"}, ".time", "stands beside frame"),
-            ({"time": "9c", "pose": "stand"}, ".time", "'9c' is no number; counts need a song's beats: say seconds"),
+            ({"time": "9c", "pose": "stand"}, ".time", "'9c' is not a number; counts need a song's beats: say seconds"),
             ({"time": 1, "pose": "stnad"}, ".pose", "'stnad' is no pose of the library; did you mean stand?"),
             ({"time": 1, "poze": "stand"}, ".poze", "is not known; did you mean pose?"),
             ({"time": 1}, ".rotations", "is missing, and so is pose"),
             ({"time": 1, "rotations": [[0, 0, 0]]}, ".rotations", "[[0, 0, 0]] is not one vector for each of 24 joints"),
             ({"time": 1, "pose": "stand", "place": [1]}, ".place", "[1] is not a list of 2 numbers"),
-            ({"time": 1, "joints": {"left_knee": [1, 2, 3]}}, ".joints.left_knee", "[1, 2, 3] is no number"),
+            ({"time": 1, "joints": {"left_knee": [1, 2, 3]}}, ".joints.left_knee", "[1, 2, 3] is not a number"),
             ({"time": 1, "joints": {"tail": [1, 2, 3]}}, ".joints.tail", "'tail' is no joint of smpl24"),
             ({"time": 1, "pose": "stand", "joints": ["tail"]}, ".joints", "'tail' is no joint of smpl24"),
             ({"frame": 1, "pose": "stand", "hold": 1}, ".hold", "goes with time"),

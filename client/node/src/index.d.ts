@@ -126,7 +126,7 @@ export interface LibraryPose {
 export function poses(): LibraryPose[];
 
 /**
- * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. Times are
- * seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Throws ChoreoError.
+ * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. They come
+ * in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Throws ChoreoError.
  */
 export function readKeys(file: string | Uint8Array | object, skeleton: Skeleton): { keyframe: Keyframe }[];

@@ -13,14 +13,36 @@ for (const side of ['left', 'right']) {
 const bends = { left_knee: -1, right_knee: -1, left_elbow: 1, right_elbow: 1 }; // towards z
 const [holdStep, wayFromHold] = [0.2, 0.5]; // seconds
 const usualHit = 1; // of a key that is held
+const mostHit = 3;
+const handPoses = ['rest', 'relaxed', 'open', 'fist', 'point'];
+const [mostSeconds, mostFrame] = [1e9, 1e9];
+const folded = 165; // degrees: the largest bend
+// Degrees either way about each axis, by part of the joint's name; the others turn half around. model/motion/joint_angles.cpp has the same.
+const mostTurn = { collar: 60, wrist: 90, ankle: 80, foot: 60, toe: 60, spine: 60, neck: 80, head: 80 };
 
 /** The keys of a key file as requests of streamDance; index.d.ts says more. */
 export function readKeys(file, skeleton) {
-  const keys = (typeof file === 'string' || ArrayBuffer.isView(file) ? JSON.parse(file) : file)?.keyframes;
-  if (!Array.isArray(keys)) throw invalid('keyframes', `${quoted(keys)} is no list of keys`);
+  const keys = (typeof file === 'string' || ArrayBuffer.isView(file) ? parsed(file) : file)?.keyframes;
+  if (!Array.isArray(keys)) throw invalid('file', 'has no list "keyframes"');
+  if (keys.length === 0) throw invalid('keyframes', 'is empty');
   const read = keys.map((key, at) => readKey(key, `keyframes[${at}]`, `key${at + 1}`, skeleton));
+  const ids = new Set();
+  read.forEach(({ key: { id } }, at) => {
+    if (ids.has(id)) throw invalid(`keyframes[${at}].id`, `"${id}" stands for an earlier key already`);
+    ids.add(id);
+  });
   const starts = read.flatMap(({ key }) => key.time ?? []).sort((a, b) => a - b);
-  return read.flatMap(({ key, hold }, at) => [key, ...held(key, hold, starts, `keyframes[${at}].hold`)]).map((keyframe) => ({ keyframe }));
+  const timed = read.flatMap(({ key, hold }, at) => [key, ...held(key, hold, starts, `keyframes[${at}].hold`)]);
+  for (const when of ['time', 'frame']) if (timed.every((key) => when in key)) timed.sort((a, b) => a[when] - b[when]);
+  return timed.map((keyframe) => ({ keyframe }));
+}
+
+function parsed(file) {
+  try {
+    return JSON.parse(typeof file === 'string' ? file : new TextDecoder().decode(file));
+  } catch (error) {
+    throw invalid('file', `is not JSON: ${error.message}`);
+  }
 }
 
 /** A Keyframe, and for how long it is held. */
@@ -32,12 +54,20 @@ function readKey(value, field, name, skeleton) {
   const { id = name, hit, hands, joints, hold } = value;
   const when = ['time', 'frame'].filter((member) => member in value);
   if (when.length !== 1) throw invalid(`${field}.time`, when.length ? 'stands beside frame; only one may be there' : 'is missing, and so is frame');
-  const key = { id, [when[0]]: number(value[when[0]], `${field}.${when[0]}`) };
-  if (hit !== undefined) key.hit = hit;
-  if (hands !== undefined) key.hands = `HAND_POSE_${String(hands).toUpperCase()}`;
+  if (typeof id !== 'string' || id === '') throw invalid(`${field}.id`, `${quoted(id)} is not a name`);
+  const key = { id, [when[0]]: moment(value[when[0]], when[0], `${field}.${when[0]}`) };
+  if (hit !== undefined) {
+    key.hit = number(hit, `${field}.hit`);
+    if (!(hit >= 0 && hit <= mostHit)) throw invalid(`${field}.hit`, `${hit} is not a number from 0 (gently) to ${mostHit} (late and fast)`);
+  }
+  if (hands !== undefined) {
+    if (!handPoses.includes(hands)) throw invalid(`${field}.hands`, `${quoted(hands)} is none of ${handPoses.join(', ')}`);
+    key.hands = `HAND_POSE_${hands.toUpperCase()}`;
+  }
   const { rotations, root } = readPose(value, field, skeleton);
   key.pose = root ? { root_position: { x: root[0], y: root[1], z: root[2] } } : {};
   if (isObject(joints)) {
+    if (Object.keys(joints).length === 0) throw invalid(`${field}.joints`, 'names no joint');
     for (const [joint, degrees] of Object.entries(joints)) {
       const at = `${field}.joints.${joint}`;
       rotations[jointOf(joint, skeleton, at)] = turnOf(joint, degrees, skeleton, at);
@@ -56,9 +86,9 @@ function readPose(value, field, skeleton) {
   const count = skeleton.joint_names.length;
   if ('rotations' in value) {
     if ('pose' in value) throw invalid(`${field}.rotations`, 'stands beside pose; only one may be there');
-    if (value.rotations?.length !== count) throw invalid(`${field}.rotations`, `${quoted(value.rotations)} is not one vector for each of ${count} joints`);
-    const rotations = value.rotations.map((one, at) => vector(one, 3, `${field}.rotations[${at}]`));
-    return { rotations, root: value.root_position && vector(value.root_position, 3, `${field}.root_position`) };
+    if (!Array.isArray(value.rotations) || value.rotations.length !== count) throw invalid(`${field}.rotations`, `${quoted(value.rotations)} is not one vector for each of ${count} joints`);
+    const rotations = value.rotations.map((one, at) => rotationOf(one, `${field}.rotations[${at}]`));
+    return { rotations, root: 'root_position' in value ? vector(value.root_position, 3, `${field}.root_position`) : undefined };
   }
   if ('root_position' in value) throw invalid(`${field}.rotations`, 'is missing beside root_position');
   if (!('pose' in value)) {
@@ -67,7 +97,9 @@ function readPose(value, field, skeleton) {
   }
   if (skeleton.name !== 'smpl24') throw invalid(`${field}.pose`, `poses of the library are of smpl24, not of ${skeleton.name || 'this skeleton'}`);
   const named = find(value.pose, `${field}.pose`);
-  const heading = [0, radians(number(value.facing ?? 0, `${field}.facing`)), 0];
+  const { facing = 0 } = value;
+  if (Math.abs(number(facing, `${field}.facing`)) > 360) throw invalid(`${field}.facing`, `${facing} degrees, must be -360 to 360`);
+  const heading = [0, radians(facing), 0];
   const rotations = named.rotations.map((one, joint) => (joint === 0 ? times(heading, one) : [...one]));
   if (!('place' in value)) return { rotations };
   const [x, z] = vector(value.place, 2, `${field}.place`);
@@ -94,7 +126,23 @@ const ascending = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
 
 function number(value, field) {
   if (Number.isFinite(value)) return value;
-  throw invalid(field, `${quoted(value)} is no number${/c$/.test(value) ? "; counts need a song's beats: say seconds" : ''}`);
+  throw invalid(field, `${quoted(value)} is not a number${/c$/.test(value) ? "; counts need a song's beats: say seconds" : ''}`);
+}
+
+function moment(value, kind, field) {
+  if (kind === 'frame') {
+    if (Number.isInteger(value) && value >= 0 && value <= mostFrame) return value;
+    throw invalid(field, `${quoted(value)} is not a whole number from 0 to ${mostFrame}`);
+  }
+  if (number(value, field) < 0) throw invalid(field, `${value} s is before 0`);
+  if (value > mostSeconds) throw invalid(field, `${value} s is beyond ${mostSeconds} s`);
+  return value;
+}
+
+function rotationOf(value, field) {
+  const angle = Math.hypot(...vector(value, 3, field));
+  if (angle > 2 * Math.PI) throw invalid(field, `${Number(angle.toPrecision(6))} rad exceeds 2π; angles are in radians`);
+  return value;
 }
 
 function vector(value, size, field) {
@@ -113,6 +161,7 @@ function maskOf(names, skeleton, field) {
   if (!Array.isArray(names) || names.length === 0) throw invalid(field, `${quoted(names)} is not a list of joint names`);
   return ascending(
     names.flatMap((name) => {
+      if (typeof name !== 'string') throw invalid(field, `${quoted(name)} is not a joint's name`);
       if (!Object.hasOwn(limbs, name)) return jointOf(name, skeleton, field);
       const limb = new Set(limbs[name].map((root) => jointOf(root, skeleton, field)));
       skeleton.parents.forEach((parent, joint) => limb.has(parent) && limb.add(joint)); // which are there before their children
@@ -123,12 +172,20 @@ function maskOf(names, skeleton, field) {
 
 /** A rotation: of knees and elbows their bend, of others turns about x, then y, then z. */
 function turnOf(joint, degrees, skeleton, field) {
+  const at = 3 * jointOf(joint, skeleton, field);
   if (!Object.hasOwn(bends, joint)) {
-    const [x, y, z] = vector(degrees, 3, field).map(radians);
+    const most = Object.entries(mostTurn).find(([part]) => joint.includes(part))?.[1] ?? 180;
+    const turns = vector(degrees, 3, field);
+    turns.forEach((turn, axis) => requireRange(joint, turn, ` about ${'xyz'[axis]}`, -most, most, field));
+    const [x, y, z] = turns.map(radians);
     return times([0, 0, z], [0, y, 0], [x, 0, 0]);
   }
-  const at = 3 * jointOf(joint, skeleton, field);
+  requireRange(joint, number(degrees, field), '', 0, folded, field);
   const [x, y] = skeleton.offsets.slice(at, at + 2);
-  const bend = (radians(number(degrees, field)) * bends[joint]) / Math.hypot(x, y);
+  const bend = (radians(degrees) * bends[joint]) / Math.hypot(x, y);
   return [bend * y, -bend * x, 0]; // about the bone's cross product with z
+}
+
+function requireRange(joint, degrees, about, low, high, field) {
+  if (!(degrees >= low && degrees <= high)) throw invalid(field, `${joint} is at ${degrees} degrees${about}, must be ${low} to ${high}`);
 }

@@ -17,23 +17,45 @@ _LIMBS |= {f"{side}_{limb}": (f"{side}_{root}",) for side in ("left", "right") f
 _BENDS = {"left_knee": -1, "right_knee": -1, "left_elbow": 1, "right_elbow": 1}  # towards z
 _HOLD_STEP, _WAY_FROM_HOLD = 0.2, 0.5  # seconds
 _USUAL_HIT = 1  # of a key that is held
+_MOST_HIT = 3
+_HANDS = ("rest", "relaxed", "open", "fist", "point")
+_MOST_SECONDS = _MOST_FRAME = 10**9
+_FOLDED = 165  # degrees: the largest bend
+# Degrees either way about each axis, by part of the joint's name; the others turn half around. model/motion/joint_angles.cpp has the same.
+_MOST_TURN = {"collar": 60, "wrist": 90, "ankle": 80, "foot": 60, "toe": 60, "spine": 60, "neck": 80, "head": 80}
 
 
 def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], skeleton: choreography.Skeleton) -> list[dict]:
     """The keys of a key file, its text or what JSON has made of it, as requests of stream_dance: [{"keyframe": ...}, ...]. A key that is held
-    becomes several. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Raises
-    ChoreoError."""
-    content = json.loads(file) if isinstance(file, (str, bytes)) else file
+    becomes several. They come in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats,
+    which `choreo` finds. Poses in numbers are `rotations`. Raises ChoreoError."""
+    content = _parsed(file) if isinstance(file, (str, bytes)) else file
     keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
     if not isinstance(keys, list):
-        raise invalid("keyframes", f"{quoted(keys)} is no list of keys")
+        raise invalid("file", 'has no list "keyframes"')
+    if not keys:
+        raise invalid("keyframes", "is empty")
     read = [_key(key, f"keyframes[{at}]", f"key{at + 1}", skeleton) for at, key in enumerate(keys)]
+    ids = set()
+    for at, (key, _) in enumerate(read):
+        if key["id"] in ids:
+            raise invalid(f"keyframes[{at}].id", f'"{key["id"]}" stands for an earlier key already')
+        ids.add(key["id"])
     starts = sorted(key["time"] for key, _ in read if "time" in key)
-    requests = []
+    timed = []
     for at, (key, hold) in enumerate(read):
-        requests.append({"keyframe": key})
-        requests += [{"keyframe": held} for held in _held(key, hold, starts, f"keyframes[{at}].hold")]
-    return requests
+        timed += [key, *_held(key, hold, starts, f"keyframes[{at}].hold")]
+    for when in ("time", "frame"):
+        if all(when in key for key in timed):
+            timed.sort(key=lambda key, when=when: key[when])
+    return [{"keyframe": key} for key in timed]
+
+
+def _parsed(text):
+    try:
+        return json.loads(text)
+    except ValueError as error:
+        raise invalid("file", f"is not JSON: {error}") from None
 
 
 def _key(value, field, name, skeleton):
@@ -44,27 +66,35 @@ def _key(value, field, name, skeleton):
         if member not in _MEMBERS:
             raise invalid(f"{field}.{member}", f"is not known; {hint(member, list(_MEMBERS))}")
     key = {"id": value.get("id", name), "pose": {}}
+    if not isinstance(key["id"], str) or not key["id"]:
+        raise invalid(f"{field}.id", f"{quoted(key['id'])} is not a name")
     when = [member for member in ("time", "frame") if member in value]
     if len(when) != 1:
         raise invalid(f"{field}.time", "stands beside frame; only one may be there" if when else "is missing, and so is frame")
-    key[when[0]] = _number(value[when[0]], f"{field}.{when[0]}")
+    key[when[0]] = _moment(value[when[0]], when[0], f"{field}.{when[0]}")
     if "hit" in value:
-        key["hit"] = value["hit"]
+        key["hit"] = _number(value["hit"], f"{field}.hit")
+        if not 0 <= key["hit"] <= _MOST_HIT:
+            raise invalid(f"{field}.hit", f"{key['hit']} is not a number from 0 (gently) to {_MOST_HIT} (late and fast)")
     if "hands" in value:
-        key["hands"] = f"HAND_POSE_{str(value['hands']).upper()}"
+        if value["hands"] not in _HANDS:
+            raise invalid(f"{field}.hands", f"{quoted(value['hands'])} is none of {', '.join(_HANDS)}")
+        key["hands"] = f"HAND_POSE_{value['hands'].upper()}"
     rotations, root = _pose(value, field, skeleton)
     if root is not None:
         key["pose"]["root_position"] = dict(zip("xyz", root))
     joints = value.get("joints")
     if isinstance(joints, typing.Mapping):
+        if not joints:
+            raise invalid(f"{field}.joints", "names no joint")
         for joint, degrees in joints.items():
             rotations[_joint(joint, skeleton, f"{field}.joints.{joint}")] = _turn(joint, degrees, skeleton, f"{field}.joints.{joint}")
         if "pose" not in value and "rotations" not in value:
             key["mask"] = {"joints": sorted(_joint(joint, skeleton, field) for joint in joints)}
-    elif joints is not None:
+    elif "joints" in value:
         key["mask"] = {"joints": _mask(joints, skeleton, f"{field}.joints")}
     key["pose"]["rotations"] = [number for rotation in rotations for number in rotation]
-    return key, value.get("hold")
+    return key, _number(value["hold"], f"{field}.hold") if "hold" in value else None
 
 
 def _pose(value, field, skeleton):
@@ -78,8 +108,8 @@ def _pose(value, field, skeleton):
         rotations = value["rotations"]
         if not isinstance(rotations, list) or len(rotations) != len(skeleton.joint_names):
             raise invalid(f"{field}.rotations", f"{quoted(rotations)} is not one vector for each of {len(skeleton.joint_names)} joints")
-        position = value.get("root_position")
-        return [_vector(one, 3, f"{field}.rotations[{at}]") for at, one in enumerate(rotations)], position and _vector(position, 3, f"{field}.root_position")
+        turns = [_rotation(one, f"{field}.rotations[{at}]") for at, one in enumerate(rotations)]
+        return turns, _vector(value["root_position"], 3, f"{field}.root_position") if "root_position" in value else None
     if "root_position" in value:
         raise invalid(f"{field}.rotations", "is missing beside root_position")
     if "pose" not in value:
@@ -89,7 +119,10 @@ def _pose(value, field, skeleton):
     if skeleton.name != "smpl24":
         raise invalid(f"{field}.pose", f"poses of the library are of smpl24, not of {skeleton.name or 'this skeleton'}")
     named = find(value["pose"], f"{field}.pose")
-    heading = [0.0, math.radians(_number(value.get("facing", 0), f"{field}.facing")), 0.0]
+    facing = _number(value.get("facing", 0), f"{field}.facing")
+    if abs(facing) > 360:
+        raise invalid(f"{field}.facing", f"{facing} degrees, must be -360 to 360")
+    heading = [0.0, math.radians(facing), 0.0]
     rotations = [list(one) for one in named.rotations]
     rotations[0] = _log(_times(_quaternion(heading), _quaternion(rotations[0])))
     if "place" not in value:
@@ -103,7 +136,6 @@ def _held(key, hold, starts, field):
     """The keys that hold this one, which from then on says how hard it is hit."""
     if hold is None:
         return
-    hold = _number(hold, field)
     if "time" not in key:
         raise invalid(field, "goes with time")
     if not 0.1 <= hold <= 60:
@@ -122,8 +154,28 @@ def _held(key, hold, starts, field):
 def _number(value, field):
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         counts = "; counts need a song's beats: say seconds" if isinstance(value, str) and value.endswith("c") else ""
-        raise invalid(field, f"{quoted(value)} is no number{counts}")
+        raise invalid(field, f"{quoted(value)} is not a number{counts}")
     return value
+
+
+def _moment(value, kind, field):
+    if kind == "frame":
+        if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= _MOST_FRAME:
+            raise invalid(field, f"{quoted(value)} is not a whole number from 0 to {_MOST_FRAME}")
+        return value
+    seconds = _number(value, field)
+    if seconds < 0:
+        raise invalid(field, f"{seconds} s is before 0")
+    if seconds > _MOST_SECONDS:
+        raise invalid(field, f"{seconds} s is beyond {_MOST_SECONDS} s")
+    return seconds
+
+
+def _rotation(value, field):
+    turn = _vector(value, 3, field)
+    if math.hypot(*turn) > 2 * math.pi:
+        raise invalid(field, f"{math.hypot(*turn):.6g} rad exceeds 2π; angles are in radians")
+    return turn
 
 
 def _vector(value, size, field):
@@ -145,6 +197,8 @@ def _mask(names, skeleton, field):
         raise invalid(field, f"{quoted(names)} is not a list of joint names")
     chosen = set()
     for name in names:
+        if not isinstance(name, str):
+            raise invalid(field, f"{quoted(name)} is not a joint's name")
         roots = {_joint(root, skeleton, field) for root in _LIMBS.get(name, ())}
         limb = set(roots) or {_joint(name, skeleton, field)}
         for joint, parent in enumerate(skeleton.parents):  # which are there before their children
@@ -156,14 +210,24 @@ def _mask(names, skeleton, field):
 
 def _turn(joint, degrees, skeleton, field):
     """A rotation: of knees and elbows their bend, of others turns about x, then y, then z."""
-    if joint not in _BENDS:
-        x, y, z = (_quaternion([math.radians(one) * (at == axis) for at in range(3)]) for axis, one in enumerate(_vector(degrees, 3, field)))
-        return _log(_times(z, _times(y, x)))
     at = _joint(joint, skeleton, field)
+    if joint not in _BENDS:
+        most = next((most for part, most in _MOST_TURN.items() if part in joint), 180)
+        turns = _vector(degrees, 3, field)
+        for axis, turn in zip("xyz", turns):
+            _require_range(joint, turn, f" about {axis}", -most, most, field)
+        x, y, z = (_quaternion([math.radians(one) * (at == axis) for at in range(3)]) for axis, one in enumerate(turns))
+        return _log(_times(z, _times(y, x)))
+    _require_range(joint, _number(degrees, field), "", 0, _FOLDED, field)
     x, y, _ = skeleton.offsets[3 * at : 3 * at + 3]
     length, side = math.hypot(x, y), _BENDS[joint]
-    bend = math.radians(_number(degrees, field))
+    bend = math.radians(degrees)
     return [bend * side * y / length, -bend * side * x / length, 0.0]  # about the bone's cross product with z
+
+
+def _require_range(joint, degrees, about, low, high, field):
+    if not low <= degrees <= high:
+        raise invalid(field, f"{joint} is at {degrees} degrees{about}, must be {low} to {high}")
 
 
 def _quaternion(rotation):

@@ -149,6 +149,14 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
 }
 
 // Reading, copying or printing level by level would run out of stack.
+TEST(KeyFileTest, PackagesRefuseTheSameKeys) {
+  std::ifstream file(std::filesystem::path(SOURCE_FOLDER) / "tests/examples/refused_keys.json");
+  for (const auto& refused : nlohmann::json::parse(file)) {
+    ExpectError(ErrorCode::kInvalidArgument, refused.at("said"),
+                [&] { Parse(refused.at("file").dump()); });
+  }
+}
+
 TEST(KeyFileTest, RefusesWhatIsNestedTooDeeply) {
   const auto nested = [](size_t levels, const std::string& inner) {
     return std::string(levels, '[') + inner + std::string(levels, ']');
