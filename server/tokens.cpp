@@ -144,18 +144,18 @@ std::optional<bool> Tokens::Refresh() {
   if (text_ == text) return std::nullopt;
   Content content = Parse(text);
   text_ = std::move(text);
+  const bool all_good = content.bad_lines.empty();
   // Its writer may have failed, or may not have finished.
-  if (content.holders.empty() && content.bad_lines.empty()) {
-    spdlog::error("{}; the {} tokens known before stay valid", NoTokens().what(), count());
+  if (content.holders.empty()) {
+    const Error error = all_good ? NoTokens() : BadLines(content.bad_lines);
+    spdlog::error("{}; the {} tokens known before stay valid", error.what(), count());
     return false;
   }
-  if (!content.bad_lines.empty()) {
-    spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
-  }
+  if (!all_good) spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
   spdlog::info("{} tokens are known now", content.holders.size());
   Replace(std::move(content.holders));
   warned_ = false;
-  return content.bad_lines.empty();
+  return all_good;
 }
 
 }  // namespace choreo

@@ -19,7 +19,7 @@ namespace choreo {
 /// Who may call: a file of lines "SHA256 NAME", with the hash in 64 hexadecimal digits (as by
 /// sha256sum) of a token that the client sends as "authorization: Bearer TOKEN". Ignores empty
 /// lines and those that begin with #. Tokens themselves are neither stored nor logged. A token
-/// that is no longer in the file gives no access, unless the file holds no token at all: then the
+/// that is no longer in the file gives no access, unless the file holds no valid token: then the
 /// former ones stay valid. A removed file admits nobody. Thread-safe.
 class Tokens {
  public:
@@ -36,8 +36,8 @@ class Tokens {
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
   /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
-  /// is admitted; a file without a token changes nothing. Logs each once. Returns whether a changed
-  /// file has tokens and only good lines; none without a change.
+  /// is admitted; a file without a valid token changes nothing. Logs each once. Returns whether a
+  /// changed file has tokens and only good lines; none without a change.
   std::optional<bool> Refresh();
 
  private:

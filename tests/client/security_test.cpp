@@ -480,7 +480,7 @@ TEST_F(TokensTest, AnEmptiedFileKeepsTheFormerTokens) {
   Tokens tokens(folder_ / "tokens");
   std::string holder;
   const auto knows_alice = [&] { return tokens.FindHolder("Bearer a", &holder).ok(); };
-  for (const char* empty : {"", "\n", "# nobody\n"}) {
+  for (const char* empty : {"", "\n", "# nobody\n", "junk line here\n"}) {
     Write("tokens", empty);
     EXPECT_EQ(tokens.Refresh(), false) << empty;
     EXPECT_EQ(tokens.Refresh(), std::nullopt) << "this was told";
@@ -489,6 +489,7 @@ TEST_F(TokensTest, AnEmptiedFileKeepsTheFormerTokens) {
   EXPECT_THAT(log.text(),
               HasSubstr("[error] --tokens: " + (folder_ / "tokens").string() + " holds no token"));
   EXPECT_THAT(log.text(), HasSubstr("the 1 tokens known before stay valid"));
+  EXPECT_THAT(log.text(), HasSubstr("tokens line 1: not \"SHA256 NAME\""));
   Write("tokens", alice);
   EXPECT_EQ(tokens.Refresh(), true);
   // Removed tokens do not return.
@@ -588,6 +589,9 @@ TEST_F(TokensTest, TlsOptionsNeedTls) {
 TEST_F(TokensTest, FilesThatCannotBeUsedAreNamed) {
   Write("tokens", LineOf("a", "alice") + "0123 bob\n");
   ExpectError(ErrorCode::kInvalidArgument, "tokens line 2",
+              [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
+  Write("tokens", "junk line here\n");
+  ExpectError(ErrorCode::kInvalidArgument, "tokens line 1",
               [&] { Start([&](ServerConfig& config) { config.tokens = folder_ / "tokens"; }); });
   Write("tokens", std::string(2 << 20, '#'));
   ExpectError(ErrorCode::kInvalidArgument, "2097152 bytes, of at most 1048576",
