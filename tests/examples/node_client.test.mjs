@@ -75,11 +75,33 @@ test('TLS: authority, certificate of the client, name of the server', () =>
       const all = { tls: true, caCertificate: ca.cert, clientCertificate: own.cert, clientKey: own.key, serverName: 'choreod' };
       assert.ok((await info(address, all)).models.length > 0);
       const refused = (options, message = /./) => assert.rejects(info(address, options), { code: 'UNAVAILABLE', message });
-      await refused({ ...all, caCertificate: undefined }, /unable to verify|self-signed/);
-      await refused({ ...all, serverName: undefined }, /127\.0\.0\.1 is not|does not match/);
+      await refused({ ...all, caCertificate: undefined }, /certificate is not trusted \(.*(?:unable to verify|self-signed).*\(caCertificate\)$/);
+      await refused({ ...all, serverName: undefined }, /certificate is of .*, not of 127\.0\.0\.1: say of which as serverName$/);
       await refused({ ...all, clientCertificate: undefined, clientKey: undefined });
-      await refused({});
+      await refused({}, /the server there wants TLS: set tls$/);
     });
+  }));
+
+test('what only other options can mend is told at once, in one line', () =>
+  withFolder(async (folder) => {
+    const { ca, issue } = authority(folder);
+    const server = issue('server', 'DNS:choreod');
+    const patient = { retry: 3600 };
+    const trusting = { ...patient, tls: true, caCertificate: ca.cert };
+    const refused = (address, options, what) =>
+      assert.rejects(info(address, options), { code: 'UNAVAILABLE', message: new RegExp(`^${[address].flat().at(-1)}: ${what}$`) });
+    await refused(other, trusting, 'the server there speaks no TLS: leave out tls');
+    await refused('nobody.invalid:50051', patient, 'no host of that name is known \\(addresses\\)');
+    await withServer(['--tls-cert', server.cert, '--tls-key', server.key], async ({ address }) => {
+      await refused(address, patient, 'the server there wants TLS: set tls');
+      await refused(address, { ...patient, tls: true }, "the server's certificate is not trusted \\(.*\\): name the PEM file of its authority \\(caCertificate\\)");
+      const elsewhere = { ...trusting, serverName: 'elsewhere' };
+      const wrongName = "the server's certificate is of choreod, not of elsewhere: say of which as serverName";
+      await refused(address, elsewhere, wrongName);
+      await refused([address, address], elsewhere, wrongName);
+      assert.ok((await info(address, { ...trusting, serverName: 'choreod' })).models.length > 0);
+    });
+    await assert.rejects(info('127.0.0.1:1'), { code: 'UNAVAILABLE', message: '127.0.0.1:1: connect ECONNREFUSED 127.0.0.1:1' });
   }));
 
 test('options that cannot be used are named', () =>

@@ -63,7 +63,7 @@ const ofTheReplica = ['config.model', 'config.continuation.fingerprint', 'config
  * may do better. Anything else fails everywhere.
  */
 export function adviceFor(error) {
-  const here = error.retryAfter !== undefined || error.code === 'UNAVAILABLE';
+  const here = error.retryAfter !== undefined || (error.code === 'UNAVAILABLE' && !error.isOfTheCaller);
   const broken = error.code === 'INTERNAL' || error.code === 'UNKNOWN';
-  return { here, elsewhere: here || broken || ofTheReplica.includes(error.violations[0]?.field), wait: error.retryAfter ?? 0 };
+  return { here, elsewhere: here || broken || error.isOfTheCaller || ofTheReplica.includes(error.violations[0]?.field), wait: error.retryAfter ?? 0 };
 }

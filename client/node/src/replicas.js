@@ -2,6 +2,7 @@
 import { setMaxListeners } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import grpc from '@grpc/grpc-js';
+import { explained } from './connect_faults.js';
 import { adviceFor, cancelled, ChoreoError, unavailable } from './error.js';
 import { channelOptions, checkOptions, credentialsFor, metadataFor } from './options.js';
 import { Choreography } from './protos.js';
@@ -56,10 +57,13 @@ export class Replicas {
         if (signal.aborted) throw cancelled();
         await connected(server, this.options.connectTimeout, deadline, signal);
         if (signal.aborted) throw cancelled();
+        server.wasThere ||= server.stub.getChannel().getConnectivityState(false) === grpc.connectivityState.READY;
         yield* attempt(server, patience, signal);
         return;
-      } catch (error) {
-        if (!(error instanceof ChoreoError) || signal.aborted) throw error;
+      } catch (failure) {
+        if (!(failure instanceof ChoreoError) || signal.aborted) throw failure;
+        // Of one that was there before, names and certificates may come back, too.
+        const error = server.wasThere ? failure : await explained(failure, server.address, this.options);
         const wait = patience.next(error, this.#leave(server));
         if (wait === undefined) throw named(patience.verdict, server);
         await sleep(1000 * wait, undefined, { signal }).catch(() => {

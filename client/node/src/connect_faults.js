@@ -1,0 +1,52 @@
+// Why no connection comes about, in the words of the options: gRPC tells it in OpenSSL's. What only the caller can mend is not tried again.
+import { connect } from 'node:tls';
+import { unavailable } from './error.js';
+
+const probeTime = 1000; // milliseconds for a handshake
+
+/** The part of gRPC's words that says why. */
+function reasonOf(details) {
+  const reason = details.split('Last error: ').pop().replace(/\.? Resolution note: .*$/s, '');
+  return reason.replace(/^Error(?: \[\w+\])?: /, '').replace(/\s+/g, ' ').trim();
+}
+
+/** What is wrong with which option; nothing where a server is only away. */
+function faultOf(reason, { tls, caCertificate }) {
+  if (/^Name resolution failed/.test(reason)) return 'no host of that name is known (addresses)';
+  if (!tls) return undefined;
+  if (/wrong version number|packet length too long|record layer failure/.test(reason)) return 'the server there speaks no TLS: leave out tls';
+  const [, asked, names] = /altnames: (?:Host|IP): (.*?)\.? is not in the cert's (?:altnames: (.*)|list:.*)$/.exec(reason) ?? [];
+  if (asked) return `the server's certificate is of ${names?.replaceAll('DNS:', '') ?? 'other names'}, not of ${asked}: say of which as serverName`;
+  if (/certificate has expired|not yet valid/.test(reason)) return `the server's ${reason.replace(/^the /, '')}`;
+  if (/self-signed|unable to (?:verify|get)|certificate (?:signature|chain)/.test(reason)) {
+    const given = caCertificate ? `${caCertificate} is not that of its authority` : 'name the PEM file of its authority';
+    return `the server's certificate is not trusted (${reason}): ${given} (caCertificate)`;
+  }
+  return undefined;
+}
+
+/** Whether a server speaks TLS at this address. */
+function speaksTls(address) {
+  const at = /^(?:dns:(?:\/\/[^/]*\/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)/.exec(address);
+  if (!at) return Promise.resolve(false);
+  return new Promise((resolve) => {
+    // Nothing is sent, so it does not matter whose certificate it is.
+    const socket = connect({ host: at[1], port: Number(at[2]), ALPNProtocols: ['h2'], rejectUnauthorized: false, timeout: probeTime });
+    const end = (answer) => {
+      socket.destroy();
+      resolve(answer);
+    };
+    socket.once('secureConnect', () => end(true)).once('error', () => end(false)).once('timeout', () => end(false)).once('close', () => resolve(false));
+  });
+}
+
+/** `error`, of a server to which no connection has come about yet, in words that name what to mend. */
+export async function explained(error, address, options) {
+  if (error.code !== 'UNAVAILABLE' || !/No connection established|Name resolution failed/.test(error.message)) return error;
+  const reason = reasonOf(error.message);
+  const wasClosed = /^Failed to connect/.test(reason);
+  const fault = faultOf(reason, options) ?? (wasClosed && !options.tls && (await speaksTls(address)) ? 'the server there wants TLS: set tls' : undefined);
+  if (fault) return Object.assign(unavailable(fault), { isOfTheCaller: true });
+  const closed = options.tls && !options.clientCertificate ? 'the connection was closed; does the server want a clientCertificate?' : 'the connection was closed';
+  return unavailable(wasClosed ? closed : reason);
+}
