@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { before, test } from 'node:test';
-import { ChoreoClient, poses, readKeys } from '../../client/node/src/index.js';
+import { ChoreoClient, libraryPose, poses, readKeys } from '../../client/node/src/index.js';
 
 const read = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 const known = JSON.parse(read('tests/examples/read_keys.json'));
@@ -32,6 +32,19 @@ test('keys of a file are danced', async () => {
   }
   client.close();
   assert.deepEqual(reached, known['poses.json'].map(({ id }) => id));
+});
+
+test('a pose of the library is danced', async () => {
+  for (const { id } of poses()) {
+    const [{ keyframe }] = readKeys({ keyframes: [{ time: 1, pose: id, place: [1, 2], facing: 90 }] }, skeleton);
+    assert.deepEqual(libraryPose(id, skeleton, { place: [1, 2], facing: 90 }), keyframe.pose);
+  }
+  const kick = libraryPose('kick', skeleton);
+  assert.ok(!('root_position' in kick));
+  const another = new ChoreoClient(process.env.CHOREO_SERVER);
+  for await (const answer of another.streamDance([{ config: { frames: 60 } }, { keyframe: { id: 'a', time: 1, pose: kick } }])) assert.ok(answer);
+  another.close();
+  assert.throws(() => libraryPose('kik', skeleton), { message: "libraryPose.pose: 'kik' is no pose of the library; did you mean kick?" });
 });
 
 test('poses have names and tags', () => {

@@ -50,13 +50,14 @@ before(async () => {
 after(() => rm(scratch, { recursive: true }));
 
 const program = `
-import { ChoreoClient, pose, readKeys, type StreamDanceRequest } from 'choreo-client';
+import { ChoreoClient, libraryPose, pose, readKeys, type StreamDanceRequest } from 'choreo-client';
 const client = new ChoreoClient([process.argv[2]!]);
 const model = (await client.info()).models[0]!;
 const requests: StreamDanceRequest[] = [
   { config: { seed: '1', frames: 60 } },
   { keyframe: { id: 'a', frame: 40, pose: pose(model.skeleton, { head: [0, 0.5, 0] }) } },
   ...readKeys({ keyframes: [{ id: 'b', frame: 50, pose: 'dab' }] }, model.skeleton),
+  { keyframe: { id: 'c', frame: 55, pose: libraryPose('dab', model.skeleton) } },
 ];
 let frames: number = 0;
 for await (const answer of client.streamDance(requests)) {
@@ -74,7 +75,7 @@ test('the installed package dances, and its errors name the field', async (t) =>
   await writeFile(join(app, 'dance.js'), plain);
   const { code, said, out } = await run(process.execPath, ['dance.js', process.env.CHOREO_SERVER], app);
   assert.equal(code, 0, said);
-  assert.match(out, /^a\nb\n60\nINVALID_ARGUMENT \w+\n$/);
+  assert.match(out, /^a\nb\nc\n60\nINVALID_ARGUMENT \w+\n$/);
 });
 
 /** What the compiler says of a program, strictly. */

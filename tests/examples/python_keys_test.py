@@ -6,7 +6,7 @@ import os
 import pathlib
 import unittest
 
-from choreo_client import ChoreoError, Client, poses, read_keys
+from choreo_client import ChoreoError, Client, choreography, library_pose, poses, read_keys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KNOWN = json.loads((ROOT / "tests/examples/read_keys.json").read_text())
@@ -55,6 +55,18 @@ class KeysTest(unittest.TestCase):
         keys = [{"time": 1, "pose": "stand", "hold": 2}, {"time": 2.5, "pose": "dab"}]
         times = [request["keyframe"]["time"] for request in read_keys({"keyframes": keys}, self.skeleton)]
         self.assertEqual([round(time, 6) for time in times], [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5])
+
+    def test_a_pose_of_the_library_is_danced(self):
+        for one in poses():
+            (key,) = read_keys({"keyframes": [{"time": 1, "pose": one.id, "place": [1, 2], "facing": 90}]}, self.skeleton)
+            pose = library_pose(one.id, self.skeleton, [1, 2], 90)
+            self.assertEqual(pose, choreography.Pose(**key["keyframe"]["pose"]))
+        kick = library_pose("kick", self.skeleton)
+        self.assertFalse(kick.HasField("root_position"))
+        with Client(os.environ["CHOREO_SERVER"]) as client:
+            list(client.stream_dance([{"config": {"frames": 60}}, {"keyframe": {"id": "a", "time": 1, "pose": kick}}]))
+        with self.assertRaisesRegex(ChoreoError, r"^library_pose\.pose: 'kik' is no pose of the library; did you mean kick\?$"):
+            library_pose("kik", self.skeleton)
 
     def test_keys_come_in_order(self):
         keys = [{"time": 3, "pose": "kick", "hold": 0.4}, {"time": 1, "pose": "bow"}, {"time": 3.3, "pose": "dab"}]

@@ -126,6 +126,12 @@ export interface LibraryPose {
 export function poses(): LibraryPose[];
 
 /**
+ * The library's pose of this name, for a Keyframe: wherever the dancer is, or, with `place`, at [x, z] in metres; turned by `facing` degrees.
+ * `skeleton`: the model's, smpl24. Throws ChoreoError.
+ */
+export function libraryPose(name: string, skeleton: Skeleton, where?: { place?: [number, number]; facing?: number }): Pose;
+
+/**
  * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. They come
  * in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Throws ChoreoError.
  */

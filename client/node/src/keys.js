@@ -45,6 +45,14 @@ function parsed(file) {
   }
 }
 
+/** A pose of the library as a Pose; index.d.ts says more. */
+export function libraryPose(name, skeleton, { place, facing } = {}) {
+  const value = { pose: name, ...(place !== undefined && { place }), ...(facing !== undefined && { facing }) };
+  return poseOf(readPose(value, 'libraryPose', skeleton));
+}
+
+const poseOf = ({ rotations, root }) => ({ ...(root && { root_position: { x: root[0], y: root[1], z: root[2] } }), rotations: rotations.flat() });
+
 /** A Keyframe, and for how long it is held. */
 function readKey(value, field, name, skeleton) {
   if (!isObject(value)) throw invalid(field, `${quoted(value)} is no key`);
@@ -64,8 +72,8 @@ function readKey(value, field, name, skeleton) {
     if (!handPoses.includes(hands)) throw invalid(`${field}.hands`, `${quoted(hands)} is none of ${handPoses.join(', ')}`);
     key.hands = `HAND_POSE_${hands.toUpperCase()}`;
   }
-  const { rotations, root } = readPose(value, field, skeleton);
-  key.pose = root ? { root_position: { x: root[0], y: root[1], z: root[2] } } : {};
+  const read = readPose(value, field, skeleton);
+  const { rotations } = read;
   if (isObject(joints)) {
     if (Object.keys(joints).length === 0) throw invalid(`${field}.joints`, 'names no joint');
     for (const [joint, degrees] of Object.entries(joints)) {
@@ -76,7 +84,7 @@ function readKey(value, field, name, skeleton) {
   } else if (joints !== undefined) {
     key.mask = { joints: maskOf(joints, skeleton, `${field}.joints`) };
   }
-  key.pose.rotations = rotations.flat();
+  key.pose = poseOf(read);
   return { key, hold };
 }
 

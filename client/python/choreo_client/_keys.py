@@ -51,6 +51,15 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
     return [{"keyframe": key} for key in timed]
 
 
+def library_pose(
+    name: str, skeleton: choreography.Skeleton, place: typing.Optional[typing.Sequence[float]] = None, facing: float = 0.0
+) -> choreography.Pose:
+    """The library's pose of this name, for a Keyframe: wherever the dancer is, or at `place`, [x, z] in metres; turned by `facing` degrees.
+    `skeleton`: the model's, smpl24. Raises ChoreoError."""
+    given = {"pose": name, "facing": facing} | ({} if place is None else {"place": list(place)})
+    return choreography.Pose(**_pose_of(*_pose(given, "library_pose", skeleton)))
+
+
 def _parsed(text):
     try:
         return json.loads(text)
@@ -81,8 +90,6 @@ def _key(value, field, name, skeleton):
             raise invalid(f"{field}.hands", f"{quoted(value['hands'])} is none of {', '.join(_HANDS)}")
         key["hands"] = f"HAND_POSE_{value['hands'].upper()}"
     rotations, root = _pose(value, field, skeleton)
-    if root is not None:
-        key["pose"]["root_position"] = dict(zip("xyz", root))
     joints = value.get("joints")
     if isinstance(joints, typing.Mapping):
         if not joints:
@@ -93,8 +100,14 @@ def _key(value, field, name, skeleton):
             key["mask"] = {"joints": sorted(_joint(joint, skeleton, field) for joint in joints)}
     elif "joints" in value:
         key["mask"] = {"joints": _mask(joints, skeleton, f"{field}.joints")}
-    key["pose"]["rotations"] = [number for rotation in rotations for number in rotation]
+    key["pose"] = _pose_of(rotations, root)
     return key, _number(value["hold"], f"{field}.hold") if "hold" in value else None
+
+
+def _pose_of(rotations, root):
+    """The fields of a Pose."""
+    placed = {} if root is None else {"root_position": dict(zip("xyz", root))}
+    return {**placed, "rotations": [number for rotation in rotations for number in rotation]}
 
 
 def _pose(value, field, skeleton):
