@@ -144,6 +144,15 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(raised.exception.code, code, str(raised.exception))
         return raised.exception
 
+    def test_a_pause_says_its_generate_until_again(self):
+        def paused():
+            yield {"config": {"frames": 60, "generate_until": 30}}
+            for frame in (30, 30, 30, 60):
+                yield {"generate_until": {"frame": frame}}
+
+        with Client(os.environ["CHOREO_SERVER"]) as client:
+            self.assertEqual(sum(answer.frames.count for answer in client.stream_dance(paused())), 60)
+
     def test_a_token_is_sent_and_read_again_and_a_wrong_one_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             tokens, mine = pathlib.Path(folder, "tokens"), pathlib.Path(folder, "mine")
