@@ -37,7 +37,9 @@ test('a request that the API does not know is refused by its path', () =>
       [keyframe({ pose: { root_position: [0, 1, 0] } }), 'keyframe.pose.root_position', '[ 0, 1, 0 ] is no Vector3, {x, y, z}'],
       [keyframe({ pose: Promise.resolve({}) }), 'keyframe.pose', /is no Pose/],
       [keyframe({ pose: { rotations: [0, NaN] } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
-      [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is no finite number'],
+      [keyframe({ pose: { rotations: [[0, 0, 0]] } }), 'keyframe.pose.rotations[0]', '[ 0, 0, 0 ] is no number; rotations is one flat list: give lists.flat()'],
+      [keyframe({ pose: { rotations: new DataView(new ArrayBuffer(8)) } }), 'keyframe.pose.rotations', /is no array$/],
+      [keyframe({ pose: { rotations: new Float32Array([0, NaN]) } }), 'keyframe.pose.rotations[1]', 'NaN is no finite number'],
       [keyframe({ pose: { rotations: 'none' } }), 'keyframe.pose.rotations', "'none' is no array"],
       [keyframe({ mask: { joints: ['head'] } }), 'keyframe.mask.joints[0]', "'head' is no whole number from -2147483648 to 2147483647"],
       [keyframe({ id: 5 }), 'keyframe.id', '5 is no string'],
@@ -117,6 +119,18 @@ test('options of calls that cannot be used are named before the call', () =>
 test('whole numbers come as numbers, text and bigints', () =>
   withClient(async (client) => {
     for (const seed of [7, '7', 7n]) assert.equal((await collect(client.streamDance([{ config: { seed, frames: 30 } }])))[0].header.seed, '7');
+  }));
+
+test('lists of numbers may be typed arrays', () =>
+  withClient(async (client) => {
+    const { skeleton: body } = (await client.info()).models[0];
+    const plain = pose(body, { left_shoulder: [0, 0, 0.5] });
+    const dance = async (given, joints) => {
+      const key = { keyframe: { id: 'a', time: 1, pose: given, mask: { joints } } };
+      return (await collect(client.streamDance([{ config: { seed: 1, frames: 60 } }, key]))).flatMap((answer) => answer.frames?.rotations ?? []);
+    };
+    const typed = await dance({ ...plain, rotations: new Float32Array(plain.rotations) }, new Uint8Array([1, 2]));
+    assert.deepEqual(typed, await dance(plain, [1, 2]));
   }));
 
 test('a source whose request is refused is ended', () =>

@@ -57,7 +57,7 @@ const requests: StreamDanceRequest[] = [
   { config: { seed: '1', frames: 60 } },
   { keyframe: { id: 'a', frame: 40, pose: pose(model.skeleton, { head: [0, 0.5, 0] }) } },
   ...readKeys({ keyframes: [{ id: 'b', frame: 50, pose: 'dab' }] }, model.skeleton),
-  { keyframe: { id: 'c', frame: 55, pose: libraryPose('dab', model.skeleton) } },
+  { keyframe: { id: 'c', frame: 55, pose: { rotations: new Float32Array(libraryPose('dab', model.skeleton).rotations) } } },
 ];
 let frames: number = 0;
 for await (const answer of client.streamDance(requests)) {

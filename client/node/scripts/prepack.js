@@ -37,6 +37,7 @@ for (const name of readdirSync(messages)) {
   });
   const wider = declared
     .replaceAll('(number | string | Long)', '(number | bigint | string | Long)')
+    .replace("'rotations'?: (number | string)[]", "'rotations'?: (number | string)[] | Float32Array | Float64Array")
     .replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
   writeFileSync(join(messages, name), wider.replace(/^\/\/ Original file: .*\n\n/, ''));
 }

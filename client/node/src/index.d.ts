@@ -109,7 +109,7 @@ export function pose(
   skeleton: Pick<Skeleton, 'pelvis_height' | 'joint_names'>,
   rotations?: Record<string, [number, number, number]>,
   place?: { x?: number; z?: number },
-): Pose;
+): Pose & { rotations: number[] };
 
 /** A pose that has a name, of smpl24. */
 export interface LibraryPose {
@@ -129,7 +129,7 @@ export function poses(): LibraryPose[];
  * The library's pose of this name, for a Keyframe: wherever the dancer is, or, with `place`, at [x, z] in metres; turned by `facing` degrees.
  * `skeleton`: the model's, smpl24. Throws ChoreoError.
  */
-export function libraryPose(name: string, skeleton: Skeleton, where?: { place?: [number, number]; facing?: number }): Pose;
+export function libraryPose(name: string, skeleton: Skeleton, where?: { place?: [number, number]; facing?: number }): Pose & { rotations: number[] };
 
 /**
  * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. They come
