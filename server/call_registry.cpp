@@ -103,11 +103,13 @@ void CallRegistry::EndIdle() {
       idle.push_back(
           {call, progress.unread,
            Error(ErrorCode::kDeadlineExceeded, "",
-                 progress.unread ? "an answer was not taken within " + Seconds(limit) +
-                                       ", the server's limits.unread_s (--unread-seconds): read "
-                                       "faster, or go on from the last continuation"
-                                 : "nothing came from the client and nothing went there for " +
-                                       Seconds(limit))});
+                 progress.unread
+                     ? "an answer was not taken within " + Seconds(limit) +
+                           ", the server's limits.unread_s (--unread-seconds): read "
+                           "faster, or go on from the last continuation"
+                     : "nothing came from the client and nothing went there for " + Seconds(limit) +
+                           ", the server's limits.idle_s (--idle-seconds): a player "
+                           "that pauses sends its generate_until again meanwhile")});
     }
   }
   for (const Idle& one : idle) {
