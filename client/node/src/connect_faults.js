@@ -1,4 +1,5 @@
 // Why no connection comes about, in the words of the options: gRPC tells it in OpenSSL's. What only the caller can mend is not tried again.
+import { lookup } from 'node:dns/promises';
 import { connect } from 'node:tls';
 import { unavailable } from './error.js';
 
@@ -12,31 +13,37 @@ function reasonOf(details) {
 
 /** What is wrong with which option; nothing where a server is only away. */
 function faultOf(reason, { tls, caCertificate }) {
-  if (/^Name resolution failed/.test(reason)) return 'no host of that name is known (addresses)';
   if (!tls) return undefined;
   if (/wrong version number|packet length too long|record layer failure/.test(reason)) return 'the server there speaks no TLS: leave out tls';
   const [, asked, names] = /altnames: (?:Host|IP): (.*?)\.? is not in the cert's (?:altnames: (.*)|list:.*)$/.exec(reason) ?? [];
   if (asked) return `the server's certificate is of ${names?.replaceAll('DNS:', '') ?? 'other names'}, not of ${asked}: say of which as serverName`;
   if (/certificate has expired|not yet valid/.test(reason)) return `the server's ${reason.replace(/^the /, '')}`;
-  if (/self-signed|unable to (?:verify|get)|certificate (?:signature|chain)/.test(reason)) {
+  if (/self.signed|unable to (?:verify|get)|certificate (?:signature|chain)/.test(reason)) {
     const given = caCertificate ? `${caCertificate} is not that of its authority` : 'name the PEM file of its authority';
     return `the server's certificate is not trusted (${reason}): ${given} (caCertificate)`;
   }
   return undefined;
 }
 
-/** Whether a server speaks TLS at this address. */
-function speaksTls(address) {
-  const at = /^(?:dns:(?:\/\/[^/]*\/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)/.exec(address);
-  if (!at) return Promise.resolve(false);
+/** Host and port of an address. */
+function partsOf(address) {
+  const [, host, port] = /^(?:dns:(?:\/\/[^/]*\/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)/.exec(address) ?? [];
+  return { host, port: Number(port) };
+}
+
+/** Whether nobody knows its host; false where nobody could be asked. */
+const isUnknown = ({ host }) => lookup(host).then(() => false, ({ code }) => code === 'ENOTFOUND');
+
+/** Whether a server speaks TLS there. */
+function speaksTls(at) {
   return new Promise((resolve) => {
     // Nothing is sent, so it does not matter whose certificate it is.
-    const socket = connect({ host: at[1], port: Number(at[2]), ALPNProtocols: ['h2'], rejectUnauthorized: false, timeout: probeTime });
+    const socket = connect({ ...at, ALPNProtocols: ['h2'], rejectUnauthorized: false, timeout: probeTime });
     const end = (answer) => {
       socket.destroy();
       resolve(answer);
     };
-    socket.once('secureConnect', () => end(true)).once('error', () => end(false)).once('timeout', () => end(false)).once('close', () => resolve(false));
+    socket.once('secureConnect', () => end(true)).on('error', () => end(false)).once('timeout', () => end(false));
   });
 }
 
@@ -45,7 +52,10 @@ export async function explained(error, address, options) {
   if (error.code !== 'UNAVAILABLE' || !/No connection established|Name resolution failed/.test(error.message)) return error;
   const reason = reasonOf(error.message);
   const wasClosed = /^Failed to connect/.test(reason);
-  const fault = faultOf(reason, options) ?? (wasClosed && !options.tls && (await speaksTls(address)) ? 'the server there wants TLS: set tls' : undefined);
+  const at = partsOf(address);
+  let fault = faultOf(reason, options);
+  if (at.host && /^Name resolution failed/.test(reason) && (await isUnknown(at))) fault = 'no host of that name is known (addresses)';
+  if (at.host && wasClosed && !options.tls && (await speaksTls(at))) fault = 'the server there wants TLS: set tls';
   if (fault) return Object.assign(unavailable(fault), { isOfTheCaller: true });
   const closed = options.tls && !options.clientCertificate ? 'the connection was closed; does the server want a clientCertificate?' : 'the connection was closed';
   return unavailable(wasClosed ? closed : reason);
