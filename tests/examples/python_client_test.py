@@ -6,10 +6,12 @@ import hashlib
 import os
 import pathlib
 import re
+import socket
 import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 from choreo_client import ChoreoError, Client, choreography, pose
 from music import PCM, RATE, clicks, live
@@ -181,8 +183,28 @@ class ClientTest(unittest.TestCase):
                 both = options | {"client_certificate": own, "client_key": own_key}
                 self.assertTrue(info(server.address, **both).models)
                 for wrong in (options, both | {"ca_certificate": None}, both | {"server_name": None}):
-                    self.assert_refused("UNAVAILABLE", f"^{server.address}: .*(?<!which is off)$", info, server.address, **wrong)
-                self.assert_refused("UNAVAILABLE", f"^{server.address}: .*; it may want TLS, which is off$", info, server.address)
+                    self.assert_refused("UNAVAILABLE", f"^{server.address}: ", info, server.address, **wrong)
+                self.assert_refused("UNAVAILABLE", f"^{server.address}: the server there wants TLS: set tls$", info, server.address)
+
+    def test_what_only_other_options_can_mend_is_told_at_once_in_one_line(self):
+        def refused(address, said, **options):
+            self.assert_refused("UNAVAILABLE", f"^[^ ]*: {said}$", info, address, **{"retry_s": 3600, **options})
+
+        with tempfile.TemporaryDirectory() as folder:
+            authority = Authority(folder)
+            certificate, key = authority.issue("server", "DNS:choreod")
+            trusting = {"tls": True, "ca_certificate": authority.certificate}
+            refused(OTHER, "the server there speaks no TLS: leave out tls", **trusting)
+            with Server("--tls-cert", certificate, "--tls-key", key) as server:
+                refused(server.address, "the server there wants TLS: set tls")
+                untrusted = r"the server's certificate is not trusted \(.*\): name the PEM file of its authority \(ca_certificate\)"
+                refused(server.address, untrusted, tls=True)
+                wrong_name = "the server's certificate is of other names, not of elsewhere: say of which as server_name"
+                for addresses in (server.address, [server.address, server.address]):
+                    refused(addresses, wrong_name, server_name="elsewhere", **trusting)
+                self.assertTrue(info(server.address, server_name="choreod", **trusting).models)
+        with unittest.mock.patch("socket.getaddrinfo", side_effect=socket.gaierror(socket.EAI_NONAME, "not known")):
+            refused("nobody.invalid:50051", r"no host of that name is known \(addresses\)")
 
     def test_options_that_cannot_be_used_are_named(self):
         with tempfile.TemporaryDirectory() as folder:

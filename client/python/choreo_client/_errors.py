@@ -30,6 +30,7 @@ class ChoreoError(Exception):
         self.code = code
         self.violations = list(violations)
         self.retry_after = retry_after
+        self.is_of_the_caller = False  # options do not fit the server
 
     @classmethod
     def of(cls, failure, find=lambda violation: None):
@@ -81,9 +82,9 @@ Advice = collections.namedtuple("Advice", "here elsewhere wait_s")
 
 def advice_for(error):
     """How a call that failed may be tried again: `here`, at the same server; `elsewhere`, at another one; after `wait_s` at least. A server
-    that is away or full may be asked again. One that broke, is of another fingerprint or lacks the model would fail again, but another one
-    may do better. Anything else fails everywhere."""
-    here = error.retry_after is not None or error.code == "UNAVAILABLE"
+    that is away or full may be asked again. One that broke, that options do not fit, is of another fingerprint or lacks the model would fail
+    again, but another one may do better. Anything else fails everywhere."""
+    here = error.retry_after is not None or (error.code == "UNAVAILABLE" and not error.is_of_the_caller)
     broken = error.code in ("INTERNAL", "UNKNOWN")
     of_the_replica = bool(error.violations) and error.violations[0].field in _OF_THE_REPLICA
-    return Advice(here, here or broken or of_the_replica, error.retry_after or 0)
+    return Advice(here, here or broken or of_the_replica or error.is_of_the_caller, error.retry_after or 0)

@@ -1,5 +1,6 @@
 """The servers that may be asked, one at a time, and how long to go on asking."""
 
+import contextlib
 import math
 import numbers
 import random
@@ -9,6 +10,7 @@ import time
 import grpc
 
 from . import choreography
+from ._connect_faults import explained
 from ._errors import ChoreoError, advice_for, invalid
 from ._words import quoted
 
@@ -20,7 +22,7 @@ class Server:
 
     def __init__(self, address, options, credentials):
         self.address = address
-        self.tls = credentials is not None
+        self.was_there = False
         arguments = options.channel_options()
         if credentials is None:
             self.channel = grpc.insecure_channel(address, arguments)
@@ -62,7 +64,10 @@ class Replicas:
             server = self._servers[self._current]
             try:
                 until.check()
-                yield from attempt(server, patience)
+                with contextlib.closing(attempt(server, patience)) as answers:
+                    for answer in answers:
+                        server.was_there = True
+                        yield answer
                 return
             except grpc.RpcError as failure:
                 error = ChoreoError.of(failure)
@@ -75,6 +80,8 @@ class Replicas:
                 raise ChoreoError("CANCELLED", "the client is closed")
             if until.cancelled:
                 raise error
+            if not server.was_there:  # of one that was, names and certificates may come back, too
+                error = explained(error, server.address, self.options)
             wait = patience.next(error, self._leave(server))
             if wait is None:
                 raise _named(patience.verdict, server)
@@ -89,10 +96,9 @@ class Replicas:
 
 
 def _named(error, server):
-    """Whoever is away is named, and who may have wanted TLS: so it ends where nothing else is understood."""
+    """Whoever is away is named."""
     if error.code == "UNAVAILABLE":
-        wants_tls = not server.tls and str(error).endswith(": Socket closed")
-        error.args = (f"{server.address}: {error}" + ("; it may want TLS, which is off" if wants_tls else ""),)
+        error.args = (f"{server.address}: {error}",)
     return error
 
 

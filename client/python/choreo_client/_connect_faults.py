@@ -1,0 +1,63 @@
+"""Why no connection comes about, in the words of the options: gRPC tells it in OpenSSL's, or not at all. What only the caller can mend is not
+tried again."""
+
+import re
+import socket
+import ssl
+
+from ._errors import ChoreoError
+
+_PROBE_S = 1  # for a connection and its handshake
+_HOSTNAME_MISMATCH, _IP_ADDRESS_MISMATCH, _EXPIRED = 62, 64, 10  # OpenSSL's X509_V_ERR_...
+_AT = re.compile(r"(?:dns:(?://[^/]*/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)")
+
+
+def explained(error, address, options):
+    """`error`, of a server to which no connection has come about yet, in words that name what to mend."""
+    at = _AT.match(address)
+    fault = _fault(at[1], int(at[2]), options) if at and error.code == "UNAVAILABLE" else None
+    if fault is None:
+        return error
+    known = ChoreoError("UNAVAILABLE", fault)
+    known.is_of_the_caller = True
+    return known
+
+
+def _fault(host, port, options):
+    """What is wrong with which option; None where a server is only away."""
+    try:
+        _shake_hands(host, port, options)
+    except socket.gaierror as failure:
+        return "no host of that name is known (addresses)" if failure.errno == socket.EAI_NONAME else None
+    except ssl.SSLCertVerificationError as failure:
+        return _fault_of_certificate(failure, options.server_name or host, options.ca_certificate)
+    except ssl.SSLError as failure:
+        speaks_none = options.tls and failure.reason in ("WRONG_VERSION_NUMBER", "PACKET_LENGTH_TOO_LONG", "RECORD_LAYER_FAILURE")
+        return "the server there speaks no TLS: leave out tls" if speaks_none else None
+    except OSError:
+        return None
+    return None if options.tls else "the server there wants TLS: set tls"
+
+
+def _fault_of_certificate(failure, name, authority):
+    if failure.verify_code in (_HOSTNAME_MISMATCH, _IP_ADDRESS_MISMATCH):
+        return f"the server's certificate is of other names, not of {name}: say of which as server_name"
+    if failure.verify_code == _EXPIRED:
+        return "the server's certificate has expired"
+    given = f"{authority} is not that of its authority" if authority else "name the PEM file of its authority"
+    return f"the server's certificate is not trusted ({failure.verify_message}): {given} (ca_certificate)"
+
+
+def _shake_hands(host, port, options):
+    """Raises what is wrong, for a server with TLS that `options` should fit."""
+    context = ssl.create_default_context(cafile=options.ca_certificate)
+    context.set_alpn_protocols(["h2"])
+    context.verify_flags &= ~ssl.VERIFY_X509_STRICT  # which gRPC does not ask for
+    if not options.tls:  # nothing is sent, so it does not matter whose certificate it is
+        context.check_hostname = False
+        context.verify_mode = ssl.CERT_NONE
+    if options.client_certificate:
+        context.load_cert_chain(options.client_certificate, options.client_key)
+    with socket.create_connection((host, port), _PROBE_S) as connection:
+        with context.wrap_socket(connection, server_hostname=options.server_name or host):
+            pass
