@@ -89,16 +89,19 @@ ControlRequest WrittenControls::Read(const client::ModelDescription& model,
 
 void WrittenControls::RequireBegun(const ControlRequest& controls,
                                    const DanceLength& length) const {
-  if (const auto& asked = controls.root_path; asked && asked->frames.front() >= length.frames) {
+  const bool has_path = !path.empty() || !project_path.is_null();
+  if (const auto& asked = controls.root_path;
+      has_path && asked && asked->frames.front() >= length.frames) {
     throw InvalidArgument(
         PathName() + ":points[0]",
         "the path's first point " + DescribeAfterEnd(asked->frames.front(), length));
   }
   const auto& asked = controls.velocity_factors;
   if (!asked || asked->frames.empty() || asked->frames.front() < length.frames) return;
-  const std::string& file = *std::ranges::find_if(velocities, IsVelocityFile);
+  const auto file = std::ranges::find_if(velocities, IsVelocityFile);
+  if (file == velocities.end()) return;
   throw InvalidArgument(
-      file + (asked->speeds.empty() ? ":factors[0]" : ":speeds[0]"),
+      *file + (asked->speeds.empty() ? ":factors[0]" : ":speeds[0]"),
       "the velocities' first point " + DescribeAfterEnd(asked->frames.front(), length));
 }
 

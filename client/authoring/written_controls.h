@@ -39,7 +39,7 @@ struct WrittenControls {
   ControlRequest Read(const client::ModelDescription& model,
                       const client::ServerDescription& server, const Counts& counts = {}) const;
   /// Throws Error(kInvalidArgument) naming the first point of a path or of a velocity file that
-  /// begins after the end of a dance, which it is not meant for.
+  /// begins after the end of a dance, which it is not meant for; of those given here alone.
   void RequireBegun(const ControlRequest& controls, const DanceLength& length) const;
   /// How errors call the path.
   const std::string& PathName() const { return path.empty() ? project_path_name : path; }

@@ -1,8 +1,10 @@
 #include "client/cli/asked.h"
 
+#include <cmath>
 #include <iostream>
 
 #include "client/authoring/json_fields.h"
+#include "client/cli/asked_controls.h"
 #include "model/core/error.h"
 
 namespace choreo::cli {
@@ -68,11 +70,15 @@ struct MemberReader {
 
 }  // namespace
 
-void Asked::WriteTo(ordered_json* report) const { VisitMembers(*report, *this, MemberWriter()); }
+void Asked::WriteTo(ordered_json* report) const {
+  VisitMembers(*report, *this, MemberWriter());
+  WriteControls(controls, report);
+}
 
 Asked Asked::ReadFrom(const ordered_json& report, const std::string& name) {
   Asked asked;
   VisitMembers(report, asked, MemberReader{name});
+  asked.controls = ReadControls(report, name);
   return asked;
 }
 
@@ -98,8 +104,9 @@ bool Asked::TakeSong(const std::filesystem::path& report, bool says_start,
   return takes;
 }
 
-Asked Asked::From(double seconds) const {
+Asked Asked::From(double seconds, double fps) const {
   Asked later = *this;
+  later.controls = Delayed(controls, -std::llround(seconds * fps));
   if (!song.empty()) later.song_start_s += seconds;
   for (std::vector<double>* times : {&later.beats, &later.downbeats}) {
     for (double& time : *times) time -= seconds;

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "model/motion/control_request.h"
+
 namespace choreo::cli {
 
 /// The value of --song that means no music, not even the report's.
 inline constexpr const char* kNoSong = "none";
 
-/// A dance's request beside its keys and controls. Its report states it for later edits.
+/// A dance's request beside its keys. Its report states it for later edits.
 struct Asked {
   std::string model = {};
   std::optional<uint64_t> seed = {};
@@ -22,6 +24,7 @@ struct Asked {
   double song_start_s = 0;
   /// Seconds of the dance, unless they are those found in the song.
   std::vector<double> beats = {}, downbeats = {};
+  ControlRequest controls = {};
 
   /// Adds it to a report.
   void WriteTo(nlohmann::ordered_json* report) const;
@@ -36,8 +39,8 @@ struct Asked {
   bool TakeSong(const std::filesystem::path& report, bool says_start, const std::string& without,
                 std::string* to, double* start_s) const;
 
-  /// What was asked for the dance from this second on.
-  Asked From(double seconds) const;
+  /// What was asked for the dance from this second on, of a model at `fps`.
+  Asked From(double seconds, double fps) const;
 };
 
 }  // namespace choreo::cli

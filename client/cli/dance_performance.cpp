@@ -148,7 +148,8 @@ Asked AskedFor(const DanceOptions& options, const client::Header& header,
               .temperature = options.temperature,
               .music_dynamics = options.music_dynamics,
               .variation = options.variation,
-              .style = options.style};
+              .style = options.style,
+              .controls = config.controls};
   if (options.song.empty() || options.song == "-") return asked;
   asked.song = options.song;
   asked.song_start_s = options.song_start_s;

@@ -1,5 +1,6 @@
 #include "client/cli/edit_options.h"
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
+#include "model/motion/controls.h"
 #include "model/motion/resample.h"
 
 namespace choreo::cli {
@@ -73,6 +75,23 @@ void CheckSketch(const std::string& path, const nlohmann::ordered_json& report, 
                "tells\n";
 }
 
+/// Fills in the controls of the report that the command line does not give, and this model has.
+void TakeControls(const ControlRequest& known, const client::ModelDescription& model,
+                  ControlRequest* controls) {
+  const auto take = [&](size_t row, const auto& from, auto* to) {
+    if (!from || *to) return;
+    const std::string name(kControls[row].name);
+    if (std::ranges::find(model.controls, name) != model.controls.end()) {
+      *to = from;
+    } else {
+      std::cerr << "note: the model \"" << model.name << "\" does not have the control " << name
+                << ", which the report states\n";
+    }
+  };
+  take(kRootPath, known.root_path, &controls->root_path);
+  take(kVelocityFactors, known.velocity_factors, &controls->velocity_factors);
+}
+
 DanceChange ChangeOf(const EditOptions& options) {
   const bool other = !options.style.empty() || !options.controls.velocities.empty() ||
                      options.temperature || options.music_dynamics || options.variation;
@@ -115,6 +134,9 @@ void TakeReport(bool says_start, EditOptions* options) {
        number(asked.music_dynamics));
   take("variation", asked.variation, &options->variation, number(asked.variation));
   take("style", asked.style, &options->style, asked.style);
+  if (asked.controls.root_path && options->controls.path.empty()) taken.push_back("the path");
+  if (asked.controls.velocity_factors && options->controls.velocities.empty())
+    taken.push_back("the velocity");
   if (!taken.empty()) {
     std::cerr << "note: as " << options->report << " says: " << Joined(taken, std::identity())
               << '\n';
@@ -141,6 +163,7 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
     edit.music_id = music->id;
   }
   edit.controls = options.controls.Read(edit.model, connection.server(), counts);
+  TakeControls(options.asked.controls, edit.model, &edit.controls);
   NoteDeterministic(edit.model, {{"--seed", options.seed != options.asked.seed},
                                  {"--temperature", edit.temperature.value_or(0) != 0}});
   return {std::move(edit), counts};

@@ -33,12 +33,15 @@ void EditSession::DanceOtherwise() {
   asked.temperature = edit_.temperature;
   asked.music_dynamics = edit_.music_dynamics;
   asked.variation = edit_.variation;
+  if (!options_.controls.path.empty()) asked.controls.root_path = edit_.controls.root_path;
+  if (!options_.controls.velocities.empty())
+    asked.controls.velocity_factors = edit_.controls.velocity_factors;
 }
 
 void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   client::Gap gap{.from = from, .to = to, .keys = KeysAsDanced(from + 1, to)};
-  if (const auto& path = edit_.controls.root_path) {
-    // The path says where they are.
+  if (const auto& path = edit_.controls.root_path; path && !options_.controls.path.empty()) {
+    // The new path says where they are.
     for (client::KeyPose& key : gap.keys)
       if (*key.frame >= path->frames.front() && *key.frame <= path->frames.back())
         key.mask.root_position = false;
@@ -49,6 +52,7 @@ void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   }
   const ReportKeys before(keys_.upper_bound(from), keys_.lower_bound(to));
   DropWarnings(from, to);
+  FollowPath(from, to);
   Take(client::DanceAnew(client_, dance_, edit_, gap), what);
   for (const auto& [frame, key] : before) CopyMarks(key, &keys_.at(frame));
 }

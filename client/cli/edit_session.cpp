@@ -38,6 +38,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
     known_ = ReadKnown(options.report, frames_, edit_.model.fps, dance_.motion);
   const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
   std::tie(edit_, counts_) = HowToDance(options, connection, Seconds(end));
+  path_ = edit_.controls.root_path;
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
   CheckKeys();
 }
@@ -189,6 +190,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   set_.insert(first);
   DropWarnings(edit.from, edit.to);
   WarnOfFaults(edit);
+  FollowPath(edit.from, edit.to);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
   MarkHit(edit.key.hit, &keys_[*edit.key.frame]);
   MarkHands(edit.key.hands, &keys_[*edit.key.frame]);
@@ -207,6 +209,7 @@ void EditSession::Free(const std::vector<int64_t>& frames, const std::string& wh
     gap.to_hit = HitOf(keys_.at(gap.to));
   }
   DropWarnings(gap.from, gap.to);
+  FollowPath(gap.from, gap.to);
   Take(client::DanceAnew(client_, dance_, edit_, gap), what);
 }
 
@@ -242,6 +245,7 @@ void EditSession::CloseLoop() {
   }
   DropWarnings(from, frames_);
   frames_ += added;
+  FollowPath(frames_, frames_);  // the way back leaves it
   Take(client::CloseLoop(client_, dance_, edit_, from, added), "loop");
 }
 
@@ -331,6 +335,14 @@ void EditSession::DropWarnings(int64_t from, int64_t to) {
 
 void EditSession::Keep(const std::vector<client::Warning>& warnings) {
   known_.warnings.insert(known_.warnings.end(), warnings.begin(), warnings.end());
+}
+
+void EditSession::FollowPath(int64_t from, int64_t to) {
+  if (!options_.controls.path.empty()) return;
+  // The server warns of a path without effect.
+  const bool leads =
+      path_ && from < to && path_->frames.front() < to && path_->frames.back() > from;
+  edit_.controls.root_path = leads ? path_ : std::nullopt;
 }
 
 void EditSession::Take(client::EditedDance edited, const std::string& what) {

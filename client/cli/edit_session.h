@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -113,11 +114,14 @@ class EditSession {
   void DropWarnings(int64_t from, int64_t to);
   void Keep(const std::vector<client::Warning>& warnings);
   void Take(client::EditedDance edited, const std::string& what);
+  /// Follows the report's path in an edit between two frames, if it leads there.
+  void FollowPath(int64_t from, int64_t to);
 
   const EditOptions& options_;
   const client::Client& client_;
   client::EditOptions edit_;
-  authoring::Counts counts_;  // of the song
+  std::optional<ControlRequest::RootPath> path_;  // of the whole dance
+  authoring::Counts counts_;                      // of the song
   int64_t longest_ = 0;
   client::FinishedDance dance_;
   int64_t frames_ = 0;  // at the model's rate

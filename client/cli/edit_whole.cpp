@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "client/arrange.h"
+#include "client/cli/asked_controls.h"
 #include "client/cli/dance_file.h"
 #include "client/cli/report.h"
 #include "model/core/limits.h"
@@ -66,7 +67,7 @@ class Whole {
     const int64_t by = std::llround(start_s * fps_);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first < by; });
     Shift(-by);
-    known_.asked = known_.asked.From(start_s);
+    known_.asked = known_.asked.From(start_s, fps_);
     std::erase_if(known_.keys, [&](const auto& key) { return key.first >= Frames(); });
     std::erase_if(known_.warnings, [&](const client::Warning& warning) {
       return warning.frame < 0 || warning.frame >= Frames();
@@ -75,6 +76,7 @@ class Whole {
 
   void Mirror() {
     dance_ = client::Mirrored(skeleton_, dance_);
+    known_.asked.controls = cli::Mirrored(std::move(known_.asked.controls));
     static const std::regex kSide("left_|right_");
     for (client::Warning& warning : known_.warnings) {
       std::string message;
@@ -163,7 +165,9 @@ class Whole {
                                          Rounded(kMinKeyDistance / model.fps) + " to " +
                                          Rounded(static_cast<double>(most) / model.fps) + " s");
     }
-    const auto [how, counts] = HowToDance(options_, connection, Duration(dance_.motion) + gap_s);
+    auto [how, counts] = HowToDance(options_, connection, Duration(dance_.motion) + gap_s);
+    // The way leads to the other dance, not along the path of this one.
+    if (options_.controls.path.empty()) how.controls.root_path.reset();
     const auto before = std::ssize(dance_.motion.frames) + std::ssize(next.motion.frames);
     client::EditedDance joined;
     try {

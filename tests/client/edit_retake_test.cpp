@@ -132,4 +132,50 @@ TEST_F(RetakeTest, KeysMoveOntoAnotherPath) {
   EXPECT_EQ(ReadJson(folder_ / "led.json")["style"], "wild") << "for the next edit";
 }
 
+TEST_F(RetakeTest, NewFramesFollowThePathAndTheVelocityOfTheReport) {
+  const TestServer server(std::make_unique<ControlledSampler>());
+  const std::string there = " --server " + server.address() + " ";
+  std::ofstream(folder_ / "path.json")
+      << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 8, "x": 4, "z": 2}]})";
+  ASSERT_EQ(
+      Choreo("dance " + At("song.wav") + there + "--path " + At("path.json") +
+             " --velocity arms=2 -k none -o " + At("dance.npz") + " --report " + At("report.json"))
+          .code,
+      0);
+  const auto edit = [&](const std::string& dance, const std::string& arguments) {
+    const auto keep = [&](const std::string& name, const std::string& as) {
+      std::filesystem::copy_file(folder_ / name, folder_ / as,
+                                 std::filesystem::copy_options::overwrite_existing);
+    };
+    keep(dance + ".npz", "before.npz");
+    keep((dance == "dance" ? "report" : dance) + ".json", "before.json");
+    const Outcome outcome =
+        Choreo("edit " + At("before.npz") + there + arguments + " --report " + At("before.json") +
+               " -o " + At("new.npz") + " --new-report " + At("new.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_THAT(outcome.said, HasSubstr("the path, the velocity"));
+    EXPECT_THAT(outcome.said, Not(HasSubstr("root path")));
+  };
+  const auto expect_followed = [&](size_t frame, double x, double z) {
+    const Pose pose = Read("new.npz").frames[frame];
+    EXPECT_NEAR(pose.root_position.x(), x, 0.1);
+    EXPECT_NEAR(pose.root_position.z(), z, 0.1);
+    const Skeleton& body = Skeleton::Smpl24();
+    EXPECT_NEAR(pose.rotations(0, body.Find(kTellingJoints[1])), 0.04, 1e-5);
+  };
+  edit("dance", "--retake 2 6");
+  expect_followed(120, 2, 1);
+  edit("new", "--seed 9");
+  expect_followed(120, 2, 1);
+  EXPECT_EQ(ReadJson(folder_ / "new.json")["path"], ReadJson(folder_ / "report.json")["path"]);
+  edit("dance", "--retake 8.5 9.5");  // where the path has ended
+  // A cut dance has what is left of the path.
+  ASSERT_EQ(Choreo("edit " + At("dance.npz") + " --from 4 --mirror --report " + At("report.json") +
+                   " -o " + At("part.npz") + " --new-report " + At("part.json"))
+                .code,
+            0);
+  edit("part", "--retake 1 3");
+  expect_followed(60, -3, 1.5);
+}
+
 }  // namespace choreo::edit_retake_test
