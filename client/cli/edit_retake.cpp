@@ -21,6 +21,7 @@ void EditSession::Retake(double from_s, double until_s) {
                                           " frames between these two are danced anew");
   }
   DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
+  known_.asked.seed = edit_.seed;  // the next take's is the one after it
 }
 
 void EditSession::DanceOtherwise() {

@@ -43,6 +43,11 @@ TEST_F(RetakeTest, AnotherTakeKeepsItsKeysAndWhatIsAround) {
   EXPECT_EQ(ReadFile(folder_ / "same.npz"), ReadFile(folder_ / "take.npz"));
   ASSERT_EQ(Edit(stretch + " --seed 5" + Report("other")).code, 0);
   EXPECT_NE(ReadFile(folder_ / "other.npz"), ReadFile(folder_ / "take.npz"));
+  const Outcome next = Choreo("edit " + At("take.npz") + Server() + stretch + " --report " +
+                              At("take.json") + " -o " + At("next.npz"));
+  ASSERT_EQ(next.code, 0) << next.said;
+  EXPECT_THAT(next.said, HasSubstr("note: takes are danced with seed 5; another"));
+  EXPECT_NE(ReadFile(folder_ / "next.npz"), ReadFile(folder_ / "take.npz"));
 }
 
 TEST_F(RetakeTest, ATakeMayReachTheEndAndKeepsHolds) {
