@@ -8,17 +8,26 @@
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
+namespace {
+
+constexpr double kLeastTake = 0.5;  // seconds in which people change pose and come back
+
+}  // namespace
 
 void EditSession::Retake(double from_s, double until_s) {
   const int64_t first = FrameInDance("--retake", from_s);
   const int64_t from = first == 0 ? -1 : first;  // nothing is before the beginning
-  const int64_t until = Frame(until_s);
+  const int64_t until = FrameInDance("--retake", until_s);
   const int64_t to = until < frames_ - 1 ? until : frames_;
   if (to - from <= kMinKeyDistance) {
     throw InvalidArgument("--retake", Rounded(from_s) + " s to " + Rounded(until_s) +
                                           " s leaves no room in the dance: at least " +
                                           std::to_string(kMinKeyDistance) +
                                           " frames between these two are danced anew");
+  }
+  if (until - first < Frame(kLeastTake)) {
+    std::cerr << "note: " << Rounded(Seconds(until - first)) << " s are danced anew: in less than "
+              << kLeastTake << " s nothing much can change\n";
   }
   DanceAnew("take of " + Rounded(Seconds(first)) + " to " + Rounded(Seconds(to)) + " s", from, to);
   known_.asked.seed = edit_.seed;  // the next take's is the one after it

@@ -77,6 +77,10 @@ TEST_F(RetakeTest, RefusesWhatIsNoStretch) {
   };
   refused("3 2", "--retake: 2 is not after 3");
   refused("3 3.05", "--retake: 3 s to 3.05 s leaves no room in the dance");
+  refused("1 40", "--retake: 40 s is after the dance");
+  const Outcome brief = Edit("--retake 3 3.3" + Report("take"));
+  EXPECT_EQ(brief.code, 0) << brief.said;
+  EXPECT_THAT(brief.said, HasSubstr("in less than 0.5 s nothing much can change"));
   refused("30 40", "--retake: 30 s is after the dance");
 }
 
