@@ -26,6 +26,10 @@ void HoldUntil(int64_t last, int64_t before, client::KeyEdit* edit) {
 
 }  // namespace
 
+void HoldUntil(int64_t last, client::KeyEdit* edit) {
+  HoldUntil(last, LastFrame(*edit) - *edit->key.frame, edit);
+}
+
 void EditSession::Repeat(double from_s, double until_s, const std::string& later) {
   const authoring::WrittenTime delay = authoring::ParseTime(later, "--repeat");
   const auto moved = [&](double seconds) { return delay.After(seconds, counts_, "--repeat"); };

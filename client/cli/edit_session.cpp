@@ -24,6 +24,8 @@ namespace choreo::cli {
 namespace {
 
 constexpr double kAround = 2;  // seconds; default reach of an edit
+/// Seconds in which a dancer can get from a held pose back into the dance and be seen to.
+constexpr double kLeastAfterHold = 1;
 
 }  // namespace
 
@@ -69,9 +71,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     held.pose = pose;
     held.hands = edit.key.hands;
   }
-  const std::vector<client::Warning> ended = EndHold(*edit.key.frame, edit.key.id);
-  MakeWay(*edit.key.frame, LastFrame(edit), edit.key.id);
-  if (!edit.held.empty()) CheckRoom("--at", at_s, *edit.key.frame, *edit.held.back().frame);
+  const std::vector<client::Warning> ended = MakeRoom(&edit);
   Set("--at", at_s, std::move(edit));
   Keep(ended);
 }
@@ -106,31 +106,48 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
   }
   edit.key.hit = options_.hit ? options_.hit : HitOf(keys_.at(frames.front()));
   for (const int64_t frame : frames) keys_.erase(frame);
-  const std::vector<client::Warning> ended = EndHold(frames.front() + by, edit.key.id);
-  MakeWay(frames.front() + by, frames.back() + by, edit.key.id);
-  CheckRoom("--move", to_s, frames.front() + by, frames.back() + by);
+  const std::vector<client::Warning> ended = MakeRoom(&edit);
   // The frames danced anew around the new place may not include the old one.
   const auto is_new = [&](int64_t frame) {
-    return frame > Before(frames.front() + by) && frame < After(frames.back() + by);
+    return frame > Before(frames.front() + by) && frame < After(LastFrame(edit));
   };
   if (!std::ranges::all_of(frames, is_new)) Free(frames, edit.key.id + " leaves its place");
   Set("--move", to_s, std::move(edit));
   Keep(ended);
 }
 
-void EditSession::CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const {
-  if (last >= frames_) {
-    throw InvalidArgument(field, InFull(at_s) + " s: its pose would be held up to " +
-                                     Rounded(Seconds(last)) +
-                                     " s, and the dance has its last frame at " +
-                                     Rounded(Seconds(frames_ - 1)) + " s");
+std::vector<client::Warning> EditSession::MakeRoom(client::KeyEdit* edit) {
+  const int64_t first = *edit->key.frame;
+  std::vector<client::Warning> warnings = EndHold(first, edit->key.id);
+  MakeWay(first, first, edit->key.id);
+  const std::vector<client::Warning> fitted = FitHold(edit);
+  warnings.insert(warnings.end(), fitted.begin(), fitted.end());
+  MakeWay(first, LastFrame(*edit), edit->key.id);
+  return warnings;
+}
+
+std::vector<client::Warning> EditSession::FitHold(client::KeyEdit* edit) {
+  if (edit->held.empty()) return {};
+  const int64_t first = *edit->key.frame;
+  const int64_t was = LastFrame(*edit);
+  const auto next = keys_.upper_bound(first);
+  if (next == keys_.end()) {
+    if (frames_ - was >= Frame(kLeastAfterHold)) return {};
+    HoldUntil(frames_ - 1, edit);
+    if (std::abs(frames_ - 1 - was) > 1) {
+      std::cerr << "note: key \"" << edit->key.id << "\" is held to the end, "
+                << Rounded(Seconds(frames_ - 1)) << " s, not " << Rounded(Seconds(was)) << " s\n";
+    }
+    return {};
   }
-  const auto other = keys_.upper_bound(first);
-  if (other != keys_.end() && other->first <= last) {
-    throw InvalidArgument(field, InFull(at_s) + " s: its pose would be held over the key \"" +
-                                     IdAt(other->first) + "\" at " +
-                                     Rounded(Seconds(other->first)) + " s");
-  }
+  if (next->first > was) return {};
+  HoldUntil(next->first - Frame(authoring::kWayFromHold), edit);
+  const client::Warning warning{
+      .frame = next->first,
+      .message = authoring::DescribeHoldEnd(edit->key.id, LastFrame(*edit), was, IdAt(next->first),
+                                            next->first, edit_.model.fps)};
+  ShowWarnings({warning});
+  return {warning};
 }
 
 std::vector<client::Warning> EditSession::EndHold(int64_t frame, const std::string& id) {
@@ -156,8 +173,7 @@ void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
   const int64_t near = Frame(authoring::kTooNear);
   auto key = keys_.upper_bound(std::max<int64_t>(0, first - near));
   while (key != keys_.end() && key->first < last + near) {
-    const bool between = key->first > first && key->first <= last;  // CheckRoom refuses that
-    if (key->first == first || between || set_.contains(key->first)) {
+    if (key->first == first || set_.contains(key->first)) {
       ++key;
       continue;
     }
@@ -276,7 +292,7 @@ int64_t EditSession::FrameInDance(const char* field, double at_s) const {
   // The very end means the last frame, as it does for keys of a new dance (dance_keys.h).
   const int64_t frame = Frame(at_s) == frames_ ? frames_ - 1 : Frame(at_s);
   if (frame < frames_) return frame;
-  throw InvalidArgument(field, InFull(at_s) +
+  throw InvalidArgument(field, Rounded(at_s) +
                                    " s is after the dance, which has its last frame at " +
                                    Rounded(Seconds(frames_ - 1)) + " s");
 }
@@ -289,7 +305,7 @@ void EditSession::CheckDistance(const char* field, double at_s, int64_t other,
                                 const std::string& what) const {
   const int64_t distance = std::abs(Frame(at_s) - other);
   if (distance >= kMinKeyDistance) return;
-  throw InvalidArgument(field, InFull(at_s) + " s lies " + std::to_string(distance) +
+  throw InvalidArgument(field, Rounded(at_s) + " s lies " + std::to_string(distance) +
                                    " frame from " + what + " at " + Rounded(Seconds(other)) +
                                    " s, must be at least " + std::to_string(kMinKeyDistance) +
                                    " frames from it");

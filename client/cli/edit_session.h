@@ -21,6 +21,9 @@ inline int64_t LastFrame(const client::KeyEdit& edit) {
   return edit.held.empty() ? *edit.key.frame : *edit.held.back().frame;
 }
 
+/// Holds a key until a frame, by keys about as close together as those that hold it now.
+void HoldUntil(int64_t last, client::KeyEdit* edit);
+
 /// A dance and edits of its keys, one after another. The options and the connection must outlive
 /// it.
 class EditSession {
@@ -71,8 +74,12 @@ class EditSession {
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Sets the keys of a phrase at their present places; the dance has no others there.
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
-  /// Throws if a pose held from one frame to another meets the next key, or the end.
-  void CheckRoom(const char* field, double at_s, int64_t first, int64_t last) const;
+  /// Makes room for a new key and what holds it: EndHold, MakeWay, FitHold. Returns the warnings,
+  /// for after the edit.
+  std::vector<client::Warning> MakeRoom(client::KeyEdit* edit);
+  /// Ends a new key's hold before the next key, and says so; lets it last to the end of the dance
+  /// if it would end shortly before or after that.
+  std::vector<client::Warning> FitHold(client::KeyEdit* edit);
   /// Ends the hold of another key if a new key at this frame falls into it, and says so; a replaced
   /// key is held no more. Returns the warning, if any, for after the edit.
   std::vector<client::Warning> EndHold(int64_t frame, const std::string& id);

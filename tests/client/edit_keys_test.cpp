@@ -351,7 +351,7 @@ TEST_F(EditTest, KeysSayWhatHandsDo) {
   EXPECT_EQ(hands("report.json"), "open - fist fist fist ");
   const std::string to =
       " --report " + At("report.json") + " --new-report " + At("new.json") + " -o " + At("new.npz");
-  ASSERT_EQ(Edit("--move c 4.5 --key kick --at 2" + to).code, 0);
+  ASSERT_EQ(Edit("--move c 4 --key kick --at 2" + to).code, 0);
   EXPECT_EQ(hands("new.json"), "open - - fist fist fist ");
   ASSERT_EQ(Edit("--move b 2.5 --hands point" + to).code, 0);
   EXPECT_EQ(hands("new.json"), "open point fist fist fist ");
@@ -449,9 +449,38 @@ TEST_F(EditTest, LoopKeepsAHeldEnd) {
   EXPECT_EQ(edited["keyframes"][1]["frame"], 75);
   EXPECT_EQ(edited["keyframes"][3]["holds"], "b");
   EXPECT_EQ(edited["keyframes"][3]["frame"], 87);
-  outcome = Edit("--move b 4.8 -o " + At("no.npz") + reports);
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("held over the key \"end\" at 5 s"));
+  outcome = Edit("--move b 4.8 -o " + At("new.npz") + reports);
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("\"b\" is held up to 4.8 s, not 5.2 s: the key \"end\""));
+}
+
+TEST_F(EditTest, AHoldEndsBeforeTheNextKeyAndLastsToTheEnd) {
+  std::ofstream(folder_ / "keys.json")
+      << R"({"keyframes": [{"id": "a", "time": 1, "pose": "stand", "place": [0, 0]},
+                           {"id": "b", "time": 4, "pose": "kick", "place": [0, 0]}]})";
+  Outcome outcome = Choreo("dance -k " + At("keys.json") + " --seconds 8" + Server() + "-o " +
+                           At("dance.npz") + " --report " + At("report.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const auto held_to = [&](const std::string& arguments) {
+    outcome = Edit(arguments + " -o " + At("new.npz") + " --report " + At("report.json") +
+                   " --new-report " + At("new.json"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    int64_t last = 0;
+    const nlohmann::json read = ReadJson(folder_ / "new.json");
+    for (const auto& key : read["keyframes"])
+      if (key.value("holds", "") == "bow") last = std::max(last, key["frame"].get<int64_t>());
+    return last;
+  };
+  EXPECT_EQ(held_to("--key bow --at 2 --hold 3"), 105);
+  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 120: key \"bow\" is held up to 3.5 s, not 5 "
+                                      "s: the key \"b\" comes at 4 s"));
+  EXPECT_EQ(held_to("--key bow --at 5 --hold 1"), 180);
+  for (const char* hold : {"1.8", "2", "2.5"}) {
+    EXPECT_EQ(held_to(std::string("--key bow --at 6 --hold ") + hold), 239);
+    const Motion motion = Read("new.npz");
+    EXPECT_LE(ComparePoses(Body(), motion.frames[239], motion.frames[180]).angle_deg, 1);
+  }
+  EXPECT_THAT(outcome.said, HasSubstr("note: key \"bow\" is held to the end, 7.97 s, not 8.5 s"));
 }
 
 }  // namespace choreo::edit_keys_test
