@@ -124,7 +124,7 @@ Response FormCompany(const StudioContext& context, const Company& request) {
         (frames != std::ssize(dances.front().motion.frames) || fps != dances.front().motion.fps))
       throw InvalidArgument("company.dances", "are not equally long");
     const std::string field = name + ":dancers[" + std::to_string(i) + "].after";
-    const int64_t later = authoring::FramesLater(stage.dancers[i], beats, fps, frames, field);
+    const int64_t later = authoring::FramesLater(stage.dancers[i].after, beats, fps, frames, field);
     dances.push_back(authoring::OnStage(skeleton, stage.dancers[i], std::move(dance), later));
   }
   const authoring::Formed formed =

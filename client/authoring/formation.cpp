@@ -54,11 +54,11 @@ std::vector<Eigen::Vector3d> MovesOf(const std::vector<Eigen::Vector3d>& places,
   return moved;
 }
 
-int64_t FramesLater(const Dancer& dancer, std::span<const double> beats, double fps, int64_t frames,
-                    const std::string& field) {
-  if (!dancer.after) return 0;
+int64_t FramesLater(const std::optional<WrittenTime>& after, std::span<const double> beats,
+                    double fps, int64_t frames, const std::string& field) {
+  if (!after) return 0;
   const double from = beats.empty() ? 0 : beats.front();
-  const double seconds = dancer.after->After(from, {{beats.begin(), beats.end()}}, field) - from;
+  const double seconds = after->After(from, {{beats.begin(), beats.end()}}, field) - from;
   const int64_t later = std::llround(seconds * fps);
   if (later < frames) return later;
   throw InvalidArgument(field,

@@ -32,11 +32,11 @@ double WidenFormation(const std::vector<MovingBody>& bodies,
 /// The move of each body when places spread by `factor` about their middle.
 std::vector<Eigen::Vector3d> MovesOf(const std::vector<Eigen::Vector3d>& places, double factor);
 
-/// The delay in frames of a dancer in a dance of `frames`. Counts are those of the beats (seconds)
-/// at the music's beginning. Throws Error(kInvalidArgument, field) for counts without beats, and
-/// for a delay beyond the dance's end.
-int64_t FramesLater(const Dancer& dancer, std::span<const double> beats, double fps, int64_t frames,
-                    const std::string& field);
+/// The delay in frames of a dancer (Dancer::after) in a dance of `frames`. Counts are those of the
+/// beats (seconds) at the music's beginning. Throws Error(kInvalidArgument, field) for counts
+/// without beats, and for a delay beyond the dance's end.
+int64_t FramesLater(const std::optional<WrittenTime>& after, std::span<const double> beats,
+                    double fps, int64_t frames, const std::string& field);
 
 /// A dance as performed by one of its dancers: mirrored, delayed by this many frames, turned and
 /// moved to that dancer's place.

@@ -9,6 +9,7 @@
 #include "client/authoring/choreography.h"
 #include "client/authoring/dance_keys.h"
 #include "client/authoring/ending.h"
+#include "client/authoring/formation.h"
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_faults.h"
 #include "client/authoring/key_file.h"
@@ -104,7 +105,10 @@ void AddEnding(const DanceOptions& options, const std::optional<authoring::Music
     authoring::RefuseBends({{pose.key}, {options.end}}, model.skeleton);
   std::vector<double> beats = options.project_beats;
   if (beats.empty() && music) beats = music->track.Seconds();
-  const std::vector<std::string> gone = authoring::EndIn(pose, beats, controls, length, keys);
+  authoring::DanceLength seen = length;
+  seen.frames -=
+      authoring::FramesLater(options.after, beats, length.fps, length.frames, options.after_name);
+  const std::vector<std::string> gone = authoring::EndIn(pose, beats, controls, seen, keys);
   if (options.keys.empty()) return;  // nobody set those
   for (const std::string& id : gone)
     std::cerr << "note: key \"" << id << "\" makes way for the ending\n";

@@ -22,6 +22,9 @@ struct DanceOptions {
   authoring::BeatOptions beats;
   std::vector<std::string> keys;
   std::string end;  ///< the pose to end in, as ReadPose takes it; or empty
+  /// A dancer who begins later ends as much earlier in her own time, which is cut off there.
+  std::optional<authoring::WrittenTime> after;
+  std::string after_name;  ///< the field of errors about it
   std::string project;
   /// Seconds of the dance; `project_ones` begin an eight.
   std::vector<double> project_beats, project_downbeats, project_ones;

@@ -1,16 +1,19 @@
 #include "client/cli/stage_dance.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <utility>
 
 #include "client/authoring/formation.h"
+#include "client/cli/asked_controls.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/gltf.h"
 #include "model/formats/motion_file.h"
+#include "model/motion/rotation.h"
 
 namespace choreo::cli {
 namespace {
@@ -28,6 +31,7 @@ bool HoldsAll(const fs::path& out) { return SmallExtension(out) == ".glb"; }
 DanceOptions OwnOptions(const DanceOptions& options, const authoring::Dancer& dancer,
                         const std::string& field) {
   DanceOptions own = options;
+  if (!options.end.empty()) own.after = dancer.after, own.after_name = field + ".after";
   own.way_seed = options.seed.value_or(0);
   if (dancer.seed) own.seed = dancer.seed;
   if (!dancer.keyframes.empty()) own.keys = dancer.keyframes;
@@ -36,7 +40,11 @@ DanceOptions OwnOptions(const DanceOptions& options, const authoring::Dancer& da
 }
 
 bool SameDance(const DanceOptions& a, const DanceOptions& b) {
-  return a.seed == b.seed && a.style == b.style && a.keys == b.keys;
+  const auto after = [](const DanceOptions& options) {
+    const auto time = options.after.value_or(authoring::WrittenTime());
+    return std::pair(time.amount, time.counts);
+  };
+  return a.seed == b.seed && a.style == b.style && a.keys == b.keys && after(a) == after(b);
 }
 
 /// A dance and its dancers.
@@ -81,6 +89,18 @@ WrittenDance Later(WrittenDance written, int64_t delay) {
   std::erase_if(written.keys, [&](const WrittenKey& key) { return is_over(key.reached.frame); });
   std::erase_if(written.warnings, [&](const client::Warning& w) { return is_over(w.frame); });
   return written;
+}
+
+/// A dance's path and velocities where this dancer has it; `apart`: how far she was moved away.
+ControlRequest OnStage(ControlRequest controls, const authoring::Dancer& dancer, int64_t delay,
+                       const Eigen::Vector3d& apart) {
+  if (dancer.mirrored) controls = Mirrored(std::move(controls));
+  controls = Delayed(std::move(controls), delay);
+  if (!controls.root_path) return controls;
+  const Eigen::Rotation2Dd turn(-dancer.facing / kDegrees);  // x, z
+  for (Eigen::Vector2d& point : controls.root_path->points)
+    point = turn * point + dancer.place + Eigen::Vector2d(apart.x(), apart.z());
+  return controls;
 }
 
 /// Moves dancers apart if they would come too near, and prints how near they are.
@@ -130,7 +150,7 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
   for (size_t i = 0; i < stage.dancers.size(); ++i) {
     const Performance& performance = shared[dance_of[i]].performance;
     const std::string field = options.dancers + ":dancers[" + std::to_string(i) + "].after";
-    delays.push_back(authoring::FramesLater(stage.dancers[i], performance.beats,
+    delays.push_back(authoring::FramesLater(stage.dancers[i].after, performance.beats,
                                             performance.written.header.model_fps,
                                             performance.written.report.frames, field));
     const client::DanceResult& danced = performance.dance;
@@ -139,6 +159,9 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
                                         {danced.motion, danced.contacts},
                                         std::llround(seconds * danced.motion.fps)));
   }
+  std::vector<Eigen::Vector3d> places;
+  for (const client::FinishedDance& dance : dances)
+    places.push_back(dance.motion.frames.front().root_position);
   SeparateDancers(stage, skeleton, &dances);
   const std::vector<fs::path> outputs = OutputsOf(stage, out);
   if (HoldsAll(out)) {
@@ -153,6 +176,9 @@ void DanceTogether(const DanceOptions& options, const authoring::Dancers& stage,
   const std::vector<fs::path> reports = ReportsOf(stage, options.report);
   for (size_t i = 0; i < reports.size(); ++i) {
     WrittenDance written = Later(shared[dance_of[i]].performance.written, delays[i]);
+    const Eigen::Vector3d apart = dances[i].motion.frames.front().root_position - places[i];
+    written.asked.controls =
+        OnStage(std::move(written.asked.controls), stage.dancers[i], delays[i], apart);
     written.sketch = SketchOf(dances[i].motion, written.report.frames, written.header.model_fps);
     WriteFile(reports[i], ReportJson(written));
   }

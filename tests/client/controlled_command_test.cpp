@@ -64,6 +64,29 @@ TEST_F(ControlledCommandTest, DancesAlongAPathWithoutASong) {
   EXPECT_THAT(outcome.said, HasSubstr("key poses"));
 }
 
+TEST_F(ControlledCommandTest, ADancersReportHasHerPathOnStage) {
+  Write("path.json", kPath);
+  Write("stage.json", R"({"apart": 0, "dancers": [{"id": "ada", "place": [0, 2]},
+    {"id": "ben", "place": [3, 1], "facing": 90, "mirrored": true, "after": 1}]})");
+  const Outcome outcome =
+      Choreo("dance" + Walker() + "--seconds 6 -k none --path " + At("path.json") +
+             " --velocity left_arm=2 --dancers " + At("stage.json") + " -o " + At("d.npz") +
+             " --report " + At("r.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  for (const auto& [id, arm] : {std::pair("ada", "left_arm"), {"ben", "right_arm"}}) {
+    const Motion motion = Read(std::string("d.") + id + ".npz");
+    const nlohmann::json report = ReadJson(folder_ / (std::string("r.") + id + ".json"));
+    const nlohmann::json& path = report["path"];
+    ASSERT_EQ(path["frames"].size(), 3U);
+    for (size_t i = 0; i < 3; ++i) {
+      const Pose& pose = motion.frames.at(path["frames"][i].get<size_t>());
+      EXPECT_NEAR(pose.root_position.x(), path["points"][2 * i].get<double>(), 0.01) << id << i;
+      EXPECT_NEAR(pose.root_position.z(), path["points"][2 * i + 1].get<double>(), 0.01) << id << i;
+    }
+    EXPECT_THAT(report["velocity"]["parts"].dump(), HasSubstr(arm));
+  }
+}
+
 TEST_F(ControlledCommandTest, SendsVelocitiesOfEachPart) {
   WriteClicks(folder_ / "song.wav", 4);
   const auto left_hand = [&](const std::string& options) {

@@ -6,6 +6,7 @@
 
 #include "client/authoring/counts.h"
 #include "client/authoring/formation.h"
+#include "client/authoring/pose_library.h"
 #include "model/core/atomic_file.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
@@ -51,6 +52,23 @@ TEST_F(DancersTest, SingleDancerEqualsASoloDance) {
   }
   EXPECT_EQ(ReadJson(folder_ / "stage.ben.json")["keyframes"],
             ReadJson(folder_ / "alone.json")["keyframes"]);
+}
+
+TEST_F(DancersTest, WhoBeginsLaterEndsInHerOwnTime) {
+  Write(R"({"id": "ada", "place": [0, 0]}, {"id": "cy", "place": [-4, 0], "after": "4 counts"})");
+  const Outcome outcome = DanceAll("--end bow");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  PoseMask mask;
+  mask.root_position = false;
+  for (const std::string id : {"ada", "cy"}) {
+    const nlohmann::json keys = ReadJson(folder_ / ("stage." + id + ".json"))["keyframes"];
+    EXPECT_EQ(keys.back()["frame"], 299) << id;
+    EXPECT_EQ(keys.back().value("holds", ""), "end-bow") << id;
+    const Pose& last = Read("stage." + id + ".npz").frames.back();
+    EXPECT_LT(ComparePoses(Body(), last, authoring::FindLibraryPose("bow").pose, mask).angle_deg,
+              0.1)
+        << id;
+  }
 }
 
 TEST_F(DancersTest, MirroredInCanonAndApart) {
