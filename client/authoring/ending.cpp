@@ -47,9 +47,8 @@ Eigen::Vector3d PlaceAt(int64_t frame, const ControlRequest& controls, double fp
 
 }  // namespace
 
-std::vector<std::string> EndIn(const NamedPose& pose, const std::vector<double>& beats,
-                               const ControlRequest& controls, const DanceLength& length,
-                               DanceKeys* keys) {
+client::KeyPose Ending(const NamedPose& pose, const std::vector<double>& beats,
+                       const DanceLength& length) {
   const double last_s = static_cast<double>(length.frames - 1) / length.fps;
   if (last_s < kShortest) {
     throw InvalidArgument(kField, "the dance has its last frame at " + Rounded(last_s) +
@@ -59,7 +58,14 @@ std::vector<std::string> EndIn(const NamedPose& pose, const std::vector<double>&
   end.id = "end-" + pose.key.id;
   end.time_s = BeginOf(beats, last_s);
   end.frame = std::llround(end.time_s * length.fps);
+  return end;
+}
 
+std::vector<std::string> EndIn(const NamedPose& pose, const std::vector<double>& beats,
+                               const ControlRequest& controls, const DanceLength& length,
+                               DanceKeys* keys) {
+  const double last_s = static_cast<double>(length.frames - 1) / length.fps;
+  client::KeyPose end = Ending(pose, beats, length);
   std::vector<std::string> gone;
   DanceKeys stay;
   stay.warnings = keys->warnings;

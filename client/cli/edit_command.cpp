@@ -23,7 +23,7 @@ constexpr double kMaxStretch = 4;
 bool EditsKeys(const EditOptions& options) {
   return !options.keys.empty() || !options.moves.empty() || !options.removed.empty() ||
          !options.repeats.empty() || !options.stretches.empty() || !options.mirrored.empty() ||
-         !options.retakes.empty() || options.loop;
+         !options.retakes.empty() || !options.end.empty() || options.loop;
 }
 
 bool EditsWhole(const EditOptions& options) {
@@ -122,16 +122,16 @@ void CheckOptions(const EditOptions& options) {
   if (!EditsKeys(options) && !EditsWhole(options) && !otherwise) {
     throw InvalidArgument("--key",
                           "is missing, and so are --move, --remove, --repeat, --stretch, "
-                          "--mirror-phrase, --retake, --loop, --from, --until, --mirror and "
+                          "--mirror-phrase, --retake, --end, --loop, --from, --until, --mirror and "
                           "--join, and --seed, --style, --path and --velocity, which change the "
                           "whole dance: nothing is to be changed");
   }
   if (EditsKeys(options) && EditsWhole(options)) {
-    throw InvalidArgument(
-        "--key",
-        "and --move, --remove, --repeat, --stretch, --mirror-phrase, --retake, --loop go in a "
-        "command of "
-        "their own, after --from, --until, --mirror, --join, which change the whole dance");
+    throw InvalidArgument("--key",
+                          "and --move, --remove, --repeat, --stretch, --mirror-phrase, --retake, "
+                          "--end, --loop go in a "
+                          "command of their own, after --from, --until, --mirror, --join, which "
+                          "change the whole dance");
   }
   CheckReported(options);
   CheckTimes(options);
@@ -152,6 +152,7 @@ void CheckOptions(const EditOptions& options) {
   inputs.push_back({"--join", options.join});
   inputs.push_back({"--join-report", options.join_report});
   for (const std::string& key : options.keys) inputs.push_back({"--key", authoring::FileOf(key)});
+  if (!options.end.empty()) inputs.push_back({"--end", authoring::FileOf(options.end)});
   RequireOutputs({{"--out", options.out}, {"--new-report", options.new_report}}, inputs);
   if (options.report.empty() && !options.new_report.empty()) {
     throw InvalidArgument("--new-report", "needs --report, which it is made of");
@@ -184,6 +185,7 @@ void Run(const EditOptions& options) {
                            session.Second("--mirror-phrase", until));
     for (size_t i = 0; i < options.keys.size(); ++i)
       session.SetKey(options.keys[i], session.Second("--at", options.at[i]));
+    if (!options.end.empty()) session.End(options.end);
     for (const auto& [from, until] : options.retakes)
       session.Retake(session.Second("--retake", from), session.Second("--retake", until));
     if (!EditsKeys(options)) session.DanceOtherwise();
@@ -274,6 +276,10 @@ void AddEditCommand(CLI::App& program) {
                    "--report there, which stay: with the seed after the dance's, or as --seed, "
                    "--style, --path and --velocity say. May be given more than once.")
       ->allow_extra_args(false);
+  command->add_option("--end", options->end,
+                      "A pose as in --key for the dance to end in: on the last beat that leaves a "
+                      "second, held to the end. A pose of the library stands where the dancer is "
+                      "then, and faces the audience. Later keys make way.");
   command->add_flag("--in-place", options->in_place,
                     "Set poses of files and moved ones, too, where the dancer is and faces at that "
                     "moment.");

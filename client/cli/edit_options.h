@@ -34,9 +34,10 @@ struct EditOptions {
   std::vector<std::tuple<std::string, std::string, double>> stretches;  ///< start, end, factor
   std::vector<std::pair<std::string, std::string>> mirrored;            ///< start, end
   std::vector<std::pair<std::string, std::string>> retakes;             ///< start, end
-  std::string hold;                                                     ///< of `keys`; or empty
-  std::optional<double> hit;                                            ///< of `keys` and `moves`
-  std::string hands;                                                    ///< the same; or empty
+  std::string end;            ///< the pose to end in, as in --key; or empty
+  std::string hold;           ///< of `keys`; or empty
+  std::optional<double> hit;  ///< of `keys` and `moves`
+  std::string hands;          ///< the same; or empty
   bool in_place = false;
   bool allow_bends = false;
   bool loop = false;

@@ -37,6 +37,8 @@ class EditSession {
 
   /// Dances the two intervals around a key again. `source` as in --key.
   void SetKey(const std::string& source, double at_s);
+  /// Lets the dance end in a pose, as `choreo dance --end` does; later keys make way.
+  void End(const std::string& source);
   /// Removes a key of the report: its two intervals become one.
   void RemoveKey(const std::string& id);
   /// Moves a key of the report, with what holds it, to another second, as danced.

@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "client/authoring/pose_library.h"
 #include "model/core/atomic_file.h"
 
 #include "tests/client/edit_fixture.h"
@@ -452,6 +453,22 @@ TEST_F(EditTest, LoopKeepsAHeldEnd) {
   outcome = Edit("--move b 4.8 -o " + At("new.npz") + reports);
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("\"b\" is held up to 4.8 s, not 5.2 s: the key \"end\""));
+}
+
+TEST_F(EditTest, AFinishedDanceGetsAnEnding) {
+  const Outcome outcome = Edit("--end bow --report " + At("report.json") + " -o " + At("new.npz") +
+                               " --new-report " + At("new.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  const Motion motion = Read("new.npz");
+  ASSERT_EQ(motion.frames.size(), 300U);
+  PoseMask mask;
+  mask.root_position = false;
+  const Pose& bow = authoring::FindLibraryPose("bow").pose;
+  for (const size_t frame : {285, 299})
+    EXPECT_LT(ComparePoses(Body(), motion.frames[frame], bow, mask).angle_deg, 0.1) << frame;
+  const nlohmann::json keys = ReadJson(folder_ / "new.json")["keyframes"];
+  EXPECT_EQ(keys.back()["frame"], 299);
+  EXPECT_EQ(keys.back()["holds"], "end-bow");
 }
 
 TEST_F(EditTest, AHoldEndsBeforeTheNextKeyAndLastsToTheEnd) {
