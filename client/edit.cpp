@@ -214,6 +214,7 @@ struct Stop {
   PoseMask mask = {};
   std::string id = {};
   std::optional<double> hit = {};
+  bool held = false;  // the same pose as before
 };
 
 Stop StopAt(int64_t frame, const KeyPose& key) {
@@ -261,6 +262,8 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
          (i > 0 && path->frames.back() <= begin))) {
       path.reset();
     }
+    // Who holds a pose follows no path and has no speed, which would warn.
+    if (stop.held) request.config.controls = {};
     if (is_last && leads_on) request.after = work.From(to + 1);
     danced = work.Generate(request, is_last && leads_on);
     part.poses.insert(part.poses.end(), danced.motion.frames.begin(), danced.motion.frames.end());
@@ -317,7 +320,7 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
   std::vector<Stop> stops;
   stops.push_back(StopAt(work.FrameOf(edit.key), edit.key));
   for (const KeyPose& key : edit.held) {
-    stops.push_back({work.FrameOf(key), key.pose, key.mask, key.id});
+    stops.push_back({work.FrameOf(key), key.pose, key.mask, key.id, {}, true});
     if (stops.back().frame - std::prev(stops.end(), 2)->frame < kMinKeyDistance) {
       throw InvalidArgument("key.frame", std::to_string(stops.back().frame) + " of a key that is " +
                                              "held is not " +

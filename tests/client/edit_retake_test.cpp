@@ -151,6 +151,7 @@ TEST_F(RetakeTest, NewFramesFollowThePathAndTheVelocityOfTheReport) {
              " --velocity arms=2 -k none -o " + At("dance.npz") + " --report " + At("report.json"))
           .code,
       0);
+  std::string said;
   const auto edit = [&](const std::string& dance, const std::string& arguments) {
     const auto keep = [&](const std::string& name, const std::string& as) {
       std::filesystem::copy_file(folder_ / name, folder_ / as,
@@ -162,6 +163,7 @@ TEST_F(RetakeTest, NewFramesFollowThePathAndTheVelocityOfTheReport) {
         Choreo("edit " + At("before.npz") + there + arguments + " --report " + At("before.json") +
                " -o " + At("new.npz") + " --new-report " + At("new.json"));
     ASSERT_EQ(outcome.code, 0) << outcome.said;
+    said = outcome.said;
     EXPECT_THAT(outcome.said, HasSubstr("the path, the velocity"));
     EXPECT_THAT(outcome.said, Not(HasSubstr("root path")));
   };
@@ -178,6 +180,8 @@ TEST_F(RetakeTest, NewFramesFollowThePathAndTheVelocityOfTheReport) {
   expect_followed(120, 2, 1);
   EXPECT_EQ(ReadJson(folder_ / "new.json")["path"], ReadJson(folder_ / "report.json")["path"]);
   edit("dance", "--retake 8.5 9.5");  // where the path has ended
+  edit("dance", "--key bow --at 9 --hold 1");
+  EXPECT_THAT(said, Not(HasSubstr("frame 299: parts are not as fast"))) << "in the held pose";
   // A cut dance has what is left of the path.
   ASSERT_EQ(Choreo("edit " + At("dance.npz") + " --from 4 --mirror --report " + At("report.json") +
                    " -o " + At("part.npz") + " --new-report " + At("part.json"))
