@@ -166,7 +166,8 @@ Path PathOf(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits
       halves.AreAlike(extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch))
     return Doubled(path);
   const Meter meter = halves.MeterOf();
-  if (meter == Meter::kFour) return path;
+  if (meter == Meter::kFour)
+    return halves.BassIsBetween() ? HalfABeatEarly(path, std::ssize(onsets)) : path;
   const Path other =
       BestPath(onsets, patterns.subspan(meter == Meter::kThree ? 2 : 3, 1), extent, limits);
   return other.empty() ? path : other;

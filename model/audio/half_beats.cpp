@@ -8,8 +8,10 @@
 namespace choreo {
 namespace {
 
-constexpr int64_t kBehind = 3;    // frames after a beat in which it may sound
-constexpr double kClearly = 0.1;  // of all variance; less is chance
+constexpr int64_t kBehind = 3;      // frames after a beat in which it may sound
+constexpr double kClearly = 0.1;    // of all variance; less is chance
+constexpr double kLouderBass = 2;   // between beats than on them
+constexpr double kNearlyAll = 0.9;  // beats; a bass guitar's rhythm varies
 
 }  // namespace
 
@@ -47,6 +49,19 @@ bool HalfBeats::AreAlike(double share) const {
   return any;
 }
 
+bool HalfBeats::BassIsBetween() const {
+  std::array<double, 2> bass{};
+  double louder = 0, beats = 0;
+  for (size_t i = 0; i + 1 < halves_.size(); i += 2) {
+    const double on = halves_[i][0], between = halves_[i + 1][0];
+    bass[0] += on;
+    bass[1] += between;
+    louder += between > on ? 1 : 0;
+    ++beats;
+  }
+  return bass[1] > kLouderBass * bass[0] && louder > kNearlyAll * beats;
+}
+
 double HalfBeats::Correlation(size_t lag) const {
   if (halves_.size() <= lag) return 0;
   double sum = 0;
@@ -62,6 +77,21 @@ double HalfBeats::Correlation(size_t lag) const {
 Meter HalfBeats::MeterOf() const {
   if (Correlation(6) < Correlation(8) + kClearly * Correlation(0)) return Meter::kFour;
   return Correlation(3) > Correlation(2) ? Meter::kSix : Meter::kThree;
+}
+
+std::vector<BarPointer::Step> HalfABeatEarly(const std::vector<BarPointer::Step>& path,
+                                             int64_t frames) {
+  std::vector<BarPointer::Step> early;
+  for (BarPointer::Step step : path) {
+    step.frame -= step.period / 2;
+    if (step.frame >= 0) early.push_back(step);
+  }
+  if (path.empty() || early.empty()) return early;
+  BarPointer::Step last = path.back();
+  last.frame += last.period / 2;
+  last.in_bar = (last.in_bar + 1) % last.beats;
+  if (last.frame < frames) early.push_back(last);
+  return early;
 }
 
 std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,10 @@ class HalfBeats {
   /// one's mean is at least this share of the stronger one's.
   bool AreAlike(double share) const;
 
+  /// Whether the bass drum sounds halfway between nearly all beats and hardly on them, so that
+  /// those are off-beats.
+  bool BassIsBetween() const;
+
   /// Compares bars: music in 4/4 repeats after eight eighths, in 3/4 and 6/8 after six, and 6/8 is
   /// more alike after three eighths than after two.
   Meter MeterOf() const;
@@ -30,6 +35,11 @@ class HalfBeats {
 
   std::vector<std::array<double, Onset::kBands>> halves_;
 };
+
+/// The same path, each beat half a beat earlier, and one more after the last, among `frames`. Bars
+/// keep their place: patterns expect a backbeat's snare just after their first beat.
+std::vector<BarPointer::Step> HalfABeatEarly(const std::vector<BarPointer::Step>& path,
+                                             int64_t frames);
 
 /// The same path with a beat added halfway to each next one, in bars of four.
 std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path);

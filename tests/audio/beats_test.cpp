@@ -97,6 +97,22 @@ TEST(BeatsTest, LoudOffBeatsAreAPulseToo) {
   EXPECT_GT(FindBeats(metal).frames.size(), 35u);
 }
 
+// Periods of an odd number of frames favoured beats half a beat late.
+TEST(BeatsTest, TheBassDrumKeepsTheBeatWhereHatsSoundBetween) {
+  for (const double frames : {43, 44, 45, 47, 50}) {
+    for (const double first : {0.03, 0.2, 0.31}) {
+      for (const bool snared : {false, true}) {
+        const double period = frames / kOnsetRate;
+        std::vector<double> beats;
+        for (double beat = first; beat < 20; beat += period) beats.push_back(beat);
+        const BeatTrack track = FindBeats(FourOnTheFloor(first, period, snared));
+        EXPECT_GT(BeatFMeasure(track.Seconds(), beats), 0.95)
+            << frames << " frames from " << first << (snared ? ", snared" : "");
+      }
+    }
+  }
+}
+
 TEST(BeatsTest, DcOffsetAndItsEndAreIgnored) {
   for (const uint64_t seed : {9'000'300, 9'000'301, 9'000'302}) {
     std::vector<float> song = MakeSong({.seed = seed, .seconds = 15}).mono;

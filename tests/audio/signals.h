@@ -74,4 +74,25 @@ inline std::vector<float> Metal(double seconds, double period) {
   return wave;
 }
 
+/// Dance music at 22 050 Hz, 20 s: the bass drum on each beat, a hat between beats, and, if
+/// `snared`, a snare on every second beat. Beat k is at second `first` + k * `period`.
+inline std::vector<float> FourOnTheFloor(double first, double period, bool snared) {
+  constexpr int64_t kRate = 22050;
+  std::vector<float> wave(20 * kRate, 0.0F);
+  const std::vector<float> kick = Sine(60, kRate, kRate / 10, 0.39), hat = Noise(730, 5, 0.2),
+                           snare = Noise(kRate / 8, 6, 0.25);
+  const auto add = [&wave](double second, const std::vector<float>& sound, float decay) {
+    const auto at = static_cast<size_t>(std::lround(second * kRate));
+    for (size_t i = 0; i < sound.size() && at + i < wave.size(); ++i)
+      wave[at + i] += sound[i] * std::exp(-decay * static_cast<float>(i) / kRate);
+  };
+  for (int beat = 0; first + beat * period < 20; ++beat) {
+    const double second = first + beat * period;
+    add(second, kick, 25);
+    add(second + 0.5 * period, hat, 100);
+    if (snared && beat % 2 == 1) add(second, snare, 20);
+  }
+  return wave;
+}
+
 }  // namespace choreo
