@@ -80,7 +80,8 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
     request.beats = counts.beats;
     request.one = counts.one;
     request.passages = music->passages;
-    request.seed ^= music->id;  // other songs get other poses
+    request.seed ^= music->id;  // other songs get other poses and ways
+    if (request.way) *request.way ^= music->id;
   }
   // A deterministic model's dancer hardly moves without a next key.
   if (model.deterministic) request.end_s = static_cast<double>(length.frames - 1) / length.fps;

@@ -291,7 +291,6 @@ TEST_F(ArrangeTest, RefusesImpossibleArrangements) {
   expect_late("--repeat 0 4 9", "--repeat: ");
   expect_failure("--stretch 0 4 5", "--stretch: 5 times, must be 0.25 to 4, and not 1");
   expect_late("--stretch 0.1 0.2 2", "--stretch: the report has no key from 0.1 s until 0.2 s");
-  expect_late("--key kick --at 9.8 --hold 1", "--at: 9.8 s: its pose would be held up to 10.8 s");
 }
 
 TEST(ArrangeLibraryTest, KeepsContacts) {
