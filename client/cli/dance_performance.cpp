@@ -104,8 +104,7 @@ void AddEnding(const DanceOptions& options, const std::optional<authoring::Music
       authoring::ReadPose(options.end, model.skeleton, CountsOf(options, music));
   if (pose.has_place && !options.allow_bends)
     authoring::RefuseBends({{pose.key}, {options.end}}, model.skeleton);
-  std::vector<double> beats = options.project_beats;
-  if (beats.empty() && music) beats = music->track.Seconds();
+  const std::vector<double> beats = CountsOf(options, music).beats;
   authoring::DanceLength seen = length;
   seen.frames -=
       authoring::FramesLater(options.after, beats, length.fps, length.frames, options.after_name);

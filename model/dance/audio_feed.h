@@ -50,6 +50,7 @@ class AudioFeed {
   /// its first sample. Only the pushing side calls it.
   bool silent() const { return whole_ && peak_ < kMinLevel; }
   /// Whether its channels cancel each other in the mix, of which a hundredth at most is left.
+  /// Only the pushing side calls it.
   bool cancels() const { return whole_ && !silent() && mixed_peak_ <= 0.01F * peak_; }
 
   /// Rows below this one can be read.
