@@ -8,7 +8,10 @@
 namespace choreo {
 namespace {
 
-constexpr double kNever = 1e6;   // square metres: the cost of the forbidden
+constexpr double kNever = 1e6;  // square metres: the cost of the forbidden
+// Of a frame of a flight that is too long: a whole one costs less than the forbidden, because a
+// fall from high up takes time.
+constexpr double kTooLong = 1e3;
 constexpr int kTurns = 2;        // rounds in which each foot adapts to the other
 constexpr int kAttempts = 3;     // to shorten flights
 constexpr int kMaxStance = 150;  // frames; after that a foot steps on the spot
@@ -37,7 +40,7 @@ int FallFrames(double height, double fps) {
 // Finds the best stances of one foot when the other stands as in `other`.
 class FootPlanner {
  public:
-  /// `grounded`: frames in which flying is forbidden.
+  /// `grounded`: frames of flights that are too long.
   FootPlanner(const FootTrack& foot, const FootTrack& beside, const Standing& other,
               const Standing& grounded, double fps, const FootworkOptions& options)
       : foot_(foot),
@@ -55,7 +58,7 @@ class FootPlanner {
       places_.Set(i,
                   {toes.x(), toes.z(), toes.x() * toes.x() + toes.z() * toes.z(), height * height});
       const double here = foot.unbalanced[i], there = beside.unbalanced[i];
-      const double flight = grounded[i] ? kNever : options.flight_cost;
+      const double flight = grounded[i] ? kTooLong : options.flight_cost;
       support_.Set(
           i, {other[i] ? std::min(here, there) : here, other[i] ? there : flight, lift * lift, 0});
     }

@@ -110,6 +110,19 @@ TEST(PlanContacts, AFootInTheAirLandsNoSoonerThanItFalls) {
   EXPECT_EQ(stances[0][0].from, 8);  // sqrt(2 0.3 / 9.81) s
 }
 
+// Falling takes longer than flights may last, so no plan has all it should; a key on the floor once
+// lost all stances then, and the body floated to it.
+TEST(PlanContacts, AFallFromHighUpEndsLongBeforeTheKey) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) {
+    Lift(&foot, 0, kFrames - 1, 0.5);
+    foot.stood = false;
+    foot.height_before = 1.2;  // 15 frames of falling
+    foot.end = FootTrack::End::kStands;
+  }
+  EXPECT_LE(FramesInAir(PlanContacts(feet, kFps, {})), 15);
+}
+
 // A pose on one leg that is held has keys nearer to each other than the time of a fall.
 TEST(PlanContacts, AFootThatStaysUpDoesNotFall) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
