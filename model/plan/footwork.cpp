@@ -182,32 +182,37 @@ class PlanStander {
   }
 
   // Limits ankles: none is lower than in a flat foot, and that of a supporting foot is at most as
-  // high as on half toes. The foot turns about its toes for that. The correction fades in from the
-  // previous state, and out towards the key's, within kSettleSeconds. A held pose's own foot stays.
+  // high as on half toes. The foot turns about its toes for that. What the previous pose and a key
+  // do beyond these limits fades out, or in, within kSettleSeconds; a held pose keeps it.
   void LayDown(size_t side) {
     const Leg& leg = legs_[side];
     const double settle = kSettleSeconds * context_.fps;
     const auto sunk = [&](const Eigen::Matrix3Xd& at) {
       return std::max(0.0, ankle_rest_[side] - at(1, leg.ankle));
     };
-    const double before = sunk(JointPositions(skeleton_, context_.history.back()));
-    const double after = context_.keyed ? sunk(planned_.back().positions) : 0;
+    const auto steep = [&](const Eigen::Matrix3Xd& at) {
+      return std::abs(at(1, leg.toes) - at(1, leg.ankle));
+    };
+    const Eigen::Matrix3Xd before = JointPositions(skeleton_, context_.history.back());
     const Eigen::Matrix3Xd& end = planned_.back().positions;
-    const double own = context_.held ? std::abs(end(1, leg.toes) - end(1, leg.ankle)) : 0;
+    // Of a measure of the foot, what is left of the previous pose's and the key's in a frame.
+    const auto own = [&](const auto& measure, int frame) {
+      const double first = measure(before), last = context_.keyed ? measure(end) : 0;
+      if (context_.held) return std::max(first, last);
+      const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / settle)); };
+      return std::max(fade(frame + 1) * first, fade(frames_ - 1 - frame) * last);
+    };
     for (int frame = 0; frame < frames_; ++frame) {
       if (IsKey(frame)) return;
       const auto i = static_cast<size_t>(frame);
-      const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / settle)); };
-      const double least =
-          ankle_rest_[side] - (context_.held
-                                   ? std::max(before, after)
-                                   : fade(frame + 1) * before + fade(frames_ - 1 - frame) * after);
+      const double least = ankle_rest_[side] - own(sunk, frame);
       JointPlacement& at = planned_[i];
       const Eigen::Vector3d ankle = at.positions.col(leg.ankle);
       const Eigen::Vector3d foot = at.positions.col(leg.toes) - ankle;
       const double length = foot.norm(), along = std::hypot(foot.x(), foot.z());
       if (along < 1e-6) continue;
-      const double steepest = std::max(own, length * (1 - (1 - kHalfToes) * Bears(side, frame)));
+      const double half_toes = length * (1 - (1 - kHalfToes) * Bears(side, frame));
+      const double steepest = std::max(half_toes, own(steep, frame));
       const double highest = std::max(toes_[side][i].y() - least, -length);
       const double rise = std::clamp(foot.y(), std::min(-steepest, highest), highest);
       if (rise == foot.y()) continue;

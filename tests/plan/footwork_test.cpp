@@ -82,6 +82,25 @@ TEST(StandOnFeet, LeavesAHeldPose) {
   }
 }
 
+// The foot behind a kneeling body stands steeply; when a hold ended it lay down in one frame.
+TEST(StandOnFeet, ASteepFootLiesDownSlowly) {
+  Pose steep = At({0, 0, 0});
+  for (const Leg& leg : Leg::Of(Body())) steep.rotations.col(leg.ankle).x() += 1.2;
+  steep.root_position.y() = *StandingHeight(Body(), steep);
+  const std::vector<Pose> history(10, steep);
+  std::vector<Pose> plan(kFrames, steep);
+  FootworkContext context = Context();
+  context.history = history;
+  StandOnFeet(context, &plan);
+  const double whole = ComparePoses(Body(), plan.back(), steep).angle_deg;
+  EXPECT_GT(whole, 20);
+  Pose before = steep;
+  for (const Pose& pose : plan) {
+    EXPECT_LT(ComparePoses(Body(), pose, before).angle_deg, whole * 2 / 3);
+    before = pose;
+  }
+}
+
 TEST(StandOnFeet, FeetOfAGlidingBodyStandAndStep) {
   std::vector<Pose> plan = Glide(0.015);
   const Footwork footwork = StandOnFeet(Context(), &plan);
