@@ -142,9 +142,9 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.controls.ToLocal(ground_);
   for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
-  held_ = world_target_ && request.spec.frames < kHoldSeconds * model.fps &&
-          IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
-  if (held_) spec_.temperature = 0;  // the mean motion: another one each time would tremble
+  held_ = world_target_ && request.arrival_frames > 0 &&
+          request.spec.frames < kHoldSeconds * model.fps && IsHeld(*world_target_, world_) &&
+          IsThere(*world_target_, world_);
   footwork_ = request.footwork;
   if (!request.spec.target || request.arrival_frames <= 0) return;
   std::optional<Pose> after;
@@ -153,18 +153,24 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   else if (request.hit || held_)
     after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
   hit_ = request.hit;
-  arrival_.emplace(request.arrival_frames, request.spec.frames, *spec_.target, spec_.history,
-                   after);
+  arrival_.emplace(request.arrival_frames, request.spec.frames, *spec_.target, spec_.history, after,
+                   held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
   spec_.paper.arrival = arrival_;
 }
 
 bool TransitionRun::Continue(Sampler& sampler) {
-  if (!sampling_) {
-    sampling_ = sampler.Begin(spec_);
+  if (held_ && !steered_) {
+    Hold();
+    Steer();
     return true;
   }
   if (!steered_) {
-    if (!sampling_->Continue()) Steer();
+    if (!sampling_) {
+      sampling_ = sampler.Begin(spec_);
+    } else if (!sampling_->Continue()) {
+      drawn_ = sampling_->TakePlan();
+      Steer();
+    }
     return true;
   }
   PutOnFeet();
@@ -173,8 +179,16 @@ bool TransitionRun::Continue(Sampler& sampler) {
   return false;
 }
 
+// No model is asked: a new sample in each of these short transitions would tremble.
+void TransitionRun::Hold() {
+  ValidateSpec(spec_, *model_);
+  Motion motion{.fps = model_->fps,
+                .frames = std::vector(static_cast<size_t>(spec_.frames), spec_.target->pose)};
+  drawn_.contacts = DetectContacts(model_->skeleton, motion);
+  drawn_.poses = std::move(motion.frames);
+}
+
 void TransitionRun::Steer() {
-  drawn_ = sampling_->TakePlan();
   CheckLength();
   steered_ = true;
   const ControlCurve& path = spec_.controls[kRootPath];

@@ -86,6 +86,7 @@ class TransitionRun {
 
  private:
   void CheckLength() const;
+  void Hold();
   void Steer();
   void PutOnFeet();
   DanceFrame Finish(size_t at);
@@ -99,7 +100,7 @@ class TransitionRun {
   GroundFrame ground_;
   std::optional<Arrival> arrival_;  // none: no steering
   std::optional<double> hit_;
-  bool held_ = false;  // the dancer holds the pose
+  bool held_ = false;  // the dancer holds the target's pose
   bool footwork_;
   GroundFrame stage_;         // of the request, world
   std::vector<Pose> before_;  // the history, world

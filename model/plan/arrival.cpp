@@ -20,9 +20,10 @@ constexpr double kNewest = 0.3;
 }  // namespace
 
 Arrival::Arrival(int window, int transition_frames, const Target& target,
-                 const std::vector<Pose>& before, const std::optional<Pose>& after)
+                 const std::vector<Pose>& before, const std::optional<Pose>& after, Lead lead)
     : left_(transition_frames),
-      window_(std::min(window, transition_frames)),
+      window_(lead == Lead::kAlone ? transition_frames : std::min(window, transition_frames)),
+      lead_(lead),
       target_(target),
       previous_(before.back()),
       velocity_(
@@ -71,7 +72,9 @@ Pose Arrival::Apply(const Pose& raw) {
 }
 
 Pose Arrival::Steered(const Pose& raw) {
-  const double w = SmoothStep(std::min(1.0, (window_ - left_ + 1) / (kFull * window_)));
+  const double w = lead_ == Lead::kAlone
+                       ? 1
+                       : SmoothStep(std::min(1.0, (window_ - left_ + 1) / (kFull * window_)));
   Pose emitted = raw;
   const Velocity& end_velocity = after_ ? *after_ : model_velocity_;
   const bool has_place = target_.mask.root_position;
@@ -80,10 +83,15 @@ Pose Arrival::Steered(const Pose& raw) {
   const Eigen::Vector3d way_there = place - previous_.root_position;
   const Eigen::Vector3d path_there =
       previous_.root_position + Step(way_there, velocity_.root, end_velocity.root, left_);
+  const Eigen::Vector3d coasting =
+      previous_.root_position + velocity_.root + (end_velocity.root - velocity_.root) / left_;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!has_place && !(axis == 1 && target_.height)) continue;
     double& at = emitted.root_position[axis];
-    at = left_ == 1 ? place[axis] : at + w * (path_there[axis] - at);
+    if (has_place || (axis == 1 && target_.height)) {
+      at = left_ == 1 ? place[axis] : at + w * (path_there[axis] - at);
+    } else if (after_) {
+      at += w * (coasting[axis] - at);
+    }
   }
   for (int joint = 0; joint < raw.rotations.cols(); ++joint) {
     if (!target_.mask.Constrains(joint)) continue;

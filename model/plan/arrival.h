@@ -14,14 +14,18 @@ namespace choreo {
 /// frame of the path from y_{t-1} to the key that has the least sum of squared second differences
 /// and passes the key with the velocity of the model's own frames (docs/decisions.md). Root and
 /// joints (on the tangent space at y_{t-1}) are treated alike; degrees of freedom outside the key's
-/// mask pass through. All poses are in one frame (the canonical one). Not thread-safe.
+/// mask pass through, except that the root takes the velocity after the key, if that is known. All
+/// poses are in one frame (the canonical one). Not thread-safe.
 class Arrival {
  public:
+  /// Whether the path alone leads, from the first frame on (w = 1), as for a pose that is held.
+  enum class Lead { kWithModel, kAlone };
+
   /// `window`: frames, at most those of the transition. `before`: the poses before frame 0, at
   /// least one, oldest first. `after`: the pose one frame after the key, if the following motion is
   /// known (edits of one interval, loops); the path then also arrives with the velocity towards it.
   Arrival(int window, int transition_frames, const Target& target, const std::vector<Pose>& before,
-          const std::optional<Pose>& after = std::nullopt);
+          const std::optional<Pose>& after = std::nullopt, Lead lead = Lead::kWithModel);
 
   /// The emitted pose of the next frame; call once per frame of the transition, in order.
   Pose Apply(const Pose& raw);
@@ -43,6 +47,7 @@ class Arrival {
 
   int left_;  // frames to the key, including the next one
   int window_;
+  Lead lead_;
   Target target_;
   std::optional<Velocity> after_;  // from the key on, if known
   Pose previous_;                  // emitted last

@@ -177,6 +177,25 @@ TEST(Arrival, MeetsTheMotionThatFollows) {
 
 // No spike: around the key the acceleration is of the size that the way there needs anyhow, for a
 // model that misses by a lot.
+// A body that had no place to be in glided on after its pose had come to rest.
+TEST(Arrival, ARootWithoutAPlaceTakesTheVelocityThatFollows) {
+  std::mt19937 random(9);
+  const std::vector<Pose> before = MotionTo(RandomPose(random), 10, random, 0.02);
+  Target target{RandomPose(random), {}};
+  target.mask.root_position = false;
+  Pose goal = target.pose;
+  goal.root_position = before.back().root_position + Eigen::Vector3d(3, 0, 1);
+  for (const double speed : {0.0, 0.02}) {
+    Pose after = target.pose;
+    after.root_position.x() += speed;
+    Wanderer model(goal, 0, 1);
+    const std::vector<Pose> poses = Walk(before, target, 30, model, kWindow, after);
+    const Eigen::Vector3d last = poses.back().root_position - poses[poses.size() - 2].root_position;
+    EXPECT_LT((last - Eigen::Vector3d(speed, 0, 0)).norm(), 1e-9);
+    EXPECT_GT(poses.back().root_position.x(), before.back().root_position.x() + 1);
+  }
+}
+
 TEST(Arrival, HasNoAccelerationSpike) {
   std::mt19937 random(6);
   double worst_ratio = 0;
