@@ -93,21 +93,21 @@ pose charleston travelling "Right foot kicked back, left hand ahead, knees toget
   pelvis=10,0,0 left_hip=-22,-6,0 left_knee=26 right_hip=-4,6,6 right_knee=85 right_ankle=30,0,0 left_shoulder=0,-60,-62 left_elbow=45 right_shoulder=0,-40,60 right_elbow=35
 
 # In the air.
-lift=0.3 pose star_jump jump "Arms and legs flung wide." \
+lift=0.4 pose star_jump jump "Arms and legs flung wide." \
   left_shoulder=0,0,40 right_shoulder=0,0,-40 left_hip=0,10,38 right_hip=0,-10,-38 left_ankle=35,0,0 right_ankle=35,0,0 head=-8,0,0
-lift=0.5 pose tuck_jump jump "Both knees at the chest, arms round the shins." \
+lift=0.55 pose tuck_jump jump "Both knees at the chest, arms round the shins." \
   pelvis=15,0,0 spine2=20,0,0 left_hip=-105,0,8 right_hip=-105,0,-8 left_knee=115 right_knee=115 left_ankle=30,0,0 right_ankle=30,0,0 left_shoulder=30,-60,-45 right_shoulder=30,60,45 left_elbow=45 right_elbow=45
-lift=0.45 pose grand_jete jump "Split leap, left leg ahead, right arm to the front." \
+lift=0.7 pose grand_jete jump "Split leap, left leg ahead, right arm to the front." \
   left_hip=-82,0,4 right_hip=70,-10,-6 left_ankle=40,0,0 right_ankle=45,0,0 spine1=-12,0,0 spine2=-8,0,0 left_shoulder=0,5,5 right_shoulder=0,75,-10 head=-6,0,0
-lift=0.4 pose stag_leap jump "Left leg bent below, right leg stretched behind." \
+lift=0.6 pose stag_leap jump "Left leg bent below, right leg stretched behind." \
   left_hip=-80,10,6 left_knee=125 left_ankle=40,0,0 right_hip=62,-10,-8 right_ankle=45,0,0 spine1=-12,0,0 left_shoulder=-30,0,70 right_shoulder=0,10,-10 left_elbow=20 head=-8,0,0
-lift=0.3 pose pencil_jump jump "Straight up, feet pointed, hands overhead." \
+lift=0.15 pose pencil_jump jump "Straight up, feet pointed, hands overhead." \
   left_shoulder=-20,0,82 right_shoulder=-20,0,-82 left_elbow=12 right_elbow=12 left_ankle=45,0,0 right_ankle=45,0,0 left_foot=10,0,0 right_foot=10,0,0 head=-10,0,0
-lift=0.35 pose side_leap jump "To the side: left leg out, right heel tucked, arms wide." \
+lift=0.7 pose side_leap jump "To the side: left leg out, right heel tucked, arms wide." \
   pelvis=0,0,18 spine2=0,0,-10 left_hip=0,10,50 right_hip=0,-10,20 left_knee=5 right_knee=85 left_ankle=40,0,0 right_ankle=40,0,0 left_shoulder=0,0,25 right_shoulder=0,0,15
-lift=0.45 pose straddle_jump jump "Legs out to both sides at hip height, hands to the toes." \
+lift=0.9 pose straddle_jump jump "Legs out to both sides at hip height, hands to the toes." \
   pelvis=20,0,0 spine2=22,0,0 left_hip=-98,48,0 right_hip=-98,-48,0 left_ankle=35,0,0 right_ankle=35,0,0 left_shoulder=0,-55,-25 right_shoulder=0,55,25
-lift=0.35 pose arch_jump jump "Chest up, both feet kicked up behind." \
+lift=0.7 pose arch_jump jump "Chest up, both feet kicked up behind." \
   spine1=-16,0,0 spine2=-14,0,0 neck=-14,0,0 left_hip=22,0,6 right_hip=22,0,-6 left_knee=85 right_knee=80 left_ankle=40,0,0 right_ankle=40,0,0 left_shoulder=0,20,55 right_shoulder=0,-20,-55
 
 # On knees, seat or hands.

@@ -9,9 +9,9 @@ namespace choreo {
 namespace {
 
 constexpr double kNever = 1e6;  // square metres: the cost of the forbidden
-// Of a frame of a flight that is too long: a whole one costs less than the forbidden, because a
-// fall from high up takes time.
-constexpr double kTooLong = 1e3;
+// Of a frame of a flight that is too long. A whole one costs less than the forbidden, because a
+// fall from high up takes its time.
+constexpr double kTooLong = kNever / 1e3;
 constexpr int kTurns = 2;        // rounds in which each foot adapts to the other
 constexpr int kAttempts = 3;     // to shorten flights
 constexpr int kMaxStance = 150;  // frames; after that a foot steps on the spot
@@ -32,8 +32,10 @@ class Sums {
   std::vector<Eigen::Vector4d> sums_;
 };
 
-int FallFrames(double height, double fps) {
-  const double seconds = std::sqrt(2 * std::max(0.0, height) / kGravity);
+// Until what rises at `speed`, m/s, at a height, metres, has fallen to the floor.
+int FallFrames(double height, double speed, double fps) {
+  const double seconds =
+      (speed + std::sqrt(speed * speed + 2 * kGravity * std::max(0.0, height))) / kGravity;
   return std::max(1, static_cast<int>(std::ceil(seconds * fps)));
 }
 
@@ -47,8 +49,8 @@ class FootPlanner {
         frames_(static_cast<int>(foot.toes.size())),
         step_cost_(options.step_cost),
         shortest_step_(std::max(1, static_cast<int>(std::lround(options.shortest_step * fps)))),
-        first_step_(FallFrames(foot.height_before, fps)),
-        last_step_(foot.end == FootTrack::End::kInAir ? FallFrames(foot.heights.back(), fps) : 1),
+        first_step_(FallFrames(foot.fall_before, foot.rise_before, fps)),
+        last_step_(foot.end == FootTrack::End::kInAir ? FallFrames(foot.fall_after, 0, fps) : 1),
         places_(foot.toes.size()),
         support_(foot.toes.size()) {
     for (size_t i = 0; i < foot.toes.size(); ++i) {

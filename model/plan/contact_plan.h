@@ -32,7 +32,9 @@ struct FootTrack {
                                    ///< is on the floor
   std::vector<double> unbalanced;  ///< per frame: how far the zero moment point is outside
                                    ///< this foot, square metres
-  double height_before = 0;        ///< in the frame before the first
+  double fall_before = 0;  ///< how far it falls from the frame before the first, at least, ...
+  double rise_before = 0;  ///< ... where it rises at this speed, m/s
+  double fall_after = 0;   ///< how far it falls after a key in the last frame, at least
   End end = End::kOpen;
 };
 

@@ -45,7 +45,8 @@ class PlanStander {
   Footwork Run() {
     const std::vector<Pose> proposed = plan_;
     centres_ = Centres();
-    const std::array<FootTrack, 2> feet = {Track(0), Track(1)};
+    std::array<FootTrack, 2> feet = {Track(0), Track(1)};
+    LimitFalls(&feet);
     stances_ = PlanContacts(feet, context_.fps, context_.options);
     if (context_.has_path) StepUnder();
     for (size_t side = 0; side < 2; ++side) {
@@ -127,7 +128,8 @@ class PlanStander {
     const Eigen::Matrix3Xd earlier =
         JointPositions(skeleton_, history[history.size() - std::min<size_t>(2, history.size())]);
     track.before = before.col(leg.toes);
-    track.height_before = height(before);
+    track.fall_before = height(before);
+    track.fall_after = track.heights.back();
     const double speed = (track.before - earlier.col(leg.toes)).norm() * context_.fps;
     track.stood = track.before.y() - toes_rest_[side] < kUpHeight && speed < kStillSpeed;
     if (context_.keyed) {
@@ -135,6 +137,25 @@ class PlanStander {
       track.end = low ? FootTrack::End::kStands : FootTrack::End::kInAir;
     }
     return track;
+  }
+
+  // A flying body falls no farther than to where it stands, however high its feet are.
+  void LimitFalls(std::array<FootTrack, 2>* feet) const {
+    const auto fly = [&](double FootTrack::*fall) {
+      return std::ranges::all_of(*feet,
+                                 [&](const FootTrack& foot) { return foot.*fall > kSoleHeight; });
+    };
+    const auto limit = [&](double FootTrack::*fall, const Pose& from) {
+      const double stands = RestPose(skeleton_).root_position.y();
+      for (FootTrack& foot : *feet)
+        foot.*fall = std::min(foot.*fall, std::max(0.0, from.root_position.y() - stands));
+    };
+    if (fly(&FootTrack::fall_before)) {
+      const double rise = (centres_[1] - centres_[0]).y() * context_.fps;
+      for (FootTrack& foot : *feet) foot.rise_before = rise;
+      limit(&FootTrack::fall_before, context_.history.back());
+    }
+    if (fly(&FootTrack::fall_after)) limit(&FootTrack::fall_after, plan_.back());
   }
 
   // The way from the feet that stand in a frame to the centre of mass, without the sole.

@@ -13,6 +13,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr double kPushSeconds =
     0.27;  // s before and after a flight in which legs may push as hard as gravity
+constexpr double kGive = 0.2;  // metres that a leap across a plan's end may leave it
 constexpr double kFirm =
     30;  // weights of falling and of standing at the end, relative to per-frame terms
 
@@ -75,6 +76,8 @@ class PelvisSolver {
     const auto last = std::find_if(frames.rbegin(), frames.rend(), bears).base();
     first_borne_ = static_cast<int>(first - frames.begin());
     last_borne_ = static_cast<int>(last - frames.begin()) - 1;
+    lands_ = Lands();
+    takes_off_ = TakesOff();
     for (int frame = 0; frame < count_; ++frame) {
       if (!Leaps(frame)) continue;
       for (int i = std::max(0, frame - push); i < std::min(count_, frame + push + 1); ++i)
@@ -104,9 +107,23 @@ class PelvisSolver {
  private:
   const SupportFrame& At(int frame) const { return frames_[static_cast<size_t>(frame)]; }
   bool Flies(int frame) const { return At(frame).support.empty(); }
-  // Whether the frame is in a flight within the plan whose length suits its height.
+  // Whether the frame is in a flight whose length suits its height.
   bool Leaps(int frame) const {
-    return Flies(frame) && frame > first_borne_ && frame < last_borne_;
+    if (!Flies(frame) || last_borne_ < 0) return false;
+    if (frame < first_borne_) return lands_;
+    return frame < last_borne_ || takes_off_;
+  }
+  // Whether a body that flies before the first frame and falls freely lands near its plan.
+  bool Lands() const {
+    if (first_borne_ == 0 || first_borne_ == count_) return false;
+    const double rise = Planned(0).y() - Planned(-1).y();  // a frame
+    const double fallen = 0.5 * kGravity * step_ * first_borne_ * (first_borne_ + 1);
+    const double landing = Planned(0).y() + rise * first_borne_ - fallen;
+    return std::abs(landing - Planned(first_borne_).y()) < kGive;
+  }
+  // Whether a flight to a key at the end is short enough for its arc to stay near the plan.
+  bool TakesOff() const {
+    return rules_.returns && kGravity / 8 * step_ * Square(count_ - 1 - last_borne_) < kGive;
   }
   LeastSquares::Term Term(int frame, int axis, double factor) const {
     const bool fixed = frame < 0 || frame >= moved_ || (axis != 1 && rules_.heights_alone);
@@ -210,7 +227,9 @@ class PelvisSolver {
   const double step_;  // squared seconds between frames
   Eigen::Matrix3Xd offset_;
   int first_borne_, last_borne_;  // frames with a standing foot
-  std::vector<bool> pushes_;      // per frame: whether a leap is near
+  // Whether the flight before first_borne_, and the one after last_borne_, are leaps.
+  bool lands_ = false, takes_off_ = false;
+  std::vector<bool> pushes_;  // per frame: whether a leap is near
 };
 
 }  // namespace

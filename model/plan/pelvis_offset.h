@@ -35,9 +35,10 @@ struct PelvisRules {
 
 /// Minimises the squared acceleration and length of the pelvis's offset from the plan, [3, frames],
 /// metres, so that legs reach their feet, the centre of mass and the zero moment point stay over
-/// them, and leaps (from floor to floor within the plan) fall at 9.81 m/s². `centre_before`: the
-/// plan's centre of mass in the frame before the first. Hulls and legs are not linear, so a few
-/// rounds start from their nearest points again; the remaining error never grows. Pure.
+/// them, and leaps fall at 9.81 m/s²: from floor to floor, to a key in the air, from the air to the
+/// floor. `centre_before`: the plan's centre of mass in the frame before the first. Hulls and legs
+/// are not linear, so a few rounds start from their nearest points again; the remaining error never
+/// grows. Pure.
 Eigen::Matrix3Xd PelvisOffset(const std::vector<SupportFrame>& frames,
                               const Eigen::Vector3d& centre_before, const PelvisRules& rules);
 

@@ -90,6 +90,7 @@ TEST(PlanContacts, KeyDecidesItsContacts) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   feet[0].end = FootTrack::End::kInAir;
   Lift(&feet[0], kFrames - 1, kFrames, 0.4);
+  feet[0].fall_after = 0.4;
   feet[1].end = FootTrack::End::kStands;
   feet[1].toes.back() = {-0.3, 0.05, 0.4};
   const auto stances = PlanContacts(feet, kFps, {});
@@ -104,7 +105,7 @@ TEST(PlanContacts, KeyDecidesItsContacts) {
 TEST(PlanContacts, AFootInTheAirLandsNoSoonerThanItFalls) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   feet[0].stood = false;
-  feet[0].height_before = 0.3;
+  feet[0].fall_before = 0.3;
   const auto stances = PlanContacts(feet, kFps, {});
   ASSERT_EQ(stances[0].size(), 1U);
   EXPECT_EQ(stances[0][0].from, 8);  // sqrt(2 0.3 / 9.81) s
@@ -117,7 +118,7 @@ TEST(PlanContacts, AFallFromHighUpEndsLongBeforeTheKey) {
   for (FootTrack& foot : feet) {
     Lift(&foot, 0, kFrames - 1, 0.5);
     foot.stood = false;
-    foot.height_before = 1.2;  // 15 frames of falling
+    foot.fall_before = 1.2;  // 15 frames of falling
     foot.end = FootTrack::End::kStands;
   }
   EXPECT_LE(FramesInAir(PlanContacts(feet, kFps, {})), 15);
@@ -134,7 +135,7 @@ TEST(PlanContacts, AFootThatStaysUpDoesNotFall) {
   }
   Lift(&feet[0], 0, 6, 1);
   feet[0].stood = false;
-  feet[0].height_before = 1;
+  feet[0].fall_before = 1;
   feet[0].end = FootTrack::End::kInAir;
   const auto stances = PlanContacts(feet, kFps, {});
   EXPECT_TRUE(stances[0].empty());

@@ -101,6 +101,29 @@ TEST(StandOnFeet, ASteepFootLiesDownSlowly) {
   }
 }
 
+// With its feet at its chest, a body lands when it has fallen, not when the feet have.
+TEST(StandOnFeet, ATuckedBodyLandsInTimeForItsOwnFall) {
+  const auto falling = [](double share) {  // of its way to where it stands
+    Pose pose = At({0, 0.3 * (1 - share * share), 0});
+    for (const Leg& leg : Leg::Of(Body())) {
+      pose.rotations.col(leg.hip).x() -= 1.7 * (1 - share);
+      pose.rotations.col(leg.knee).x() += 1.7 * (1 - share);
+    }
+    return pose;
+  };
+  ASSERT_GT(LowestFoot(falling(0)), 0.6);  // whose fall alone would take 11 frames
+  const std::vector<Pose> history(10, falling(0));
+  std::vector<Pose> plan;
+  for (int i = 1; i <= kFrames; ++i) plan.push_back(falling(std::min(1.0, i / 8.0)));
+  FootworkContext context = Context();
+  context.history = history;
+  const Footwork footwork = StandOnFeet(context, &plan);
+  int air = 0;
+  while (footwork.contacts[static_cast<size_t>(air)] == Contacts{0, 0, 0, 0}) ++air;
+  EXPECT_LE(air, 8);
+  EXPECT_GE(air, 6);
+}
+
 TEST(StandOnFeet, FeetOfAGlidingBodyStandAndStep) {
   std::vector<Pose> plan = Glide(0.015);
   const Footwork footwork = StandOnFeet(Context(), &plan);

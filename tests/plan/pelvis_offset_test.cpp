@@ -53,19 +53,53 @@ TEST(PelvisOffset, LowersForShortLegs) {
   EXPECT_NEAR(offset(1, 30), 0.985 * 0.8 - 0.85, 0.01);
 }
 
+double Acceleration(const std::vector<SupportFrame>& frames, const Eigen::Matrix3Xd& offset,
+                    int frame) {
+  const auto height = [&](int i) {
+    return frames[static_cast<size_t>(i)].centre.y() + offset(1, i);
+  };
+  return (height(frame + 1) - 2 * height(frame) + height(frame - 1)) * kFps * kFps;
+}
+
+void Fly(std::vector<SupportFrame>* frames, int from, int to) {
+  for (int i = from; i < to; ++i) {
+    (*frames)[static_cast<size_t>(i)].support.clear();
+    (*frames)[static_cast<size_t>(i)].legs.clear();
+  }
+}
+
 TEST(PelvisOffset, FallsInFlight) {
   std::vector<SupportFrame> frames = Still(0);
-  for (int i = 25; i < 35; ++i) {
-    frames[static_cast<size_t>(i)].support.clear();
-    frames[static_cast<size_t>(i)].legs.clear();
-  }
+  Fly(&frames, 25, 35);
   const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight, 0}, {.fps = kFps});
-  for (int i = 27; i < 33; ++i) {
-    const double acceleration =
-        (offset(1, i + 1) - 2 * offset(1, i) + offset(1, i - 1)) * kFps * kFps;
-    EXPECT_NEAR(acceleration, -9.81, 1.5) << i;
-  }
+  for (int i = 27; i < 33; ++i) EXPECT_NEAR(Acceleration(frames, offset, i), -kGravity, 1.5) << i;
   EXPECT_GT(offset(1, 30), offset(1, 20) + 0.05);  // so it leaps
+}
+
+// Plans end at keys, and a key in the air cuts a flight in two.
+TEST(PelvisOffset, LeapsToAKeyInTheAirFromACrouch) {
+  std::vector<SupportFrame> frames = Still(0);
+  Fly(&frames, 53, kFrames);
+  for (int i = 48; i < kFrames; ++i)
+    frames[static_cast<size_t>(i)].centre.y() += 0.25 * (i - 47) / (kFrames - 48);
+  const Eigen::Matrix3Xd offset =
+      PelvisOffset(frames, {0, kHeight, 0}, {.returns = true, .fps = kFps});
+  for (int i = 54; i < 58; ++i) EXPECT_NEAR(Acceleration(frames, offset, i), -kGravity, 2.5) << i;
+  EXPECT_EQ(offset(1, kFrames - 1), 0);
+  EXPECT_LT(offset.row(1).minCoeff(), -0.04);  // before
+}
+
+TEST(PelvisOffset, FallsFromAKeyInTheAir) {
+  std::vector<SupportFrame> frames = Still(0);
+  Fly(&frames, 0, 6);
+  for (int i = 0; i < 7; ++i)
+    frames[static_cast<size_t>(i)].centre.y() += 0.25 * (1 - (i + 1) * (i + 1) / 49.0);
+  const Eigen::Matrix3Xd offset = PelvisOffset(frames, {0, kHeight + 0.25, 0}, {.fps = kFps});
+  for (int i = 1; i < 5; ++i) EXPECT_NEAR(Acceleration(frames, offset, i), -kGravity, 2.5) << i;
+  // A body that would fall through the floor does not fall freely.
+  Fly(&frames, 0, 15);
+  const Eigen::Matrix3Xd glide = PelvisOffset(frames, {0, kHeight + 0.25, 0}, {.fps = kFps});
+  EXPECT_GT(glide.row(1).minCoeff(), -0.1);
 }
 
 TEST(PelvisOffset, KeepsKeysAndPaths) {
