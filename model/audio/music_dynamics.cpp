@@ -13,19 +13,22 @@ constexpr size_t kStep = 15;  // rows between the seconds examined: half a secon
 enum Measure : size_t { kLoud, kBusy, kDeep, kMeasures };
 using Second = std::array<double, kMeasures>;
 
+Second MeasuresOf(std::span<const RowSound> rows) {
+  double power = 0, bass = 0, onsets = 0;
+  for (const RowSound& row : rows) {
+    power += row.power;
+    bass += row.bass;
+    onsets += row.onset;
+  }
+  const auto count = static_cast<double>(rows.size());
+  return {Loudness(power / count), onsets / count, Loudness(bass / count)};
+}
+
 // The first is the last second; each overlaps the next by half.
 std::vector<Second> SecondsOf(std::span<const RowSound> rows) {
   std::vector<Second> seconds;
-  for (size_t end = rows.size(); end >= 2 * kStep; end -= kStep) {
-    double power = 0, bass = 0, onsets = 0;
-    for (const RowSound& row : rows.subspan(end - 2 * kStep, 2 * kStep)) {
-      power += row.power;
-      bass += row.bass;
-      onsets += row.onset;
-    }
-    constexpr double kRows = 2 * kStep;
-    seconds.push_back({Loudness(power / kRows), onsets / kRows, Loudness(bass / kRows)});
-  }
+  for (size_t end = rows.size(); end >= 2 * kStep; end -= kStep)
+    seconds.push_back(MeasuresOf(rows.subspan(end - 2 * kStep, 2 * kStep)));
   return seconds;
 }
 
@@ -48,12 +51,8 @@ struct Spread {
   }
 };
 
-}  // namespace
-
-double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& options) {
-  const std::vector<Second> seconds =
-      SecondsOf(rows.last(std::min<size_t>(rows.size(), kDynamicsMemory)));
-  if (seconds.empty()) return 0;
+// The energy of the first of these seconds, relative to all.
+double EnergyOf(const std::vector<Second>& seconds, const MusicDynamicsOptions& options) {
   double loudest = seconds.front()[kLoud];
   for (const Second& second : seconds) loudest = std::max(loudest, second[kLoud]);
   const double floor = std::max(options.silence, loudest - options.far_below);
@@ -72,6 +71,20 @@ double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& op
       options.busy * above(kBusy, options.least_busy, options.usual_onsets, options.usual_seconds) +
       options.deep * above(kDeep, options.least_deep, 0, 0);
   return std::lerp(options.silent, energy, sounding.front());
+}
+
+}  // namespace
+
+double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& options) {
+  std::vector<Second> seconds =
+      SecondsOf(rows.last(std::min<size_t>(rows.size(), kDynamicsMemory)));
+  if (seconds.empty()) return 0;
+  const double energy = EnergyOf(seconds, options);
+  const MusicLevel now = HearLevel(rows, options);
+  const MusicLevel before = HearLevel(rows.first(rows.size() - kLevelRows), options);
+  if (rows.size() < 2 * kLevelRows || !Turns(before, now, options)) return energy;
+  seconds.front() = MeasuresOf(rows.last(static_cast<size_t>(options.turn_heard)));
+  return std::max(energy, EnergyOf(seconds, options));
 }
 
 MusicLevel HearLevel(std::span<const RowSound> rows, const MusicDynamicsOptions& options) {

@@ -28,6 +28,9 @@ struct MusicDynamicsOptions {
   /// or has so many dB more or less bass. Music that goes on varies less within two seconds, in 95
   /// of 100 cases. Bass counts as at least `bass_below` dB below the loudness: less is not heard.
   double turn_loud = 5, turn_deep = 10, bass_below = 20;
+  /// Rows: the newest ones, which tell of louder music where the last second is mostly from before
+  /// the turn.
+  int turn_heard = 6;
   /// Rows: how often turns are examined; the least length of a transition, so that it is seen as a
   /// movement; and the time before a key without turns, which feet need to get there.
   int turn_step = 3, turn_after = 15, turn_before_key = 30;
@@ -37,7 +40,8 @@ struct MusicDynamicsOptions {
 inline constexpr int kDynamicsMemory = 900;
 
 /// The energy of the last second of music, relative to the last kDynamicsMemory rows. `rows`: one
-/// per frame, oldest first, or as many as there are; 0 for less than a second. Pure.
+/// per frame, oldest first, or as many as there are; 0 for less than a second. Where the music has
+/// just turned, at least the energy of its last `turn_heard` rows. Pure.
 double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& options = {});
 
 /// How loud the music is, and how deep.

@@ -75,6 +75,18 @@ TEST(MusicDynamicsTest, DropExceedsPadAndSilenceIsLeast) {
   EXPECT_NEAR(HearEnergy(std::vector<RowSound>(300)), MusicDynamicsOptions().silent, 1e-12);
 }
 
+// The last second is still mostly the pad's, and the dance to the drop began calmly.
+TEST(MusicDynamicsTest, ADropIsHeardAtOnce) {
+  const auto rows = RowsOf(Joined({Pad(20), Drums(5)}));
+  const auto until = [&](size_t row) { return std::span(rows).first(row); };
+  size_t turn = 20 * 30;
+  while (!Turns(HearLevel(until(turn - kLevelRows)), HearLevel(until(turn)))) ++turn;
+  EXPECT_GT(HearEnergy(until(turn)), 0.7 * HearEnergy(until(22 * 30)));
+  // Music that ends is not: its last echo says little.
+  const auto ends = RowsOf(Joined({Drums(20), Pad(5)}));
+  EXPECT_LT(HearEnergy(std::span(ends).first(20 * 30 + 25)), 0);
+}
+
 TEST(MusicDynamicsTest, SteadyMusicStaysAtTheMiddleAtAnyLoudness) {
   std::vector<float> song = Drums(60);
   const std::vector<double> energies = EnergiesOf(RowsOf(song));
