@@ -120,6 +120,38 @@ const counted: number | undefined = hear((await client.streamDance(requests).nex
   await compile('dance.ts', program + wrong, '--noUncheckedIndexedAccess');
 });
 
+test('asking what an answer or an event holds narrows its type', async (t) => {
+  if (skip) return t.skip(skip);
+  const narrowed = `
+import type { Event, GenerateTransitionResponse, StreamDanceResponse } from 'choreo-client';
+function tell(event: Event): string {
+  switch (event.event) {
+    case 'keyframe_reached':
+      return event.keyframe_reached.id + event.frame;
+    case 'beat':
+      return event.beat.source;
+    case 'warning':
+      // @ts-expect-error: no beat
+      event.beat.source;
+      return event.warning.message;
+  }
+  if (event.keyframe_rejected) return event.event satisfies 'keyframe_rejected';
+  return event.event satisfies undefined ?? 'of a newer server';
+}
+function hear(answer: StreamDanceResponse): string | number {
+  // @ts-expect-error: nobody has asked
+  answer.frames.count;
+  if (answer.response === 'frames') return answer.frames.count;
+  if (answer.response === 'event') return tell(answer.event);
+  return answer.summary ? (answer.summary.report?.frames ?? 0) : answer.response satisfies 'header' | 'continuation' | undefined ?? '';
+}
+function compare(answer: GenerateTransitionResponse): number {
+  return answer.response === 'summary' ? answer.summary.candidates.length : 0;
+}
+`;
+  await compile('narrowed.ts', narrowed);
+});
+
 test('the package has the version of the server', async () => {
   const [, version] = /project\(choreo VERSION (\S+)/.exec(await readFile(join(root, 'CMakeLists.txt'), 'utf8'));
   assert.equal(JSON.parse(await readFile(join(root, 'client/node/package.json'))).version, version);

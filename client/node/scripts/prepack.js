@@ -6,6 +6,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { api, literal } from '../src/protos.js';
+import { withUnions } from './unions.js';
 
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -39,7 +40,8 @@ for (const name of readdirSync(messages)) {
     .replaceAll('(number | string | Long)', '(number | bigint | string | Long)')
     .replace("'rotations'?: (number | string)[]", "'rotations'?: (number | string)[] | Float32Array | Float64Array")
     .replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
-  writeFileSync(join(messages, name), wider.replace(/^\/\/ Original file: .*\n\n/, ''));
+  const narrowing = withUnions(wider, api.lookup('choreo.v1').nested[name.replace('.d.ts', '')]);
+  writeFileSync(join(messages, name), narrowing.replace(/^\/\/ Original file: .*\n\n/, ''));
 }
 
 // All of them under their own names: those that are sent as they may be sent, the others as they come.

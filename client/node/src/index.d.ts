@@ -4,7 +4,8 @@ import type { GenerateTransitionRequest, GenerateTransitionResponse } from '../t
 import type { Keyframe, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
 // Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
-// what comes has all of them. Numbers of 64 bits come as text.
+// what comes has all of them, yet of alternatives one: after `if (answer.response === 'frames')`, or `if (answer.frames)`, the compiler knows
+// it. Numbers of 64 bits come as text.
 export * from '../types/messages.js';
 export type ModelInfo = Omit<ModelInfo__Output, 'skeleton'> & { skeleton: Skeleton };
 export type ServerInfo = Omit<GetServerInfoResponse__Output, 'models'> & { models: ModelInfo[] };
