@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "server/handshakes.h"
+#include "server/header_guard.h"
 #include "server/process_usage.h"
 #include "server/refusal.h"
 #include "server/status.h"
@@ -103,6 +104,9 @@ class Figures {
     const Tally::Refusals refusals = serving_.tally.refusals();
     for (size_t i = 0; i < kRefusals.size(); ++i)
       out.Add(static_cast<double>(refusals[i]), {{"reason", kRefusals[i]}});
+    out.Begin("header_floods_total", "Connections that were ended because of endless headers.",
+              MetricType::Counter);
+    out.Add(static_cast<double>(HeaderFloods()));
     const CallRegistry& calls = serving_.calls;
     out.Begin("draining", "1 once the server is shutting down, 0 before.", MetricType::Gauge);
     out.Add(calls.admitting() ? 0 : 1);

@@ -202,6 +202,25 @@ TEST_F(HostileTest, RapidResetsWithoutCpu) {
             << Milliseconds(alone, 0.5) << " ms and p99 " << Milliseconds(alone, 0.99) << " ms\n";
 }
 
+// A header that goes on for ever, in frames so small that gRPC reads it again most often.
+TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
+  Start(1);
+  const auto behaved = StubOfAnotherAddress(server->port());
+  constexpr size_t kFrame = 32, kMost = 16 << 20;
+  std::string frames;
+  while (frames.size() < (64 << 10)) {
+    frames += Http2::Frame(Http2::kContinuation, 0, 1, std::string(kFrame, 'a'));
+  }
+  Http2 client(server->port());
+  // A literal header named "x-a", whose value is announced with 128 MiB.
+  client.Send(Http2::Frame(Http2::kHeaders, 0, 1,
+                           std::string("\x83\x86\0\x03x-a\x7f\x80\x80\x80\x40", 12)));
+  size_t sent = 0;
+  while (sent < kMost && client.Send(frames)) sent += frames.size();
+  EXPECT_LT(sent, kMost);
+  EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
+}
+
 // Connections whose HTTP/2 never begins do not keep descriptors for long.
 TEST_F(HostileTest, HalfOpenConnectionsAreClosed) {
   constexpr int kConnections = 100;

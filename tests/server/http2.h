@@ -27,7 +27,7 @@ class Http2 {
   Http2(const Http2&) = delete;
   Http2& operator=(const Http2&) = delete;
 
-  static constexpr int kData = 0, kHeaders = 1, kReset = 3, kSettings = 4;
+  static constexpr int kData = 0, kHeaders = 1, kReset = 3, kSettings = 4, kContinuation = 9;
 
   static std::string Frame(int type, int flags, uint32_t stream, const std::string& payload) {
     std::string frame;

@@ -1,0 +1,153 @@
+#include "server/header_guard.h"
+
+#include <dlfcn.h>
+#include <openssl/ssl.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "server/caller.h"
+#include "server/header_meter.h"
+
+namespace choreo {
+namespace {
+
+constexpr std::chrono::seconds kBetweenFloodReports{1};
+
+/// An accepted connection.
+struct Guarded {
+  uint64_t cookie = 0;  ///< the socket's: a descriptor may be in use again
+  std::string peer;
+  bool encrypted = false;
+  HeaderMeter meter = {};
+};
+
+struct Guardeds {
+  std::mutex mutex;
+  std::unordered_map<int, std::shared_ptr<Guarded>> by_descriptor;  // lock: mutex
+};
+
+Guardeds& All() {
+  static auto* all = new Guardeds;  // gRPC's threads outlive main()
+  return *all;
+}
+
+std::atomic<uint64_t> floods = 0;
+/// Whose bytes this thread has read last; gRPC decrypts them next.
+thread_local std::weak_ptr<Guarded> last_read;
+
+uint64_t CookieOf(int connection) {
+  uint64_t cookie = 0;
+  socklen_t size = sizeof cookie;
+  if (getsockopt(connection, SOL_SOCKET, SO_COOKIE, &cookie, &size) != 0) return 0;
+  return cookie;
+}
+
+std::shared_ptr<Guarded> Find(int connection) {
+  Guardeds& all = All();
+  const std::lock_guard lock(all.mutex);
+  const auto found = all.by_descriptor.find(connection);
+  if (found == all.by_descriptor.end()) return nullptr;
+  if (found->second->cookie == CookieOf(connection)) return found->second;
+  all.by_descriptor.erase(found);
+  return nullptr;
+}
+
+/// One line a second, as floods come many at a time.
+void Tell(const std::string& peer) {
+  static std::mutex mutex;
+  static std::chrono::steady_clock::time_point next_report;
+  ++floods;
+  const auto now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(mutex);
+  if (now < next_report) return;
+  next_report = now + kBetweenFloodReports;
+  spdlog::warn(
+      "{} has sent more than {} KiB of headers for one call; its connection is closed, of {} so "
+      "far",
+      peer, HeaderMeter::kMostBytes >> 10, floods.load());
+}
+
+bool Take(HeaderMeter& meter, const void* bytes, size_t count, const std::string& peer) {
+  if (meter.Take({static_cast<const uint8_t*>(bytes), count})) return true;
+  Tell(peer);
+  return false;
+}
+
+/// Whether what was received may go on to gRPC.
+bool TakeMessage(Guarded& connection, const msghdr& message, size_t count) {
+  for (size_t i = 0; i < message.msg_iovlen && count > 0; ++i) {
+    const size_t part = std::min(count, message.msg_iov[i].iov_len);
+    if (!Take(connection.meter, message.msg_iov[i].iov_base, part, connection.peer)) return false;
+    count -= part;
+  }
+  return true;
+}
+
+void Forget(void* /*ssl*/, void* meter, CRYPTO_EX_DATA* /*data*/, int /*index*/, long /*argument*/,
+            void* /*pointer*/) {
+  delete static_cast<HeaderMeter*>(meter);
+}
+
+HeaderMeter& MeterOf(SSL* ssl) {
+  static const int index = SSL_get_ex_new_index(0, nullptr, nullptr, nullptr, Forget);
+  auto* meter = static_cast<HeaderMeter*>(SSL_get_ex_data(ssl, index));
+  if (meter == nullptr) SSL_set_ex_data(ssl, index, meter = new HeaderMeter);
+  return *meter;
+}
+
+template <class Function>
+Function* Next(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+void GuardHeaders(int connection, bool encrypted) {
+  auto guarded = std::make_shared<Guarded>(
+      Guarded{.cookie = CookieOf(connection), .peer = PeerOf(connection), .encrypted = encrypted});
+  Guardeds& all = All();
+  const std::lock_guard lock(all.mutex);
+  all.by_descriptor[connection] = std::move(guarded);
+}
+
+uint64_t HeaderFloods() { return floods; }
+
+}  // namespace choreo
+
+// These are called instead of the libraries' own by all that is linked with this.
+extern "C" {
+
+__attribute__((visibility("default"))) ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
+  static auto* const next = choreo::Next<decltype(recvmsg)>("recvmsg");
+  const ssize_t count = next(descriptor, message, flags);
+  if (count <= 0 || flags != 0) return count;
+  const auto connection = choreo::Find(descriptor);
+  if (!connection) return count;
+  choreo::last_read = connection;
+  if (connection->encrypted ||
+      choreo::TakeMessage(*connection, *message, static_cast<size_t>(count)))
+    return count;
+  errno = ECONNRESET;
+  return -1;
+}
+
+__attribute__((visibility("default"))) int SSL_read(SSL* ssl, void* bytes, int size) {
+  static auto* const next = choreo::Next<decltype(SSL_read)>("SSL_read");
+  const int count = next(ssl, bytes, size);
+  if (count <= 0 || SSL_is_server(ssl) == 0) return count;
+  const auto connection = choreo::last_read.lock();
+  const std::string peer = connection ? connection->peer : "somebody";
+  if (choreo::Take(choreo::MeterOf(ssl), bytes, static_cast<size_t>(count), peer)) return count;
+  return -1;  // SSL_get_error calls it a failure of the transport
+}
+}
