@@ -176,9 +176,10 @@ test('an aborted call ends here and on the server', async () => {
   await withClient(async (client) => {
     const stop = new AbortController();
     const read = async () => {
-      for await (const answer of client.streamDance(endless(), { signal: stop.signal })) if (answer.frames) stop.abort();
+      for await (const answer of client.streamDance(endless(), { signal: stop.signal })) if (answer.frames) stop.abort(why);
     };
-    await assert.rejects(read(), { code: 'CANCELLED' });
+    const why = new Error('the page was closed');
+    await assert.rejects(read(), { code: 'CANCELLED', cause: why });
     // So does one that is no longer read.
     for await (const answer of client.streamDance(endless())) if (answer.frames) break;
     while ((await client.info()).active_streams > 0) await sleep(5);
@@ -205,8 +206,8 @@ test('a call that waits for its connection ends where nobody wants it any more',
     const stop = new AbortController();
     const [aborted, closed] = [client.info({ signal: stop.signal }), client.info()];
     const [socket] = await once(mute, 'connection');
-    stop.abort();
-    await assert.rejects(aborted, { code: 'CANCELLED', message: 'the call was cancelled' });
+    stop.abort('no longer');
+    await assert.rejects(aborted, { code: 'CANCELLED', message: 'the call was cancelled', cause: 'no longer' });
     client.close();
     await assert.rejects(closed, { code: 'CANCELLED', message: 'the client is closed' });
     socket.destroy();

@@ -35,7 +35,7 @@ export interface ClientOptions {
 }
 
 export interface CallOptions {
-  /** Ends the call, here and on the server. */
+  /** Ends the call, here and on the server, with CANCELLED, whose `cause` is the signal's reason. */
   signal?: AbortSignal;
   /** When the call must be over, all its attempts together: a date, or milliseconds since 1970. */
   deadline?: Date | number;

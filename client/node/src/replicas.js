@@ -43,7 +43,9 @@ export class Replicas {
     try {
       yield* this.#persist(attempt, end, deadline);
     } catch (error) {
-      throw this.#closing.signal.aborted ? cancelled('the client is closed') : error;
+      if (this.#closing.signal.aborted) throw cancelled('the client is closed');
+      if (signal?.aborted && error.code === 'CANCELLED') error.cause = signal.reason;
+      throw error;
     } finally {
       leave();
     }
