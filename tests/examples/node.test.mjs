@@ -115,7 +115,7 @@ test('errors name code, field and value', async () => {
       assert.equal(error.code, 'INVALID_ARGUMENT');
       assert.equal(error.violations[0].field, 'keyframe.pose.rotations[0]');
       assert.match(error.violations[0].description, /^1000 rad/);
-      assert.match(error.message, /^keyframes\[0\]\.rotations\[0\]: 1000 rad/);
+      assert.match(error.message, /^requests\[1\]\.keyframe\.pose\.rotations\[0\]: 1000 rad/);
       return true;
     });
     // The numbers that were sent are counted, in the encoding of their pose.
@@ -129,7 +129,7 @@ test('errors name code, field and value', async () => {
     for (const [wanted, field] of sent) {
       const requests = [{ config: {} }, { keyframe: { id: 'b', frame: 40, pose: turns } }];
       requests.splice(1, 1, { keyframe: { id: 'a', frame: 20, pose: wanted } });
-      const of = { keyframeId: 'a', joint: 5, field: `keyframe.pose.${field}` };
+      const of = { keyframeId: 'a', joint: 5, request: 1, field: `keyframe.pose.${field}` };
       await assert.rejects(collect(client.streamDance(requests)), ({ violations: [{ description, ...named }] }) => {
         assert.deepEqual(named, of);
         return true;

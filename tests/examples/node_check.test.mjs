@@ -61,7 +61,9 @@ test('a request that the API does not know is refused by its path', () =>
         const said = error.violations[0].description;
         if (typeof description === 'string') assert.equal(said, description);
         else assert.match(said, description);
-        assert.equal(error.message, `${field}: ${said}`);
+        const at = requests && Array.from(requests).length - 1;
+        assert.equal(error.message, `${requests && !field.startsWith('requests') ? `requests[${at}].` : ''}${field}: ${said}`);
+        assert.equal(error.violations[0].request, at);
         return true;
       });
     }
@@ -144,7 +146,7 @@ test('a source whose request is refused is ended', () =>
         ended = true;
       }
     }
-    await assert.rejects(collect(client.streamDance(requests())), { message: 'keyfarme: no field of StreamDanceRequest; did you mean keyframe?' });
+    await assert.rejects(collect(client.streamDance(requests())), { message: 'requests[1].keyfarme: no field of StreamDanceRequest; did you mean keyframe?' });
     assert.ok(ended);
   }));
 
@@ -157,10 +159,10 @@ test('music is bytes, or the samples that its encoding says', () =>
     for (const data of [floats, ...bytes]) assert.equal(frames(await dance('AUDIO_ENCODING_PCM_F32LE', data)), 30);
     for (const data of [shorts, shorts.buffer]) assert.equal(frames(await dance('AUDIO_ENCODING_PCM_S16LE', data)), 30);
     assert.equal(frames(await dance(1, floats.subarray(4000))), 15);
-    const wrong = /^audio\.data: Float32Array is not what config\.audio_format\.encoding says, AUDIO_ENCODING_PCM_S16LE: that is Int16Array or any bytes$/;
+    const wrong = /^requests\[1\]\.audio\.data: Float32Array is not what config\.audio_format\.encoding says, AUDIO_ENCODING_PCM_S16LE: that is Int16Array or any bytes$/;
     for (const encoding of ['AUDIO_ENCODING_PCM_S16LE', 2]) await assert.rejects(dance(encoding, floats), { message: wrong });
     for (const data of [[1, 2], 'song.mp3', 5]) {
-      await assert.rejects(dance('AUDIO_ENCODING_PCM_S16LE', data), { message: /^audio\.data: .* is no bytes/ });
+      await assert.rejects(dance('AUDIO_ENCODING_PCM_S16LE', data), { message: /^requests\[1\]\.audio\.data: .* is no bytes/ });
     }
   }));
 
@@ -168,16 +170,16 @@ test('music that no message can hold is refused before it is sent', () =>
   withClient(async (client) => {
     const config = { frames: 30, audio_format: { encoding: 'AUDIO_ENCODING_PCM_F32LE', sample_rate: 48000, channels: 1 } };
     const dance = (data) => collect(client.streamDance([{ config }, { audio: { data } }, { end_of_audio: {} }]));
-    const wrong = (size, remedy) => ({
+    const wrong = (size, remedy, place = 'requests[1].') => ({
       code: 'INVALID_ARGUMENT',
-      message: `audio.data: ${size} MiB; a message has at most 16 MiB in all: ${remedy}`,
+      message: `${place}audio.data: ${size} MiB; a message has at most 16 MiB in all: ${remedy}`,
     });
     const pieces = 'send it in pieces, each with its first_sample';
     await assert.rejects(dance(new Uint8Array(17 << 20)), wrong('17.0', pieces));
     await assert.rejects(dance(new Uint8Array(16 << 20)), wrong('16.0', pieces));
     assert.equal(frames(await dance(new Uint8Array((16 << 20) - 32))), 30);
     const transition = collect(client.generateTransition({ config, frames: 9, audio: { data: new Uint8Array(17 << 20) } }));
-    await assert.rejects(transition, wrong('17.0', 'send the music of its frames alone, or a compressed file'));
+    await assert.rejects(transition, wrong('17.0', 'send the music of its frames alone, or a compressed file', ''));
   }));
 
 test('a pose of joints that are not there, or of what is no rotation, is refused', () => {

@@ -39,7 +39,7 @@ class CheckTest(unittest.TestCase):
         return list(self.client.stream_dance(requests))
 
     def assert_refused(self, pattern, call, *arguments, code="INVALID_ARGUMENT"):
-        with self.assertRaisesRegex(ChoreoError, f"^{pattern}") as raised:
+        with self.assertRaisesRegex(ChoreoError, rf"^(requests\[\d+\]\.)?{pattern}") as raised:
             call(*arguments)
         self.assertEqual(raised.exception.code, code)
         return raised.exception
@@ -70,7 +70,9 @@ class CheckTest(unittest.TestCase):
             ((named, said),) = error.violations
             self.assertEqual(named, field)
             self.assertRegex(said, f"^{description}")
-            self.assertEqual(str(error), f"{named}: {said}")
+            at = len(requests) - 1
+            self.assertEqual(str(error), f"{'' if named.startswith('requests') else f'requests[{at}].'}{named}: {said}")
+            self.assertEqual(error.violations[0].request, at)
         self.assert_refused("requests: None is no iterable", lambda: list(self.client.stream_dance(None)))
         self.assert_refused("rank_by: 'LIKELIHOOD' is no RankBy; did you mean", self.client.generate_transition, {"rank_by": "LIKELIHOOD"})
         self.assert_refused("request: None is no GenerateTransitionRequest", self.client.generate_transition, None)

@@ -21,7 +21,7 @@ export async function answerOf(begin, signal) {
   }
 }
 
-/** Yields the answers of a call. `find(violation)`: what was sent that an error is about. */
+/** Yields the answers of a call. `find(violation)`: what was sent that an error is about, as ChoreoError.locate wants it. */
 export async function* answersOf(call, signal, find) {
   const leave = cancelOn(signal, call);
   try {

@@ -140,7 +140,7 @@ class Progress {
   #asSent(event) {
     const rejected = event.keyframe_rejected;
     if (!rejected?.field) return event;
-    const { field } = asSent(rejected.field, this.#journal.find({ field: rejected.field, keyframeId: rejected.id }));
+    const { field } = asSent(rejected.field, this.#journal.find({ field: rejected.field, keyframeId: rejected.id }).message);
     return { ...event, keyframe_rejected: { ...rejected, field } };
   }
 

@@ -17,9 +17,18 @@ export class ChoreoError extends Error {
     for (const bytes of failure.metadata?.get('grpc-status-details-bin') ?? []) this.#read(bytes);
   }
 
-  /** Has the violations name what callers have sent: `find(violation)` is the message. */
-  locate(find) {
-    this.violations = this.violations.map((violation) => ({ ...violation, ...asSent(violation.field, find(violation)) }));
+  /**
+   * Names what callers have sent. `find(violation)`: {message, request}, the message and, of several, its number, where that is known.
+   * `name(field, message)`: what to call a field.
+   */
+  locate(find, name = asSent) {
+    for (const violation of this.violations) {
+      const { message, request } = find(violation);
+      Object.assign(violation, name(violation.field, message), request !== undefined && { request });
+      const place = request === undefined || violation.field.startsWith('requests[') ? '' : `requests[${request}].`;
+      // The server's words name its own list of keys.
+      if (this.message.endsWith(`: ${violation.description}`)) this.message = `${place}${violation.field}: ${violation.description}`;
+    }
     return this;
   }
 

@@ -55,16 +55,19 @@ export interface Resumed {
   because: ChoreoError;
 }
 
-/** A failed call, or an option that cannot be used. The message is the server's, and names field, value and limit. */
+/**
+ * A failed call, or an option that cannot be used. The message is the server's, and names field, value and limit: of one of several requests as
+ * `requests[3].keyframe.time`.
+ */
 export class ChoreoError extends Error {
   private constructor();
   /** As in 'INVALID_ARGUMENT'. */
   readonly code: string;
   /**
    * What is wrong: the field's path in the message that was sent, as in 'keyframe.pose.rotations[48]'; of a rotation its first number, and its
-   * `joint`; and the key that it is of.
+   * `joint`; the key that it is of; and, where it is known, which of the `requests` it is in, from 0.
    */
-  readonly violations: { field: string; description: string; keyframeId?: string; joint?: number }[];
+  readonly violations: { field: string; description: string; keyframeId?: string; joint?: number; request?: number }[];
   /** Try again after so many seconds, where that may help. */
   readonly retryAfter?: number;
 }

@@ -59,7 +59,7 @@ export class Journal {
       this.close(); // the source knows nothing of it
       const keyframeId = request?.keyframe?.id;
       if (typeof keyframeId === 'string') error.violations.forEach((violation) => Object.assign(violation, { keyframeId }));
-      throw error;
+      throw error.locate(() => ({ request: this.#requests.length }), (field) => ({ field }));
     }
   }
 
@@ -71,11 +71,14 @@ export class Journal {
     Promise.resolve(this.#source.return?.()).catch(() => {});
   }
 
-  /** The latest request that may have a field: of a key, the one of that id, if it is known. */
+  /** The latest request that may have a field: of a key, the one of that id, if it is known. Its number, if no other one may have it. */
   find({ field, keyframeId }) {
     const kind = field.split(/[.[]/)[0];
     const ofKey = ({ keyframe }) => keyframeId === undefined || keyframe?.id === keyframeId;
-    return this.#requests.findLast((request) => request?.[kind] && (kind !== 'keyframe' || ofKey(request)));
+    const mayHave = (request) => request?.[kind] && (kind !== 'keyframe' || ofKey(request));
+    const last = this.#requests.findLastIndex(mayHave);
+    const isAlone = last >= 0 && !this.#requests.some((request, at) => at !== last && (request === null ? kind === 'audio' : mayHave(request)));
+    return { message: this.#requests[last], request: isAlone ? last : undefined };
   }
 
   /** Another server would need the music from this sample on alone. The present one has been told what stands before `sent`. */

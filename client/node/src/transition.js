@@ -20,7 +20,7 @@ export async function* transition(replicas, asked, given) {
     const config = begun ? { ...request.config, seed: begun.seed, model: begun.model } : request.config;
     const call = server.stub.GenerateTransition({ ...request, config }, replicas.metadata(), { deadline });
     let complete = false;
-    for await (const answer of answersOf(call, signal, () => request)) {
+    for await (const answer of answersOf(call, signal, () => ({ message: request }))) {
       if (answer.header && begun) {
         requireSameFingerprint(begun.fingerprint, answer.header, server.address);
       } else if (answer.header) {

@@ -154,7 +154,7 @@ class _Progress:
     def _name_as_sent(self, rejected):
         if rejected.field:
             violation = Violation(rejected.field, rejected.reason, rejected.id)
-            rejected.field, _ = as_sent(rejected.field, self._journal.find(violation))
+            rejected.field, _ = as_sent(rejected.field, self._journal.find(violation)[0])
 
     def _take_header(self, header, address):
         if self._header is None:

@@ -12,11 +12,12 @@ _rpc = types.SimpleNamespace(**contents(*ERRORS))
 
 class Violation(collections.namedtuple("Violation", "field description")):
     """What the server finds wrong: a field's path in the message that was sent, as in 'keyframe.pose.rotations[48]', and what of it. Of a
-    rotation the field is its first number, and `joint` its joint. `keyframe_id`: the key that it is of. None where there is none."""
+    rotation the field is its first number, and `joint` its joint. `keyframe_id`: the key that it is of. `request`: which of the requests it is
+    in, from 0, where that is known. None where there is none."""
 
-    def __new__(cls, field, description, keyframe_id=None, joint=None):
+    def __new__(cls, field, description, keyframe_id=None, joint=None, request=None):
         violation = super().__new__(cls, field, description)
-        violation.keyframe_id, violation.joint = keyframe_id, joint
+        violation.keyframe_id, violation.joint, violation.request = keyframe_id, joint, request
         return violation
 
 
@@ -33,14 +34,24 @@ class ChoreoError(Exception):
         self.is_of_the_caller = False  # options do not fit the server
 
     @classmethod
-    def of(cls, failure, find=lambda violation: None):
-        """A grpc.RpcError. `find(violation)`: the message that was sent and that it is about."""
+    def of(cls, failure, find=lambda violation: (None, None)):
+        """A grpc.RpcError. `find(violation)`: the message that was sent and that it is about, and, of several, its number, where it is known."""
         error = cls(failure.code().name, failure.details() or "the server failed without saying why")
         for key, value in failure.trailing_metadata() or ():
             if key == "grpc-status-details-bin":
                 error._read(value)
-        error.violations = [_located(violation, find(violation)) for violation in error.violations]
-        return error
+        return error.located(find)
+
+    def located(self, find, name=as_sent):
+        """Itself, naming what callers have sent. `name(field, message)`: what to call a field, and the joint or None."""
+        self.violations = [self._located(violation, request, *name(violation.field, message)) for violation in self.violations for message, request in [find(violation)]]
+        return self
+
+    def _located(self, violation, request, field, joint):
+        place = "" if request is None or field.startswith("requests[") else f"requests[{request}]."
+        if str(self).endswith(f": {violation.description}"):  # the server's words name its own list of keys
+            self.args = (f"{place}{field}: {violation.description}",)
+        return Violation(field, violation.description, violation.keyframe_id, joint, request)
 
     def _read(self, value):
         key = None
@@ -54,11 +65,6 @@ class ChoreoError(Exception):
             elif name == "google.rpc.RetryInfo":
                 delay = _rpc.RetryInfo.FromString(detail.value).retry_delay
                 self.retry_after = delay.seconds + 1e-9 * delay.nanos
-
-
-def _located(violation, request):
-    field, joint = as_sent(violation.field, request)
-    return Violation(field, violation.description, violation.keyframe_id, joint)
 
 
 def unavailable(message):

@@ -68,7 +68,7 @@ class Journal:
             name = key.get("id") if isinstance(key, collections.abc.Mapping) else None
             if isinstance(name, str):
                 error.violations = [Violation(*violation, keyframe_id=name) for violation in error.violations]
-            raise
+            raise error.located(lambda violation: (None, len(self._said)), lambda field, message: (field, None))
 
     def _end_source(self):
         if hasattr(self._source, "close"):
@@ -84,14 +84,20 @@ class Journal:
             self._asking.release()
 
     def find(self, violation):
-        """The latest request that may have its field: of a key, the one of that id, if it is known; or None."""
+        """The latest request that may have its field, or None: of a key, the one of that id, if it is known. And its number, if no other one
+        may have it."""
         kind = re.match(r"\w*", violation.field)[0]
-        for request in reversed(list(self._said)):
-            if request is None or request.WhichOneof("request") != kind:
-                continue
-            if kind != "keyframe" or violation.keyframe_id in (None, request.keyframe.id):
-                return request
-        return None
+
+        def may_have(request):
+            if request is None:
+                return kind == "audio"
+            return request.WhichOneof("request") == kind and (kind != "keyframe" or violation.keyframe_id in (None, request.keyframe.id))
+
+        found = [(request, at) for at, request in enumerate(list(self._said)) if may_have(request)]
+        if not found:
+            return None, None
+        request, at = found[-1]
+        return request, at if len(found) == 1 else None
 
     def forget_music_before(self, sample, sent):
         """Another server would need the music from this sample on alone. The present one has been told the first `sent` requests."""

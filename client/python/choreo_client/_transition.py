@@ -36,7 +36,7 @@ def transition(replicas, request, until):
                 complete |= answer.HasField("summary")
                 yield answer
         except grpc.RpcError as failure:
-            raise ChoreoError.of(failure, lambda violation: asked) from None
+            raise ChoreoError.of(failure, lambda violation: (asked, None)) from None
         finally:
             call.cancel()  # a finished one does not mind
         if not complete:
