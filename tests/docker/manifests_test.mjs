@@ -170,6 +170,13 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
   assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);
 });
 
+test('what is wrong with one replica names it', () => {
+  const named = alerts.filter(({annotations}) => annotations.summary.includes('$labels.instance'));
+  named.forEach(({alert, expr}) => assert.ok(!/\b(sum|min|max|avg) by/.test(expr) || /by \([^)]*instance, pod/.test(expr), alert));
+  for (const name of ['ChoreoReplicaIsDown', 'ChoreoEngineIsBroken', 'ChoreoFails', 'ChoreoIsLate', 'ChoreoIsShortOfMemory', 'ChoreoRestarts'])
+    assert.ok(named.some(({alert}) => alert === name), name);
+});
+
 test('alerts are the same with and without the operator, and the runbook has each', () => {
   assert.deepEqual(ofKind('PrometheusRule').spec.groups, yaml.load(read('alerts.yaml')).groups);
   const known = [...readSource('docs/runbook.md').matchAll(/^\| `(\w+)` \|/gm)].map(([, name]) => name);
