@@ -66,7 +66,7 @@ test('all of them speak of the same pods', () => {
 
 test('settings are those of choreod, which waits and drains within its grace', () => {
   const flags = ['server/config_flags.cpp', 'client/cli/connection.cpp'].map(readSource).join('');
-  const settings = [...container.env.map(({name}) => name), ...Object.keys(yaml.load(read('compose.yaml')).services.choreod.environment)];
+  const settings = [...container.env.map(({name}) => name), ...['compose.yaml', 'compose.tls.yaml'].flatMap((file) => Object.keys(yaml.load(read(file)).services.choreod.environment))];
   settings.forEach((name) => assert.ok(flags.includes(`"${name}"`), `nobody reads ${name}`));
   const {command: [program, seconds]} = container.lifecycle.preStop.exec;
   assert.equal(program, 'sleep');
@@ -251,5 +251,12 @@ test('containers of compose.yaml may do little', () => {
   assert.ok(service.pids_limit >= 100);
   assert.equal(service.environment.CHOREO_REFLECTION, 'false');
   assert.match(service.image, /^\$\{CHOREO_IMAGE:-choreo\}$/);
-  assert.ok(service.ports.every((port) => port.startsWith('127.0.0.1:')));
+  assert.ok(service.ports.every((port) => port.startsWith('${CHOREO_PUBLISH:-127.0.0.1}:')));
+});
+
+test('with compose.tls.yaml nobody comes without TLS and a token', () => {
+  const {environment: {CHOREO_INSECURE: insecure, ...settings}, volumes} = yaml.load(read('compose.tls.yaml')).services.choreod;
+  assert.equal(insecure, 'false');
+  for (const name of ['CHOREO_TLS_CERT', 'CHOREO_TLS_KEY', 'CHOREO_TOKENS', 'CHOREO_CA']) assert.ok(settings[name].startsWith('/secrets/'), name);
+  assert.match(volumes[0], /:\/secrets:ro$/);
 });
