@@ -77,6 +77,12 @@ void CallRegistry::Leave(const Call* call) {
   if (calls_.empty()) left_.notify_all();
 }
 
+int CallRegistry::CountOf(const std::string& party) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = of_party_.find(party);
+  return found == of_party_.end() ? 0 : found->second;
+}
+
 void CallRegistry::EndIdle() {
   struct Idle {
     std::shared_ptr<Call> call;

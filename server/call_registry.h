@@ -86,6 +86,8 @@ class CallRegistry {
 
   bool admitting() const;  ///< until StopAdmitting
   int count() const;       ///< admitted
+  /// A caller's, including those without a first message.
+  int CountOf(const std::string& party) const;
   const CallLimits& limits() const { return limits_; }
   /// The share of the limits that is taken: of all calls, or the busiest caller's.
   double utilisation() const;

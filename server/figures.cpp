@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/caller.h"
 #include "server/handshakes.h"
 #include "server/header_guard.h"
 #include "server/process_usage.h"
@@ -74,6 +75,7 @@ class Figures {
     Families out;
     const std::map<std::string, Models::Figures> models = serving_.models.figures();
     AddCalls(models, out);
+    AddHolders(out);
     AddModels(models, out);
     AddReloads(out);
     AddHistograms(models, out);
@@ -139,6 +141,31 @@ class Figures {
     out.Begin("support_ratio", "Share of a dance's frames in which something supports the body.",
               MetricType::Histogram);
     out.Add(serving_.tally.support.snapshot());
+  }
+
+  // Each is a series for ever, so their number is bounded.
+  void AddHolders(Families& out) const {
+    constexpr size_t kMostHolders = 100;
+    const std::vector<std::string> names = serving_.tokens.Names(kMostHolders);
+    if (names.empty()) return;
+    const auto add = [&](const char* name, const char* help, MetricType type, auto figure) {
+      out.Begin(name, help, type);
+      for (const std::string& holder : names) {
+        out.Add(static_cast<double>(figure(holder)), {{"holder", holder}});
+      }
+    };
+    const Tally& tally = serving_.tally;
+    add("holder_streams", "Calls in progress of a token's holder, of the first 100.",
+        MetricType::Gauge, [&](const std::string& holder) {
+          Caller caller;
+          caller.holder = holder;
+          return serving_.calls.CountOf(caller.Party());
+        });
+    add("holder_calls_total", "Calls that danced, or failed, of a token's holder.",
+        MetricType::Counter, [&](const std::string& holder) { return tally.SumOf(holder).served; });
+    add("holder_refused_calls_total", "Calls that were turned away, of a token's holder.",
+        MetricType::Counter,
+        [&](const std::string& holder) { return tally.SumOf(holder).refused; });
   }
 
   void AddModels(const std::map<std::string, Models::Figures>& models, Families& out) const {

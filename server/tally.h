@@ -35,7 +35,11 @@ class Tally {
     const std::lock_guard lock(mutex_);
     ++calls_[{std::string(call.method), call.status.error_code()}];
     if (call.refusal) ++refusals_[static_cast<size_t>(*call.refusal)];
-    if (call.method != kInfoMethod) ++(call.refusal ? sum_.refused : sum_.served);
+    if (call.method == kInfoMethod) return;
+    ++(call.refusal ? sum_.refused : sum_.served);
+    if (call.caller.holder.empty()) return;
+    Sum& own = of_holder_[call.caller.holder];
+    ++(call.refusal ? own.refused : own.served);
   }
   Calls calls() const {
     const std::lock_guard lock(mutex_);
@@ -54,6 +58,12 @@ class Tally {
     const std::lock_guard lock(mutex_);
     return sum_;
   }
+  /// The same of a token's holder.
+  Sum SumOf(const std::string& holder) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = of_holder_.find(holder);
+    return found == of_holder_.end() ? Sum{} : found->second;
+  }
 
   std::atomic<uint64_t> frames = 0;        ///< received by ended calls
   std::atomic<uint64_t> dance_frames = 0;  ///< sent by all dances
@@ -66,9 +76,10 @@ class Tally {
 
  private:
   mutable std::mutex mutex_;
-  Calls calls_;             // lock: mutex_
-  Refusals refusals_ = {};  // lock: mutex_
-  Sum sum_;                 // lock: mutex_
+  Calls calls_;                           // lock: mutex_
+  Refusals refusals_ = {};                // lock: mutex_
+  Sum sum_;                               // lock: mutex_
+  std::map<std::string, Sum> of_holder_;  // lock: mutex_
 };
 
 }  // namespace choreo

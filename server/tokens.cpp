@@ -97,6 +97,16 @@ std::shared_ptr<const Tokens::Holders> Tokens::holders() const {
   return holders_;
 }
 
+std::vector<std::string> Tokens::Names(size_t most) const {
+  std::vector<std::string> names;
+  const auto all = holders();
+  for (const Holder& one : *all) {
+    if (names.size() >= most) break;
+    if (std::ranges::find(names, one.name) == names.end()) names.push_back(one.name);
+  }
+  return names;
+}
+
 grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* holder) const {
   if (!needed()) return grpc::Status::OK;
   if (authorization.empty()) return SendToken("a token is needed");

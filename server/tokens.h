@@ -29,6 +29,8 @@ class Tokens {
 
   bool needed() const { return !file_.empty(); }
   size_t count() const { return holders()->size(); }
+  /// Who has a token, each once, in the order of the file, at most `most`.
+  std::vector<std::string> Names(size_t most) const;
 
   /// The holder of the token in `authorization`, that header's value or empty; nobody if no token
   /// is needed. Takes equally long for all invalid tokens. Returns OK, or UNAUTHENTICATED saying

@@ -284,6 +284,38 @@ TEST_F(MetricsTest, UtilisationIsOneWhereverCallsAreRefused) {
   caller.join();
 }
 
+TEST_F(MetricsTest, ShowWhoseCallsTheyAre) {
+  const TemporaryFolder folder;
+  const std::filesystem::path tokens = folder / "tokens";
+  // Of the token "a" and of nobody's.
+  std::ofstream(tokens)
+      << "ca978112ca1bbdcafac231b39a23dc4da786eff8147c4e72b9807785afee48bb alice\n"
+      << std::string(64, 'a') << " bob\n"
+      << std::string(64, 'b') << " bob\n";
+  Start(1, [&](ServerConfig& config) {
+    config.metrics = "0";
+    config.tokens = tokens;
+    config.max_streams_of_peer = 1;
+    config.max_streams = 1;
+  });
+  const auto figure = [this](const std::string& name, const std::string& holder) {
+    return Figure("choreo_holder_" + name + "{holder=\"" + holder + "\"}");
+  };
+  grpc::ClientContext first, second;
+  for (grpc::ClientContext* context : {&first, &second})
+    context->AddMetadata("authorization", "Bearer a");
+  const auto dance = stub().StreamDance(&first);
+  ExpectEventually([&] { return figure("streams", "alice") == 1; }, "her call is in progress");
+  const auto refused = stub().StreamDance(&second);
+  EXPECT_EQ(refused->Finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  ExpectEventually([&] { return figure("refused_calls_total", "alice") == 1; }, "it is counted");
+  first.TryCancel();
+  dance->Finish();
+  ExpectEventually([&] { return figure("calls_total", "alice") == 1; }, "it is over");
+  EXPECT_EQ(figure("streams", "alice"), 0);
+  EXPECT_EQ(figure("calls_total", "bob"), 0);
+}
+
 TEST_F(MetricsTest, ShowFailedReloads) {
   const TemporaryFolder folder;
   const std::filesystem::path tokens = folder / "tokens";
