@@ -30,6 +30,7 @@
 #include "server/periodic_thread.h"
 #include "server/reset_guard.h"
 #include "server/service.h"
+#include "server/service_manager.h"
 #include "server/serving.h"
 #include "server/tls.h"
 
@@ -194,6 +195,7 @@ struct Server::Impl {
       serving.LookAtCost();
       UpdateHealth();
       if (certificate) handshakes.Look();
+      TellManagerOfLife();
     });
     if (serving.tokens.needed() || certificate) {
       file_watch.emplace(kFileInterval, [this] { RereadFiles(); });

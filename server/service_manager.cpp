@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -45,6 +46,20 @@ void TellManagerOfReload() {
   clock_gettime(CLOCK_MONOTONIC, &now);
   const auto microseconds = int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1'000;
   TellManager("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(microseconds));
+}
+
+// $WATCHDOG_PID names who is meant, as a child inherits both.
+void TellManagerOfLife() {
+  static std::chrono::steady_clock::time_point next;
+  const char* asked = std::getenv("WATCHDOG_USEC");
+  if (asked == nullptr) return;
+  const char* whom = std::getenv("WATCHDOG_PID");
+  if (whom != nullptr && whom != std::to_string(getpid())) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next) return;
+  constexpr int kTellings = 4;
+  next = now + std::chrono::microseconds(std::strtoll(asked, nullptr, 10) / kTellings);
+  TellManager("WATCHDOG=1");
 }
 
 }  // namespace choreo

@@ -13,4 +13,9 @@ void TellManager(const std::string& state);
 /// TellManager that a reread begins; "READY=1" ends it.
 void TellManagerOfReload();
 
+/// TellManager that the process lives, where $WATCHDOG_USEC asks for it: four times in that time.
+/// Call regularly, more often than that, from what stops when the server hangs; on one thread at a
+/// time.
+void TellManagerOfLife();
+
 }  // namespace choreo

@@ -243,6 +243,32 @@ TEST_F(ServeTest, TellsItsManagerHowFarItIs) {
   close(manager);
 }
 
+// systemd's WatchdogSec=: who says nothing for that long is begun again.
+TEST_F(ServeTest, TellsItsManagerThatItLives) {
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  std::ranges::copy((folder_ / "notify").string(), address.sun_path);
+  const int manager = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(manager, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  const timeval patience{.tv_sec = 10, .tv_usec = 0};
+  setsockopt(manager, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  setenv("NOTIFY_SOCKET", (folder_ / "notify").c_str(), 1);
+  setenv("WATCHDOG_USEC", "400000", 1);
+  Start("--drain-seconds 1");
+  int alive = 0;
+  for (int i = 0; i < 4; ++i) {  // READY=1 comes among them
+    char text[1024];
+    const ssize_t size = recv(manager, text, sizeof text, 0);
+    if (size > 0) alive += std::string(text, static_cast<size_t>(size)) == "WATCHDOG=1" ? 1 : 0;
+  }
+  unsetenv("NOTIFY_SOCKET");
+  unsetenv("WATCHDOG_USEC");
+  EXPECT_EQ(alive, 3);
+  AwaitListening();
+  Send(SIGTERM);
+  EXPECT_EQ(End().code, 0);
+  close(manager);
+}
+
 TEST_F(ServeTest, ContinuesWithoutALogReader) {
   Start("", "head -1");
   AwaitListening();
