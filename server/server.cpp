@@ -140,10 +140,12 @@ ServerConfig WithStreams(ServerConfig config,
     const double fps = queue->model().fps, load = queue->LoadOf(fps);
     if (load <= 0) continue;  // not measured
     const double carried = config.max_load / (load + ServingCost().LoadOf(fps));
+    spdlog::info("model \"{}\": as busy as this machine is now, it carries {:.0f} dances at once",
+                 queue->model().name, carried);
     config.max_streams = std::max<int>(config.max_streams,
                                        std::min<double>(carried, UsableCores() * kStreamsPerCore));
   }
-  spdlog::info("at most {} calls at once", config.max_streams);
+  spdlog::info("at most {} calls at once; --max-streams fixes the number", config.max_streams);
   return config;
 }
 
