@@ -80,7 +80,7 @@ TEST_F(InfoTest, ReportsModelLimitsAndDevices) {
   ASSERT_EQ(info.devices_size(), 1);
   EXPECT_EQ(info.devices(0), "fake:0");
   EXPECT_EQ(info.slots(), 3);
-  EXPECT_EQ(info.version(), "0.2.0");
+  EXPECT_EQ(info.version(), CHOREO_VERSION);
 }
 
 class BriefSampler : public FakeSampler {
