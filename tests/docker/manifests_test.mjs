@@ -254,6 +254,13 @@ test('containers of compose.yaml may do little', () => {
   assert.ok(service.ports.every((port) => port.startsWith('${CHOREO_PUBLISH:-127.0.0.1}:')));
 });
 
+test('images have the version of the project', () => {
+  const [, version] = readSource('CMakeLists.txt').match(/project\(choreo VERSION (\S+)/);
+  const quoted = ['docker/compose.yaml', 'docker/kustomization.yaml', 'docs/deploy.md'].flatMap((file) =>
+    [...readSource(file).matchAll(/(?:choreo:|newTag: )(\d+\.\d+\.\d+)/g)].map(([, of]) => of));
+  assert.deepEqual(quoted, Array(3).fill(version));
+});
+
 test('with compose.tls.yaml nobody comes without TLS and a token', () => {
   const {environment: {CHOREO_INSECURE: insecure, ...settings}, volumes} = yaml.load(read('compose.tls.yaml')).services.choreod;
   assert.equal(insecure, 'false');
