@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,6 +14,7 @@
 #include "client/authoring/key_numbers.h"
 #include "client/authoring/motion_input.h"
 #include "client/authoring/pose_library.h"
+#include "model/core/nearest.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 #include "model/motion/kinematics.h"
@@ -117,15 +119,13 @@ std::vector<KeyPose> ReadMotionKeys(const std::string& path, std::string_view ti
 /// Keeps only the key with this id and those that hold it.
 void KeepOne(const std::string& id, const std::string& file, std::vector<KeyPose>* keys,
              std::vector<std::string>* places) {
-  size_t from = 0, named = 0;
-  std::string ids;
-  for (; from < keys->size() && (IsHeld((*places)[from]) || (*keys)[from].id != id); ++from) {
-    if (IsHeld((*places)[from]) || ++named > kMaxNamed) continue;
-    ids += (ids.empty() ? "\"" : ", \"") + (*keys)[from].id + '"';
-  }
+  size_t from = 0;
+  std::vector<std::string> ids;
+  for (; from < keys->size() && (IsHeld((*places)[from]) || (*keys)[from].id != id); ++from)
+    if (!IsHeld((*places)[from])) ids.push_back((*keys)[from].id);
   if (from == keys->size()) {
     throw InvalidArgument(
-        file, "has no key \"" + id + "\"; it has " + ids + (named > kMaxNamed ? " ..." : ""));
+        file, "has no key \"" + id + "\"; " + DidYouMean(id, ids, std::identity(), kMaxNamed));
   }
   size_t end = from + 1;
   while (end < keys->size() && IsHeld((*places)[end])) ++end;

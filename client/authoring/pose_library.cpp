@@ -5,11 +5,13 @@
 #include "client/authoring/pose_file.h"
 #include "client/authoring/pose_sources.h"
 #include "model/core/error.h"
-#include "model/core/joined.h"
+#include "model/core/nearest.h"
 #include "model/fit/retarget.h"
 
 namespace choreo::authoring {
 namespace {
+
+constexpr const char* kEnding = "ending";
 
 std::vector<LibraryPose> ParseLibrary() {
   std::vector<LibraryPose> poses;
@@ -26,7 +28,8 @@ std::vector<LibraryPose> ParseLibrary() {
 }  // namespace
 
 const std::vector<std::string>& PoseTags() {
-  static const std::vector<std::string> kTags = {"standing", "travelling", "jump", "floor"};
+  static const std::vector<std::string> kTags = {"standing", "travelling", "jump", "floor",
+                                                 kEnding};
   return kTags;
 }
 
@@ -35,11 +38,12 @@ const std::vector<LibraryPose>& PoseLibrary() {
   return kPoses;
 }
 
-std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton) {
+bool IsEnding(const LibraryPose& pose) {
+  return std::ranges::find(pose.tags, kEnding) != pose.tags.end();
+}
+
+std::vector<LibraryPose> PosesFor(const Skeleton& skeleton) {
   std::vector<LibraryPose> poses = PoseLibrary();
-  std::erase_if(poses, [](const LibraryPose& pose) {
-    return pose.tags.front() == "jump" || pose.tags.front() == "floor";
-  });
   try {
     for (LibraryPose& pose : poses) pose.pose = Retarget(Skeleton::Smpl24(), pose.pose, skeleton);
   } catch (const Error& error) {
@@ -51,13 +55,21 @@ std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton) {
   return poses;
 }
 
+std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton) {
+  std::vector<LibraryPose> poses = PosesFor(skeleton);
+  std::erase_if(poses, [](const LibraryPose& pose) {
+    return pose.tags.front() == "jump" || pose.tags.front() == "floor";
+  });
+  return poses;
+}
+
 const LibraryPose& FindLibraryPose(const std::string& id) {
   const auto& poses = PoseLibrary();
   const auto found = std::find_if(poses.begin(), poses.end(),
                                   [&](const LibraryPose& pose) { return pose.id == id; });
   if (found != poses.end()) return *found;
   throw Error(ErrorCode::kNotFound, id,
-              "is no pose of the library, which has " + Joined(poses, &LibraryPose::id));
+              "is no pose of the library; " + DidYouMean(id, poses, &LibraryPose::id));
 }
 
 }  // namespace choreo::authoring

@@ -19,15 +19,18 @@ struct LibraryPose {
 };
 
 /// The tags of poses: standing and travelling on the feet, jump in the air, floor on hands, knees
-/// or the seat. Each pose has exactly one of these.
+/// or the seat: each pose has exactly one of these, first. ending: no dance begins so.
 const std::vector<std::string>& PoseTags();
 
 /// All poses, by id. They are part of the program: no file is read.
 const std::vector<LibraryPose>& PoseLibrary();
 
-/// The poses that keys are drawn from, all that stand or travel, on this skeleton (fit/retarget.h).
-/// Throws Error(kInvalidArgument) whose field is "keyframes" if the skeleton lacks joints for
-/// retargeting.
+bool IsEnding(const LibraryPose& pose);
+
+/// All poses on this skeleton (fit/retarget.h). Throws Error(kInvalidArgument) whose field is
+/// "keyframes" if it lacks joints for retargeting.
+std::vector<LibraryPose> PosesFor(const Skeleton& skeleton);
+/// Those that keys are drawn from, all that stand or travel. Throws the same.
 std::vector<LibraryPose> PosesToDance(const Skeleton& skeleton);
 
 /// Throws Error(kNotFound) naming the existing ones.

@@ -12,7 +12,7 @@
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
-#include "model/core/joined.h"
+#include "model/core/nearest.h"
 #include "model/core/rounded.h"
 #include "model/formats/motion_file.h"
 
@@ -46,9 +46,8 @@ ordered_json::iterator Find(ordered_json& markers, const std::string& id, const 
 void Remove(const std::string& id, ordered_json* markers) {
   const auto found = Find(*markers, id, "--unmark");
   if (found != markers->end()) return void(markers->erase(found));
-  const std::string known = Joined(*markers, &Spoken);
-  throw InvalidArgument("--unmark", "the project has no marker \"" + id + "\"; it has " +
-                                        (known.empty() ? "none" : known));
+  throw InvalidArgument(
+      "--unmark", "the project has no marker \"" + id + "\"; " + DidYouMean(id, *markers, &Spoken));
 }
 
 /// The counts that the studio's ruler shows: the project's beats, or those of its song.

@@ -6,6 +6,7 @@
 
 #include "client/authoring/key_file.h"
 #include "model/core/error.h"
+#include "model/core/nearest.h"
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
@@ -39,6 +40,20 @@ ReportKeys::const_iterator Nearest(const ReportKeys& keys, const std::string& id
   return nearest;
 }
 
+/// What ID or ID@TIME may mean, or else the keys that there are.
+template <typename Second>
+std::string DescribeKnown(const ReportKeys& keys, const std::string& id,
+                          const std::vector<std::string>& known, const Second& second) {
+  const std::string name = id.substr(0, id.rfind('@'));
+  std::string seconds;
+  for (const auto& [frame, key] : keys) {
+    if (!HoldsAnother(key) && IdOf(key) == name)
+      seconds += (seconds.empty() ? "" : ", ") + second(frame);
+  }
+  if (!seconds.empty()) return "it has \"" + name + "\" at " + seconds + " s";
+  return DidYouMean(name, known);
+}
+
 }  // namespace
 
 bool HoldsAnother(const nlohmann::ordered_json& key) {
@@ -66,12 +81,13 @@ ReportKeys KeysOf(const nlohmann::ordered_json& report, int64_t frames, const st
 std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, double fps,
                              const std::string& field, const authoring::Counts& counts) {
   const auto second = [&](int64_t frame) { return Rounded(static_cast<double>(frame) / fps); };
-  std::string known, seconds;
+  std::string seconds;
+  std::vector<std::string> known;
   std::vector<ReportKeys::const_iterator> found;
   for (auto key = keys.begin(); key != keys.end(); ++key) {
     if (HoldsAnother(key->second)) continue;
     const std::string name = IdOf(key->second);
-    known += (known.empty() ? "\"" : ", \"") + name + '"';
+    known.push_back(name);
     const bool is_one = name + '@' + second(key->first) == id;
     if (name != id && !is_one) continue;
     if (is_one) found.clear();
@@ -85,7 +101,7 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
   }
   if (found.empty()) {
     throw InvalidArgument(
-        field, "the report has no key \"" + id + "\"; it has " + (known.empty() ? "none" : known));
+        field, "the report has no key \"" + id + "\"; " + DescribeKnown(keys, id, known, second));
   }
   if (found.size() > 1) {
     throw InvalidArgument(field, "the report has keys \"" + id + "\" at " + seconds +

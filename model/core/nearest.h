@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "model/core/joined.h"
 
 namespace choreo {
 
@@ -57,5 +61,23 @@ class Nearest {
   std::string word_, nearest_;
   std::optional<size_t> least_;
 };
+
+/// For errors about a word that is none of `known`: "did you mean kick?", or what there is if none
+/// is near: "it has kick, dab". `text` makes a text of an element. Names `most` of them.
+template <typename Range, typename Text = std::identity>
+std::string DidYouMean(const std::string& word, const Range& known, const Text& text = {},
+                       size_t most = std::numeric_limits<size_t>::max()) {
+  Nearest meant(word);
+  std::vector<std::string> named;
+  for (const auto& one : known) {
+    const std::string name = std::invoke(text, one);
+    meant.Offer(name);
+    if (named.size() <= most) named.push_back(name);
+  }
+  if (!meant.nearest().empty()) return "did you mean " + meant.nearest() + "?";
+  if (named.empty()) return "it has none";
+  if (named.size() > most) named.back() = "...";
+  return "it has " + Joined(named);
+}
 
 }  // namespace choreo

@@ -6,7 +6,7 @@
 
 #include "model/core/error.h"
 #include "model/core/hit.h"
-#include "model/core/joined.h"
+#include "model/core/nearest.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -83,9 +83,8 @@ void ValidateStyle(const ModelInfo& model, const std::string& style, const std::
     throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
                                      std::to_string(kMaxIdLength));
   }
-  const std::string known = Joined(model.styles);
   throw InvalidArgument(field, "\"" + style + "\" is no style of the model " + model.name + "; " +
-                                   (known.empty() ? "it has none" : "it has " + known));
+                                   DidYouMean(style, model.styles));
 }
 
 void ValidateOutputFps(double fps, const std::string& field) {

@@ -84,7 +84,7 @@ TEST_F(CommandTest, AnEditTakesOneKeyOfAFile) {
   EXPECT_EQ(several.code, 1);
   EXPECT_THAT(several.said, HasSubstr("keys.json: names 2 poses, must be 1: KEYS.json@ID"));
   EXPECT_THAT(edit(At("keys.json") + "@c").said,
-              HasSubstr("keys.json: has no key \"c\"; it has \"a\", \"b\""));
+              HasSubstr("keys.json: has no key \"c\"; it has a, b"));
 }
 
 TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {

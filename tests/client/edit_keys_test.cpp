@@ -289,8 +289,12 @@ TEST_F(EditTest, ARemovedKeyIsDancedPast) {
 
   outcome = Edit("--remove nosuch --report " + At("report.json") + " -o " + At("other.npz"));
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"nosuch\"; it has \"" +
+  EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"nosuch\"; it has " +
                                       keys[0]["id"].get<std::string>()));
+  const std::string first = keys[0]["id"].get<std::string>();
+  const std::string begun = first.substr(0, first.size() - 1);
+  outcome = Edit("--remove '" + begun + "' --report " + At("report.json") + " -o " + At("o.npz"));
+  EXPECT_THAT(outcome.said, HasSubstr("no key \"" + begun + "\"; did you mean " + first + "?"));
   outcome = Choreo("edit " + At("dance.npz") + " --server 127.0.0.1:1 --remove nosuch --report " +
                    At("report.json") + " -o " + At("other.npz"));
   EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key")) << "without a server";
@@ -329,6 +333,7 @@ TEST_F(EditTest, OneOfSeveralKeysOfANameIsTheNearest) {
     const Outcome outcome = remove(time);
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"same@" + time));
+    EXPECT_THAT(outcome.said, HasSubstr("; it has \"same\" at "));
   }
   EXPECT_THAT(remove("soon").said, HasSubstr("--remove: "));
   EXPECT_THAT(remove("9c --song none").said, HasSubstr("counts need music"));

@@ -72,6 +72,7 @@ TEST_F(MarkersTest, StandOnTheProjectsCounts) {
 TEST_F(MarkersTest, RefusalsSayWhatIsThere) {
   ExpectRefused(Edit("--unmark chorus"),
                 "--unmark: the project has no marker \"chorus\"; it has verse@1, drop@4, drop@8");
+  ExpectRefused(Edit("--unmark vers"), "no marker \"vers\"; did you mean verse@1?");
   ExpectRefused(Edit("--unmark drop"),
                 "several markers are called \"drop\"; say which, as in drop@4");
   ExpectRefused(Edit("--mark verse 4.01"), "--mark: 4.01 s is where drop@4 stands");

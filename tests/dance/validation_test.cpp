@@ -101,7 +101,7 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
             "config.music_downbeats[0]: 0.75 s is none of the beats beside it");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "calm"; }), "accepted");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.style = "Calm"; }),
-            "config.style: \"Calm\" is no style of the model fake; it has calm, wild");
+            "config.style: \"Calm\" is no style of the model fake; did you mean calm?");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 0; }),
             "config.frame_rate: 0 is not in [1, 120]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.output_fps = 121; }),

@@ -374,8 +374,10 @@ TEST(KeyFileTest, TakesOneKeyOfAFile) {
   ASSERT_EQ(one.size(), 1U);
   EXPECT_EQ(one[0].id, "walk@1.2");
   EXPECT_EQ(places.front(), path + ":keyframes[1]");
-  ExpectError(ErrorCode::kInvalidArgument, "has no key \"a held 1\"; it has \"a\", \"walk@1.2\"",
+  ExpectError(ErrorCode::kInvalidArgument, "has no key \"a held 1\"; it has a, walk@1.2",
               [&] { ReadKeys(path + "@a held 1", Body()); });
+  ExpectError(ErrorCode::kInvalidArgument, "has no key \"walk@1.3\"; did you mean walk@1.2?",
+              [&] { ReadKeys(path + "@walk@1.3", Body()); });
 }
 
 TEST(KeyFileTest, SaysHowHardAKeyIsHit) {

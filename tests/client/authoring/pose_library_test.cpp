@@ -149,8 +149,10 @@ TEST_P(PoseLibraryTest, FacesTheAudienceAtTheOrigin) {
 
 TEST_P(PoseLibraryTest, IsDescribedAndUnlikeTheOthers) {
   EXPECT_FALSE(GetParam().description.empty());
-  ASSERT_EQ(GetParam().tags.size(), 1U);
-  EXPECT_THAT(PoseTags(), testing::Contains(GetParam().tags.front()));
+  const std::vector<std::string>& tags = GetParam().tags;
+  EXPECT_THAT(std::vector(PoseTags().begin(), PoseTags().begin() + 4),
+              testing::Contains(tags.front()));
+  EXPECT_EQ(tags.size(), IsEnding(GetParam()) ? 2U : 1U);
   for (const LibraryPose& other : PoseLibrary()) {
     if (other.id == GetParam().id) continue;
     EXPECT_GT(ComparePoses(Body(), GetParam().pose, other.pose).position_m, 0.2) << other.id;
@@ -162,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(All, PoseLibraryTest, testing::ValuesIn(PoseLibrary()),
 
 TEST(PoseLibrary, HasEnoughForADanceAndFindsThemByName) {
   EXPECT_GE(PoseLibrary().size(), 40U);
-  for (const std::string& tag : PoseTags()) {
+  for (const std::string tag : {"standing", "travelling", "jump", "floor"}) {
     EXPECT_GE(std::ranges::count_if(PoseLibrary(),
                                     [&](const LibraryPose& pose) { return Has(pose, tag); }),
               6)
@@ -171,7 +173,7 @@ TEST(PoseLibrary, HasEnoughForADanceAndFindsThemByName) {
   for (const LibraryPose& pose : PosesToDance(Body()))
     EXPECT_TRUE(Has(pose, "standing") || Has(pose, "travelling")) << pose.id;
   EXPECT_EQ(FindLibraryPose("arabesque").id, "arabesque");
-  ExpectError(ErrorCode::kNotFound, "which has air_guitar, all_fours, arabesque",
+  ExpectError(ErrorCode::kNotFound, "it has air_guitar, all_fours, arabesque",
               [] { FindLibraryPose("waltz"); });
 }
 
