@@ -7,11 +7,12 @@ cd "$(dirname "$0")/.."
 choreo=${CHOREO:-build/release/bin/choreo}
 folder=${1:-client/poses}
 
-# [lift=METRES] pose NAME TAG DESCRIPTION [FROM] JOINT=DEGREES... [at JOINT=PLACE...]: FROM is a pose of the folder or the library. On the floor, or above it.
+# [lift=METRES] pose NAME TAG[,TAG] DESCRIPTION [FROM] JOINT=DEGREES... [at JOINT=PLACE...]: FROM is a pose of the folder or the library. On the floor, or above it.
 pose() {
   local name=$1 tag=$2 description=$3 option=--set
   shift 3
-  local arguments=()
+  local arguments=() tags=() one
+  for one in ${tag//,/ }; do tags+=(--tag "$one"); done
   if [[ $1 != *=* ]]; then
     if [[ -e $folder/$1.json ]]; then arguments+=(--from "$folder/$1.json"); else arguments+=(--from "$1"); fi
     shift
@@ -20,7 +21,7 @@ pose() {
   for word in "$@"; do
     if [[ $word == at ]]; then option=--reach; else arguments+=("$option" "$word"); fi
   done
-  "$choreo" pose "${arguments[@]}" --description "$description" --tag "$tag" --out "$folder/$name.json"
+  "$choreo" pose "${arguments[@]}" --description "$description" "${tags[@]}" --out "$folder/$name.json"
 }
 
 # Standing.
@@ -44,9 +45,9 @@ pose hands_on_head standing "Hands behind the head, elbows wide." stand \
   left_shoulder=-60,0,35 right_shoulder=-60,0,-35 left_elbow=130 right_elbow=130 at left_hand=0.05,1.62,-0.12 right_hand=-0.05,1.6,-0.12
 pose blow_kiss standing "A kiss from the right hand, weight on the left leg." contrapposto \
   head=0,-15,5 at right_hand=-0.1,1.5,0.3
-pose bow standing "Bent deeply from the hips, arms swept back." stand \
+pose bow standing,ending "Bent deeply from the hips, arms swept back." stand \
   pelvis=70,0,0 left_hip=-70,8,4 right_hip=-70,-8,-4 spine2=20,0,0 neck=20,0,0 left_shoulder=0,40,-50 right_shoulder=0,-40,50 at pelvis=0,0.9,-0.16
-pose curtsey standing "Right leg crossed behind, both knees bent, skirts held." stand \
+pose curtsey standing,ending "Right leg crossed behind, both knees bent, skirts held." stand \
   left_shoulder=0,0,-45 right_shoulder=0,0,45 head=15,10,0 at right_foot=0.2,0,-0.4 left_foot=0.08,0,0.12 pelvis=0.06,0.72,-0.08
 pose limbo standing "Leaning far back, knees bent, arms wide." stand \
   left_shoulder=0,10,-10 right_shoulder=0,-10,10 spine1=-18,0,0 spine2=-16,0,0 spine3=-10,0,0 left_hip=0,12,16 right_hip=0,-12,-16 at pelvis=0,0.76,0.18

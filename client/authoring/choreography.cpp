@@ -86,7 +86,7 @@ class Walk {
 /// Deals the library's poses to keys.
 class Deck {
  public:
-  Deck(Dice* dice, size_t poses, std::span<const Passage> passages)
+  Deck(Dice* dice, std::span<const LibraryPose> poses, std::span<const Passage> passages)
       : dice_(dice), poses_(poses), passages_(passages) {}
 
   /// The pose of the key at times[i], which stands after the ones before.
@@ -116,25 +116,27 @@ class Deck {
     return std::nullopt;
   }
 
-  /// `next`: the pose that the key after this one repeats. Neighbours differ.
+  /// `next`: the pose that the key after this one repeats. Neighbours differ, and none begins with
+  /// an ending.
   size_t Draw(std::optional<size_t> next) {
     if (left_.empty()) {  // a pose repeats only after all others
-      for (size_t i = 0; i < poses_; ++i) left_.push_back(i);
+      for (size_t i = 0; i < poses_.size(); ++i) left_.push_back(i);
     }
     size_t card = dice_->Below(left_.size());
-    for (size_t tries = 0; tries < left_.size() && IsBeside(left_[card], next); ++tries)
+    for (size_t tries = 0; tries < left_.size() && !Fits(left_[card], next); ++tries)
       card = (card + 1) % left_.size();
     const size_t pose = left_[card];
     left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(card));
     return pose;
   }
 
-  bool IsBeside(size_t pose, std::optional<size_t> next) const {
-    return pose == next || (!drawn_.empty() && pose == drawn_.back().pose);
+  bool Fits(size_t pose, std::optional<size_t> next) const {
+    if (pose == next) return false;
+    return drawn_.empty() ? !IsEnding(poses_[pose]) : pose != drawn_.back().pose;
   }
 
   Dice* dice_;
-  size_t poses_;
+  std::span<const LibraryPose> poses_;
   std::span<const Passage> passages_;
   std::vector<Drawn> drawn_;
   std::vector<size_t> left_;
@@ -146,9 +148,9 @@ struct Step {
   GroundFrame place;
 };
 
-/// Draws one for each time, from `poses` poses.
+/// Draws one for each time.
 std::vector<Step> DrawSteps(uint64_t seed, const std::vector<double>& times,
-                            std::span<const Passage> passages, size_t poses) {
+                            std::span<const Passage> passages, std::span<const LibraryPose> poses) {
   Dice dice(seed);
   Deck deck(&dice, poses, passages);
   Walk walk(&dice);
@@ -163,7 +165,7 @@ std::vector<Step> DrawSteps(uint64_t seed, const std::vector<double>& times,
 }  // namespace
 
 std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
-                              uint64_t seed, size_t poses) {
+                              uint64_t seed, std::span<const LibraryPose> poses) {
   Dice dice(seed);
   Deck deck(&dice, poses, passages);
   std::vector<size_t> drawn;
@@ -183,9 +185,7 @@ std::vector<client::KeyPose> ComposeKeys(const CompositionRequest& request,
     throw InvalidArgument(request.named, message.str());
   }
   const std::vector<double> times = KeyTimes(request);
-  const auto draw = [&](uint64_t seed) {
-    return DrawSteps(seed, times, request.passages, poses.size());
-  };
+  const auto draw = [&](uint64_t seed) { return DrawSteps(seed, times, request.passages, poses); };
   const std::vector<Step> steps = draw(request.seed),
                           way = request.way ? draw(*request.way) : steps;
   std::vector<client::KeyPose> keys;

@@ -27,10 +27,10 @@ struct CompositionRequest {
 };
 
 /// Draws a library pose for a key at each of these ascending seconds: never the same twice in a
-/// row, and none again before all were drawn; but a repeated passage gets the original's pose.
-/// Deterministic. Indices below `poses`.
+/// row, none again before all were drawn, and no ending first; but a repeated passage gets the
+/// original's pose. Deterministic. Indices of `poses`.
 std::vector<size_t> DrawPoses(std::span<const double> times, std::span<const Passage> passages,
-                              uint64_t seed, size_t poses);
+                              uint64_t seed, std::span<const LibraryPose> poses);
 
 /// The id of a dance's key, counted from 1.
 std::string IdOfKey(size_t number, const LibraryPose& pose);

@@ -12,7 +12,7 @@ std::vector<ProposedKey> ProposeKeys(const Music& music, const SuggestionRequest
   std::vector<double> times;
   for (const SuggestedKey& key : keys) times.push_back(key.time_s);
   const std::vector<LibraryPose> poses = PosesToDance(Skeleton::Smpl24());
-  const std::vector<size_t> drawn = DrawPoses(times, music.passages, seed ^ music.id, poses.size());
+  const std::vector<size_t> drawn = DrawPoses(times, music.passages, seed ^ music.id, poses);
   std::vector<ProposedKey> proposed;
   for (size_t i = 0; i < keys.size(); ++i)
     proposed.push_back({keys[i], IdOfKey(i + 1, poses[drawn[i]]), poses[drawn[i]].id});
