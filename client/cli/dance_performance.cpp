@@ -174,6 +174,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   const bool is_seed_for_model = options.seed && !options.keys.empty();
   NoteDeterministic(model, {{"--seed", is_seed_for_model},
                             {"--temperature", options.temperature.value_or(0) != 0}});
+  NoteStyle(model, options.style);
   const ControlRequest controls =
       options.controls.Read(model, connection.server(), CountsOf(options, music));
   const double seconds =

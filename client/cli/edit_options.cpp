@@ -164,6 +164,7 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
   }
   edit.controls = options.controls.Read(edit.model, connection.server(), counts);
   TakeControls(options.asked.controls, edit.model, &edit.controls);
+  if (edit.style != options.asked.style) NoteStyle(edit.model, edit.style);
   NoteDeterministic(edit.model, {{"--seed", options.seed != options.asked.seed},
                                  {"--temperature", edit.temperature.value_or(0) != 0}});
   return {std::move(edit), counts};

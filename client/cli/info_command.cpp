@@ -128,7 +128,10 @@ void PrintControls(const client::ModelDescription& model) {
 
 void PrintStyles(const client::ModelDescription& model) {
   if (model.styles.empty()) return;
-  std::printf("  styles (--style):");
+  const auto& figures = model.style_figures;
+  std::printf("  styles (--style)%s:", !figures           ? ""
+                                       : figures->shows() ? " that show"
+                                                          : " that do not show");
   for (size_t i = 0; i < model.styles.size(); ++i)
     std::printf("%s %s", i == 0 ? "" : ",", model.styles[i].c_str());
   std::printf("\n");

@@ -174,6 +174,7 @@ void Run(const LiveCommand& options) {
   const std::unique_ptr<live::Sound> sound = OpenSound(options);
   const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);
+  NoteStyle(model, options.style);
   live::LiveOptions dance;
   dance.config.model = options.model;
   dance.config.fps = options.fps;

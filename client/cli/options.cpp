@@ -1,5 +1,6 @@
 #include "client/cli/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -139,8 +140,9 @@ void AddModel(CLI::App& command, std::string& model) {
 void AddStyle(CLI::App& command, std::string& style) {
   command
       .add_option("--style", style,
-                  "How to dance, as happy or tired: a style that `choreo info` lists, with "
-                  "whether they show. Default: no style in particular.")
+                  "How to dance, as happy or tired: a style that `choreo info` lists, apart those "
+                  "that do not show, as all of the model default. Default: no style in "
+                  "particular.")
       ->check([](const std::string& name) {
         return name.empty() ? std::string("is empty; leave it out for no style in particular")
                             : std::string();
@@ -173,6 +175,14 @@ Error AsTyped(const Error& error) {
   };
   const auto option = kOptions.find(error.field());
   return option == kOptions.end() ? error : error.Of(option->second);
+}
+
+void NoteStyle(const client::ModelDescription& model, const std::string& style) {
+  const auto& figures = model.style_figures;
+  const bool is_one = std::ranges::find(model.styles, style) != model.styles.end();
+  if (!is_one || !figures || figures->shows()) return;
+  std::cerr << "note: --style " << style << " hardly shows: the styles of the model \""
+            << model.name << "\" change its dances, but people do not see which it is\n";
 }
 
 void NoteDeterministic(const client::ModelDescription& model,

@@ -57,6 +57,8 @@ void AddStyle(CLI::App& command, std::string& style);
 /// The end of the help of all options that choose among dances.
 inline const std::string kOfChance =
     "Changes nothing where `choreo info` calls the model deterministic.";
+/// Notes that a style which was asked for does not show with this model.
+void NoteStyle(const client::ModelDescription& model, const std::string& style);
 /// Notes to users of such options, each with whether it is given, that a model is deterministic.
 void NoteDeterministic(const client::ModelDescription& model,
                        std::initializer_list<std::pair<std::string_view, bool>> options);

@@ -93,6 +93,7 @@ void Run(const TransitionOptions& options) {
                                           std::to_string(model.max_transition_frames) +
                                           "], what the model \"" + model.name + "\" can make");
   }
+  NoteStyle(model, options.style);
   NoteDeterministic(model, {{"--seed", options.seed.has_value()},
                             {"--temperature", options.temperature.value_or(0) != 0},
                             {"--candidates", options.candidates > 1}});
