@@ -19,11 +19,6 @@ namespace {
 
 constexpr double kDefaultGapSeconds = 1;  // seconds
 
-/// The first frame at or after this second.
-int64_t FrameAt(double seconds, double fps) {
-  return static_cast<int64_t>(std::ceil(seconds * fps - kOnFrame));
-}
-
 /// A dance being edited, with its keys and beats at the model's rate.
 class Whole {
  public:
@@ -52,11 +47,11 @@ class Whole {
     // Starts on a frame of the model, because keys are on these.
     const double start_s =
         options_.from.empty() ? 0 : std::round(second("--from", options_.from) * fps_) / fps_;
-    const int64_t first = FrameAt(start_s, fps);
+    const int64_t first = FirstFrameFrom(start_s, fps);
     const int64_t end =
         options_.until.empty()
             ? total
-            : std::min<int64_t>(total, FrameAt(second("--until", options_.until), fps));
+            : std::min<int64_t>(total, FirstFrameFrom(second("--until", options_.until), fps));
     if (first >= end) {
       throw InvalidArgument(!options_.from.empty() ? "--from" : "--until",
                             "nothing of " + path_ + " is left: it ends at " +

@@ -2,9 +2,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "client/authoring/counts.h"
 #include "client/authoring/motion_input.h"
 #include "client/authoring/music.h"
 #include "client/cli/asked.h"
@@ -35,7 +37,8 @@ struct RenderOptions {
   std::string report;
   ContactSheetOptions sheet;
   std::string video;
-  std::string song;  ///< "none": not that of the report
+  std::string song;         ///< "none": not that of the report
+  std::string from, until;  ///< TIMEs; empty: from the first frame to the last
   std::string size = SizeText({});
   std::string camera;
   VideoOptions film;
@@ -43,8 +46,9 @@ struct RenderOptions {
 
 /// The seconds of the keys in a dance's report.
 std::vector<double> KeyTimes(const std::string& path) {
-  const auto report = ReadReport(path);
   std::vector<double> times;
+  if (path.empty()) return times;
+  const auto report = ReadReport(path);
   for (const auto& key : report["keyframes"])
     times.push_back(key.at("frame").get<double>() / report["fps"].get<double>());
   return times;
@@ -64,6 +68,58 @@ void TakeSong(bool says_start, RenderOptions* options) {
     std::cerr << "note: as " << options->report << " says: song " << options->song << " from "
               << InFull(start_s) << " s\n";
   }
+}
+
+/// The counts of the report, or of its song or the one that was named; none if neither is needed.
+authoring::Counts CountsFor(const RenderOptions& options) {
+  const auto in_counts = [](const std::string& time) {
+    return !time.empty() && authoring::ParseTime(time, "time").counts;
+  };
+  if (!in_counts(options.from) && !in_counts(options.until)) return {};
+  std::string song = options.song;
+  double start_s = options.film.format.song_start_s;
+  if (!options.report.empty()) {
+    const Asked asked = Asked::ReadFrom(ReadReport(options.report), options.report);
+    if (!asked.beats.empty()) return authoring::CountsFrom(asked.beats, asked.downbeats);
+    asked.TakeSong(options.report, !song.empty(), "there are no counts", &song, &start_s);
+  }
+  if (song.empty()) return {};
+  return authoring::CountsOf(
+      authoring::ReadMusic(song, std::numeric_limits<double>::infinity(), start_s));
+}
+
+/// Keeps what lies between --from and --until, with the keys and the song there.
+void Cut(RenderOptions* options, Stage* stage, std::vector<double>* keys) {
+  if (options->from.empty() && options->until.empty()) return;
+  const authoring::Counts counts = CountsFor(*options);
+  const auto second = [&](const char* option, const std::string& time) {
+    return authoring::ParseTime(time, option).In(counts, option);
+  };
+  const double fps = stage->front().motion.fps;
+  const int64_t total = CountFrames(*stage);
+  const int64_t first =
+      options->from.empty() ? 0 : FirstFrameFrom(second("--from", options->from), fps);
+  const int64_t end = options->until.empty()
+                          ? total
+                          : std::min(total, FirstFrameFrom(second("--until", options->until), fps));
+  if (first >= end) {
+    throw InvalidArgument(options->from.empty() ? "--until" : "--from",
+                          "nothing is left to draw: the motion ends at " +
+                              Rounded(static_cast<double>(total) / fps) + " s");
+  }
+  for (auto& dancer : *stage) {
+    auto& frames = dancer.motion.frames;
+    // Who ends earlier stands still, as in the whole.
+    frames.resize(static_cast<size_t>(std::max(std::ssize(frames), end)), frames.back());
+    frames.erase(frames.begin() + end, frames.end());
+    frames.erase(frames.begin(), frames.begin() + first);
+  }
+  const double first_s = static_cast<double>(first) / fps;
+  const double end_s = static_cast<double>(end) / fps;
+  std::erase_if(*keys, [&](double key) { return key < first_s - kOnFrame || key >= end_s; });
+  for (double& key : *keys) key -= first_s;
+  options->sheet.first_s = first_s;
+  if (!options->song.empty()) options->film.format.song_start_s += first_s;
 }
 
 /// Resamples all motions to the first one's rate.
@@ -125,9 +181,9 @@ void Run(RenderOptions options) {
   std::vector<NamedFile> inputs = {{"--report", options.report}, {"--song", options.song}};
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   RequireOutputs({{"--out", options.out}, {"--video", options.video}}, inputs);
-  const Stage stage = ReadStage(options.motions);
-  std::vector<double> keys;
-  if (!options.report.empty()) keys = KeyTimes(options.report);
+  Stage stage = ReadStage(options.motions);
+  std::vector<double> keys = KeyTimes(options.report);
+  Cut(&options, &stage, &keys);
   if (!options.out.empty()) DrawSheet(options, stage, keys);
   Interruption::Check();
   if (!options.video.empty()) DrawFilm(options, stage, keys);
@@ -151,6 +207,14 @@ void AddRenderCommand(CLI::App& program) {
       ->add_option("--report", options->report,
                    "Report of the dance: its key poses are highlighted, and its song is heard.")
       ->check(CLI::ExistingFile);
+  command
+      ->add_option(
+          "--from", options->from,
+          "TIME from which on it is drawn: a second (2.5) of the motion, or a count (9c) of "
+          "its song.")
+      ->check(TimeOrCount());
+  command->add_option("--until", options->until, "TIME before which the drawing ends.")
+      ->check(TimeOrCount());
   command->add_option("--frames", options->sheet.frames, "Frames to show, evenly spaced.")
       ->check(WholeNumberFrom(1, kMaxSheetFrames))
       ->capture_default_str();
@@ -169,7 +233,8 @@ void AddRenderCommand(CLI::App& program) {
       "--video", options->video, "Video to write, an MP4 file; the program ffmpeg makes it.");
   command
       ->add_option("--song", options->song,
-                   "The video's music: begins with the first frame, ends with the last. Default: "
+                   "The video's music: begins with the motion's first frame, ends with the last "
+                   "one drawn. Default: "
                    "the song that --report names, where its dance begins; none: silence.")
       ->check(CLI::ExistingFile | CLI::IsMember({kNoSong}));
   AddSongStart(*command, options->film.format.song_start_s);

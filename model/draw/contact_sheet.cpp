@@ -200,9 +200,9 @@ void DrawContactSheet(const Stage& stage, const ContactSheetOptions& options,
               picture);
     const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
     const int64_t since = options.rows_apart ? shown[i - static_cast<size_t>(column)].frame : 0;
-    const std::string caption = captioned
-                                    ? options.captions[static_cast<size_t>(shown[i].frame)]
-                                    : TimeText(static_cast<double>(shown[i].frame - since) / fps);
+    const std::string caption =
+        captioned ? options.captions[static_cast<size_t>(shown[i].frame)]
+                  : TimeText(options.first_s + static_cast<double>(shown[i].frame - since) / fps);
     DrawTile(canvas, picture, kMargin + column * (options.tile_width + kGap),
              header + row * (options.tile_height + kLabel), shown[i], caption,
              !options.rows_apart && !captioned);

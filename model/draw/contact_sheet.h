@@ -29,6 +29,7 @@ struct ContactSheetOptions {
   /// Captions below the frames instead of times, one per frame of the motion; omits the total
   /// length. Empty: times.
   std::vector<std::string> captions;
+  double first_s = 0;  ///< the time of the first frame
 };
 
 /// Draws dancers (stage.h) as rows of frames, in time from left to right, into a PNG. The camera

@@ -13,6 +13,10 @@ double Duration(const Motion& motion) {
   return static_cast<double>(motion.frames.size() - 1) / motion.fps;
 }
 
+int64_t FirstFrameFrom(double seconds, double fps) {
+  return static_cast<int64_t>(std::ceil(seconds * fps - kOnFrame));
+}
+
 Pose InterpolatePoses(const Pose& a, const Pose& b, double t) {
   Pose pose;
   pose.root_position = a.root_position + t * (b.root_position - a.root_position);

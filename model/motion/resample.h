@@ -9,6 +9,9 @@ inline constexpr double kOnFrame = 1e-6;  ///< frames: times this close to a fra
 /// Seconds from the first frame to the last.
 double Duration(const Motion& motion);
 
+/// The first frame at or after this second.
+int64_t FirstFrameFrom(double seconds, double fps);
+
 /// The pose at `t` between a (0) and b (1); extrapolates outside. The root moves along the line,
 /// joints along the shortest arc on the branches nearest to a's.
 Pose InterpolatePoses(const Pose& a, const Pose& b, double t);

@@ -264,6 +264,44 @@ TEST_F(CommandTest, RendersAVideoWithItsSong) {
   EXPECT_THAT(said, HasSubstr("stream,aac"));
 }
 
+TEST_F(CommandTest, RendersAPartAsIfItWereTheWhole) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
+  WriteClicks(folder_ / "song.wav", 4);
+  Motion whole{.fps = 30, .frames = std::vector<Pose>(61, RestPose(Body()))};
+  for (size_t frame = 0; frame < whole.frames.size(); ++frame)
+    whole.frames[frame].rotations(2, 16) = -0.02 * static_cast<double>(frame);
+  WriteMotion(folder_ / "whole.npz", Body(), whole);
+  const Motion part{.fps = 30, .frames = {whole.frames.begin() + 15, whole.frames.begin() + 45}};
+  WriteMotion(folder_ / "part.npz", Body(), part);
+  const std::string reported = R"({"fps": 30, "song": "song.wav", "song_start": )";
+  const std::string beats =
+      R"(, "music_beats": [0.25, 0.5, 1], "music_downbeats": [0.25], "keyframes": [)";
+  std::ofstream(folder_ / "whole.json")
+      << reported << 1 << beats << R"({"id": "a", "frame": 10}, {"id": "b", "frame": 30}]})";
+  std::ofstream(folder_ / "part.json")
+      << reported << 1.5 << beats << R"({"id": "b", "frame": 15}]})";
+  const auto drawn = [&](const std::string& name, const std::string& options) {
+    const Outcome outcome = Choreo("render " + At(name + ".npz") + " --report " +
+                                   At(name + ".json") + " --title x --fps 15 --size 64x48 --out " +
+                                   At("a.png") + " --video " + At("a.mp4") + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    return Shell("ffmpeg -v error -i " + At("a.mp4") + " -map 0 -f md5 -").said;
+  };
+  const std::string expected = drawn("part", "");
+  const std::string sheet = ReadFile(folder_ / "a.png");
+  EXPECT_EQ(drawn("whole", " --from 0.5 --until 1.5"), expected);
+  EXPECT_NE(ReadFile(folder_ / "a.png"), sheet) << "it has the times of the whole";
+  EXPECT_EQ(drawn("whole", " --from 2c --until 1.5"), expected) << "a count of the report's beats";
+  EXPECT_NE(drawn("whole", ""), expected);
+  const auto refused = [&](const std::string& options) {
+    return Choreo("render " + At("whole.npz") + " --out " + At("a.png") + options).said;
+  };
+  EXPECT_THAT(refused(" --from 3"), HasSubstr("--from: nothing is left to draw: the motion ends"));
+  EXPECT_THAT(refused(" --until 0"), HasSubstr("--until: nothing is left to draw"));
+  EXPECT_THAT(refused(" --from 9c"), HasSubstr("--from: 9c: counts need music that has beats"));
+}
+
 TEST_F(CommandTest, RendersAVideoWithTheSongOfItsReport) {
   if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
