@@ -240,7 +240,8 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
                          const std::string& to_id, const std::optional<double>& to_hit) {
   const bool leads_on = to < work.frames();
   if (leads_on)
-    stops.push_back({to, work.pose(to), {}, to_id.empty() ? NameOfFrame(to) : to_id, to_hit});
+    stops.push_back(
+        {to, work.pose(to), {}, to_id.empty() ? "the dance at " + NameOfFrame(to) : to_id, to_hit});
   stops = Spanned(from, stops, work.longest());
   Part part{from + 1, {}, {}};
   TransitionCandidate danced;
@@ -372,7 +373,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
   // Returns to the first frame after the last.
   TransitionRequest request = work.After(from, work.frames() + added - from);
   request.target = work.pose(0);
-  request.target_id = NameOfFrame(0);
+  request.target_id = "the beginning";
   request.after = work.From(1);
   const TransitionCandidate back = work.Generate(request, true);
   work.Splice({from + 1,

@@ -51,7 +51,7 @@ struct KeyEdit {
   /// The first unchanged frame after the last of them, at least 2 after it; the dance's frame count
   /// if that is the dance's last frame.
   int64_t to = 0;
-  std::string to_id = {};             ///< name of what is at `to` in warnings; empty: "frame N"
+  std::string to_id = {};  ///< name of what is at `to` in warnings; empty: "the dance at frame N"
   std::optional<double> to_hit = {};  ///< how hard it is hit, as KeyPose::hit
 };
 
@@ -93,6 +93,12 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
 /// "dance", and as GenerateTransition.
 EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       const Gap& gap);
+
+/// Dances a whole dance again through its keys alone, which have frames, in order, as Client::Dance
+/// does: if nothing differs, the frames are those of the dance before it was edited. Throws as
+/// that, and Error(kInvalidArgument) for a dance without frames.
+EditedDance DanceAllAnew(const Client& client, const FinishedDance& dance,
+                         const EditOptions& options, const std::vector<KeyPose>& keys);
 
 /// Makes a dance loop: the frames after `from`, and `added` ones after the dance's end, at least
 /// one in all, lead back to the first ones. A dance at another rate than the model's also gets the

@@ -61,6 +61,10 @@ double WrittenTime::In(const Counts& counted, const std::string& field) const {
                                    Rounded(counted.beats[counted.one]) + " s");
 }
 
+double CountAt(double seconds, const Counts& counted) {
+  return PlaceAmong(seconds, counted.beats) - static_cast<double>(counted.one) + 1;
+}
+
 double Stretched(double seconds, double begin, double times, std::span<const double> beats) {
   if (beats.size() < 2) return begin + times * (seconds - begin);
   const double from = PlaceAmong(begin, beats);

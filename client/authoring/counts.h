@@ -39,6 +39,9 @@ struct WrittenTime {
   double In(const Counts& counted, const std::string& field) const;
 };
 
+/// The count at a second, of music with two beats or more: the inverse of WrittenTime::In.
+double CountAt(double seconds, const Counts& counted);
+
 /// Moves `seconds` to `times` its distance from `begin`: in counts if the music has two beats or
 /// more, else in seconds.
 double Stretched(double seconds, double begin, double times, std::span<const double> beats);

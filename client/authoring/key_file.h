@@ -19,6 +19,10 @@ inline constexpr double kTooNear = 0.2;
 /// Seconds that people need to get from a held pose to a key set into its hold, which ends that
 /// much earlier.
 inline constexpr double kWayFromHold = 0.5;
+/// Seconds that an edit changes on a side of a key where no other one is near.
+inline constexpr double kEditAround = 2;
+/// Seconds within which the next key is near: there the edit ends. As far a dance leads to a key.
+inline constexpr double kNextKeyNear = 4;
 inline constexpr double kMaxHoldSeconds = 60;  ///< seconds
 /// How hard a held key is hit by default: in the dancer's own time.
 inline constexpr double kUsualHit = 1;

@@ -189,7 +189,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   AddEnding(options, music, controls, length, model, &keys);
   options.controls.RequireBegun(controls, length);
   const std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
-  ShowWarnings(faults);
+  ShowWarnings(faults, {model.fps});
 
   client::DanceConfig config;
   config.model = options.model;

@@ -31,34 +31,17 @@ bool EditsWhole(const EditOptions& options) {
 }
 
 /// Reports bad times, and counts without a song, before a server is asked or started.
-void CheckTime(const char* option, const std::string& time, const EditOptions& options) {
-  if (time.empty()) return;
-  const authoring::WrittenTime parsed = authoring::ParseTime(time, option);
-  if (options.song.empty()) parsed.In({}, option);
-}
-
 void CheckTimes(const EditOptions& options) {
-  const auto check = [&](const char* option, const std::string& time) {
-    CheckTime(option, time, options);
-  };
-  for (const std::string& time : options.at) check("--at", time);
-  for (const auto& [id, time] : options.moves) check("--move", time);
-  for (const auto& [from, until, later] : options.repeats)
-    for (const std::string& time : {from, until, later}) check("--repeat", time);
-  for (const auto& [from, until, times] : options.stretches)
-    for (const std::string& time : {from, until}) check("--stretch", time);
-  for (const auto& [from, until] : options.mirrored)
-    for (const std::string& time : {from, until}) check("--mirror-phrase", time);
+  for (const auto& [option, time] : TimesOf(options)) {
+    const authoring::WrittenTime parsed = authoring::ParseTime(time, option);
+    if (options.song.empty()) parsed.In({}, option);
+  }
   for (const auto& [from, until] : options.retakes) {
-    for (const std::string& time : {from, until}) check("--retake", time);
     const auto [begin, end] =
         std::pair(authoring::ParseTime(from, "--retake"), authoring::ParseTime(until, "--retake"));
     if (begin.counts == end.counts && begin.amount >= end.amount)
       throw InvalidArgument("--retake", until + " is not after " + from);
   }
-  check("--hold", options.hold);
-  check("--from", options.from);
-  check("--until", options.until);
 }
 
 /// These edits need the report, which names the keys.

@@ -143,6 +143,33 @@ void TakeReport(bool says_start, EditOptions* options) {
   }
 }
 
+std::vector<std::pair<const char*, std::string>> TimesOf(const EditOptions& options) {
+  std::vector<std::pair<const char*, std::string>> times;
+  const auto add = [&](const char* option, const std::string& time) {
+    if (!time.empty()) times.emplace_back(option, time);
+  };
+  for (const std::string& time : options.at) add("--at", time);
+  for (const auto& [id, time] : options.moves) add("--move", time);
+  for (const auto& [from, until, later] : options.repeats)
+    for (const std::string& time : {from, until, later}) add("--repeat", time);
+  for (const auto& [from, until, factor] : options.stretches)
+    for (const std::string& time : {from, until}) add("--stretch", time);
+  for (const auto& [from, until] : options.mirrored)
+    for (const std::string& time : {from, until}) add("--mirror-phrase", time);
+  for (const auto& [from, until] : options.retakes)
+    for (const std::string& time : {from, until}) add("--retake", time);
+  add("--hold", options.hold);
+  add("--from", options.from);
+  add("--until", options.until);
+  return times;
+}
+
+bool UsesCounts(const EditOptions& options) {
+  return std::ranges::any_of(TimesOf(options), [](const auto& time) {
+    return authoring::ParseTime(time.second, time.first).counts;
+  });
+}
+
 std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions& options,
                                                               const Connection& connection,
                                                               double end_s) {

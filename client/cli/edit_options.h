@@ -75,6 +75,10 @@ struct EditOptions {
 /// the command line says where the song starts.
 void TakeReport(bool says_start, EditOptions* options);
 
+/// All times on the command line, with their options.
+std::vector<std::pair<const char*, std::string>> TimesOf(const EditOptions& options);
+/// Whether one of them is in counts.
+bool UsesCounts(const EditOptions& options);
 /// The settings for new frames, with the song up to `end_s`, if there is one; and its counts.
 std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions& options,
                                                               const Connection& connection,

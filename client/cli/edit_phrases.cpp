@@ -68,16 +68,22 @@ void EditSession::MirrorPhrase(double from_s, double until_s) {
   for (client::KeyEdit& edit : phrase) {
     mirror(edit.key.pose);
     for (client::KeyPose& held : edit.held) mirror(held.pose);
-    keys_.erase(keys_.find(*edit.key.frame), keys_.upper_bound(LastFrame(edit)));
+    Forget(keys_.find(*edit.key.frame), keys_.upper_bound(LastFrame(edit)));
   }
   SetAll(kField, phrase);
 }
 
 void EditSession::SetAll(const char* field, std::span<client::KeyEdit> phrase) {
+  std::vector<int64_t> frames;
+  for (const client::KeyEdit& edit : phrase) frames.push_back(*edit.key.frame);
   for (client::KeyEdit& edit : phrase) {
-    const double at_s = Seconds(*edit.key.frame);
-    Set(field, at_s, std::move(edit));
+    const int64_t at = *edit.key.frame;
+    // All between them is danced anew.
+    for (const int64_t frame : frames)
+      if (frame != at) stale_.insert(frame + 1);
+    Set(field, Seconds(at), std::move(edit));
   }
+  stale_.clear();
 }
 
 std::vector<client::KeyPose> EditSession::KeysAsDanced(int64_t first, int64_t end) const {
@@ -159,7 +165,7 @@ void EditSession::ClearWay(int64_t first, int64_t end, const std::vector<client:
     // One line tells of a whole held pose.
     if (key == begin || !HoldsAnother(key->second)) NoteWay(key->first, what);
   }
-  keys_.erase(begin, stop);
+  Forget(begin, stop);
 }
 
 }  // namespace choreo::cli

@@ -61,9 +61,12 @@ void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
     gap.to_hit = HitOf(keys_.at(to));
   }
   const ReportKeys before(keys_.upper_bound(from), keys_.lower_bound(to));
-  DropWarnings(from, to);
+  Refresh(from, to);
   FollowPath(from, to);
-  Take(client::DanceAnew(client_, dance_, edit_, gap), what);
+  const bool is_all = from < 0 && to == frames_;
+  Take(is_all ? client::DanceAllAnew(client_, dance_, edit_, gap.keys)
+              : client::DanceAnew(client_, dance_, edit_, gap),
+       what);
   for (const auto& [frame, key] : before) CopyMarks(key, &keys_.at(frame));
 }
 

@@ -23,7 +23,6 @@
 namespace choreo::cli {
 namespace {
 
-constexpr double kAround = 2;  // seconds; default reach of an edit
 /// Seconds in which a dancer can get from a held pose back into the dance and be seen to.
 constexpr double kLeastAfterHold = 1;
 
@@ -41,6 +40,7 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
   std::tie(edit_, counts_) = HowToDance(options, connection, Seconds(end));
   path_ = edit_.controls.root_path;
+  told_ = {edit_.model.fps, UsesCounts(options) ? counts_ : authoring::Counts()};
   options.controls.RequireBegun(edit_.controls, {frames_, edit_.model.fps});
   CheckKeys();
 }
@@ -71,7 +71,7 @@ void EditSession::SetKey(const std::string& source, double at_s) {
     held.pose = pose;
     held.hands = edit.key.hands;
   }
-  const std::vector<client::Warning> ended = MakeRoom(&edit);
+  const std::vector<client::Warning> ended = MakeRoom("--at", &edit);
   Set("--at", at_s, std::move(edit));
   Keep(ended);
 }
@@ -105,19 +105,24 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
       key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
   }
   edit.key.hit = options_.hit ? options_.hit : HitOf(keys_.at(frames.front()));
-  for (const int64_t frame : frames) keys_.erase(frame);
-  const std::vector<client::Warning> ended = MakeRoom(&edit);
+  Forget(keys_.find(frames.front()), keys_.upper_bound(frames.back()));
+  const std::vector<client::Warning> ended = MakeRoom("--move", &edit);
   // The frames danced anew around the new place may not include the old one.
   const auto is_new = [&](int64_t frame) {
     return frame > Before(frames.front() + by) && frame < After(LastFrame(edit));
   };
-  if (!std::ranges::all_of(frames, is_new)) Free(frames, edit.key.id + " leaves its place");
+  if (!Reaches(std::abs(by)) || !std::ranges::all_of(frames, is_new))
+    Free(frames, edit.key.id + " leaves its place");
   Set("--move", to_s, std::move(edit));
   Keep(ended);
 }
 
-std::vector<client::Warning> EditSession::MakeRoom(client::KeyEdit* edit) {
+std::vector<client::Warning> EditSession::MakeRoom(const char* field, client::KeyEdit* edit) {
   const int64_t first = *edit->key.frame;
+  if (set_.contains(first) && keys_.contains(first)) {
+    throw InvalidArgument(field, Rounded(Seconds(first)) + " s for \"" + edit->key.id +
+                                     "\" is where this edit sets \"" + IdAt(first) + "\" already");
+  }
   std::vector<client::Warning> warnings = EndHold(first, edit->key.id);
   MakeWay(first, first, edit->key.id);
   const std::vector<client::Warning> fitted = FitHold(edit);
@@ -146,46 +151,52 @@ std::vector<client::Warning> EditSession::FitHold(client::KeyEdit* edit) {
       .frame = next->first,
       .message = authoring::DescribeHoldEnd(edit->key.id, LastFrame(*edit), was, IdAt(next->first),
                                             next->first, edit_.model.fps)};
-  ShowWarnings({warning});
+  ShowWarnings({warning}, told_);
   return {warning};
 }
 
 std::vector<client::Warning> EditSession::EndHold(int64_t frame, const std::string& id) {
-  const bool replaces = keys_.contains(frame) && !HoldsAnother(keys_.at(frame));
-  const auto next = replaces ? keys_.upper_bound(frame) : keys_.lower_bound(frame);
+  const auto next = keys_.lower_bound(frame);
   if (next == keys_.begin() || next == keys_.end() || !HoldsAnother(next->second)) return {};
   auto held = std::prev(next);
   while (held != keys_.begin() && HoldsAnother(held->second)) --held;
   auto last = next;
   while (std::next(last) != keys_.end() && HoldsAnother(std::next(last)->second)) ++last;
-  const int64_t way = replaces ? 0 : Frame(authoring::kWayFromHold);
-  const auto dropped = keys_.upper_bound(std::max(held->first, frame - way));
+  const auto dropped =
+      keys_.upper_bound(std::max(held->first, frame - Frame(authoring::kWayFromHold)));
   const client::Warning warning{
       .frame = frame,
       .message = authoring::DescribeHoldEnd(IdAt(held->first), std::prev(dropped)->first,
                                             last->first, id, frame, edit_.model.fps)};
-  keys_.erase(dropped, std::next(last));
-  ShowWarnings({warning});
+  Forget(dropped, std::next(last));
+  ShowWarnings({warning}, told_);
   return {warning};
 }
 
 void EditSession::MakeWay(int64_t first, int64_t last, const std::string& id) {
   const int64_t near = Frame(authoring::kTooNear);
-  auto key = keys_.upper_bound(std::max<int64_t>(0, first - near));
-  while (key != keys_.end() && key->first < last + near) {
-    if (key->first == first || set_.contains(key->first)) {
-      ++key;
-      continue;
-    }
-    NoteWay(key->first,
-            '"' + id + "\": it is less than " + Rounded(authoring::kTooNear) + " s away");
-    key = keys_.erase(key);
+  std::vector<int64_t> gone;
+  for (auto key = keys_.lower_bound(std::max<int64_t>(0, first - near + 1));
+       key != keys_.end() && key->first < last + near; ++key) {
+    const bool stays = key->first != first && (key->first == 0 || set_.contains(key->first));
+    if (!stays) gone.push_back(key->first);
+  }
+  for (const int64_t frame : gone) {
+    const auto key = keys_.find(frame);
+    if (key == keys_.end()) continue;  // held a key that is gone
+    NoteWay(frame,
+            '"' + id + "\": " +
+                (frame == first ? "it stands there"
+                                : "it is less than " + Rounded(authoring::kTooNear) + " s away"));
+    auto end = std::next(key);
+    while (end != keys_.end() && HoldsAnother(end->second)) ++end;
+    Forget(key, end);
   }
 }
 
 void EditSession::NoteWay(int64_t frame, const std::string& what) const {
-  std::cerr << "note: key \"" << IdAt(frame) << "\" at " << Rounded(Seconds(frame))
-            << " s makes way for " << what << '\n';
+  std::cerr << "note: key \"" << IdAt(frame) << "\" at " << told_.Of(frame) << " makes way for "
+            << what << '\n';
 }
 
 void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
@@ -204,7 +215,7 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   }
   for (const client::KeyPose& held : edit.held) set_.insert(*held.frame);
   set_.insert(first);
-  DropWarnings(edit.from, edit.to);
+  Refresh(edit.from, edit.to);
   WarnOfFaults(edit);
   FollowPath(edit.from, edit.to);
   Take(client::SetKey(client_, dance_, edit_, edit), "key " + edit.key.id);
@@ -216,15 +227,20 @@ void EditSession::Set(const char* field, double at_s, client::KeyEdit edit) {
   }
 }
 
+void EditSession::Forget(ReportKeys::const_iterator begin, ReportKeys::const_iterator end) {
+  for (auto key = begin; key != end; ++key) stale_.insert(key->first);
+  keys_.erase(begin, end);
+}
+
 void EditSession::Free(const std::vector<int64_t>& frames, const std::string& what) {
-  for (const int64_t frame : frames) keys_.erase(frame);
+  Forget(keys_.lower_bound(frames.front()), keys_.upper_bound(frames.back()));
   client::Gap gap{.from = Before(frames.front()),
                   .to = frames.back() == frames_ - 1 ? frames_ : After(frames.back())};
   if (keys_.contains(gap.to)) {
     gap.to_id = IdAt(gap.to);
     gap.to_hit = HitOf(keys_.at(gap.to));
   }
-  DropWarnings(gap.from, gap.to);
+  Refresh(gap.from, gap.to);
   FollowPath(gap.from, gap.to);
   Take(client::DanceAnew(client_, dance_, edit_, gap), what);
 }
@@ -237,7 +253,7 @@ void EditSession::WarnOfFaults(const client::KeyEdit& edit) {
                       Seconds(frame), PoseAt(dance_.motion, Seconds(frame))});
   }
   const auto faults = authoring::KeyFaults(edit.key, edit_.model.fps, edit_.model.skeleton, around);
-  ShowWarnings(faults);
+  ShowWarnings(faults, told_);
   Keep(faults);
 }
 
@@ -253,13 +269,13 @@ void EditSession::CloseLoop() {
   const auto [from, added] = LoopFrames();
   for (auto key = keys_.upper_bound(from); key != keys_.end(); key = keys_.erase(key)) {
     std::cerr << "warning: key " << key->second["id"].get<std::string>() << " at "
-              << Rounded(Seconds(key->first)) << " s makes way for the loop\n";
+              << told_.Of(key->first) << " makes way for the loop\n";
   }
   if (added > 0) {
     std::cerr << "note: the pose that is held at the end stays; the way back makes the dance "
               << Rounded(Seconds(added)) << " s longer\n";
   }
-  DropWarnings(from, frames_);
+  Refresh(from, frames_);
   frames_ += added;
   FollowPath(frames_, frames_);  // the way back leaves it
   Take(client::CloseLoop(client_, dance_, edit_, from, added), "loop");
@@ -279,8 +295,8 @@ void EditSession::CheckKeys() const {
     const double at_s = Second("--at", options_.at[i]);
     const auto [same, is_new] = sources.emplace(Frame(at_s), options_.keys[i]);
     if (!is_new) {
-      throw InvalidArgument("--key", same->second + " and " + options_.keys[i] +
-                                         " both ask for frame " + std::to_string(same->first));
+      throw InvalidArgument("--key", same->second + " and " + options_.keys[i] + " both ask for " +
+                                         told_.Of(same->first));
     }
     if (same != sources.begin()) CheckDistance("--at", at_s, std::prev(same)->first, "the key");
     if (std::next(same) != sources.end())
@@ -322,27 +338,42 @@ void EditSession::CheckAround(double seconds) const {
 }
 
 int64_t EditSession::Around() const {
-  return std::min(longest_, static_cast<int64_t>(std::llround(options_.around_s.value_or(kAround) *
+  return std::min(longest_, static_cast<int64_t>(std::llround(options_.around_s.value_or(authoring::kEditAround) *
                                                               edit_.model.fps)));
 }
 
-int64_t EditSession::Reach() const {
-  return options_.around_s || options_.report.empty() ? Around() : longest_;
+bool EditSession::Reaches(int64_t frames) const {
+  const bool is_told = options_.around_s || options_.report.empty();
+  return frames <= (is_told ? Around() : Frame(authoring::kNextKeyNear));
 }
 
 int64_t EditSession::Before(int64_t frame) const {
   const auto next = keys_.lower_bound(frame);
   const int64_t key = next == keys_.begin() ? 0 : std::prev(next)->first;
-  return std::max({int64_t{0}, key, frame - Reach()});
+  if (next != keys_.begin() && Reaches(frame - key)) return key;
+  int64_t from = frame - Around();
+  if (!options_.around_s) {
+    const auto stale = stale_.lower_bound(key);
+    if (stale != stale_.end() && *stale < frame) from = std::min(from, *stale - Around());
+  }
+  return std::max({int64_t{0}, key, from, frame - longest_});
 }
 
 int64_t EditSession::After(int64_t frame) const {
   const auto next = keys_.upper_bound(frame);
   const int64_t key = next == keys_.end() ? frames_ - 1 : next->first;
-  return std::min({frames_ - 1, key, frame + Reach()});
+  if (next != keys_.end() && Reaches(key - frame)) return key;
+  int64_t to = frame + Around();
+  if (!options_.around_s) {
+    const auto stale = stale_.upper_bound(key);
+    if (stale != stale_.begin() && *std::prev(stale) > frame)
+      to = std::max(to, *std::prev(stale) + Around());
+  }
+  return std::min({frames_ - 1, key, to, frame + longest_});
 }
 
-void EditSession::DropWarnings(int64_t from, int64_t to) {
+void EditSession::Refresh(int64_t from, int64_t to) {
+  stale_.erase(stale_.upper_bound(from), stale_.lower_bound(to));
   std::erase_if(known_.warnings, [&](const client::Warning& warning) {
     const bool anew = warning.frame > from && warning.frame <= to;
     return anew || (from < 0 && warning.frame >= frames_);
@@ -362,7 +393,7 @@ void EditSession::FollowPath(int64_t from, int64_t to) {
 }
 
 void EditSession::Take(client::EditedDance edited, const std::string& what) {
-  ShowWarnings(edited.warnings);
+  ShowWarnings(edited.warnings, told_);
   Keep(edited.warnings);
   dance_ = std::move(edited.dance);
   std::cout << what << ": frames " << edited.first_changed << " to " << edited.end_changed - 1
@@ -370,7 +401,7 @@ void EditSession::Take(client::EditedDance edited, const std::string& what) {
   for (const client::KeyReached& key : edited.keys) {
     keys_[key.frame] = KeyJson(key);
     if (&key != &edited.keys.front()) continue;  // a held pose needs only one figure
-    std::cout << "; hit at " << Rounded(Seconds(key.frame)) << " s within "
+    std::cout << "; hit at " << told_.Of(key.frame) << " within "
               << Rounded(1000 * key.final_error_m) << " mm and " << Rounded(key.final_error_deg)
               << " degrees";
   }

@@ -11,6 +11,7 @@
 #include "client/authoring/counts.h"
 #include "client/cli/connection.h"
 #include "client/cli/edit_options.h"
+#include "client/cli/told_times.h"
 #include "client/edit.h"
 #include "model/motion/canonical.h"
 
@@ -77,15 +78,16 @@ class EditSession {
   /// Sets the keys of a phrase at their present places; the dance has no others there.
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
   /// Makes room for a new key and what holds it: EndHold, MakeWay, FitHold. Returns the warnings,
-  /// for after the edit.
-  std::vector<client::Warning> MakeRoom(client::KeyEdit* edit);
+  /// for after the edit. Throws for a frame where this edit has set another key.
+  std::vector<client::Warning> MakeRoom(const char* field, client::KeyEdit* edit);
   /// Ends a new key's hold before the next key, and says so; lets it last to the end of the dance
   /// if it would end shortly before or after that.
   std::vector<client::Warning> FitHold(client::KeyEdit* edit);
-  /// Ends the hold of another key if a new key at this frame falls into it, and says so; a replaced
-  /// key is held no more. Returns the warning, if any, for after the edit.
+  /// Ends the hold of another key if a new key at this frame falls into it, and says so. Returns
+  /// the warning, if any, for after the edit.
   std::vector<client::Warning> EndHold(int64_t frame, const std::string& id);
-  /// Removes keys too near in time to a new key, held from `first` to `last`, and says so.
+  /// Removes keys too near in time to a new key, held from `first` to `last`, with what holds them,
+  /// and says so.
   void MakeWay(int64_t first, int64_t last, const std::string& id);
   /// Removes the dance's keys in [first, end) for others, and names those that are not `moved`.
   void ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,
@@ -94,10 +96,10 @@ class EditSession {
   /// The frame of this second; throws if it is after the dance.
   int64_t FrameInDance(const char* field, double at_s) const;
   int64_t Around() const;
-  /// The farthest reach of a key's edit, in frames.
-  int64_t Reach() const;
+  /// Whether the edit of a key reaches up to another one so many frames away.
+  bool Reaches(int64_t frames) const;
   /// The last frame before a key that stays, and the first after it: those of other keys, if known
-  /// and near enough.
+  /// and near enough; else so far away that no stale frame is left between.
   int64_t Before(int64_t frame) const;
   int64_t After(int64_t frame) const;
 
@@ -106,6 +108,8 @@ class EditSession {
   /// Sets a moved or new key at this second, from `edit.key` to the last of `edit.held`, between
   /// its neighbours.
   void Set(const char* field, double at_s, client::KeyEdit edit);
+  /// Takes keys out of the report; their frames are stale until they are danced again.
+  void Forget(ReportKeys::const_iterator begin, ReportKeys::const_iterator end);
   /// Removes keys, none of which is the dance's first frame.
   void Free(const std::vector<int64_t>& frames, const std::string& id);
   std::string IdAt(int64_t frame) const { return keys_.at(frame)["id"].get<std::string>(); }
@@ -119,8 +123,8 @@ class EditSession {
   /// Warns of an impossible key.
   void WarnOfFaults(const client::KeyEdit& edit);
   /// Drops warnings about frames that are danced again, and about the way to `to`: in a loop also
-  /// if the first frame changes.
-  void DropWarnings(int64_t from, int64_t to);
+  /// if the first frame changes. These frames are no longer stale.
+  void Refresh(int64_t from, int64_t to);
   void Keep(const std::vector<client::Warning>& warnings);
   void Take(client::EditedDance edited, const std::string& what);
   /// Follows the report's path in an edit between two frames, if it leads there.
@@ -131,12 +135,14 @@ class EditSession {
   client::EditOptions edit_;
   std::optional<ControlRequest::RootPath> path_;  // of the whole dance
   authoring::Counts counts_;                      // of the song
+  ToldTimes told_;
   int64_t longest_ = 0;
   client::FinishedDance dance_;
   int64_t frames_ = 0;  // at the model's rate
   KnownDance known_;    // from the report and the edits
   ReportKeys& keys_ = known_.keys;
-  std::set<int64_t> set_;  // frames of keys that this edit has set
+  std::set<int64_t> set_;    // frames of keys that this edit has set
+  std::set<int64_t> stale_;  // frames that show keys which are gone or are yet to be set
 };
 
 }  // namespace choreo::cli

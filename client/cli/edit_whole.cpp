@@ -170,7 +170,7 @@ class Whole {
     } catch (const Error& error) {
       throw options_.controls.InTermsOf(error);
     }
-    ShowWarnings(joined.warnings);
+    ShowWarnings(joined.warnings, {fps_});
     known_.warnings.insert(known_.warnings.end(), joined.warnings.begin(), joined.warnings.end());
     const auto added = std::ssize(joined.dance.motion.frames) - before;
     const int64_t begin = std::ssize(dance_.motion.frames) + added;

@@ -198,7 +198,7 @@ void Run(const LiveCommand& options) {
   options.controls.RequireBegun(dance.config.controls, length);
   const authoring::DanceKeys keys =
       authoring::ReadDanceKeys(authoring::KeySources(options.keys), length, model.skeleton, counts);
-  ShowWarnings(keys.warnings);
+  ShowWarnings(keys.warnings, {model.fps});
   dance.keys = keys.poses;
   const std::vector<authoring::LibraryPose> poses = authoring::PosesToDance(model.skeleton);
   for (const authoring::LibraryPose& pose : poses) dance.poses[pose.id] = pose.pose;

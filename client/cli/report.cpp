@@ -40,7 +40,7 @@ std::string KeysText(const WrittenDance& dance) {
   };
   Worst in_file, near, between;
   double raw = 0;
-  double correction = 0;
+  const client::KeyReached* furthest = nullptr;
   const auto keys =
       std::ranges::count_if(dance.keys, [](const WrittenKey& key) { return key.holds.empty(); });
   for (const WrittenKey& key : dance.keys) {
@@ -52,7 +52,7 @@ std::string KeysText(const WrittenDance& dance) {
     }
     // A pose that is already held needs almost no correction.
     if (key.holds.empty()) raw += key.reached.raw_error_m / static_cast<double>(keys);
-    correction = std::max(correction, key.reached.correction_m);
+    if (!furthest || key.reached.correction_m > furthest->correction_m) furthest = &key.reached;
   }
   std::string text = Format("%zd key pose%s", keys, keys == 1 ? "" : "s");
   if (in_file.keys > 0) {
@@ -68,9 +68,10 @@ std::string KeysText(const WrittenDance& dance) {
   }
   return text +
          Format(
-             "\nbefore they were corrected, poses were %.1f cm off their keys on average; to hit "
-             "them, joints were moved by up to %.1f cm\n",
-             100 * raw, 100 * correction);
+             "\non the way to a key the model's frames are bent towards it: a joint by %.1f cm at "
+             "most, to \"%s\" at %s; %.1f cm on average were left to the keys\n",
+             100 * furthest->correction_m, furthest->id.c_str(),
+             ToldTimes{dance.header.model_fps}.Of(furthest->frame).c_str(), 100 * raw);
 }
 
 }  // namespace
@@ -141,9 +142,13 @@ nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings) {
   return json;
 }
 
-void ShowWarnings(const std::vector<client::Warning>& warnings) {
-  for (const client::Warning& warning : warnings)
-    std::cerr << "warning: frame " << warning.frame << ": " << warning.message << '\n';
+std::string Told(const client::Warning& warning, const ToldTimes& times) {
+  return "warning: " + times.Of(warning.frame) + " (frame " + std::to_string(warning.frame) +
+         "): " + times.In(warning.message);
+}
+
+void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes& times) {
+  for (const client::Warning& warning : warnings) std::cerr << Told(warning, times) << '\n';
 }
 
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/told_times.h"
 #include "client/cli/written_dance.h"
 
 namespace choreo::cli {
@@ -23,8 +24,9 @@ nlohmann::ordered_json KeyJson(const client::KeyReached& key);
 
 /// The warnings of such a report, by frame.
 nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings);
-/// The same on stderr, one per line.
-void ShowWarnings(const std::vector<client::Warning>& warnings);
+/// The same on stderr, one per line, for people.
+void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes& times);
+std::string Told(const client::Warning& warning, const ToldTimes& times);
 
 /// The sketch in such a report; earlier versions wrote none. Throws Error(kInvalidArgument) whose
 /// field begins with the path.

@@ -144,7 +144,7 @@ void Run(const TransitionOptions& options) {
     authoring::ConfigureMusic(*music, end_s, &request.config);
   }
   const client::TransitionResult result = Generate(connection.client(), request, options.controls);
-  ShowWarnings(result.warnings);
+  ShowWarnings(result.warnings, {model.fps});
 
   for (size_t rank = 0; rank < result.candidates.size(); ++rank) {
     const std::filesystem::path path = CandidatePath(options.out, rank);

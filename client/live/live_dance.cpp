@@ -225,7 +225,8 @@ void LiveDance::Take(const client::Message& message) {
   } else if (const auto* block = std::get_if<client::FrameBlock>(&message)) {
     TakeFrames(*block);
   } else if (const auto* warning = std::get_if<client::Warning>(&message)) {
-    Note("frame " + std::to_string(warning->frame) + ": " + warning->message);
+    Note(Rounded(static_cast<double>(warning->frame) / header_.model_fps) +
+         " s: " + warning->message);
     warnings_.push_back(*warning);
   } else if (const auto* rejected = std::get_if<client::KeyRejected>(&message)) {
     Note("key " + rejected->id + " was refused: " + rejected->reason);

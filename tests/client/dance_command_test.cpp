@@ -105,13 +105,14 @@ TEST_F(CommandTest, DancesThroughTheExampleInWords) {
   const Outcome outcome = Choreo("dance -k '" SOURCE_FOLDER "/examples/poses.json'" + Server() +
                                  "-o " + At("d.npz") + " --report " + At("r.json"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("warning: frame 0")));
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("warning: 0 s")));
   const nlohmann::json report = ReadJson(folder_ / "r.json");
   EXPECT_EQ(report["keyframes"].size(), 10U);  // of which two hold one
   const auto is_held = [](const auto& key) { return key.value("holds", "") == "strong"; };
   EXPECT_EQ(std::ranges::count_if(report["keyframes"], is_held), 2);
   EXPECT_THAT(outcome.said, HasSubstr("8 key poses, each hit"));
-  EXPECT_THAT(outcome.said, HasSubstr("before they were corrected, poses were"));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("on the way to a key the model's frames are bent towards it: a joint by "));
   EXPECT_TRUE(report["warnings"].empty()) << report["warnings"];
 }
 
@@ -124,7 +125,7 @@ TEST_F(CommandTest, AKeyInAHoldEndsItInTimeForTheWay) {
                                  " --report " + At("r.json") + " --seconds 5");
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const std::string said = "key \"a\" is held up to 1.4 s, not 4 s: the key \"b\" comes at 2 s";
-  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 60: " + said));
+  EXPECT_THAT(outcome.said, HasSubstr("warning: 2 s (frame 60): " + said));
   const nlohmann::json report = ReadJson(folder_ / "r.json");
   EXPECT_EQ(report["warnings"][0]["message"], said);
   std::vector<int64_t> frames;

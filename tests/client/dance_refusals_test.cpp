@@ -25,7 +25,7 @@ TEST_F(CommandTest, WarnsOfKeysThatNoBodyCouldDance) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const std::string fault =
       "keyframes[1]): the body would be in the air for 2 s, since \"a\"; a jump takes 1";
-  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 90: key \"up\" ("));
+  EXPECT_THAT(outcome.said, HasSubstr("warning: 3 s (frame 90): key \"up\" ("));
   EXPECT_THAT(outcome.said, HasSubstr(fault));
   EXPECT_THAT(ReadJson(folder_ / "r.json")["warnings"].dump(),
               HasSubstr("the body would be in the air"));
@@ -65,7 +65,7 @@ TEST_F(CommandTest, RefusesKneesThatBendBackwardsUnlessToldOtherwise) {
                                         "further than 15; with --allow-bends"));
     const Outcome taken = Choreo(command + " --allow-bends" + Server() + "-o " + At("e.npz"));
     EXPECT_EQ(taken.code, 0) << taken.said;
-    EXPECT_THAT(taken.said, HasSubstr("warning: frame 60: key \"bent\""));
+    EXPECT_THAT(taken.said, HasSubstr("warning: 2 s (frame 60): key \"bent\""));
   }
 }
 
@@ -99,7 +99,7 @@ TEST_F(CommandTest, AnEditWarnsOfAKeyThatNoBodyCouldDance) {
   const Outcome outcome = Choreo("edit " + At("d.npz") + " --key " + At("sunk.json") +
                                  " --at 2 -o " + At("e.npz") + Server());
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 60: key \"sunk\": "));
+  EXPECT_THAT(outcome.said, HasSubstr("warning: 2 s (frame 60): key \"sunk\": "));
   EXPECT_THAT(outcome.said, HasSubstr("cm under the floor"));
 }
 

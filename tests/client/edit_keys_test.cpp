@@ -165,8 +165,9 @@ TEST_F(EditTest, AKeyInAHoldEndsIt) {
   const std::string reports = " --report " + At("report.json") + " --new-report " + At("new.json");
   outcome = Edit("--key kick --at 3 -o " + At("new.npz") + reports);
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 90: key \"a\" is held up to 2.4 s, not 4 s: "
-                                      "the key \"kick\" comes at 3 s"));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("warning: 3 s (frame 90): key \"a\" is held up to 2.4 s, not 4 s: "
+                        "the key \"kick\" comes at 3 s"));
   EXPECT_EQ(held_to("new.json"), 72);
   EXPECT_EQ(ReadJson(folder_ / "new.json")["warnings"][0]["frame"], 90);
   outcome = Edit("--move b 2 -o " + At("new.npz") + reports);
@@ -174,8 +175,72 @@ TEST_F(EditTest, AKeyInAHoldEndsIt) {
   EXPECT_THAT(outcome.said, HasSubstr("\"a\" is held up to 1.4 s, not 4 s: the key \"b\""));
   outcome = Edit("--key kick --at 1 -o " + At("new.npz") + reports);
   ASSERT_EQ(outcome.code, 0) << outcome.said;
-  EXPECT_THAT(outcome.said, HasSubstr("\"a\" is held up to 1 s, not 4 s: the key \"kick\""));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("note: key \"a\" at 1 s makes way for \"kick\": it stands there\n"));
   EXPECT_EQ(held_to("new.json"), 0);
+  // What holds a key goes with it.
+  outcome = Edit("--key kick --at 0.9 -o " + At("new.npz") + reports);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, HasSubstr("\"a\" at 1 s makes way for \"kick\": it is less than"));
+  EXPECT_EQ(held_to("new.json"), 0);
+}
+
+TEST_F(EditTest, AKeyThatLandsOnAnotherSaysWhichOneItReplaces) {
+  const nlohmann::json keys = ReadJson(folder_ / "report.json")["keyframes"];
+  const std::string moved = keys[1]["id"], replaced = keys[2]["id"];
+  const std::string with_report =
+      " --report " + At("report.json") + " --new-report " + At("new.json") + " -o " + At("new.npz");
+  const std::string there = Seconds(keys_[2]);
+  const auto note = [&](const std::string& by) {
+    return testing::ContainsRegex("note: key \"" + replaced + "\" at [0-9.]+ s makes way for \"" +
+                                  by + "\": it stands there");
+  };
+  Outcome outcome = Edit("--move '" + moved + "' " + there + with_report);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, note(moved));
+  EXPECT_EQ(ReadJson(folder_ / "new.json")["keyframes"].size(), keys_.size() - 1);
+  outcome = Edit("--key kick --at " + there + with_report);
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, note("kick"));
+  // One command sets one key there.
+  outcome = Edit("--key kick --at " + there + " --move '" + moved + "' " + there + with_report);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("s for \"kick\" is where this edit sets \"" + moved + "\""));
+}
+
+// Nobody asked for the rest to change.
+TEST_F(EditTest, AKeyInAFreeDanceChangesTwoSecondsOnEachSide) {
+  ASSERT_EQ(Choreo("dance -k none" + Server() + "--seconds 20 -o " + At("dance.npz") +
+                   " --report " + At("report.json"))
+                .code,
+            0);
+  const auto edit = [&](const std::string& arguments, const std::string& from,
+                        const std::string& to) {
+    const Outcome outcome =
+        Choreo("edit " + At(from + ".npz") + Server() + arguments + " --report " +
+               At((from == "dance" ? "report" : from) + ".json") + " -o " + At(to + ".npz") +
+               " --new-report " + At(to + ".json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+  };
+  edit("--key kick --at 5", "dance", "kick");
+  ExpectChanged("kick.npz", 91, 210);
+  edit("--remove kick", "kick", "none");
+  ExpectChanged("none.npz", 91, 210);
+  // Where it was, and where it is.
+  edit("--move kick 15", "kick", "moved");
+  const auto rows = ChangedRows(folder_ / "kick.npz", folder_ / "moved.npz", "rotations");
+  EXPECT_EQ(rows, std::pair(size_t{91}, size_t{510}));
+  const Motion before = Read("kick.npz"), moved = Read("moved.npz");
+  for (size_t frame = 210; frame <= 390; ++frame)
+    EXPECT_EQ(moved.frames[frame].rotations, before.frames[frame].rotations) << frame;
+  // A key near enough is where the edit ends.
+  edit("--key dab --at 8.5", "kick", "both");
+  EXPECT_EQ(ChangedRows(folder_ / "kick.npz", folder_ / "both.npz", "rotations"),
+            std::pair(size_t{151}, size_t{315}));
+  // A hold that ends is danced anew to where it ended.
+  edit("--key stand --at 5 --hold 8", "dance", "held");
+  edit("--key dab --at 7", "held", "ended");
+  EXPECT_EQ(ChangedRows(folder_ / "held.npz", folder_ / "ended.npz", "rotations").second, 450U);
 }
 
 TEST_F(EditTest, KeysInTheWayOfAPhraseAreNamed) {
@@ -494,8 +559,9 @@ TEST_F(EditTest, AHoldEndsBeforeTheNextKeyAndLastsToTheEnd) {
     return last;
   };
   EXPECT_EQ(held_to("--key bow --at 2 --hold 3"), 105);
-  EXPECT_THAT(outcome.said, HasSubstr("warning: frame 120: key \"bow\" is held up to 3.5 s, not 5 "
-                                      "s: the key \"b\" comes at 4 s"));
+  EXPECT_THAT(outcome.said,
+              HasSubstr("warning: 4 s (frame 120): key \"bow\" is held up to 3.5 s, not 5 "
+                        "s: the key \"b\" comes at 4 s"));
   EXPECT_EQ(held_to("--key bow --at 5 --hold 1"), 180);
   for (const char* hold : {"1.8", "2", "2.5"}) {
     EXPECT_EQ(held_to(std::string("--key bow --at 6 --hold ") + hold), 239);

@@ -220,7 +220,7 @@ TEST_F(EditTest, RefusesImpossibleEdits) {
   expect_failure("--key kick", "--at: 0 times for 1 keys");
   expect_failure("--key swan --at 1", "swan: is no pose of the library");
   expect_failure("--key kick --at 3 --key groove --at 3.001",
-                 "--key: kick and groove both ask for frame 90");
+                 "--key: kick and groove both ask for 3 s");
   for (const std::string around : {"1e300", "0.01", "60"}) {
     expect_failure("--key kick --at 5 --around " + around,
                    "s, must be 0.067 to 59.97 s: 2 to 1799 frames");

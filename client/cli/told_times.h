@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "client/authoring/counts.h"
+#include "model/core/grid.h"
+
+namespace choreo::cli {
+
+/// How moments of a dance are told to users: in the unit that they use.
+struct ToldTimes {
+  double fps = kModelFps;         ///< the model's
+  authoring::Counts counts = {};  ///< of the song; empty: seconds alone
+
+  /// "4.2 s", or "9c, 4.2 s".
+  std::string Of(int64_t frame) const;
+  /// A message in which moments and durations in frames are told so: "at frame 126" as "at 4.2 s".
+  std::string In(const std::string& message) const;
+};
+
+}  // namespace choreo::cli

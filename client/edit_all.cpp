@@ -1,0 +1,52 @@
+// A whole dance, danced anew.
+#include <algorithm>
+
+#include "client/edit.h"
+#include "model/motion/rotation.h"
+
+namespace choreo::client {
+namespace {
+
+/// As Client::Dance takes them.
+DanceConfig ConfigFor(const FinishedDance& dance, const EditOptions& options) {
+  DanceConfig config;
+  config.model = options.model.name;
+  config.fps = dance.motion.fps;
+  config.seed = options.seed;
+  config.temperature = options.temperature;
+  config.style = options.style;
+  config.music_dynamics = options.music_dynamics;
+  config.frames = CountModelFrames(dance, options.model);
+  config.music_beats = options.music_beats;
+  config.music_id = options.music_id;
+  config.music_passages = options.music_passages;
+  const double end_s = static_cast<double>(*config.frames) / options.model.fps;
+  std::erase_if(config.music_passages,
+                [end_s](const Passage& passage) { return passage.from >= end_s; });
+  config.variation = options.variation;
+  config.controls = options.controls;
+  return config;
+}
+
+}  // namespace
+
+EditedDance DanceAllAnew(const Client& client, const FinishedDance& dance,
+                         const EditOptions& options, const std::vector<KeyPose>& keys) {
+  const Audio audio = options.model.takes_music ? options.audio : Audio{};
+  DanceResult danced = client.Dance(ConfigFor(dance, options), keys, audio);
+  EditedDance edited;
+  edited.dance = {std::move(danced.motion), std::move(danced.contacts)};
+  edited.end_changed = static_cast<int64_t>(dance.motion.frames.size());
+  // A file may have frames after the model's last.
+  const auto frames = dance.motion.frames.size();
+  edited.dance.motion.frames.resize(frames, edited.dance.motion.frames.back());
+  if (dance.contacts.empty())
+    edited.dance.contacts.clear();
+  else
+    edited.dance.contacts.resize(frames, edited.dance.contacts.back());
+  edited.keys = std::move(danced.report.keys);
+  edited.warnings = std::move(danced.warnings);
+  return edited;
+}
+
+}  // namespace choreo::client
