@@ -1,5 +1,7 @@
 #include "studio/studio_context.h"
 
+#include <algorithm>
+
 #include "client/authoring/dancers.h"
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_file.h"
@@ -64,6 +66,8 @@ Limits LimitsOf(double song_s) {
   limits.set_usual_hit(authoring::kUsualHit);
   limits.set_too_near_s(authoring::kTooNear);
   limits.set_way_from_hold_s(authoring::kWayFromHold);
+  limits.set_edit_around_s(authoring::kEditAround);
+  limits.set_next_key_near_s(authoring::kNextKeyNear);
   return limits;
 }
 
@@ -76,9 +80,15 @@ StudioContext::StudioContext(const client::Options& server, const std::filesyste
   welcome_.set_version(server_.version);
   *welcome_.mutable_model() = wire::ToProto(model());
   *welcome_.mutable_limits() = LimitsOf(most_seconds());
-  for (const authoring::LibraryPose& pose : authoring::PosesToDance(skeleton)) {
+  std::vector<authoring::LibraryPose> poses = authoring::PosesFor(skeleton);
+  const auto stance = [](const authoring::LibraryPose& pose) {
+    return std::ranges::find(authoring::PoseTags(), pose.tags.front());
+  };
+  std::ranges::stable_sort(poses, {}, stance);
+  for (const authoring::LibraryPose& pose : poses) {
     LibraryPose* added = welcome_.add_poses();
     added->set_id(pose.id);
+    added->set_stance(pose.tags.front());
     added->set_description(pose.description);
     *added->mutable_pose() = client::ToProto(pose.pose);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "client/authoring/pose_library.h"
 #include "studio/page.h"
 #include "tests/studio/fixture.h"
 #include "tests/support/expect_error.h"
@@ -47,7 +48,14 @@ TEST_F(StudioTest, WelcomesWithModelPosesAndBody) {
   const Opened studio(server_.address(), folder_ / "clicks.wav");
   const Page page(studio.port());
   EXPECT_EQ(page.welcome().model().skeleton().joint_names_size(), 24);
-  EXPECT_GE(page.welcome().poses_size(), 12);
+  // All of the library, those that stand first.
+  std::vector<std::string> stances;
+  for (const LibraryPose& pose : page.welcome().poses()) {
+    EXPECT_EQ(authoring::FindLibraryPose(pose.id()).tags.front(), pose.stance()) << pose.id();
+    if (stances.empty() || stances.back() != pose.stance()) stances.push_back(pose.stance());
+  }
+  EXPECT_EQ(page.welcome().poses_size(), std::ssize(authoring::PoseLibrary()));
+  EXPECT_THAT(stances, testing::ElementsAre("standing", "travelling", "jump", "floor"));
   EXPECT_EQ(page.welcome().body().substr(0, 4), "glTF");
   EXPECT_EQ(page.welcome().limits().song_s(), 600);  // the server's
   EXPECT_EQ(page.welcome().limits().dancers(), 64);

@@ -1,6 +1,7 @@
 // The dance as it was and is: each change is a moment, whose motion is danced while it is watched.
 import { computed, signal } from '@preact/signals';
 import type { Signal } from '@preact/signals';
+import { reachOf } from './edit_reach';
 import { dancer, skeleton } from './link';
 import { Motion } from './motion';
 import { trimmed } from './project';
@@ -104,15 +105,11 @@ export function danceFrom(next: Project, from: number) {
   push(next, from >= 0 ? before.head(from + 1) : before, streamFrom(next, before, from), stay);
 }
 
-/// Changes the project and dances what it touches, `frames`, anew: from the key before them to the
-/// one after.
+/// Changes the project and dances what it touches, `frames`, anew, with what is around them.
 export function edit(next: Project, frames: number[]) {
   const before = moment.value;
   next = { ...next, keys: trimmed(next.keys, dancer.frames(next), dancer.fps) };
-  const stays = next.keys.filter(({ frame }) => !frames.includes(frame));
-  const last = stays.filter(({ frame }) => frame < Math.min(...frames)).at(-1);
-  const from = last ? last.frame + last.hold : -1;
-  const to = stays.find(({ frame }) => frame > Math.max(...frames))?.frame ?? dancer.frames(next);
+  const [from, to] = reachOf(before.project.keys, next.keys, frames, dancer.frames(next), dancer.fps);
   const long = !dancer.spans(to - from);
   const there = before.isReady || !streaming ? Infinity : before.motion.value.count;
   if (long || to + lead > there) return danceFrom(next, Math.min(from, before.motion.value.count - 1));

@@ -99,6 +99,8 @@ export function moveKey(id: string, to: number) {
   if (frame === null || frame === key.frame) return;
   edit({ ...project.value, keys: sorted([...others, onPath(project.value.path, { ...key, frame })]) }, [key.frame, frame]);
   tellOfHold(others, { ...key, frame });
+  const near = others.find((other) => isTooNear(other.frame, frame));
+  if (near) tell(`${spoken(key.id)} stands ${(Math.abs(near.frame - frame) / dancer.fps).toFixed(2)} s from ${spoken(near.id)}: too near to be danced well.`);
 }
 
 /// Keeps its pose for so many frames, in steps of those that hold it.

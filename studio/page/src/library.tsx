@@ -1,5 +1,6 @@
 // Key poses to choose from: the library's and the user's own.
 import { signal } from '@preact/signals';
+import { Fragment } from 'preact';
 import type { Pose } from './body';
 import { drag } from './drag';
 import type { LibraryPose } from './generated/studio/studio_pb';
@@ -8,6 +9,7 @@ import * as studio from './studio';
 import { frameUnder } from './scale';
 import { dropPose } from './timeline';
 
+const stances: Record<string, string> = { standing: 'Standing', travelling: 'Travelling', jump: 'In the air', floor: 'On the floor' };
 const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
 
 /// Drags a pose with the pointer until it is dropped.
@@ -54,7 +56,12 @@ export function Library({ pictureOf }: Props) {
       <p class="small">Drag one onto the timeline, or press it to set it at the playhead. Drop a photo to make your own.</p>
       <ul>
         {own.map((pose) => <Item key={`own ${pose.id}`} pose={pose} isOwn pictureOf={pictureOf} />)}
-        {poses.map((pose) => <Item key={pose.id} pose={pose} isOwn={false} pictureOf={pictureOf} />)}
+        {poses.map((pose, i) => (
+          <Fragment key={pose.id}>
+            {pose.stance !== poses[i - 1]?.stance && <li class="stance"><h3>{stances[pose.stance] ?? pose.stance}</h3></li>}
+            <Item pose={pose} isOwn={false} pictureOf={pictureOf} />
+          </Fragment>
+        ))}
       </ul>
       {carried.value && (
         <img class="carried" alt="" style={{ left: `${carried.value.x}px`, top: `${carried.value.y}px` }} src={pictureOf(standing(carried.value.pose))} />

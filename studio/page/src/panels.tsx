@@ -59,6 +59,8 @@ function StylePanel() {
   const styles = studio.welcome.value?.model?.styles ?? [];
   if (styles.length === 0) return null;
   const shown = studio.welcome.value?.stylesShown;
+  const hidden = studio.welcome.value?.model?.styleRecognition?.shows === false;
+  const options = styles.map((style) => <option key={style} value={style}>{style}</option>);
   const { value } = studio.project;
   return (
     <section aria-label="Style">
@@ -66,7 +68,7 @@ function StylePanel() {
       <select aria-label="How to dance" disabled={!value} value={value?.style ?? ''}
         onChange={(event) => studio.change({ style: event.currentTarget.value })}>
         <option value="">none in particular</option>
-        {styles.map((style) => <option key={style} value={style}>{style}</option>)}
+        {hidden ? <optgroup label="These do not show">{options}</optgroup> : options}
       </select>
       <p class="small">{shown}</p>
     </section>

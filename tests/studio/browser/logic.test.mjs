@@ -10,7 +10,8 @@ const page = new URL('../../../studio/page/', import.meta.url);
 const { buildSync } = createRequire(new URL('package.json', page))('esbuild');
 
 const limits = { danceS: 3600, songS: 600, beatsInBar: 16, velocityFactor: 10, hit: 3, keyDistance: 2, holdStepS: 0.2, holdS: 60, usualHit: 1, tooNearS: 0.2, positionM: 10000, dancers: 64,
-  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3, slowestTempo: 50, fastestTempo: 200, wayFromHoldS: 0.5 };
+  stageM: 1000, usualApartM: 0.2, usualMusicDynamics: 0.5, usualVariation: 0.3, slowestTempo: 50, fastestTempo: 200, wayFromHoldS: 0.5,
+  editAroundS: 2, nextKeyNearS: 4 };
 
 /// A module of the page, with all that it imports, and the program's limits.
 async function load(name) {
@@ -21,6 +22,7 @@ async function load(name) {
   return loaded;
 }
 
+const { reachOf } = await load('edit_reach');
 const { roughly, timeLeft } = await load('time_left');
 const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withHolds, withMarker } = await load('project');
 const { fromJson, inOrder, toJson } = await load('project_file');
@@ -32,6 +34,21 @@ const { only, toQuaternion, toVector, turned, heading } = await load('body');
 
 const still = (joints) => ({ root: [0, 1, 0], rotations: Array(3 * joints).fill(0) });
 const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-6, `${a}, not ${b}`);
+
+test('an edit reaches the next keys where these are near, else two seconds', () => {
+  const at = (frame, hold = 0) => ({ frame, hold });
+  const reach = (before, after, frames) => reachOf(before.map((key) => at(...key)), after.map((key) => at(...key)), frames, 900, 30);
+  assert.deepEqual(reach([], [[450]], [450]), [390, 510], 'in a free dance');
+  assert.deepEqual(reach([[450]], [], [450]), [390, 510], 'without it');
+  assert.deepEqual(reach([], [[30]], [30]), [-1, 90], 'near the beginning');
+  assert.deepEqual(reach([], [[880]], [880]), [820, 900], 'near the end');
+  assert.deepEqual(reach([[350], [500]], [[350], [450], [500]], [450]), [350, 500], 'between keys');
+  assert.deepEqual(reach([[100], [800]], [[100], [450], [800]], [450]), [390, 510], 'far from keys');
+  assert.deepEqual(reach([[100]], [[600]], [100, 600]), [40, 660], 'where it was and is');
+  assert.deepEqual(reach([[100, 300]], [[100, 30]], [100]), [40, 460], 'what was held before');
+  assert.deepEqual(reach([[100, 300]], [[100, 85], [200]], [200]), [185, 460], 'in the hold of another one');
+  assert.deepEqual(reach([[400]], [[400, 60]], [400]), [340, 520], 'held now');
+});
 
 test('no module of the page imports itself, by whatever way', () => {
   const folder = new URL('src/', page);
