@@ -188,8 +188,8 @@ void AddEditCommand(CLI::App& program) {
       "Set, move, remove and repeat key poses of a finished dance, dance a part or all of it anew, "
       "or close it to a loop; or cut, mirror and join whole dances.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
-      "for bit. They end at the neighbouring keys, if --report names them, else --around seconds "
-      "away. A key at the frame of another one replaces it. A TIME is in seconds, or in counts of "
+      "for bit. They end at the neighbouring keys, if --report names them within 4 s, else --around "
+      "seconds away. A key at the frame of another one replaces it, which a note says. A TIME is in seconds, or in counts of "
       "--song: 1c is its first downbeat, 9c the next eight's 1, 9.5c the half beat after it. Keys "
       "are removed first, then moved, stretched, repeated, mirrored and set; takes come after "
       "them. With --seed, --style, --path or --velocity alone all is danced anew, through the "
@@ -275,7 +275,7 @@ void AddEditCommand(CLI::App& program) {
   command
       ->add_option("--around", options->around_s,
                    "Seconds that may change before and after a key, or before the end of a loop. "
-                   "Default: up to the neighbouring keys of --report; 2 without it.")
+                   "Default: up to the neighbouring keys of --report within 4 s; else 2.")
       ->check(AboveZero());
   command
       ->add_option("--from", options->from,
