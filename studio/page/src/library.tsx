@@ -9,7 +9,15 @@ import * as studio from './studio';
 import { frameUnder } from './scale';
 import { dropPose } from './timeline';
 
-const stances: Record<string, string> = { standing: 'Standing', travelling: 'Travelling', jump: 'In the air', floor: 'On the floor' };
+/// Kinds of poses: their headings, and short names to go there.
+const stances: Record<string, [string, string]> = {
+  standing: ['Standing', 'Stand'], travelling: ['Travelling', 'Travel'], jump: ['In the air', 'Jump'], floor: ['On the floor', 'Floor'],
+};
+const placeOf = (stance: string) => `poses-${stance}`;
+const goTo = (stance: string) => {
+  const isRow = matchMedia('(max-width: 900px)').matches; // poses stand in a row on phones (style.css)
+  document.getElementById(placeOf(stance))!.scrollIntoView({ block: isRow ? 'nearest' : 'start', inline: 'start' });
+};
 const carried = signal<{ pose: LibraryPose; x: number; y: number } | null>(null);
 
 /// Drags a pose with the pointer until it is dropped.
@@ -50,6 +58,11 @@ export function Library({ pictureOf }: Props) {
     <aside class="library" aria-label="Poses">
       <div class="row head">
         <h2>Poses</h2>
+        <div class="choices stances" role="group" aria-label="Kinds of poses">
+          {Object.entries(stances).map(([stance, [heading, name]]) => (
+            <button key={stance} title={`Poses ${heading.toLowerCase()}`} disabled={poses.length === 0} onClick={() => goTo(stance)}>{name}</button>
+          ))}
+        </div>
         <button disabled={!studio.shownSong.value || !studio.moment.value} onClick={() => void studio.compose().catch(studio.complain)}
           title="Other poses of the library on the song's beats">New poses</button>
       </div>
@@ -58,7 +71,7 @@ export function Library({ pictureOf }: Props) {
         {own.map((pose) => <Item key={`own ${pose.id}`} pose={pose} isOwn pictureOf={pictureOf} />)}
         {poses.map((pose, i) => (
           <Fragment key={pose.id}>
-            {pose.stance !== poses[i - 1]?.stance && <li class="stance"><h3>{stances[pose.stance] ?? pose.stance}</h3></li>}
+            {pose.stance !== poses[i - 1]?.stance && <li class="stance" id={placeOf(pose.stance)}><h3>{stances[pose.stance]?.[0]}</h3></li>}
             <Item pose={pose} isOwn={false} pictureOf={pictureOf} />
           </Fragment>
         ))}

@@ -5,6 +5,7 @@ import * as studio from './studio';
 
 const middle = 0.92; // metres: height of the camera's target
 const photoWidth = 272; // pixels of the stage at most (style.css)
+const nearest = 0.95; // share of the camera's distance at which dancers around the middle are still fitted in
 /// The share of a movement left after a second: of following, of zooming, and of rising for drawing.
 const [following, zooming, rising] = [5e-4, 1e-5, 3e-8];
 
@@ -46,9 +47,11 @@ export class View {
     }
     if (hand !== 'draws') this.sit(share(rising));
     this.controls.update();
-    // Fits all dancers into the picture.
-    const width = 2 * camera.position.distanceTo(target) * Math.tan((camera.fov * Math.PI) / 360) * camera.aspect;
-    const wanted = metres ? Math.min(1, width / metres) : 1;
+    // Fits all dancers into the picture. Those between the camera and the middle look wider.
+    const distance = camera.position.distanceTo(target);
+    const width = 2 * distance * Math.tan((camera.fov * Math.PI) / 360) * camera.aspect;
+    const nearness = Math.min(nearest, metres / 2 / distance);
+    const wanted = metres ? Math.min(1, (width / metres) * Math.sqrt(1 - nearness ** 2)) : 1;
     if (Math.abs(wanted - camera.zoom) > 1e-3) {
       camera.zoom += (wanted - camera.zoom) * share(zooming);
       camera.updateProjectionMatrix();

@@ -109,6 +109,22 @@ await inStudio(async ({ page, until, settle, frames, give, download }) => {
     await until(() => window.choreo.stage.value.company.dolls.filter(({ scene }) => scene.visible).length === 2);
   });
 
+  await check('all three are on the stage, from the first moment to the last', async () => {
+    for (const frame of [0, 60, 120, 180]) {
+      await seek(frame);
+      let away = ['not there'];
+      for (let i = 0; i < 20 && away.length > 0; ++i) { // the camera goes there
+        await page.waitForTimeout(500);
+        away = await page.evaluate(() => {
+          const { doll, company, camera } = window.choreo.stage.value;
+          return [doll, ...company.dolls].filter(({ scene }) => scene.visible).flatMap(({ bones }, nth) => bones
+            .map((bone) => bone.getWorldPosition(bone.position.clone()).project(camera)).filter(({ x, y }) => Math.abs(x) > 1 || Math.abs(y) > 1).map(() => nth));
+        });
+      }
+      assert.deepEqual(away, [], `off the stage at frame ${frame}`);
+    }
+  });
+
   await check('one has keys of her own, in a file of its own or not, and they can be worked on', async () => {
     const text = readFileSync(await download(() => page.getByRole('button', { name: 'Save' }).click()), 'utf8');
     const all = JSON.parse(text);

@@ -175,6 +175,25 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
     assert.equal(await page.locator('.key').count(), count + 1);
   });
 
+  await check('jumps and floor poses are a press away, and are set like others', async () => {
+    const kinds = page.getByRole('group', { name: 'Kinds of poses' });
+    for (const [kind, name] of [['Jump', 'star jump'], ['Floor', 'kneel']]) {
+      await kinds.getByRole('button', { name: kind }).click();
+      await page.locator(`#poses-${kind.toLowerCase()}`).waitFor();
+      const pose = page.getByRole('complementary', { name: 'Poses' }).getByRole('button', { name });
+      assert.ok(await pose.isVisible());
+    }
+    await page.evaluate(() => (window.choreo.audio.currentTime = 6.5));
+    const before = await page.evaluate(() => window.choreo.project.value.keys.length);
+    await page.getByRole('complementary', { name: 'Poses' }).getByRole('button', { name: 'kneel' }).click();
+    await settle();
+    const key = await page.evaluate(() => window.choreo.project.value.keys.find(({ id }) => id.startsWith('kneel')));
+    assert.ok(key.pose.root[1] < 0.7, `its hips are at ${key.pose.root[1]} m`);
+    await page.evaluate(() => window.choreo.undo());
+    await settle();
+    assert.equal(await page.evaluate(() => window.choreo.project.value.keys.length), before);
+  });
+
   await check('a take of an interval is tried and kept', async () => {
     const before = await frames();
     await page.locator('.interval').nth(1).click();
