@@ -1,5 +1,6 @@
 #include "client/cli/told_times.h"
 
+#include <cmath>
 #include <regex>
 
 #include "model/core/rounded.h"
@@ -23,7 +24,11 @@ std::string ToldTimes::Of(int64_t frame) const {
   const double second = static_cast<double>(frame) / fps;
   const std::string told = Rounded(second) + " s";
   if (counts.beats.size() < 2) return told;
-  const double count = authoring::CountAt(second, counts);
+  const auto count_at = [&](double off) { return authoring::CountAt(second + off / fps, counts); };
+  // The nearest frame to 9c is 9c.
+  const double part = std::round(4 * count_at(0)) / 4;
+  const bool is_part = count_at(-0.5) <= part && part <= count_at(0.5);
+  const double count = is_part ? part : count_at(0);
   return count < 0 ? told : Rounded(count) + "c, " + told;
 }
 

@@ -47,10 +47,10 @@ export class View {
     }
     if (hand !== 'draws') this.sit(share(rising));
     this.controls.update();
-    // Fits all dancers into the picture. Those between the camera and the middle look wider.
+    // Fits all dancers into the picture. Those between the camera and the middle look wider; takes stand beside each other.
     const distance = camera.position.distanceTo(target);
     const width = 2 * distance * Math.tan((camera.fov * Math.PI) / 360) * camera.aspect;
-    const nearness = Math.min(nearest, metres / 2 / distance);
+    const nearness = takes > 0 ? 0 : Math.min(nearest, metres / 2 / distance);
     const wanted = metres ? Math.min(1, (width / metres) * Math.sqrt(1 - nearness ** 2)) : 1;
     if (Math.abs(wanted - camera.zoom) > 1e-3) {
       camera.zoom += (wanted - camera.zoom) * share(zooming);

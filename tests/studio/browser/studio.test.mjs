@@ -64,6 +64,8 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
       window.choreo.song.value = { name: 'early.wav', url: '', bytes: new Uint8Array(), heard };
     });
     await until(() => document.querySelector('.wave div')?.shadowRoot?.querySelector('canvas'));
+    await page.evaluate(() => (document.querySelector('.wave').style.width = '2px')); // as a narrow window has it
+    await page.waitForTimeout(500);
     await page.evaluate(() => (window.choreo.song.value = null));
     assert.deepEqual(errors, []);
   });
