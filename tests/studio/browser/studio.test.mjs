@@ -327,8 +327,9 @@ await inStudio(async ({ page, errors, until, settle, message, frames, scale, giv
   });
 
   await check('the loss of the server is survived', async () => {
+    const works = until(() => window.choreo.busy.value > 0); // looked for from before, as it may be short
     await page.getByRole('button', { name: 'New poses' }).click();
-    await until(() => window.choreo.busy.value > 0);
+    await works;
     execFileSync('pkill', ['-KILL', '-P', String(host.pid()), 'choreod']);
     await settle();
     assert.equal(await page.evaluate(() => window.choreo.motion.value.count), 30 * seconds);
