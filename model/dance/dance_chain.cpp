@@ -22,20 +22,9 @@ class DanceChain::Job : public SampleJob {
         deadline_(chain_->start_time_ + chain_->Seconds(segment_.from - chain_->first_frame_)),
         next_(std::move(next)) {}
 
-  /// Prepares the transition, then samples it slice by slice; once it is sampled, each slice hands
-  /// out frames.
   bool Continue(Sampler& sampler) override {
-    if (worker_has_sampled_) return chain_->HandOut(kFramesASlice);
-    if (next_) {
-      Prepare(*std::exchange(next_, {}));
-      return true;
-    }
-    if (run_->Continue(sampler)) return true;
-    worker_has_sampled_ = true;
-    std::lock_guard lock(chain_->mutex_);
-    sampled_ = true;
-    chain_->SubmitNext();
-    return true;
+    if (!slices_) slices_.emplace(Work(sampler));
+    return slices_->Continue();
   }
 
   void OnDone(const Error* failure) noexcept override {
@@ -78,6 +67,21 @@ class DanceChain::Job : public SampleJob {
   }
 
  private:
+  // Prepares and samples the transition, then hands out frames.
+  Slices<> Work(Sampler& sampler) {
+    Prepare(*std::exchange(next_, {}));
+    co_await Pause();
+    co_await run_->Dance(sampler);
+    {
+      std::lock_guard lock(chain_->mutex_);
+      sampled_ = true;
+      chain_->SubmitNext();
+    }
+    do {
+      co_await Pause();
+    } while (chain_->HandOut(kFramesASlice));
+  }
+
   void Prepare(const DanceScore::Next& next) {
     const ModelInfo& model = chain_->model_;
     beats_ = next.beats.For(segment_.from, segment_.to);
@@ -95,8 +99,8 @@ class DanceChain::Job : public SampleJob {
   std::optional<TransitionRun> run_;      // from then on
   std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
-  bool worker_has_sampled_ = false;  // read and written without a lock by the worker alone
-  bool sampled_ = false;             // the same for all other threads; guarded by the chain's mutex
+  std::optional<Slices<>> slices_;  // the worker's
+  bool sampled_ = false;            // guarded by the chain's mutex
   std::optional<Error> failure_;
   std::atomic<bool> retired_ = false;
 };

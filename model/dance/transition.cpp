@@ -158,25 +158,18 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.paper.arrival = arrival_;
 }
 
-bool TransitionRun::Continue(Sampler& sampler) {
-  if (held_ && !steered_) {
+Slices<> TransitionRun::Dance(Sampler& sampler) {
+  if (held_) {
     Hold();
-    Steer();
-    return true;
+  } else {
+    drawn_ = co_await sampler.Begin(spec_);
   }
-  if (!steered_) {
-    if (!sampling_) {
-      sampling_ = sampler.Begin(spec_);
-    } else if (!sampling_->Continue()) {
-      drawn_ = sampling_->TakePlan();
-      Steer();
-    }
-    return true;
+  Steer();
+  while (frames_.size() < plan_.size()) {
+    co_await Pause();
+    PutOnFeet();
   }
-  PutOnFeet();
-  if (frames_.size() < plan_.size()) return true;
   MeasureArrival();
-  return false;
 }
 
 // No model is asked: a new sample in each of these short transitions would tremble.
@@ -190,7 +183,6 @@ void TransitionRun::Hold() {
 
 void TransitionRun::Steer() {
   CheckLength();
-  steered_ = true;
   const ControlCurve& path = spec_.controls[kRootPath];
   if (hit_) {
     HitKey({.skeleton = model_->skeleton,
@@ -342,8 +334,7 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
 TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
                               const std::function<void(int)>& danced) {
   TransitionRun run(sampler.model(), request);
-  while (run.Continue(sampler)) {
-  }
+  run.Dance(sampler).Finish();
   if (danced) danced(request.spec.frames);
   return run;
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,12 +66,12 @@ class TransitionRun {
 
   const TransitionSpec& spec() const { return spec_; }
 
-  /// Makes the next slice; the sampler must be the same each time. Returns true while more are
-  /// left. Throws Error(kInternal) for a plan of another length and for a value that is not finite,
+  /// Makes all frames. Sampler and this must outlive the slices, and this must not move meanwhile.
+  /// Throws Error(kInternal) for a plan of another length and for a value that is not finite,
   /// whether the model made it or this class, and Error(kInvalidArgument) as Sampler::Begin does.
-  bool Continue(Sampler& sampler);
+  Slices<> Dance(Sampler& sampler);
 
-  /// All frames, once Continue has returned false.
+  /// All frames, once they are made.
   const std::vector<DanceFrame>& frames() const { return frames_; }
   /// Set after the last frame of a transition with a target; the caller fills in the id.
   const std::optional<KeyReached>& arrival() const { return arrival_result_; }
@@ -106,8 +105,6 @@ class TransitionRun {
   std::vector<Pose> before_;  // the history, world
   Pose world_;                // the newest frame, whose signs are kept
 
-  std::unique_ptr<Sampling> sampling_;
-  bool steered_ = false;    // whether drawn_ and plan_ are there
   Plan drawn_;              // as sampled
   std::vector<Pose> plan_;  // canonical, steered; those of frames_ stand on their feet
   Eigen::Matrix<double, 3, 2> offset_ = Eigen::Matrix<double, 3, 2>::Zero();  // Footwork::offset

@@ -77,10 +77,8 @@ class TransitionGroup::Impl::Job : public SampleJob {
                 request_.spec.history.back()) {}
 
   bool Continue(Sampler& sampler) override {
-    if (is_sampled_) return HandOut();
-    if (!run_) run_.emplace(group_->model_, request_);
-    is_sampled_ = !run_->Continue(sampler);
-    return true;
+    if (!slices_) slices_.emplace(Work(sampler));
+    return slices_->Continue();
   }
 
   void OnDone(const Error* failure) noexcept override {
@@ -113,6 +111,15 @@ class TransitionGroup::Impl::Job : public SampleJob {
   }
 
  private:
+  Slices<> Work(Sampler& sampler) {
+    if (!run_) run_.emplace(group_->model_, request_);
+    co_await run_->Dance(sampler);
+    is_sampled_ = true;
+    do {
+      co_await Pause();
+    } while (HandOut());
+  }
+
   bool HandOutNext() {
     if (!is_sampled_ || group_->paused_ || group_->cancelled_ || handed_out_ == frames())
       return false;
@@ -151,6 +158,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   const TransitionRequest request_;
   const double deadline_ = PlaybackClock();
   std::optional<TransitionRun> run_;  // the worker's until it is sampled
+  std::optional<Slices<>> slices_;    // the worker's
   std::atomic<bool> is_sampled_ = false;
 
   std::mutex mutex_;  // guards the members below

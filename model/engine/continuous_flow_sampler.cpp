@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -38,119 +37,26 @@ WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std:
   return request;
 }
 
-class PlanSampling : public Sampling {
- public:
-  /// The spec must be valid. Model, parts and network must outlive it.
-  PlanSampling(const ModelInfo& model, const FlowModelParts& parts, const FlowNetwork& network,
-               const TransitionSpec& spec);
-
-  bool Continue() override;
-
- private:
-  /// Evaluates a round; true if another one follows.
-  bool EndRound();
-  void Finish();
-  ControlCurve& Energy() { return request_.controls[kVelocityFactors]; }
-
-  const ModelInfo* model_;
-  const FlowModelParts* parts_;
-  const FlowNetwork* network_;
-  // From the spec:
-  std::vector<Pose> history_;
-  std::vector<double> beats_;
-  bool keyed_, has_path_, has_heights_;
-
-  WindowRequest request_;
-  FlowNoise noise_;
-  std::optional<TransitionSampler> sampler_;  // of this round; none after the last one
-
-  // The network responds to requested energy, but too weakly. So each round measures the energy of
-  // its result and corrects the request; the nearest result is danced.
-  bool in_rounds_;
-  int round_ = 0;
-  Eigen::MatrixXd wanted_;                    // energy, as requested
-  std::array<double, kBodyParts> more_ = {};  // logarithms of requested over wanted energy
-  double least_;                              // the error of the nearest result
-};
-
-PlanSampling::PlanSampling(const ModelInfo& model, const FlowModelParts& parts,
-                           const FlowNetwork& network, const TransitionSpec& spec)
-    : model_(&model),
-      parts_(&parts),
-      network_(&network),
-      history_(spec.history),
-      beats_(spec.beats),
-      keyed_(Keyed(spec)),
-      has_path_(spec.controls[kRootPath].IsGiven()),
-      has_heights_(spec.controls[kRootPath].requested[kPathHeight]),
-      request_(ToWindowRequest(spec, model.styles)),
-      noise_{.seed = spec.seed,
-             .candidate = spec.candidate,
-             .first_frame = spec.first_frame,
-             .like = spec.noise_like,
-             .variation = spec.variation,
-             .temperature = spec.temperature},
-      sampler_(std::in_place, parts, network, request_, noise_),
-      // The mean way's energy cannot be changed.
-      in_rounds_(noise_.temperature > 0 && Energy().IsGiven() &&
-                 std::ranges::count(Energy().requested, true) > 0),
-      wanted_(Energy().values),
-      least_(std::numeric_limits<double>::infinity()) {}
-
-bool PlanSampling::Continue() {
-  if (!sampler_) {
-    Finish();
-    return false;
-  }
-  if (sampler_->Continue()) return true;
-  if (EndRound()) {
-    sampler_.emplace(*parts_, *network_, request_, noise_);
-  } else {
-    sampler_.reset();
-  }
-  return true;
-}
-
-bool PlanSampling::EndRound() {
-  std::vector<Pose> poses = sampler_->TakePoses();
-  if (!in_rounds_) {
-    plan_.poses = std::move(poses);
-    return false;
-  }
-  std::vector<Pose> seen = {history_.back()};
+// The network responds to requested energy, but too weakly: finds how far a part's motion misses
+// `wanted`, and asks for more or less of it. `more`: logarithms of requested over wanted energy.
+// Returns the largest error of a part.
+double CorrectEnergy(const Skeleton& skeleton, const Pose& before, const std::vector<Pose>& poses,
+                     const Eigen::MatrixXd& wanted, std::array<double, kBodyParts>& more,
+                     ControlCurve& energy) {
+  std::vector<Pose> seen = {before};
   seen.insert(seen.end(), poses.begin(), poses.end());
-  const auto danced = MeanVelocityFactors(parts_->skeleton, seen);
-  const Eigen::VectorXd asked = wanted_.rowwise().mean();
+  const auto danced = MeanVelocityFactors(skeleton, seen);
+  const Eigen::VectorXd asked = wanted.rowwise().mean();
   double most = 0;
   for (int part = 0; part < asked.size(); ++part) {
     const auto at = static_cast<size_t>(part);
-    if (!Energy().IsRequested(part)) continue;
+    if (!energy.IsRequested(part)) continue;
     const double missing = EnergyLevel(asked[part], danced[at]);
     most = std::max(most, std::abs(missing));
-    more_[at] = std::clamp(more_[at] + missing / kAnswer, -kMaxLog, kMaxLog);
-    Energy().values.row(part) = std::exp(more_[at]) * wanted_.row(part);
+    more[at] = std::clamp(more[at] + missing / kAnswer, -kMaxLog, kMaxLog);
+    energy.values.row(part) = std::exp(more[at]) * wanted.row(part);
   }
-  if (most < least_) {
-    least_ = most;
-    plan_.poses = std::move(poses);
-  }
-  return ++round_ < kRounds;
-}
-
-void PlanSampling::Finish() {
-  FinishPlan({.skeleton = model_->skeleton,
-              .history = history_,
-              .beats = beats_,
-              .keyed = keyed_,
-              .has_path = has_path_,
-              .has_heights = has_heights_,
-              .fps = model_->fps,
-              .options = parts_->config.plan},
-             &plan_.poses);
-  Motion motion{.fps = model_->fps, .frames = {history_.back()}};
-  motion.frames.insert(motion.frames.end(), plan_.poses.begin(), plan_.poses.end());
-  plan_.contacts = DetectContacts(model_->skeleton, motion);
-  plan_.contacts.erase(plan_.contacts.begin());  // the history's
+  return most;
 }
 
 }  // namespace
@@ -162,8 +68,47 @@ ContinuousFlowSampler::ContinuousFlowSampler(ModelInfo info, std::string device,
       parts_(std::move(parts)),
       network_(std::move(network)) {}
 
-std::unique_ptr<Sampling> ContinuousFlowSampler::BeginValid(const TransitionSpec& spec) {
-  return std::make_unique<PlanSampling>(model_, *parts_, *network_, spec);
+Slices<Plan> ContinuousFlowSampler::BeginValid(const TransitionSpec& spec) {
+  const FlowNoise noise{.seed = spec.seed,
+                        .candidate = spec.candidate,
+                        .first_frame = spec.first_frame,
+                        .like = spec.noise_like,
+                        .variation = spec.variation,
+                        .temperature = spec.temperature};
+  WindowRequest request = ToWindowRequest(spec, model_.styles);
+  ControlCurve& energy = request.controls[kVelocityFactors];
+  const Eigen::MatrixXd wanted = energy.values;
+  // The mean way's energy cannot be changed.
+  const bool in_rounds =
+      noise.temperature > 0 && energy.IsGiven() && std::ranges::count(energy.requested, true) > 0;
+  std::array<double, kBodyParts> more = {};
+  Plan plan;
+  double least = std::numeric_limits<double>::infinity();  // the error of the nearest result
+  for (int round = 0; round < (in_rounds ? kRounds : 1); ++round) {
+    std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, noise);
+    const double error = in_rounds ? CorrectEnergy(parts_->skeleton, spec.history.back(), poses,
+                                                   wanted, more, energy)
+                                   : 0;
+    if (error < least) {
+      least = error;
+      plan.poses = std::move(poses);
+    }
+  }
+
+  const PlanContext context{.skeleton = model_.skeleton,
+                            .history = spec.history,
+                            .beats = spec.beats,
+                            .keyed = Keyed(spec),
+                            .has_path = spec.controls[kRootPath].IsGiven(),
+                            .has_heights = spec.controls[kRootPath].requested[kPathHeight],
+                            .fps = model_.fps,
+                            .options = parts_->config.plan};
+  for (const auto stage : kPlanStages) stage(context, &plan.poses);
+  Motion motion{.fps = model_.fps, .frames = {spec.history.back()}};
+  motion.frames.insert(motion.frames.end(), plan.poses.begin(), plan.poses.end());
+  plan.contacts = DetectContacts(model_.skeleton, motion);
+  plan.contacts.erase(plan.contacts.begin());  // the history's
+  co_return plan;
 }
 
 }  // namespace choreo

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "model/engine/sampler.h"
-#include "model/flow/transition_sampler.h"
+#include "model/flow/flow_sampler.h"
 
 namespace choreo {
 
@@ -19,7 +19,7 @@ class ContinuousFlowSampler : public Sampler {
                         std::shared_ptr<const FlowNetwork> network);
 
  protected:
-  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
 
  private:
   std::shared_ptr<const FlowModelParts> parts_;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "model/core/slices.h"
 #include "model/engine/transition_spec.h"
 #include "model/motion/contacts.h"
 
@@ -21,32 +21,19 @@ struct Plan {
   std::vector<float> log_likelihoods;
 };
 
-/// A transition in the making, slice by slice. Between slices callers may pause or abandon it. Not
-/// thread-safe.
-class Sampling {
- public:
-  virtual ~Sampling() = default;
-  /// Makes the next slice, short enough for a due frame to wait for it. True while more are left.
-  virtual bool Continue() = 0;
-  /// Call once, when none is left.
-  Plan TakePlan() { return std::move(plan_); }
-
- protected:
-  Plan plan_;
-};
-
 /// A model on one device. A plan is a function of model and spec alone, whatever else is sampled.
-/// Not thread-safe; its samplings run on the thread that owns it and must not outlive it.
+/// Not thread-safe; its plans are made on the thread that owns it.
 class Sampler {
  public:
   virtual ~Sampler() = default;
   const ModelInfo& model() const { return model_; }
   const std::string& device() const { return device_; }  ///< "cpu", "cuda:0"
 
-  /// Throws Error(kInvalidArgument) for a spec of the wrong shape (ValidateSpec).
-  std::unique_ptr<Sampling> Begin(const TransitionSpec& spec);
-  /// Runs all slices.
-  Plan Sample(const TransitionSpec& spec);
+  /// Samples a plan, in slices short enough for a due frame to wait for one. Spec and sampler must
+  /// outlive them. Throws Error(kInvalidArgument) for a spec of the wrong shape (ValidateSpec).
+  Slices<Plan> Begin(const TransitionSpec& spec);
+  /// The same at once.
+  Plan Sample(const TransitionSpec& spec) { return Begin(spec).Finish(); }
 
   /// Measured by WarmUp; 0 before.
   double seconds_a_frame() const { return seconds_a_frame_; }
@@ -57,7 +44,7 @@ class Sampler {
       : model_(std::move(model)), device_(std::move(device)) {}
 
   /// The spec is valid.
-  virtual std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) = 0;
+  virtual Slices<Plan> BeginValid(const TransitionSpec& spec) = 0;
 
   ModelInfo model_;
 

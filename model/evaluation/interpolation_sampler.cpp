@@ -12,34 +12,23 @@ ModelInfo Named(ModelInfo model) {
   return model;
 }
 
-class Interpolation : public Sampling {
- public:
-  explicit Interpolation(const TransitionSpec& spec) : spec_(spec) {}
-
-  bool Continue() override {
-    const Pose& from = spec_.history.back();
-    const Pose& to = spec_.target ? spec_.target->pose : from;
-    for (int frame = 0; frame < spec_.frames; ++frame) {
-      Pose& pose = plan_.poses.emplace_back(
-          InterpolatePoses(from, to, (frame + 1.0) / static_cast<double>(spec_.frames)));
-      if (spec_.controls[kRootPath].IsGiven())
-        pose.root_position = spec_.controls[kRootPath].values.col(frame);
-    }
-    plan_.contacts.resize(plan_.poses.size());
-    return false;
-  }
-
- private:
-  const TransitionSpec spec_;
-};
-
 }  // namespace
 
 InterpolationSampler::InterpolationSampler(ModelInfo model)
     : Sampler(Named(std::move(model)), "cpu") {}
 
-std::unique_ptr<Sampling> InterpolationSampler::BeginValid(const TransitionSpec& spec) {
-  return std::make_unique<Interpolation>(spec);
+Slices<Plan> InterpolationSampler::BeginValid(const TransitionSpec& spec) {
+  const Pose& from = spec.history.back();
+  const Pose& to = spec.target ? spec.target->pose : from;
+  Plan plan;
+  for (int frame = 0; frame < spec.frames; ++frame) {
+    Pose& pose = plan.poses.emplace_back(
+        InterpolatePoses(from, to, (frame + 1.0) / static_cast<double>(spec.frames)));
+    if (spec.controls[kRootPath].IsGiven())
+      pose.root_position = spec.controls[kRootPath].values.col(frame);
+  }
+  plan.contacts.resize(plan.poses.size());
+  co_return plan;
 }
 
 }  // namespace choreo

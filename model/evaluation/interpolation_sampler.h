@@ -13,7 +13,7 @@ class InterpolationSampler : public Sampler {
   explicit InterpolationSampler(ModelInfo model);
 
  protected:
-  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
 };
 
 }  // namespace choreo

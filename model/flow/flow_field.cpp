@@ -44,34 +44,25 @@ FlowField::FlowField(const FlowModelParts& model, const FlowNetwork& network, Wi
   if (guidance_ != 1) AddView(request);
 }
 
-void FlowField::MoveTo(const Eigen::MatrixXd& w, int step) {
-  z_ = SizeAt(step) * w;
-  const Eigen::MatrixXd x = window_.Colour(z_);
+Slices<Eigen::MatrixXd> FlowField::Evaluate(const Eigen::MatrixXd& w, int step) {
+  const Eigen::MatrixXd z = SizeAt(step) * w;
+  const Eigen::MatrixXd x = window_.Colour(z);
   poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
   joints_.rightCols(x.cols()) = window_.PlaceJoints(model_.skeleton, x);
-  step_ = step;
-  seen_ = 0;
+  const Eigen::MatrixXd f = See(views_.front(), z, step);
+  co_await Pause();
+  if (views_.size() == 1) co_return f;
+  if (keeps_effect_ && step > 0 && step + 1 == steps()) co_return f + (guidance_ - 1) * effect_;
+  const Eigen::MatrixXd plain = See(views_.back(), z, step);
+  co_await Pause();
+  effect_ = f - plain;
+  co_return guidance_* f + (1 - guidance_) * plain;
 }
 
-bool FlowField::EvaluateNext() {
-  const View& view = views_[seen_];
-  Eigen::MatrixXd f = network_
-                          .Evaluate(z_.cast<float>(), poses_, joints_, mean_, view.frames,
-                                    view.conditions.col(step_))
-                          .cast<double>();
-  if (views_.size() == 1) {
-    f_ = std::move(f);
-  } else if (seen_ == 0 && keeps_effect_ && step_ > 0 && step_ + 1 == steps()) {
-    f_ = f + (guidance_ - 1) * effect_;
-  } else if (seen_ == 0) {
-    f_ = std::move(f);
-    ++seen_;
-    return true;
-  } else {
-    effect_ = f_ - f;
-    f_ = guidance_ * f_ + (1 - guidance_) * f;
-  }
-  return false;
+Eigen::MatrixXd FlowField::See(const View& view, const Eigen::MatrixXd& z, int step) const {
+  return network_
+      .Evaluate(z.cast<float>(), poses_, joints_, mean_, view.frames, view.conditions.col(step))
+      .cast<double>();
 }
 
 void FlowField::AddView(const WindowRequest& request) {

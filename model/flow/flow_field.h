@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
+#include "model/core/slices.h"
 #include "model/flow/flow_model.h"
 #include "model/flow/flow_window.h"
 
@@ -29,11 +29,9 @@ class FlowField {
   int steps() const { return model_.config.steps; }
   double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
 
-  /// Moves the flow to w: z = size (cos noise + sin motion), size = 1 / (cos + sin).
-  void MoveTo(const Eigen::MatrixXd& w, int step);
-  /// Evaluates the network for the next view; true while more views are left.
-  bool EvaluateNext();
-  const Eigen::MatrixXd& f() const { return f_; }
+  /// F of the flow at w: z = size (cos noise + sin motion), size = 1 / (cos + sin). A slice is one
+  /// evaluation of the network.
+  Slices<Eigen::MatrixXd> Evaluate(const Eigen::MatrixXd& w, int step);
 
  private:
   // One input for the network.
@@ -41,6 +39,7 @@ class FlowField {
     Eigen::MatrixXf frames, conditions;
   };
   void AddView(const WindowRequest& request);
+  Eigen::MatrixXd See(const View& view, const Eigen::MatrixXd& z, int step) const;
   double SizeAt(int step) const;
 
   const FlowModelParts& model_;
@@ -52,9 +51,7 @@ class FlowField {
   double guidance_;
   // Beats affect neighbouring steps alike, so the last step takes their effect from the one before.
   bool keeps_effect_;
-  Eigen::MatrixXd z_, f_, effect_;
-  int step_ = 0;
-  size_t seen_ = 0;  // evaluated views
+  Eigen::MatrixXd effect_;
 };
 
 }  // namespace choreo

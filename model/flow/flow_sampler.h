@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "model/core/slices.h"
 #include "model/flow/flow_model.h"
 #include "model/flow/flow_window.h"
 
@@ -37,31 +37,16 @@ struct FlowNoise {
 /// the energy that the prior expects, however few steps are taken. The poses [w] are in the
 /// request's frame. Meets a requested path exactly. Parts without velocity factors take their
 /// energy from the energy prior and curve: the mean at temperature 0, else a sample.
-std::vector<Pose> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
-                               WindowRequest request, const FlowNoise& noise);
+/// A slice is one evaluation of the network. Model and network must outlive the slices.
+Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNetwork& network,
+                                       WindowRequest request, FlowNoise noise);
 
-/// The same in steps of one network evaluation. Model and network must outlive it.
-class WindowSampler {
- public:
-  WindowSampler(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
-                const FlowNoise& noise);
-  ~WindowSampler();
-  WindowSampler(WindowSampler&&) noexcept;
-  WindowSampler& operator=(WindowSampler&&) noexcept;
-
-  /// Makes the next evaluation; true while more are left.
-  bool Continue();
-  /// The result of SampleWindow, once none is left.
-  std::vector<Pose> TakePoses();
-
- private:
-  class Pass;
-  const FlowModelParts* model_;
-  const FlowNetwork* network_;
-  FlowNoise noise_;
-  WindowRequest request_;
-  std::unique_ptr<Pass> pass_;            // running; null: not begun
-  std::vector<Pose> mirrored_, sampled_;  // results
-};
+/// Samples a transition of any length as windows of at most config.window_frames, one after
+/// another, each in its own canonical frame. Every window sees the transition's key if it is at
+/// most kSightFrames away. A window that ends without it, where dancers hardly ever are, is sampled
+/// again. `request` covers the whole transition, of at least one frame (frames <= to_key if there
+/// is a key). The model's TurnPrior chooses the way round to the key, unless the request does.
+Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
+                                           WindowRequest request, FlowNoise noise);
 
 }  // namespace choreo

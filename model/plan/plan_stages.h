@@ -9,7 +9,7 @@
 #include "model/plan/plan_options.h"
 
 /// Stages of a plan between model and arrival, for what no network can know, or a rule does better.
-/// Pure functions, thread-safe. plan_stages.cpp lists them.
+/// Pure functions, thread-safe. kPlanStages lists them.
 namespace choreo {
 
 inline constexpr double kPauseSeconds = 1.5;  ///< between beats that count as a pause of the music
@@ -65,7 +65,8 @@ void HitKey(const PlanContext& context, double hit, std::vector<Pose>* plan);
 /// slopes 1 and `hit`.
 double HitTime(double u, double hit);
 
-/// Runs all stages, in the order of plan_stages.cpp.
-void FinishPlan(const PlanContext& context, std::vector<Pose>* plan);
+/// The stages of every plan, in their order.
+inline constexpr void (*kPlanStages[])(const PlanContext&, std::vector<Pose>*) = {
+    TimeToBeats, LimitHinges, ReturnToFloor};
 
 }  // namespace choreo

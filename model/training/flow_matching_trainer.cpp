@@ -183,7 +183,8 @@ class FlowMatchingRun : public TrainingRun {
         const WindowRequest& request = batch.requests[i];
         const auto sample = [&](uint32_t candidate, double temperature) {
           return SampleWindow(parts, *network, request,
-                              {.seed = i, .candidate = candidate, .temperature = temperature});
+                              {.seed = i, .candidate = candidate, .temperature = temperature})
+              .Finish();
         };
         std::vector<Pose> interpolated;
         for (int k = 1; k <= frames; ++k) {

@@ -242,7 +242,8 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
   const auto count = static_cast<double>(requests.size());
   for (size_t i = 0; i < requests.size(); ++i) {
     WindowRequest request = requests[i];
-    std::vector<Pose> poses = SampleWindow(model, network, request, {.seed = i, .temperature = 1});
+    std::vector<Pose> poses =
+        SampleWindow(model, network, request, {.seed = i, .temperature = 1}).Finish();
     poses.insert(poses.begin(), request.history.back());
     const auto factors = MeanVelocityFactors(model.skeleton, poses);
     Row wanted, came;

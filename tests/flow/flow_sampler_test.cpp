@@ -1,4 +1,4 @@
-#include "model/flow/transition_sampler.h"
+#include "model/flow/flow_sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,14 @@
 
 namespace choreo::flow_sampler_test {
 
-std::vector<Pose> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
-                                   const WindowRequest& request, const FlowNoise& noise) {
-  TransitionSampler sampler(model, network, request, noise);
-  while (sampler.Continue()) {
-  }
-  return sampler.TakePoses();
+std::vector<Pose> Window(const FlowModelParts& model, const FlowNetwork& network,
+                         const WindowRequest& request, const FlowNoise& noise) {
+  return SampleWindow(model, network, request, noise).Finish();
+}
+
+std::vector<Pose> Transition(const FlowModelParts& model, const FlowNetwork& network,
+                             const WindowRequest& request, const FlowNoise& noise) {
+  return SampleTransition(model, network, request, noise).Finish();
 }
 
 // Has learnt nothing: its dances are the prior's.
@@ -68,9 +70,9 @@ TEST(FlowSampler, MeanOfMirroredRequestIsMirrored) {
   const std::vector<int> pairs = MirrorPairs(parts.skeleton);
   const Lopsided network;
   const auto apart = [&](double temperature) {
-    const auto one = SampleWindow(parts, network, scene.request, {.temperature = temperature});
+    const auto one = Window(parts, network, scene.request, {.temperature = temperature});
     const auto other =
-        SampleWindow(parts, network, Mirror(pairs, scene.request), {.temperature = temperature});
+        Window(parts, network, Mirror(pairs, scene.request), {.temperature = temperature});
     return Apart(one[15], Mirror(pairs, other[15]));
   };
   EXPECT_LT(apart(0), 1e-9);
@@ -81,9 +83,9 @@ TEST(FlowSampler, MeanTakesOneStepAndIgnoresTheSeed) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
   const Silent network;
-  const auto one = SampleWindow(parts, network, scene.request, {.seed = 1});
+  const auto one = Window(parts, network, scene.request, {.seed = 1});
   EXPECT_EQ(network.evaluations, 2);
-  const auto other = SampleWindow(parts, network, scene.request, {.seed = 2});
+  const auto other = Window(parts, network, scene.request, {.seed = 2});
   for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(Apart(one[i], other[i]), 0);
 }
 
@@ -92,7 +94,7 @@ TEST(FlowSampler, SeedsGiveDifferentMotionsToTheSameKey) {
   const FlowModelParts parts = Parts();
   const Silent network;
   const auto sample = [&](uint64_t seed, double temperature) {
-    return SampleWindow(parts, network, scene.request, {.seed = seed, .temperature = temperature});
+    return Window(parts, network, scene.request, {.seed = seed, .temperature = temperature});
   };
   const auto a = sample(1, 1), b = sample(2, 1), calm = sample(1, 0.1), again = sample(1, 1);
   const auto mean = sample(1, 0);
@@ -124,7 +126,7 @@ TEST(FlowSampler, SamplesOnlyEnergyThatIsNotRequested) {
   parts.energy.spread.setIdentity();
   const Listening network;
   const auto told = [&](const WindowRequest& request, uint64_t seed) {
-    SampleWindow(parts, network, request, {.seed = seed, .temperature = 1});
+    Window(parts, network, request, {.seed = seed, .temperature = 1});
     return network.told;
   };
   EXPECT_EQ(told(scene.request, 1), told(scene.request, 1));
@@ -145,7 +147,7 @@ TEST(FlowSampler, EnergyCurveVariesAroundTheWindowsEnergy) {
   parts.config.median_factors.fill(0.01);
   const Listening network;
   const auto levels = [&](uint64_t seed, double temperature) {
-    SampleWindow(parts, network, scene.request, {.seed = seed, .temperature = temperature});
+    Window(parts, network, scene.request, {.seed = seed, .temperature = temperature});
     const Eigen::VectorXf last = network.told;
     return std::pair(last, network.all);
   };
@@ -176,7 +178,7 @@ TEST(FlowSampler, RequestedEnergyIsCorrectedByTheResponse) {
   scene.request.controls[kVelocityFactors].values = Eigen::MatrixXd::Constant(kBodyParts, 30, 0.03);
   const Listening network;
   const auto told = [&] {
-    SampleWindow(parts, network, scene.request, {.temperature = 1});
+    Window(parts, network, scene.request, {.temperature = 1});
     return network.told;
   };
   const Eigen::VectorXf plain = told();
@@ -196,7 +198,7 @@ TEST(FlowSampler, MusicShiftsOnlySampledEnergyAndOnce) {
   parts.config.median_factors.fill(0.01);
   const Listening network;
   const auto told = [&](const WindowRequest& request) {
-    SampleWindow(parts, network, request, {.temperature = 1});
+    Window(parts, network, request, {.temperature = 1});
     return network.told;
   };
   WindowRequest arm = scene.request;
@@ -225,7 +227,7 @@ TEST(FlowSampler, MusicAsksForNoMoreEnergyThanTrainingHad) {
   const Listening network;
   const auto told = [&](double shift) {
     scene.request.energy_shift.now = shift;
-    SampleWindow(parts, network, scene.request, {.seed = 3, .temperature = 1});
+    Window(parts, network, scene.request, {.seed = 3, .temperature = 1});
     return network.all;
   };
   const Eigen::MatrixXf calm = told(0);
@@ -273,7 +275,7 @@ void ExpectGuidance(WindowRequest request, FlowModelParts parts) {
     parts.config.guidance = guidance;
     network.step = step;
     network.evaluations = 0;
-    return SampleWindow(parts, network, request, {.seed = 1, .temperature = 1});
+    return Window(parts, network, request, {.seed = 1, .temperature = 1});
   };
   const auto twice = sample(2, 0.125F);
   // Of beats alone, the last step takes the effect from the step before.
@@ -313,7 +315,7 @@ TEST(FlowSampler, FollowsAPathExactlyAndItsHeightsIfGiven) {
   const Silent network;
   for (const bool heights : {false, true}) {
     scene.request.controls[kRootPath].requested[1] = heights;
-    const auto poses = SampleWindow(parts, network, scene.request, {.seed = 3, .temperature = 1});
+    const auto poses = Window(parts, network, scene.request, {.seed = 3, .temperature = 1});
     for (size_t i = 0; i < poses.size(); ++i) {
       const Eigen::Vector3d miss = poses[i].root_position - scene.truth[i].root_position;
       EXPECT_LT(std::hypot(miss.x(), miss.z()), 1e-9);
@@ -326,7 +328,7 @@ TEST(FlowSampler, LongTransitionsJoinSmoothlyAndReachTheirKey) {
   const Scene scene = MakeScene(100);
   const FlowModelParts parts = Parts();
   const Silent network;
-  const auto poses = SampleTransition(parts, network, scene.request, {.seed = 5, .temperature = 1});
+  const auto poses = Transition(parts, network, scene.request, {.seed = 5, .temperature = 1});
   EXPECT_EQ(network.evaluations, 3 * parts.config.steps);
   ASSERT_EQ(poses.size(), 100U);
   EXPECT_LT(Apart(poses.back(), *scene.request.key), 1e-2);
@@ -364,7 +366,7 @@ TEST(FlowSampler, FreeWindowsThatEndWhereNobodyDancesAreSampledAgain) {
   usual.variance = Eigen::VectorXd::Ones(parts.prior.dimensions());
   const auto sample = [&](const FlowNetwork& network) {
     parts.prior = MotionPrior(parts.prior.covariance(), parts.prior.powers(), usual);
-    return SampleTransition(parts, network, scene.request, {.seed = 5, .temperature = 1}).back();
+    return Transition(parts, network, scene.request, {.seed = 5, .temperature = 1}).back();
   };
   const double low = usual.Deviation(sample(Sinking(parts.config.steps)));
   const double common = usual.Deviation(sample(Silent()));
@@ -381,12 +383,12 @@ TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
   const FlowModelParts parts = Parts();
   const Silent network;
   const FlowNoise noise{.seed = 5, .temperature = 1};
-  const auto here = SampleTransition(parts, network, scene.request, noise);
+  const auto here = Transition(parts, network, scene.request, noise);
   const GroundFrame elsewhere{.origin = {1, 0, -2}, .heading = 0.7};
   WindowRequest turned = scene.request;
   for (Pose& pose : turned.history) pose = elsewhere.ToWorld(pose);
   turned.key = elsewhere.ToWorld(*turned.key);
-  const auto there = SampleTransition(parts, network, turned, noise);
+  const auto there = Transition(parts, network, turned, noise);
   for (size_t i = 0; i < here.size(); ++i)
     EXPECT_LT(Apart(elsewhere.ToWorld(here[i]), there[i]), 1e-6);
 }
@@ -409,7 +411,7 @@ TEST(FlowSampler, TheWayRoundToAKeyTellsNothingOfTheTrunksEnergy) {
   double turns = 0, together = 0, energy = 0, square = 0;
   for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const std::vector<Pose> poses =
-        SampleTransition(parts, network, scene.request, {.seed = seed, .temperature = 1});
+        Transition(parts, network, scene.request, {.seed = seed, .temperature = 1});
     const Eigen::Vector3d half =
         RotationDifference(last.rotations.col(0), poses[poses.size() / 2].rotations.col(0));
     const double turn = half.dot(UpOf(last)) > 0 ? 1 : -1;

@@ -86,7 +86,8 @@ TEST(PlanStages, AllAreApplied) {
   }
   const std::vector<double> beats = {-7, 8, 23, 38, 53, 68};
   const std::vector<Pose> history(2, plan.front()), before = plan;
-  FinishPlan({.skeleton = Body(), .history = history, .beats = beats, .fps = 30}, &plan);
+  const PlanContext context{.skeleton = Body(), .history = history, .beats = beats, .fps = 30};
+  for (const auto stage : kPlanStages) stage(context, &plan);
   EXPECT_LT(plan.back().root_position.y(), before.back().root_position.y() - 0.1);
   for (const Hinge& hinge : Hinges(Body()))
     EXPECT_GT(hinge.axis.dot(plan[30].rotations.col(hinge.joint)), -1e-6);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "bench/random_checkpoints.h"
 #include "model/core/random.h"
@@ -80,8 +81,8 @@ TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames) {
 }
 
 std::vector<Plan> SampleInTurn(Sampler* sampler, std::span<const TransitionSpec> specs) {
-  std::vector<std::unique_ptr<Sampling>> samplings;
-  for (const TransitionSpec& spec : specs) samplings.push_back(sampler->Begin(spec));
+  std::vector<std::optional<Slices<Plan>>> samplings;
+  for (const TransitionSpec& spec : specs) samplings.emplace_back(sampler->Begin(spec));
   std::vector<Plan> plans(specs.size());
   for (bool any = true; any;) {
     any = false;
@@ -89,7 +90,7 @@ std::vector<Plan> SampleInTurn(Sampler* sampler, std::span<const TransitionSpec>
       if (!samplings[i]) continue;
       any = true;
       if (samplings[i]->Continue()) continue;
-      plans[i] = samplings[i]->TakePlan();
+      plans[i] = samplings[i]->Take();
       samplings[i].reset();
     }
   }

@@ -33,26 +33,7 @@ struct Log {
   std::vector<Did> all;
 };
 
-/// A transition of a checkpoint's sampler, watched.
-class LoggedSampling final : public Sampling {
- public:
-  LoggedSampling(std::unique_ptr<Sampling> sampling, bool is_bulk, std::shared_ptr<Log> log)
-      : sampling_(std::move(sampling)), is_bulk_(is_bulk), log_(std::move(log)) {}
-
-  bool Continue() override {
-    log_->Add(is_bulk_ ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);
-    if (sampling_->Continue()) return true;
-    if (!is_bulk_) log_->Add(Log::Did::kDanceEnds);
-    plan_ = sampling_->TakePlan();
-    return false;
-  }
-
- private:
-  const std::unique_ptr<Sampling> sampling_;
-  const bool is_bulk_;
-  const std::shared_ptr<Log> log_;
-};
-
+/// A checkpoint's sampler, watched.
 class LoggedSampler final : public Sampler {
  public:
   LoggedSampler(std::unique_ptr<Sampler> sampler, std::shared_ptr<Log> log)
@@ -61,9 +42,16 @@ class LoggedSampler final : public Sampler {
         log_(std::move(log)) {}
 
  protected:
-  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override {
-    return std::make_unique<LoggedSampling>(sampler_->Begin(spec), spec.frames == kBulkFrames,
-                                            log_);
+  Slices<Plan> BeginValid(const TransitionSpec& spec) override {
+    const bool is_bulk = spec.frames == kBulkFrames;
+    Slices<Plan> slices = sampler_->Begin(spec);
+    for (bool more = true; more;) {
+      log_->Add(is_bulk ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);
+      more = slices.Continue();
+      if (more) co_await Pause();
+    }
+    if (!is_bulk) log_->Add(Log::Did::kDanceEnds);
+    co_return slices.Take();
   }
 
  private:

@@ -44,13 +44,13 @@ class FakeSampler : public Sampler {
   virtual void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {}
 
  protected:
-  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
 };
 
-/// A transition of the fake model; one frame per slice.
-class FakeSampling : public Sampling {
+/// A transition of the fake model.
+class FakeTransition {
  public:
-  FakeSampling(FakeSampler& sampler, const TransitionSpec& spec)
+  FakeTransition(FakeSampler& sampler, const TransitionSpec& spec)
       : sampler_(sampler),
         model_(sampler.model()),
         spec_(spec),
@@ -58,8 +58,8 @@ class FakeSampling : public Sampling {
         velocity_(Eigen::VectorXd::Zero(Width())),
         noise_(static_cast<size_t>(Width())) {}
 
-  bool Continue() override {
-    const auto frame = static_cast<int>(plan_.poses.size());
+  /// Adds the next frame.
+  void Step(int frame, Plan* plan) {
     const int64_t own = spec_.first_frame + frame;
     const int64_t like =
         spec_.noise_like.empty() ? own : spec_.noise_like[static_cast<size_t>(frame)];
@@ -88,15 +88,14 @@ class FakeSampling : public Sampling {
     Pose pose;
     pose.root_position = next.head<3>();
     pose.rotations = next.tail(Width() - 3).reshaped(3, model_.skeleton.joints());
-    plan_.poses.push_back(std::move(pose));
+    plan->poses.push_back(std::move(pose));
     const float left_down = (spec_.first_frame + frame) / 8 % 2 == 0 ? 1.0F : 0.0F;
-    plan_.contacts.push_back({left_down, left_down, 1 - left_down, 1 - left_down});
-    plan_.log_likelihoods.push_back(
+    plan->contacts.push_back({left_down, left_down, 1 - left_down, 1 - left_down});
+    plan->log_likelihoods.push_back(
         static_cast<float>(-0.5 * energy - 0.9189385332046727 * Width()));
-    sampler_.OnFrame(spec_, &plan_);
-    const Pose& drawn = plan_.poses.back();
+    sampler_.OnFrame(spec_, plan);
+    const Pose& drawn = plan->poses.back();
     pose_ = spec_.paper.arrival ? spec_.paper.arrival->Apply(drawn) : drawn;
-    return left > 1;
   }
 
  private:
@@ -137,8 +136,14 @@ class FakeSampling : public Sampling {
   std::vector<float> noise_;
 };
 
-inline std::unique_ptr<Sampling> FakeSampler::BeginValid(const TransitionSpec& spec) {
-  return std::make_unique<FakeSampling>(*this, spec);
+inline Slices<Plan> FakeSampler::BeginValid(const TransitionSpec& spec) {
+  FakeTransition transition(*this, spec);
+  Plan plan;
+  for (int frame = 0; frame < spec.frames; ++frame) {
+    transition.Step(frame, &plan);
+    co_await Pause();
+  }
+  co_return plan;
 }
 
 /// A model with more music input than beats, so it waits for a whole transition's music.

@@ -12,7 +12,6 @@
 #include "model/papers/networks/key_condition.h"
 
 namespace choreo {
-namespace {
 
 /// The flow's inputs from a transition: the features of the last tau frames as arrival has steered
 /// them, and the last tau + 1 music rows. Call Advance, Fill and Finish for each frame; they
@@ -119,59 +118,43 @@ const PoseCodec::Decoded& TransitionWindow::Finish(const FlowFrame& frame) {
   return decoded_;
 }
 
-class FlowSampling : public Sampling {
- public:
-  FlowSampling(const ModelInfo& model, const FlowConfig& config, const TransitionSpec& spec,
-               std::unique_ptr<FlowStepper> stepper)
-      : window_(model, spec),
-        arrival_(spec.paper.arrival),
-        frames_(static_cast<size_t>(spec.frames)),
-        stepper_(std::move(stepper)),
-        features_(static_cast<size_t>(PoseCodec(model.skeleton).width())) {
-    const PoseCodec codec(model.skeleton);
-    stepper_->Begin(KeyConditions(config, codec.joints(), codec.width(), spec.frames,
-                                  spec.target ? &spec.target->pose : nullptr,
-                                  spec.target ? spec.target->mask : PoseMask{}));
-    frame_.features = features_;
-    plan_.poses.reserve(frames_);
-    plan_.contacts.reserve(frames_);
-    plan_.log_likelihoods.reserve(frames_);
-  }
-
-  bool Continue() override {
-    window_.Advance(plan_.poses.empty() ? nullptr : &steered_);
-    window_.Fill(&frame_);
-    stepper_->Step(&frame_);
-    const PoseCodec::Decoded& drawn = window_.Finish(frame_);
-    Contacts& contacts = plan_.contacts.emplace_back();
-    for (size_t foot = 0; foot < contacts.size(); ++foot)
-      contacts[foot] = std::clamp(drawn.contacts[foot], 0.0F, 1.0F);
-    if (frame_.log_likelihood) plan_.log_likelihoods.push_back(*frame_.log_likelihood);
-    plan_.poses.push_back(drawn.pose);
-    steered_ = arrival_ ? arrival_->Apply(drawn.pose) : drawn.pose;
-    return plan_.poses.size() < frames_;
-  }
-
- private:
-  TransitionWindow window_;
-  std::optional<Arrival> arrival_;
-  size_t frames_;
-  std::unique_ptr<FlowStepper> stepper_;
-  std::vector<float> features_;  // of the frame
-  FlowFrame frame_;
-  Pose steered_;  // the previous frame
-};
-
-}  // namespace
-
 AutoregressiveFlowSampler::AutoregressiveFlowSampler(ModelInfo info, FlowConfig config,
                                                      std::string device, MakeStepper make_stepper)
     : Sampler(std::move(info), std::move(device)),
       config_(std::move(config)),
       make_stepper_(std::move(make_stepper)) {}
 
-std::unique_ptr<Sampling> AutoregressiveFlowSampler::BeginValid(const TransitionSpec& spec) {
-  return std::make_unique<FlowSampling>(model_, config_, spec, make_stepper_());
+Slices<Plan> AutoregressiveFlowSampler::BeginValid(const TransitionSpec& spec) {
+  const PoseCodec codec(model_.skeleton);
+  const std::unique_ptr<FlowStepper> stepper = make_stepper_();
+  stepper->Begin(KeyConditions(config_, codec.joints(), codec.width(), spec.frames,
+                               spec.target ? &spec.target->pose : nullptr,
+                               spec.target ? spec.target->mask : PoseMask{}));
+  TransitionWindow window(model_, spec);
+  std::optional<Arrival> arrival = spec.paper.arrival;
+  std::vector<float> features(static_cast<size_t>(codec.width()));
+  FlowFrame frame;
+  frame.features = features;
+  const auto frames = static_cast<size_t>(spec.frames);
+  Plan plan;
+  plan.poses.reserve(frames);
+  plan.contacts.reserve(frames);
+  plan.log_likelihoods.reserve(frames);
+  Pose steered;  // the previous frame
+  for (size_t at = 0; at < frames; ++at) {
+    window.Advance(at == 0 ? nullptr : &steered);
+    window.Fill(&frame);
+    stepper->Step(&frame);
+    const PoseCodec::Decoded& drawn = window.Finish(frame);
+    Contacts& contacts = plan.contacts.emplace_back();
+    for (size_t foot = 0; foot < contacts.size(); ++foot)
+      contacts[foot] = std::clamp(drawn.contacts[foot], 0.0F, 1.0F);
+    if (frame.log_likelihood) plan.log_likelihoods.push_back(*frame.log_likelihood);
+    plan.poses.push_back(drawn.pose);
+    steered = arrival ? arrival->Apply(drawn.pose) : drawn.pose;
+    co_await Pause();
+  }
+  co_return plan;
 }
 
 }  // namespace choreo

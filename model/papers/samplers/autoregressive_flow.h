@@ -22,7 +22,7 @@ class AutoregressiveFlowSampler : public Sampler {
                             MakeStepper make_stepper);
 
  protected:
-  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
 
  private:
   FlowConfig config_;

@@ -48,11 +48,14 @@ SourceMapping DrawnPositions(const Skeleton& skeleton) {
 constexpr FitOptions kFitOptions = {
     .hinge_side_rad = 0.15, .hinge_limit_rad = 0.1, .recover = false};
 
+}  // namespace
+
 /// Makes a transition frame by frame.
-class Walk : public Sampling {
+class ControllersWalk {
  public:
-  Walk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec);
-  bool Continue() override;
+  ControllersWalk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec);
+  /// Adds the next frame.
+  void Step(int frame, Plan* plan);
 
  private:
   const ModelInfo& model_;
@@ -67,7 +70,8 @@ class Walk : public Sampling {
   PositionFitter fitter_;
 };
 
-Walk::Walk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec)
+ControllersWalk::ControllersWalk(const ModelInfo& model, ControllersModel network,
+                                 const TransitionSpec& spec)
     : model_(model),
       network_(std::move(network)),
       arrival_(spec.paper.arrival),
@@ -106,9 +110,8 @@ Walk::Walk(const ModelInfo& model, ControllersModel network, const TransitionSpe
   if (spec.target) target_ = target;
 }
 
-bool Walk::Continue() {
+void ControllersWalk::Step(int frame, Plan* plan) {
   const c10::InferenceMode inference;
-  const auto frame = static_cast<int>(plan_.poses.size());
   const FrameTensors drawn = network_->Walk(given_.Narrow(frame, 1), walked_, &state_).frames;
   const Tensor relative = RelativePositions(drawn).contiguous();  // [1, 1, joints, 3]
   Eigen::Matrix3Xd positions =
@@ -123,24 +126,27 @@ bool Walk::Continue() {
     after = InterpolatePoses(last_, *target_, 1.0 / left);
   const Pose pose = fitter_.Next(positions, after ? &*after : nullptr);
   const Tensor contacts = drawn.contacts.contiguous();
-  std::copy_n(contacts.data_ptr<float>(), Contacts().size(), plan_.contacts.emplace_back().begin());
-  plan_.poses.push_back(pose);
+  std::copy_n(contacts.data_ptr<float>(), Contacts().size(), plan->contacts.emplace_back().begin());
+  plan->poses.push_back(pose);
 
   const Pose steered = arrival_ ? arrival_->Apply(pose) : pose;
   FrameTensors danced = ToTensors(FacingOf(model_.skeleton, steered), {});
   danced.contacts = drawn.contacts;
   walked_ = Join(walked_.Narrow(1, network_->lead() - 1), danced);
   before_ = std::exchange(last_, steered);
-  return left > 1;
 }
-
-}  // namespace
 
 ControllersSampler::ControllersSampler(ModelInfo info, ControllersModel network)
     : Sampler(std::move(info), "cpu"), network_(std::move(network)) {}
 
-std::unique_ptr<Sampling> ControllersSampler::BeginValid(const TransitionSpec& spec) {
-  return std::make_unique<Walk>(model_, network_, spec);
+Slices<Plan> ControllersSampler::BeginValid(const TransitionSpec& spec) {
+  ControllersWalk walk(model_, network_, spec);
+  Plan plan;
+  for (int frame = 0; frame < spec.frames; ++frame) {
+    walk.Step(frame, &plan);
+    co_await Pause();
+  }
+  co_return plan;
 }
 
 }  // namespace choreo

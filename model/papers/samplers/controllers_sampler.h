@@ -12,7 +12,7 @@ class ControllersSampler : public Sampler {
   ControllersSampler(ModelInfo info, ControllersModel network);
 
  protected:
-  std::unique_ptr<Sampling> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
 
  private:
   ControllersModel network_;
