@@ -75,29 +75,39 @@ TEST(Arrival, HitsEveryKeyFromAnywhere) {
   }
 }
 
+// Steers a shaken model to the target, and calls `check(raw, steered)` for each frame. Returns the
+// last one.
+template <typename Check>
+Pose Steer(const Target& target, int frames, std::mt19937& random, const Check& check) {
+  const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
+  Wanderer model(RandomPose(random), 0.02, random());
+  Arrival arrival(kWindow, frames, target, before);
+  Pose previous = before.back();
+  for (int frame = 0; frame < frames; ++frame) {
+    const Pose raw = model.Next(previous, frames - frame);
+    previous = arrival.Apply(raw);
+    check(raw, previous);
+  }
+  return previous;
+}
+
 TEST(Arrival, LeavesMaskedCoordinatesUntouched) {
   std::mt19937 random(2);
   for (int round = 0; round < 50; ++round) {
-    const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
     Target target{RandomPose(random), {}};
     target.mask.root_position = round % 2 == 0;
     target.mask.joints.resize(24);
     for (size_t joint = 0; joint < 24; ++joint) target.mask.joints[joint] = random() % 2 == 0;
-    Wanderer model(RandomPose(random), 0.02, random());
-    Arrival arrival(kWindow, 20, target, before);
-    Pose previous = before.back();
-    for (int frame = 0; frame < 20; ++frame) {
-      const Pose raw = model.Next(previous, 20 - frame);
-      previous = arrival.Apply(raw);
+    const Pose last = Steer(target, 20, random, [&](const Pose& raw, const Pose& steered) {
       if (!target.mask.root_position) {
-        EXPECT_EQ(previous.root_position, raw.root_position);
+        EXPECT_EQ(steered.root_position, raw.root_position);
       }
       for (int joint = 0; joint < 24; ++joint) {
         if (target.mask.joints[static_cast<size_t>(joint)]) continue;
-        EXPECT_EQ(previous.rotations.col(joint), raw.rotations.col(joint));
+        EXPECT_EQ(steered.rotations.col(joint), raw.rotations.col(joint));
       }
-    }
-    const PoseError error = ComparePoses(Skeleton::Smpl24(), previous, target.pose, target.mask);
+    });
+    const PoseError error = ComparePoses(Skeleton::Smpl24(), last, target.pose, target.mask);
     EXPECT_LT(error.position_m, 1e-6);
     EXPECT_LT(error.angle_deg, 1e-5);
   }
@@ -106,19 +116,13 @@ TEST(Arrival, LeavesMaskedCoordinatesUntouched) {
 TEST(Arrival, MeetsTheHeightOfAKeyThatLeavesItsPlaceOpen) {
   std::mt19937 random(8);
   for (int round = 0; round < 20; ++round) {
-    const std::vector<Pose> before = MotionTo(RandomPose(random), 2, random);
     Target target{RandomPose(random), {}, 0.7};
     target.mask.root_position = false;
-    Wanderer model(RandomPose(random), 0.02, random());
-    Arrival arrival(kWindow, 30, target, before);
-    Pose previous = before.back();
-    for (int frame = 0; frame < 30; ++frame) {
-      const Pose raw = model.Next(previous, 30 - frame);
-      previous = arrival.Apply(raw);
-      EXPECT_EQ(previous.root_position.x(), raw.root_position.x());
-      EXPECT_EQ(previous.root_position.z(), raw.root_position.z());
-    }
-    EXPECT_EQ(previous.root_position.y(), 0.7);
+    const Pose last = Steer(target, 30, random, [](const Pose& raw, const Pose& steered) {
+      EXPECT_EQ(steered.root_position.x(), raw.root_position.x());
+      EXPECT_EQ(steered.root_position.z(), raw.root_position.z());
+    });
+    EXPECT_EQ(last.root_position.y(), 0.7);
   }
 }
 
