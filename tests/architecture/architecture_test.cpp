@@ -275,13 +275,10 @@ TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
   // Constants of a file and options of a stage, but neither integers, such as a solver's
   // iterations, nor members that begin at zero.
   const std::regex name(R"(\b(k[A-Z]\w*|double \w+|, \w+) = (?!0;)[0-9])");
-  std::vector<std::string> files = {"model/flow/flow_sampler.cpp",
-                                    "model/flow/flow_field.cpp",
-                                    "model/flow/flow_window.cpp",
-                                    "model/flow/turn_prior.cpp",
-                                    "model/flow/window_energy.cpp",
-                                    "model/dance/transition.cpp",
-                                    "model/engine/continuous_flow_sampler.cpp"};
+  std::vector<std::string> files = {
+      "model/flow/flow_sampler.cpp", "model/flow/flow_window.cpp",
+      "model/flow/turn_prior.cpp",   "model/flow/window_energy.cpp",
+      "model/dance/transition.cpp",  "model/engine/continuous_flow_sampler.cpp"};
   for (const std::string& file : Sources().files()) {
     if (file.starts_with("model/plan/") && file != "model/plan/arrival.cpp") files.push_back(file);
   }
