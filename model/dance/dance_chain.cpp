@@ -123,17 +123,18 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
 }
 
 void DanceChain::Begin(const ValidDance& asked) {
-  for (const Warning& warning : asked->Warnings(model_, first_frame_)) Post(warning);
-  Apply([](DanceScore&) {});  // starts frames that the config has granted
+  // Starts frames that the config has granted, too.
+  Apply([&](DanceScore&) {
+    const std::vector<Warning> warnings = asked->Warnings(model_, first_frame_);
+    return DanceEvents(warnings.begin(), warnings.end());
+  });
 }
 
-void DanceChain::Post(const DanceEvent& event) { PostEvent(mailbox_, event); }
-
-void DanceChain::Apply(const std::function<void(DanceScore&)>& change) {
+void DanceChain::Apply(const std::function<DanceEvents(DanceScore&)>& change) {
   {
     std::lock_guard lock(mutex_);
     if (over()) return;
-    change(score_);
+    for (const DanceEvent& event : change(score_)) PostEvent(mailbox_, event);
     SubmitNext();
   }
   while (HandOut(kFramesASlice)) {
@@ -204,20 +205,21 @@ std::function<void()> DanceChain::TakeNext() {
   }
   if (paused_) return {};
   if (jobs_.empty()) {
-    if (!score_.timeline.complete() || !score_.EndsBy(next_frame_)) return {};
-    return
-        [this, end = next_frame_, controls = score_.controls] { report_.Summarise(end, controls); };
+    if (!score_.timeline().complete() || !score_.EndsBy(next_frame_)) return {};
+    return [this, end = next_frame_, controls = score_.controls()] {
+      report_.Summarise(end, controls);
+    };
   }
   const int64_t ready = Ready();
   score_.TurnWithMusic(jobs_.size(), ready);
   if (score_.Overtakes(next_frame_)) return FinishTransition();
   const std::shared_ptr<Job>& job = jobs_.front();
   if (job->failure()) return [this, failure = *job->failure()] { mailbox_.PostError(failure); };
-  if (!job->sampled() || !score_.timeline.IsCertain(next_frame_)) return {};
+  if (!job->sampled() || !score_.timeline().IsCertain(next_frame_)) return {};
   if (audio_ && ready <= next_frame_) return {};
   std::optional<Key> key;
   if (next_frame_ + 1 == job->segment().to && job->run().arrival())
-    key = score_.timeline.Planned()->key;  // its hands may be newer than the job's
+    key = score_.Current()->key;  // its hands may be newer than the job's
   return [this, job, frame = next_frame_++, key = std::move(key)] { Report(*job, frame, key); };
 }
 
@@ -228,7 +230,7 @@ std::function<void()> DanceChain::FinishTransition() {
     job->Retire();
     queue_.CheckCancelled();
   }
-  score_.timeline.Finish();
+  score_.Finish();
   if (next_frame_ > job->segment().from) danced_ = job->StateBefore(next_frame_);
   // No frame follows the end, so no transition is needed any more.
   if (score_.EndsBy(next_frame_)) DropJobs();

@@ -32,12 +32,14 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// Posts what the sink must know before the first message.
   void Begin(const ValidDance& asked);
 
-  /// Applies a message and continues the dance from there. If `change` throws, the exception passes
-  /// through and the chain stays as it was. Does nothing once the dance is over.
-  void Apply(const std::function<void(DanceScore&)>& change);
-
-  /// Tells the sink of an event.
-  void Post(const DanceEvent& event);
+  /// Applies a message, tells the sink of the events that it causes, and continues the dance from
+  /// there. If `change` throws, the exception passes through and the chain stays as it was. Does
+  /// nothing once the dance is over.
+  void Apply(const std::function<DanceEvents(DanceScore&)>& change);
+  /// Continues the dance because there is more music.
+  void Continue() {
+    Apply([](DanceScore&) { return DanceEvents(); });
+  }
 
   /// Whether the last call to the sink has been made or is under way.
   bool over() const { return mailbox_.over(); }

@@ -1,6 +1,7 @@
 #include "model/dance/dance_score.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "model/motion/pose_faults.h"
@@ -82,11 +83,11 @@ void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTrans
 }
 
 DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio)
-    : timeline({model.fps, asked->FirstFrame(), asked->end_frame, audio != nullptr,
-                asked->generate_until, model.max_transition_frames, model.sight_frames}),
-      controls(model),
-      beats(model.fps, asked->music_beats, audio, asked->music_downbeats),
-      recurrence(model.fps, asked->variation < 1 ? asked->music_passages : kNoPassages),
+    : timeline_({model.fps, asked->FirstFrame(), asked->end_frame, audio != nullptr,
+                 asked->generate_until, model.max_transition_frames, model.sight_frames}),
+      controls_(model),
+      beats_(model.fps, asked->music_beats, audio, asked->music_downbeats),
+      recurrence_(model.fps, asked->variation < 1 ? asked->music_passages : kNoPassages),
       model_(model),
       audio_(audio),
       first_frame_(asked->FirstFrame()),
@@ -96,17 +97,94 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
       // A model that hears music hears that of the transition itself.
       turn_(asked->music_dynamics > 0 && !model.hears_music) {
   if (asked->continuation) reached_before_ = asked->continuation->reached;
-  if (!recurrence.empty()) timeline.SetCuts(CutsOf(asked->music_passages, model.fps));
+  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model.fps));
 }
 
-void DanceScore::SetMusic(const MusicAnalysis& music) {
+DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when, const std::string& field) {
+  if (const auto rejection = timeline_.Set(key, when, field))
+    return {AnswerLate(*rejection, key.hands)};
+  return KeysBehindMusic(&key.id);
+}
+
+DanceEvents DanceScore::RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
+                                  const std::string& field, const std::string& reason) {
+  KeyRejected rejection = timeline_.RejectInvalid(id, when, reason);
+  rejection.field = field;
+  return {rejection};
+}
+
+DanceEvents DanceScore::RemoveKey(const std::string& id, const std::string& field) {
+  if (const auto rejection = timeline_.Remove(id, field)) return {*rejection};
+  return {};
+}
+
+DanceEvents DanceScore::SetControls(const ControlRequest& request, const std::string& field) {
+  const int64_t from = timeline_.Frontier(field);
+  controls_.Set(request, from, field);
+  if (request.velocity_factors) timeline_.NoteChange();
+  if (!request.root_path) return {};
+  const int64_t last = request.root_path->frames.back();
+  timeline_.NoteChange(request.root_path->frames.front(), last);
+  // A path that lies before the first frame was danced before the resume: it is not late.
+  if (last < from && last >= first_frame_) return {ControlsTooLate(last, from)};
+  return {};
+}
+
+DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
+                                  const std::vector<double>& downbeats,
+                                  std::optional<double> confidence, const std::string& field) {
+  const int64_t from = timeline_.Frontier(field);
+  const int64_t late = beats_.AddGiven(seconds, from, field, downbeats, confidence);
+  if (late == 0) return {};
+  return {BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from)};
+}
+
+DanceEvents DanceScore::GivePassages(const std::vector<Passage>& passages,
+                                     const std::string& field) {
+  recurrence_.Give(passages, timeline_.Frontier(field), field);
+  return {};
+}
+
+DanceEvents DanceScore::GenerateUntil(int64_t frame) {
+  timeline_.GenerateUntil(frame);
+  return {};
+}
+
+DanceEvents DanceScore::KeysComplete() {
+  timeline_.Complete();
+  return {};
+}
+
+DanceEvents DanceScore::EndOfAudio() {
+  const int64_t end = audio_->EndFrame(model_.fps);
+  timeline_.SetAudioEnd(end);
+  DanceEvents events;
+  if (audio_->silent()) events.push_back(MusicSilent(end - 1, audio_->seconds()));
+  if (audio_->cancels()) events.push_back(ChannelsCancel(end - 1));
+  for (DanceEvent& behind : KeysBehindMusic()) events.push_back(std::move(behind));
+  return events;
+}
+
+DanceEvents DanceScore::KeysBehindMusic(const std::string* only) const {
+  DanceEvents events;
+  for (const Key* key : timeline_.KeysBehindMusic()) {
+    if (only != nullptr && key->id != *only) continue;
+    events.push_back(KeyBehindMusic(key->id, key->frame, timeline_.SecondsBehindMusic(key->frame)));
+  }
+  return events;
+}
+
+DanceEvents DanceScore::SetMusic(const MusicAnalysis& music) {
   if (manner_.music_id == 0) manner_.music_id = music.id;
-  if (!has_beats_) beats.ReplaceAll(music);
-  if (!recurrence.empty() || music.passages.empty() || manner_.variation >= 1) return;
-  recurrence = Recurrence(model_.fps, music.passages);
-  timeline.SetCuts(CutsOf(music.passages, model_.fps));
+  if (!has_beats_) beats_.ReplaceAll(music);
+  if (!recurrence_.empty() || music.passages.empty() || manner_.variation >= 1) return {};
+  recurrence_ = Recurrence(model_.fps, music.passages);
+  timeline_.SetCuts(CutsOf(music.passages, model_.fps));
+  return {};
 }
 
+// The answer to a key with these hands that came too late: it is rejected, or was reached before
+// the dance was resumed.
 DanceEvent DanceScore::AnswerLate(const KeyRejected& rejection, std::optional<HandPose> hands) {
   const auto reached = std::ranges::find_if(reached_before_, [&](const KeyReached& key) {
     return key.id == rejection.id && key.frame == rejection.frame;
@@ -119,26 +197,26 @@ DanceEvent DanceScore::AnswerLate(const KeyRejected& rejection, std::optional<Ha
 }
 
 bool DanceScore::EndsBy(int64_t frame) const {
-  const std::optional<int64_t> end = timeline.End();
+  const std::optional<int64_t> end = timeline_.End();
   return end && frame >= *end;
 }
 
 bool DanceScore::Overtakes(int64_t frame) {
-  return frame >= timeline.Planned()->stop || EndsBy(frame);
+  return frame >= timeline_.Planned()->stop || EndsBy(frame);
 }
 
 bool DanceScore::TurnWithMusic(size_t planned, int64_t ready) {
   if (audio_ == nullptr || planned == 0) return true;
-  const int64_t stop = timeline.Planned(planned - 1)->stop;
+  const int64_t stop = timeline_.Planned(planned - 1)->stop;
   const std::optional<int64_t> turn = turn_.Find(*audio_, ready, stop);
-  if (turn) timeline.StopAt(*turn);
+  if (turn) timeline_.StopAt(*turn);
   return turn || ready >= stop;
 }
 
 std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t ready) {
   if (!TurnWithMusic(planned, ready)) return std::nullopt;
-  const Segment* segment = timeline.Planned(planned);
-  if (segment == nullptr || EndsBy(segment->from) || !timeline.IsCertain(segment->from))
+  const Segment* segment = timeline_.Planned(planned);
+  if (segment == nullptr || EndsBy(segment->from) || !timeline_.IsCertain(segment->from))
     return std::nullopt;
   int64_t rows_end = segment->from;
   if (model_.hears_music) rows_end = std::min(segment->to, end_frame_.value_or(segment->to));
@@ -146,14 +224,14 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   // one row knows them.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;
   if (audio_ != nullptr) turn_.Watch(*audio_, *segment);
-  recurrence.Begin(segment->from);
+  recurrence_.Begin(segment->from);
   return Next{{.manner = manner_,
-               .controls = controls,
+               .controls = controls_,
                .segment = *segment,
-               .noise_like = recurrence.Origins(segment->from, segment->to),
+               .noise_like = recurrence_.Origins(segment->from, segment->to),
                .audio = audio_,
                .rows_end = rows_end},
-              beats.PlanFrom(segment->from)};
+              beats_.PlanFrom(segment->from)};
 }
 
 }  // namespace choreo

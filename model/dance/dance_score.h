@@ -50,6 +50,8 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
 /// Adds a warning if the key is too far away for the time left.
 void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared);
 
+using DanceEvents = std::vector<DanceEvent>;
+
 /// What a dance's messages ask for so far, and which transition follows from it. It depends only on
 /// the config, the order of its changes, and the music. Not thread-safe.
 class DanceScore {
@@ -63,19 +65,29 @@ class DanceScore {
   /// Model and music must outlive it. `audio`: null for a dance without music.
   DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio);
 
-  // What messages change:
-  Timeline timeline;
-  ControlTrack controls;
-  MusicBeats beats;
-  Recurrence recurrence;
-
+  // Messages, as DanceStream describes them: valid by themselves. Each returns what the sink must
+  // know. Errors name `field`; a message that throws changes nothing.
+  DanceEvents SetKey(const Key& key, const KeyMoment& when, const std::string& field);
+  DanceEvents RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
+                        const std::string& field, const std::string& reason);
+  DanceEvents RemoveKey(const std::string& id, const std::string& field);
+  DanceEvents SetControls(const ControlRequest& request, const std::string& field);
+  DanceEvents GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats,
+                        std::optional<double> confidence, const std::string& field);
+  DanceEvents GivePassages(const std::vector<Passage>& passages, const std::string& field);
+  DanceEvents GenerateUntil(int64_t frame);
+  DanceEvents KeysComplete();
   /// Sets what is known about the whole music; the config has precedence.
-  void SetMusic(const MusicAnalysis& music);
+  DanceEvents SetMusic(const MusicAnalysis& music);
+  /// The music ends with the samples so far.
+  DanceEvents EndOfAudio();
 
-  /// The answer to a key with these hands that came too late: it is rejected, or was reached before
-  /// the dance was resumed.
-  DanceEvent AnswerLate(const KeyRejected& rejection, std::optional<HandPose> hands);
-
+  const Timeline& timeline() const { return timeline_; }
+  const ControlTrack& controls() const { return controls_; }
+  /// The first planned transition; null without one.
+  const Segment* Current() { return timeline_.Planned(); }
+  /// Ends it.
+  void Finish() { timeline_.Finish(); }
   /// Whether no frame from `frame` on is danced, as far as is known.
   bool EndsBy(int64_t frame) const;
   /// Whether the first planned transition is over once the frames before `frame` are danced.
@@ -89,6 +101,14 @@ class DanceScore {
   std::optional<Next> TakeNext(size_t planned, int64_t ready);
 
  private:
+  DanceEvent AnswerLate(const KeyRejected& rejection, std::optional<HandPose> hands);
+  // `only`: the id of the one key to warn of.
+  DanceEvents KeysBehindMusic(const std::string* only = nullptr) const;
+
+  Timeline timeline_;
+  ControlTrack controls_;
+  MusicBeats beats_;
+  Recurrence recurrence_;
   const ModelInfo& model_;
   const AudioFeed* audio_;
   const int64_t first_frame_;

@@ -23,29 +23,14 @@ void DanceStream::FinishAudio() {
   if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
   if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
   // Sets the end of the music before rows after it can be danced.
-  chain_->Apply([&](DanceScore& score) {
-    const int64_t end = audio.EndFrame(model_.fps);
-    score.timeline.SetAudioEnd(end);
-    if (audio.silent()) chain_->Post(MusicSilent(end - 1, audio.seconds()));
-    if (audio.cancels()) chain_->Post(ChannelsCancel(end - 1));
-    WarnOfKeysBehind(score.timeline);
-  });
+  chain_->Apply(&DanceScore::EndOfAudio);
   audio.Finish();
-  chain_->Apply([](DanceScore&) {});
-}
-
-void DanceStream::WarnOfKeysBehind(const Timeline& timeline, const std::string* only) {
-  for (const Key* key : timeline.KeysBehindMusic()) {
-    if (only != nullptr && key->id != *only) continue;
-    chain_->Post(KeyBehindMusic(key->id, key->frame, timeline.SecondsBehindMusic(key->frame)));
-  }
+  chain_->Continue();
 }
 
 DanceStream::DanceStream(SampleQueue& queue, const ValidDance& config,
                          std::shared_ptr<DanceSink> sink)
-    : model_(queue.model()),
-      first_frame_(config->FirstFrame()),
-      chain_(std::make_shared<DanceChain>(queue, config, std::move(sink))) {
+    : model_(queue.model()), chain_(std::make_shared<DanceChain>(queue, config, std::move(sink))) {
   chain_->Begin(config);
 }
 
@@ -55,7 +40,7 @@ void DanceStream::PushAudio(std::span<const float> interleaved, int64_t first_sa
   std::lock_guard lock(messages_);
   AudioFeed& audio = Audio("audio");
   if (chain_->over()) return;
-  audio.Push(interleaved, first_sample, [this] { chain_->Apply([](DanceScore&) {}); });
+  audio.Push(interleaved, first_sample, [this] { chain_->Continue(); });
 }
 
 void DanceStream::EndOfAudio() {
@@ -64,11 +49,11 @@ void DanceStream::EndOfAudio() {
 }
 
 void DanceStream::SetMusic(const MusicAnalysis& music) {
-  chain_->Apply([&](DanceScore& score) { score.SetMusic(music); });
+  chain_->Apply([&](DanceScore& score) { return score.SetMusic(music); });
 }
 
 void DanceStream::NoteMusicDamaged(const std::vector<std::string>& notes, double seconds) {
-  chain_->Apply([&](DanceScore&) { chain_->Post(MusicDamaged(notes, seconds, model_.fps)); });
+  chain_->Apply([&](DanceScore&) { return DanceEvents{MusicDamaged(notes, seconds, model_.fps)}; });
 }
 
 std::string DanceStream::NextKeyframe() const { return At("keyframes", keyframes_); }
@@ -82,33 +67,21 @@ void DanceStream::SetKey(const Key& key, const KeyMoment& when) {
   ValidatePose(model_.skeleton, key.pose, field);
   ValidateMask(model_.skeleton, key.mask, field + ".mask");
   ValidateHit(key.hit, field + ".hit");
-  chain_->Apply([&](DanceScore& score) {
-    if (auto rejection = score.timeline.Set(key, when, field)) {
-      chain_->Post(score.AnswerLate(*rejection, key.hands));
-    } else {
-      WarnOfKeysBehind(score.timeline, &key.id);
-    }
-  });
+  chain_->Apply([&](DanceScore& score) { return score.SetKey(key, when, field); });
   ++keyframes_;
 }
 
 void DanceStream::RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                             const std::string& field, const std::string& reason) {
   std::lock_guard lock(messages_);
-  chain_->Apply([&](DanceScore& score) {
-    KeyRejected rejection = score.timeline.RejectInvalid(id, when, reason);
-    rejection.field = field;
-    chain_->Post(rejection);
-  });
+  chain_->Apply([&](DanceScore& score) { return score.RejectKey(id, when, field, reason); });
   ++keyframes_;
 }
 
 void DanceStream::RemoveKey(const std::string& id) {
   std::lock_guard lock(messages_);
   const std::string field = At("remove_keyframes", removals_);
-  chain_->Apply([&](DanceScore& score) {
-    if (auto rejection = score.timeline.Remove(id, field)) chain_->Post(*rejection);
-  });
+  chain_->Apply([&](DanceScore& score) { return score.RemoveKey(id, field); });
   ++removals_;
 }
 
@@ -116,16 +89,7 @@ void DanceStream::SetControls(const ControlRequest& request) {
   std::lock_guard lock(messages_);
   const std::string field = NextControls();
   ValidateControls(request, model_, field);
-  chain_->Apply([&](DanceScore& score) {
-    const int64_t from = score.timeline.Frontier(field);
-    score.controls.Set(request, from, field);
-    if (request.velocity_factors) score.timeline.NoteChange();
-    if (!request.root_path) return;
-    const int64_t last = request.root_path->frames.back();
-    score.timeline.NoteChange(request.root_path->frames.front(), last);
-    // A path that lies before the first frame was danced before the resume: it is not late.
-    if (last < from && last >= first_frame_) chain_->Post(ControlsTooLate(last, from));
-  });
+  chain_->Apply([&](DanceScore& score) { return score.SetControls(request, field); });
   ++controls_;
 }
 
@@ -138,12 +102,8 @@ void DanceStream::GiveBeats(const std::vector<double>& seconds,
   CheckBeats(seconds, field);
   CheckDownbeats(downbeats, seconds, NextMusicBeats() + ".downbeats");
   if (confidence) ValidateShare(*confidence, NextMusicBeats() + ".confidence");
-  chain_->Apply([&](DanceScore& score) {
-    const int64_t from = score.timeline.Frontier(field);
-    if (const int64_t late = score.beats.AddGiven(seconds, from, field, downbeats, confidence);
-        late > 0)
-      chain_->Post(BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from));
-  });
+  chain_->Apply(
+      [&](DanceScore& score) { return score.GiveBeats(seconds, downbeats, confidence, field); });
   ++beats_;
 }
 
@@ -152,20 +112,18 @@ void DanceStream::GivePassages(const std::vector<Passage>& passages) {
   const std::string field = NextMusicPassages() + ".passages";
   if (passages.empty()) throw InvalidArgument(field, "empty");
   CheckPassages(passages, field);
-  chain_->Apply([&](DanceScore& score) {
-    score.recurrence.Give(passages, score.timeline.Frontier(field), field);
-  });
+  chain_->Apply([&](DanceScore& score) { return score.GivePassages(passages, field); });
   ++passages_;
 }
 
 void DanceStream::GenerateUntil(int64_t frame) {
   std::lock_guard lock(messages_);
-  chain_->Apply([frame](DanceScore& score) { score.timeline.GenerateUntil(frame); });
+  chain_->Apply([frame](DanceScore& score) { return score.GenerateUntil(frame); });
 }
 
 void DanceStream::KeysComplete() {
   std::lock_guard lock(messages_);
-  chain_->Apply([](DanceScore& score) { score.timeline.Complete(); });
+  chain_->Apply([](DanceScore& score) { return score.KeysComplete(); });
 }
 
 void DanceStream::HalfClose() {
@@ -173,7 +131,7 @@ void DanceStream::HalfClose() {
   const AudioFeed* audio = chain_->audio();
   if (audio != nullptr && !audio->finished()) FinishAudio();
   chain_->Apply([](DanceScore& score) {
-    if (!score.timeline.complete()) score.timeline.Complete();
+    return score.timeline().complete() ? DanceEvents() : score.KeysComplete();
   });
 }
 

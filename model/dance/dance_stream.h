@@ -102,11 +102,8 @@ class DanceStream {
  private:
   AudioFeed& Audio(const char* field);
   void FinishAudio();
-  // `only`: the id of the one key to warn of. Only inside Apply.
-  void WarnOfKeysBehind(const Timeline& timeline, const std::string* only = nullptr);
 
   const ModelInfo& model_;
-  const int64_t first_frame_;
   const std::shared_ptr<DanceChain> chain_;
   std::mutex messages_;  // one message at a time; locked before the chain's
   // Accepted so far:

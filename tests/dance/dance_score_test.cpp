@@ -22,7 +22,7 @@ class DanceScoreTest : public ::testing::Test {
     return {model, ValidDance(config, model), audio};
   }
   static void Set(DanceScore* score, const Key& key) {
-    ASSERT_FALSE(score->timeline.Set(key, AtFrame{key.frame}, "key"));
+    ASSERT_TRUE(score->SetKey(key, AtFrame{key.frame}, "key").empty());
   }
 
   const ModelInfo model = Model();
@@ -43,7 +43,7 @@ TEST_F(DanceScoreTest, NothingFollowsBeforeItIsGranted) {
 TEST_F(DanceScoreTest, NothingFollowsTheEnd) {
   DanceScore score = Score({});
   Set(&score, KeyAt("a", 40));
-  score.timeline.Complete();
+  score.KeysComplete();
   EXPECT_FALSE(score.EndsBy(40));
   EXPECT_TRUE(score.EndsBy(41));
   ASSERT_TRUE(score.TakeNext(0, 0));
@@ -67,13 +67,13 @@ TEST_F(DanceScoreTest, ATransitionWaitsForItsMusic) {
 // A change ahead ends the transition under way where it is granted.
 TEST_F(DanceScoreTest, AMessageOvertakesATransition) {
   DanceScore score = Score({});
-  score.timeline.GenerateUntil(20);
+  score.GenerateUntil(20);
   const auto first = score.TakeNext(0, 0);
   ASSERT_TRUE(first);
   const int64_t planned = first->inputs.segment.to;
   EXPECT_FALSE(score.Overtakes(20));
   Set(&score, KeyAt("a", 30));
-  score.timeline.GenerateUntil(31);
+  score.GenerateUntil(31);
   ASSERT_TRUE(score.TakeNext(1, 0));
   EXPECT_LT(20, planned);
   EXPECT_TRUE(score.Overtakes(20));
@@ -100,11 +100,11 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
         .request.spec;
   };
   const TransitionSpec before = prepare();
-  score.beats.AddGiven(std::vector<double>{14.1, 14.7, 15.3}, 401, "beats");
+  score.GiveBeats({14.1, 14.7, 15.3}, {}, {}, "beats");
   ControlRequest controls;
   controls.root_path = ControlRequest::RootPath{{401, 500}, {{0, 0}, {1, 1}}, {}};
-  score.controls.Set(controls, 401, "controls");
-  score.recurrence.Give(std::vector<Passage>{{14, 16, 2}}, 401, "passages");
+  score.SetControls(controls, "controls");
+  score.GivePassages({{14, 16, 2}}, "passages");
   score.SetMusic({.beats = {1, 2, 3}, .id = 5});
   const TransitionSpec after = prepare();
   EXPECT_FALSE(before.beats.empty());
@@ -122,12 +122,13 @@ TEST_F(DanceScoreTest, AKeyReachedBeforeTheResumeIsReportedAgainOnce) {
                                      .reached = {{.id = "a", .frame = 40, .raw_error_m = 0.5}}};
   DanceScore score = Score(config);
   const Key key = KeyAt("a", 40);
-  const auto late = score.timeline.Set(key, AtFrame{40}, "key");
-  ASSERT_TRUE(late);
-  const DanceEvent again = score.AnswerLate(*late, std::nullopt);
-  ASSERT_TRUE(std::holds_alternative<KeyReached>(again));
-  EXPECT_EQ(std::get<KeyReached>(again).raw_error_m, 0.5);
-  EXPECT_TRUE(std::holds_alternative<KeyRejected>(score.AnswerLate(*late, std::nullopt)));
+  const DanceEvents again = score.SetKey(key, AtFrame{40}, "key");
+  ASSERT_EQ(again.size(), 1U);
+  ASSERT_TRUE(std::holds_alternative<KeyReached>(again[0]));
+  EXPECT_EQ(std::get<KeyReached>(again[0]).raw_error_m, 0.5);
+  const DanceEvents late = score.SetKey(key, AtFrame{40}, "key");
+  ASSERT_EQ(late.size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<KeyRejected>(late[0]));
 }
 
 }  // namespace choreo::dance_score_test
