@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "model/core/error.h"
+#include "model/motion/controls.h"
 #include "model/motion/mirror.h"
 
 namespace choreo::cli {
@@ -13,18 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kPath = "path";
-constexpr const char* kVelocity = "velocity";
-
-template <typename Value>
-void WriteSome(const char* member, const Value& value, ordered_json* json) {
-  if (!value.empty()) (*json)[member] = value;
-}
-
-template <typename Value>
-void ReadSome(const ordered_json& json, const char* member, Value* value) {
-  if (json.contains(member)) json[member].get_to(*value);
-}
+// A control's member of a report is its option without the dashes.
+std::string MemberOf(size_t row) { return std::string(kControls[row].option.substr(2)); }
 
 void Require(bool is_right, const std::string& field) {
   if (!is_right) throw InvalidArgument(field, "is not what a report says there");
@@ -69,72 +60,78 @@ std::vector<Eigen::Vector2d> Points(const std::vector<double>& flat) {
   return points;
 }
 
-ControlRequest::RootPath ReadPath(const ordered_json& json, const std::string& field) {
-  ControlRequest::RootPath path;
-  std::vector<double> flat;
-  ReadSome(json, "frames", &path.frames);
-  ReadSome(json, "points", &flat);
-  ReadSome(json, "heights", &path.heights);
+struct FieldWriter {
+  ordered_json& json;
+
+  void operator()(const char* name, const auto& value) const {
+    if (!value.empty()) json[name] = value;
+  }
+  void operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const {
+    (*this)(name, Flat(points));
+  }
+};
+
+struct FieldReader {
+  const ordered_json& json;
+
+  void operator()(const char* name, auto& value) const {
+    if (json.contains(name)) json[name].get_to(value);
+  }
+  void operator()(const char* name, std::vector<Eigen::Vector2d>& points) const {
+    std::vector<double> flat;
+    (*this)(name, flat);
+    if (flat.size() % 2 == 0) points = Points(flat);
+  }
+};
+
+bool IsWhole(const ControlRequest::RootPath& path) {
   const size_t rows = path.frames.size();
-  Require(rows >= 2 && Ascend(path.frames) && flat.size() == 2 * rows &&
-              (path.heights.empty() || path.heights.size() == rows),
-          field);
-  path.points = Points(flat);
-  return path;
+  return rows >= 2 && Ascend(path.frames) && path.points.size() == rows &&
+         (path.heights.empty() || path.heights.size() == rows);
 }
 
-ControlRequest::VelocityFactors ReadVelocity(const ordered_json& json, const std::string& field) {
-  ControlRequest::VelocityFactors velocity;
-  ReadSome(json, "frames", &velocity.frames);
-  ReadSome(json, "parts", &velocity.parts);
-  ReadSome(json, "factors", &velocity.factors);
-  ReadSome(json, "speeds", &velocity.speeds);
-  ReadSome(json, "reference", &velocity.reference);
+bool IsWhole(const ControlRequest::VelocityFactors& velocity) {
   const size_t cells =
       std::max<size_t>(1, velocity.frames.size()) * std::max<size_t>(1, velocity.parts.size());
-  Require(Ascend(velocity.frames) && velocity.factors.size() + velocity.speeds.size() == cells &&
-              (velocity.factors.empty() || velocity.speeds.empty()),
-          field);
-  return velocity;
+  return Ascend(velocity.frames) && velocity.factors.size() + velocity.speeds.size() == cells &&
+         (velocity.factors.empty() || velocity.speeds.empty());
 }
 
-/// Reads a member, if there is one.
-template <typename Read>
-auto ReadMember(const ordered_json& report, const char* member, const std::string& name,
-                const Read& read) -> std::optional<decltype(read(report, name))> {
-  if (!report.contains(member)) return std::nullopt;
-  const std::string field = name + ":" + member;
-  Require(report[member].is_object(), field);
-  try {
-    return read(report[member], field);
-  } catch (const nlohmann::json::exception&) {
-    Require(false, field);
-    throw;
+struct FieldMirror {
+  void operator()(const char* /*name*/, const auto& /*unchanged*/) const {}
+  void operator()(const char* /*name*/, std::vector<Eigen::Vector2d>& points) const {
+    for (Eigen::Vector2d& point : points) point.x() = -point.x();
   }
-}
+  void operator()(const char* /*name*/, std::vector<std::string>& parts) const {
+    for (std::string& part : parts) part = OtherSide(part);
+  }
+};
 
 }  // namespace
 
 void WriteControls(const ControlRequest& controls, ordered_json* report) {
-  if (const auto& path = controls.root_path) {
-    ordered_json& json = (*report)[kPath] = ordered_json::object();
-    WriteSome("frames", path->frames, &json);
-    WriteSome("points", Flat(path->points), &json);
-    WriteSome("heights", path->heights, &json);
-  }
-  if (const auto& velocity = controls.velocity_factors) {
-    ordered_json& json = (*report)[kVelocity] = ordered_json::object();
-    WriteSome("frames", velocity->frames, &json);
-    WriteSome("parts", velocity->parts, &json);
-    WriteSome("factors", velocity->factors, &json);
-    WriteSome("speeds", velocity->speeds, &json);
-    WriteSome("reference", velocity->reference, &json);
-  }
+  ControlRequest::VisitControls(controls, [report](size_t row, const auto& control) {
+    if (!control) return;
+    ordered_json& json = (*report)[MemberOf(row)] = ordered_json::object();
+    control->VisitFields(*control, FieldWriter{json});
+  });
 }
 
 ControlRequest ReadControls(const ordered_json& report, const std::string& name) {
-  return {.root_path = ReadMember(report, kPath, name, ReadPath),
-          .velocity_factors = ReadMember(report, kVelocity, name, ReadVelocity)};
+  ControlRequest controls;
+  ControlRequest::VisitControls(controls, [&](size_t row, auto& control) {
+    const std::string member = MemberOf(row), field = name + ":" + member;
+    if (!report.contains(member)) return;
+    Require(report[member].is_object(), field);
+    control.emplace();
+    try {
+      control->VisitFields(*control, FieldReader{report[member]});
+    } catch (const nlohmann::json::exception&) {
+      Require(false, field);
+    }
+    Require(IsWhole(*control), field);
+  });
+  return controls;
 }
 
 ControlRequest Delayed(ControlRequest controls, int64_t frames) {
@@ -153,10 +150,9 @@ ControlRequest Delayed(ControlRequest controls, int64_t frames) {
 }
 
 ControlRequest Mirrored(ControlRequest controls) {
-  if (auto& path = controls.root_path)
-    for (Eigen::Vector2d& point : path->points) point.x() = -point.x();
-  if (auto& velocity = controls.velocity_factors)
-    for (std::string& part : velocity->parts) part = OtherSide(part);
+  ControlRequest::VisitControls(controls, [](size_t, auto& control) {
+    if (control) control->VisitFields(*control, FieldMirror());
+  });
   return controls;
 }
 

@@ -1,79 +1,124 @@
 #include "proto/wire/controls.h"
 
+#include <optional>
+
 #include "model/core/error.h"
+#include "model/core/field.h"
+#include "model/motion/controls.h"
 #include "model/motion/velocity_factors.h"
 
 namespace choreo::wire {
 namespace {
 
-void Write(const ControlRequest::RootPath& path, v1::RootPath* out) {
-  out->mutable_frames()->Add(path.frames.begin(), path.frames.end());
-  for (const Eigen::Vector2d& point : path.points) {
-    for (const double value : point) out->add_points(static_cast<float>(value));
-  }
-  for (const double height : path.heights) out->add_heights(static_cast<float>(height));
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(std::string(name));
+  if (field != nullptr) return field;
+  throw Error(ErrorCode::kInternal, "",
+              message.GetTypeName() + " has no field " + std::string(name));
 }
 
-void Read(const v1::RootPath& message, const std::string& field, ControlRequest::RootPath* path) {
-  if (message.points_size() % 2 != 0) {
-    throw InvalidArgument(field + ".points", std::to_string(message.points_size()) +
-                                                 " numbers, not two for each point");
-  }
-  path->frames.assign(message.frames().begin(), message.frames().end());
-  for (int i = 0; i < message.points_size(); i += 2)
-    path->points.emplace_back(message.points(i), message.points(i + 1));
-  path->heights.assign(message.heights().begin(), message.heights().end());
-}
-
-void Write(const ControlRequest::VelocityFactors& velocity, v1::VelocityFactors* out) {
-  out->mutable_frames()->Add(velocity.frames.begin(), velocity.frames.end());
-  for (const double factor : velocity.factors) out->add_factors(static_cast<float>(factor));
-  for (const double speed : velocity.speeds) out->add_speeds(static_cast<float>(speed));
-  out->set_reference(velocity.reference);
-  for (const std::string& name : velocity.parts) {
-    const std::optional<BodyPart> part = FindBodyPart(name);
-    if (!part) {
-      throw InvalidArgument("velocity_factors.parts",
-                            '"' + name + "\" is none of " + BodyPartNames());
-    }
-    out->add_parts(static_cast<v1::BodyPart>(v1::BODY_PART_TRUNK + static_cast<int>(*part)));
-  }
-}
-
-void Read(const v1::VelocityFactors& message, const std::string& field,
-          ControlRequest::VelocityFactors* velocity) {
-  velocity->frames.assign(message.frames().begin(), message.frames().end());
-  velocity->factors.assign(message.factors().begin(), message.factors().end());
-  velocity->speeds.assign(message.speeds().begin(), message.speeds().end());
-  velocity->reference = message.reference();
-  for (const int number : message.parts()) {
-    const int part = number - v1::BODY_PART_TRUNK;
-    if (part < 0 || part >= kBodyParts) {
-      throw InvalidArgument(field + ".parts[" + std::to_string(velocity->parts.size()) + "]",
-                            std::to_string(number) + " is no BodyPart");
-    }
-    velocity->parts.emplace_back(kBodyPartNames[static_cast<size_t>(part)]);
-  }
+// Calls `read(message, field)` with a repeated field's numbers, one by one.
+template <typename Read>
+auto All(const Message& message, const char* name, const Read& read) {
+  const FieldDescriptor* field = FieldOf(message, name);
+  std::vector<decltype(read(field, 0))> values;
+  for (int i = 0; i < message.GetReflection()->FieldSize(message, field); ++i)
+    values.push_back(read(field, i));
+  return values;
 }
 
 }  // namespace
 
+void ControlWriter::operator()(const char* name, const std::vector<int64_t>& frames) const {
+  for (const int64_t frame : frames)
+    out_->GetReflection()->AddInt64(out_, FieldOf(*out_, name), frame);
+}
+
+void ControlWriter::operator()(const char* name, const std::vector<double>& values) const {
+  for (const double value : values)
+    out_->GetReflection()->AddFloat(out_, FieldOf(*out_, name), static_cast<float>(value));
+}
+
+void ControlWriter::operator()(const char* name, const std::vector<Eigen::Vector2d>& points) const {
+  for (const Eigen::Vector2d& point : points) (*this)(name, std::vector{point.x(), point.y()});
+}
+
+void ControlWriter::operator()(const char* name, const std::vector<std::string>& parts) const {
+  for (const std::string& part : parts) {
+    const std::optional<BodyPart> known = FindBodyPart(part);
+    if (!known) {
+      throw InvalidArgument(field_ + '.' + name, '"' + part + "\" is none of " + BodyPartNames());
+    }
+    out_->GetReflection()->AddEnumValue(out_, FieldOf(*out_, name),
+                                        v1::BODY_PART_TRUNK + static_cast<int>(*known));
+  }
+}
+
+void ControlWriter::operator()(const char* name, const std::string& text) const {
+  out_->GetReflection()->SetString(out_, FieldOf(*out_, name), text);
+}
+
+void ControlReader::operator()(const char* name, std::vector<int64_t>& frames) const {
+  frames = All(message_, name, [this](const FieldDescriptor* field, int i) {
+    return message_.GetReflection()->GetRepeatedInt64(message_, field, i);
+  });
+}
+
+void ControlReader::operator()(const char* name, std::vector<double>& values) const {
+  values = All(message_, name, [this](const FieldDescriptor* field, int i) -> double {
+    return message_.GetReflection()->GetRepeatedFloat(message_, field, i);
+  });
+}
+
+void ControlReader::operator()(const char* name, std::vector<Eigen::Vector2d>& points) const {
+  std::vector<double> numbers;
+  (*this)(name, numbers);
+  if (numbers.size() % 2 != 0) {
+    throw InvalidArgument(field_ + '.' + name,
+                          std::to_string(numbers.size()) + " numbers, not two for each point");
+  }
+  for (size_t i = 0; i < numbers.size(); i += 2) points.emplace_back(numbers[i], numbers[i + 1]);
+}
+
+void ControlReader::operator()(const char* name, std::vector<std::string>& parts) const {
+  parts = All(message_, name, [this, name](const FieldDescriptor* field, int i) {
+    const int number = message_.GetReflection()->GetRepeatedEnumValue(message_, field, i);
+    const int part = number - v1::BODY_PART_TRUNK;
+    if (part < 0 || part >= kBodyParts)
+      throw InvalidArgument(At(field_ + '.' + name, i), std::to_string(number) + " is no BodyPart");
+    return std::string(kBodyPartNames[static_cast<size_t>(part)]);
+  });
+}
+
+void ControlReader::operator()(const char* name, std::string& text) const {
+  text = message_.GetReflection()->GetString(message_, FieldOf(message_, name));
+}
+
 v1::Controls ToProto(const ControlRequest& controls) {
   v1::Controls out;
-  if (controls.root_path) Write(*controls.root_path, out.mutable_root_path());
-  if (controls.velocity_factors) Write(*controls.velocity_factors, out.mutable_velocity_factors());
+  ControlRequest::VisitControls(controls, [&out](size_t row, const auto& control) {
+    const std::string name(kControls[row].name);
+    if (!control) return;
+    Message* message = out.GetReflection()->MutableMessage(&out, FieldOf(out, name));
+    control->VisitFields(*control, ControlWriter(message, name));
+  });
   return out;
 }
 
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field) {
   ControlRequest out;
-  if (controls.has_root_path())
-    Read(controls.root_path(), field + ".root_path",
-         &out.root_path.emplace(ControlRequest::RootPath()));
-  if (controls.has_velocity_factors()) {
-    Read(controls.velocity_factors(), field + ".velocity_factors",
-         &out.velocity_factors.emplace(ControlRequest::VelocityFactors()));
-  }
+  ControlRequest::VisitControls(out, [&](size_t row, auto& control) {
+    const std::string name(kControls[row].name);
+    const FieldDescriptor* sent = FieldOf(controls, name);
+    if (!controls.GetReflection()->HasField(controls, sent)) return;
+    control.emplace();
+    control->VisitFields(
+        *control,
+        ControlReader(controls.GetReflection()->GetMessage(controls, sent), field + '.' + name));
+  });
   return out;
 }
 
