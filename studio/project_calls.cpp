@@ -166,9 +166,7 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
 
   client::DanceConfig config;
   config.seed = project.seed.value_or(0);
-  config.style = project.style;
-  config.music_dynamics = project.music_dynamics;
-  config.variation = project.variation;
+  project.SetIn(&config);
   config.frames = std::llround(seconds * model.fps);
   const authoring::DanceLength length{.frames = *config.frames, .fps = model.fps};
   for (size_t i = 0; i < keys.poses.size(); ++i)

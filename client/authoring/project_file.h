@@ -7,17 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/dance_manner.h"
 #include "client/authoring/written_controls.h"
 
 namespace choreo::authoring {
 
 /// A studio project without its keys, which are read like a key file's (key_file.h).
-struct Project {
+struct Project : DanceManner {
   std::string song = {};  ///< the file's name; empty: it has none
   std::optional<double> seconds = {};
   std::optional<uint64_t> seed = {};
-  std::string style = {};                                     ///< empty: none in particular
-  std::optional<double> music_dynamics = {}, variation = {};  ///< 0 to 1
   /// The song's, seconds; none: those that are found. Downbeats are beats, too.
   std::vector<double> beats = {}, downbeats = {};
   std::vector<double> ones = {};  ///< downbeats that begin an eight

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "client/authoring/dance_manner.h"
 #include "model/motion/control_request.h"
 
 namespace choreo::cli {
@@ -15,11 +16,9 @@ namespace choreo::cli {
 inline constexpr const char* kNoSong = "none";
 
 /// A dance's request beside its keys. Its report states it for later edits.
-struct Asked {
+struct Asked : authoring::DanceManner {
   std::string model = {};
   std::optional<uint64_t> seed = {};
-  std::optional<double> temperature = {}, music_dynamics = {}, variation = {};
-  std::string style = {};
   std::string song = {};  ///< the file as it was named
   double song_start_s = 0;
   /// Seconds of the dance, unless they are those found in the song.

@@ -165,10 +165,7 @@ void AddDanceCommand(CLI::App& program) {
   AddSongStart(*command, options->song_start_s);
   AddSeed(*command, options->seed,
           "Same seed, same dance; it also chooses among the library's key poses. Default: 0.");
-  AddTemperature(*command, options->temperature);
-  AddMusicDynamics(*command, options->music_dynamics);
-  AddVariation(*command, options->variation);
-  AddStyle(*command, options->style);
+  AddManner(*command, options.get());
   command
       ->add_option("--fps", options->fps, "Frames a second that are written; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));

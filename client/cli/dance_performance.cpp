@@ -147,13 +147,8 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
 
 Asked AskedFor(const DanceOptions& options, const client::Header& header,
                const client::DanceConfig& config) {
-  Asked asked{.model = header.model,
-              .seed = header.seed,
-              .temperature = options.temperature,
-              .music_dynamics = options.music_dynamics,
-              .variation = options.variation,
-              .style = options.style,
-              .controls = config.controls};
+  Asked asked{authoring::DanceManner::Of(config), header.model, header.seed};
+  asked.controls = config.controls;
   if (options.song.empty() || options.song == "-") return asked;
   asked.song = options.song;
   asked.song_start_s = options.song_start_s;
@@ -195,10 +190,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   config.model = options.model;
   config.fps = options.fps;
   config.seed = options.seed.value_or(0);
-  config.temperature = options.temperature;
-  config.music_dynamics = options.music_dynamics;
-  config.variation = options.variation;
-  config.style = options.style;
+  options.SetIn(&config);
   config.frames = length.frames;
   config.controls = controls;
   config.music_beats = options.project_beats;

@@ -16,7 +16,7 @@
 namespace choreo::cli {
 
 /// The options of `choreo dance`.
-struct DanceOptions {
+struct DanceOptions : authoring::DanceManner {
   ServerOptions server;
   std::string song;
   authoring::BeatOptions beats;
@@ -31,11 +31,7 @@ struct DanceOptions {
   std::optional<double> seconds;
   double song_start_s = 0;
   std::optional<uint64_t> seed;
-  std::optional<uint64_t> way_seed;  ///< whose way over the floor library poses keep to
-  std::optional<double> temperature;
-  std::optional<double> music_dynamics;
-  std::optional<double> variation;
-  std::string style;
+  std::optional<uint64_t> way_seed;    ///< whose way over the floor library poses keep to
   std::string style_name = "--style";  ///< the field of errors about it
   double fps = 0;
   authoring::WrittenControls controls;

@@ -319,10 +319,7 @@ void AddEditCommand(CLI::App& program) {
       *command, options->seed,
       "Same seed, same edit. Default: the dance's, by --report, else 0; with --retake one more. " +
           kOfChance);
-  AddTemperature(*command, options->temperature);
-  AddMusicDynamics(*command, options->music_dynamics);
-  AddVariation(*command, options->variation);
-  AddStyle(*command, options->style);
+  AddManner(*command, options.get());
   AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command

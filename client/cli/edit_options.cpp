@@ -176,10 +176,7 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
   client::EditOptions edit;
   edit.model = connection.model(options.model);
   edit.seed = options.seed.value_or(0);
-  edit.temperature = options.temperature;
-  edit.music_dynamics = options.music_dynamics;
-  edit.variation = options.variation;
-  edit.style = options.style;
+  options.SetIn(&edit);
   const auto music = ReadSong(options, end_s);
   const authoring::Counts counts = CountsOf(options, music);
   if (music) {

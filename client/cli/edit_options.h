@@ -21,7 +21,7 @@ namespace choreo::cli {
 enum class DanceChange { kNothing, kSeed, kPath, kOther };
 
 /// The options of `choreo edit`.
-struct EditOptions {
+struct EditOptions : authoring::DanceManner {
   ServerOptions server;
   std::string dance;
   std::vector<std::string> keys;
@@ -48,10 +48,6 @@ struct EditOptions {
   std::string report;
   std::string new_report;
   std::optional<uint64_t> seed;
-  std::optional<double> temperature;
-  std::optional<double> music_dynamics;
-  std::optional<double> variation;
-  std::string style;
   authoring::WrittenControls controls;
   std::string model;
   std::string out;

@@ -38,11 +38,8 @@ void EditSession::DanceOtherwise() {
   const bool begins_later = options_.changed == DanceChange::kPath && path->frames.front() > 0;
   DanceAnew("danced anew", begins_later ? path->frames.front() : -1, frames_);
   Asked& asked = known_.asked;
-  asked.style = edit_.style;
+  static_cast<authoring::DanceManner&>(asked) = authoring::DanceManner::Of(edit_);
   asked.seed = edit_.seed;
-  asked.temperature = edit_.temperature;
-  asked.music_dynamics = edit_.music_dynamics;
-  asked.variation = edit_.variation;
   if (!options_.controls.path.empty()) asked.controls.root_path = edit_.controls.root_path;
   if (!options_.controls.velocities.empty())
     asked.controls.velocity_factors = edit_.controls.velocity_factors;

@@ -31,7 +31,7 @@
 namespace choreo::cli {
 namespace {
 
-struct LiveCommand {
+struct LiveCommand : authoring::DanceManner {
   ServerOptions server;
   std::string song;
   double song_start_s = 0;
@@ -44,10 +44,6 @@ struct LiveCommand {
   double look_ahead_s = live::LiveOptions{}.look_ahead_s;
   std::optional<double> seconds;
   std::optional<uint64_t> seed;
-  std::optional<double> temperature;
-  std::optional<double> music_dynamics;
-  std::optional<double> variation;
-  std::string style;
   authoring::WrittenControls controls;
   double fps = 0;
   std::string model;
@@ -137,14 +133,7 @@ std::string Say(const live::LiveFigures& figures) {
 
 Asked AskedFor(const LiveCommand& options, const live::LiveDance& live) {
   const client::Header& header = live.header();
-  Asked asked{.model = header.model,
-              .seed = header.seed,
-              .temperature = options.temperature,
-              .music_dynamics = options.music_dynamics,
-              .variation = options.variation,
-              .style = options.style,
-              .song = options.song,
-              .song_start_s = options.song_start_s};
+  Asked asked{{options}, header.model, header.seed, options.song, options.song_start_s};
   if (options.song.empty() || options.beats == authoring::BeatOptions()) return asked;
   // Edits count like `analyze` with these options.
   client::DanceConfig config;
@@ -179,10 +168,7 @@ void Run(const LiveCommand& options) {
   dance.config.model = options.model;
   dance.config.fps = options.fps;
   dance.config.seed = options.seed.value_or(0);
-  dance.config.temperature = options.temperature;
-  dance.config.music_dynamics = options.music_dynamics;
-  dance.config.variation = options.variation;
-  dance.config.style = options.style;
+  options.SetIn(&dance.config);
   dance.beats = options.beats.hint;
   dance.ahead_s = options.ahead_s;
   dance.look_ahead_s = options.look_ahead_s;
@@ -289,10 +275,7 @@ void AddLiveCommand(CLI::App& program) {
       ->capture_default_str();
   command->add_option("-s,--seconds", options->seconds, "Of music, at most.")->check(AboveZero());
   AddSeed(*command, options->seed, "Same seed, same music, same poses: same dance. Default: 0.");
-  AddTemperature(*command, options->temperature);
-  AddMusicDynamics(*command, options->music_dynamics);
-  AddVariation(*command, options->variation);
-  AddStyle(*command, options->style);
+  AddManner(*command, options.get());
   AddControlOptions(*command, &options->controls);
   command->add_option("--fps", options->fps, "Frames a second; default: the model's.")
       ->check(NumberFrom(kMinOutputFps, kMaxOutputFps));

@@ -95,27 +95,30 @@ void AddVmc(CLI::App& command, std::string& address) {
                      "and game engines receive, often at port 39539.");
 }
 
-void AddMusicDynamics(CLI::App& command, std::optional<double>& share) {
+void AddManner(CLI::App& command, authoring::DanceManner* manner) {
+  command.add_option(
+      "--temperature", manner->temperature,
+      "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
   command
-      .add_option("--music-dynamics", share,
+      .add_option("--music-dynamics", manner->music_dynamics,
                   "How much the music's energy is that of the dance, 0 (none) to 1; default: " +
                       Rounded(kDefaultDynamics) + ".")
       ->check(NumberFrom(0, 1));
-}
-
-void AddVariation(CLI::App& command, std::optional<double>& variation) {
   command
-      .add_option("--variation", variation,
+      .add_option("--variation", manner->variation,
                   "How much the dance to a passage of the music that comes back differs from what "
                   "was danced to it before, 0 (hardly) to 1 (altogether); default: " +
                       Rounded(kDefaultVariation) + ".")
       ->check(NumberFrom(0, 1));
-}
-
-void AddTemperature(CLI::App& command, std::optional<double>& temperature) {
-  command.add_option(
-      "--temperature", temperature,
-      "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);
+  command
+      .add_option("--style", manner->style,
+                  "How to dance, as happy or tired: a style that `choreo info` lists, apart those "
+                  "that do not show, as all of the model default. Default: no style in "
+                  "particular.")
+      ->check([](const std::string& name) {
+        return name.empty() ? std::string("is empty; leave it out for no style in particular")
+                            : std::string();
+      });
 }
 
 void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& whose) {
@@ -135,18 +138,6 @@ void AddHands(CLI::App& command, std::string& hands, const std::string& what) {
 
 void AddModel(CLI::App& command, std::string& model) {
   command.add_option("-m,--model", model, "Model of the server; default: its first.");
-}
-
-void AddStyle(CLI::App& command, std::string& style) {
-  command
-      .add_option("--style", style,
-                  "How to dance, as happy or tired: a style that `choreo info` lists, apart those "
-                  "that do not show, as all of the model default. Default: no style in "
-                  "particular.")
-      ->check([](const std::string& name) {
-        return name.empty() ? std::string("is empty; leave it out for no style in particular")
-                            : std::string();
-      });
 }
 
 Error AsTyped(const Error& error) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/authoring/dance_manner.h"
 #include "client/choreo_client.h"
 
 /// Options shared by several commands, and checks with readable messages.
@@ -42,18 +43,11 @@ void AddHands(CLI::App& command, std::string& hands, const std::string& what);
 /// `--vmc`, HOST:PORT.
 void AddVmc(CLI::App& command, std::string& address);
 
-/// `--music-dynamics`.
-void AddMusicDynamics(CLI::App& command, std::optional<double>& share);
+/// `--temperature`, `--music-dynamics`, `--variation`, and `--style`, one that `choreo info` lists.
+void AddManner(CLI::App& command, authoring::DanceManner* manner);
 
-/// `--variation`.
-void AddVariation(CLI::App& command, std::optional<double>& variation);
-
-/// `--temperature`.
-void AddTemperature(CLI::App& command, std::optional<double>& temperature);
 /// `--model`, one of the server's.
 void AddModel(CLI::App& command, std::string& model);
-/// `--style`, one that `choreo info` lists.
-void AddStyle(CLI::App& command, std::string& style);
 /// The end of the help of all options that choose among dances.
 inline const std::string kOfChance =
     "Changes nothing where `choreo info` calls the model deterministic.";

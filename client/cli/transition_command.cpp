@@ -24,7 +24,7 @@
 namespace choreo::cli {
 namespace {
 
-struct TransitionOptions {
+struct TransitionOptions : authoring::DanceManner {
   ServerOptions server;
   std::string from;
   std::string to;
@@ -36,10 +36,6 @@ struct TransitionOptions {
   std::optional<double> hit;
   std::string hands;
   std::optional<uint64_t> seed;
-  std::optional<double> temperature;
-  std::optional<double> music_dynamics;
-  std::optional<double> variation;
-  std::string style;
   std::string model;
   authoring::WrittenControls controls;
   std::string out;
@@ -100,10 +96,7 @@ void Run(const TransitionOptions& options) {
   client::TransitionRequest request;
   request.config.model = options.model;
   request.config.seed = options.seed.value_or(0);
-  request.config.temperature = options.temperature;
-  request.config.music_dynamics = options.music_dynamics;
-  request.config.variation = options.variation;
-  request.config.style = options.style;
+  options.SetIn(&request.config);
   const authoring::WrittenTime at = authoring::ParseTime(options.at, "--at");
   const double seconds = options.frames / model.fps;
   std::optional<authoring::Music> music;
@@ -152,14 +145,11 @@ void Run(const TransitionOptions& options) {
     WriteMotion(path, result.header.skeleton, candidate.motion, &candidate.contacts);
     WrittenDance written = Examine(result.header, candidate.report, candidate.motion, {target});
     written.warnings = result.warnings;
-    written.asked = {.model = result.header.model,
-                     .seed = result.header.seed,
-                     .temperature = options.temperature,
-                     .music_dynamics = options.music_dynamics,
-                     .variation = options.variation,
-                     .style = options.style,
-                     .song = options.song == "-" ? "" : options.song,
-                     .song_start_s = at_s};
+    written.asked = {{options},
+                     result.header.model,
+                     result.header.seed,
+                     options.song == "-" ? "" : options.song,
+                     at_s};
     std::cout << ReportText(written) << path.string() << std::endl;
     if (rank == 0 && !options.report.empty()) WriteFile(options.report, ReportJson(written));
     CheckKeys(written);
@@ -205,10 +195,7 @@ void AddTransitionCommand(CLI::App& program) {
   AddHands(*command, options->hands,
            "What hands do at the end, for characters that have fingers (choreo convert --report)");
   AddSeed(*command, options->seed, "Same seed, same motion. Default: 0. " + kOfChance);
-  AddTemperature(*command, options->temperature);
-  AddMusicDynamics(*command, options->music_dynamics);
-  AddVariation(*command, options->variation);
-  AddStyle(*command, options->style);
+  AddManner(*command, options.get());
   AddControlOptions(*command, &options->controls);
   AddModel(*command, options->model);
   command->add_option("-o,--out", options->out, "FILE.npz, FILE.bvh or FILE.glb to write.")
