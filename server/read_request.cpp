@@ -65,8 +65,6 @@ void CheckMusic(const v1::AudioFormat& format) {
       choreo::CheckAudioFormat(format.sample_rate(),
                                static_cast<int>(std::min<uint32_t>(format.channels(), 1U << 30)),
                                field);
-      CheckedIn(format.first_sample(), 0, int64_t{kMaxAudioSeconds} * format.sample_rate(),
-                field + ".first_sample");
       return;
     case v1::AUDIO_ENCODING_FILE:
       for (const auto& [name, value] :
@@ -184,9 +182,6 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   if (message.has_target_hit()) {
     if (!message.has_target()) throw InvalidArgument("target_hit", "there is no target");
     request.hit = message.target_hit();
-  }
-  if (message.after_size() > 0 && !message.has_target()) {
-    throw InvalidArgument("after", "there is no target");
   }
   std::vector<Pose> after;
   for (int i = 0; i < message.after_size(); ++i) {

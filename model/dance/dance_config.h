@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/passage.h"
+#include "model/core/valid.h"
 #include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
@@ -113,20 +113,6 @@ struct GroupRequest : DanceStart {
   void Validate(const ModelInfo& model) const;
 };
 
-/// A request that has been checked against its model; code that takes one does not check again.
-template <class Asked>
-class Valid {
- public:
-  /// Throws what Asked::Validate throws.
-  Valid(Asked asked, const ModelInfo& model) : asked_(std::move(asked)) { asked_.Validate(model); }
-
-  const Asked& operator*() const& { return asked_; }
-  Asked&& operator*() && { return std::move(asked_); }
-  const Asked* operator->() const { return &asked_; }
-
- private:
-  Asked asked_;
-};
 using ValidDance = Valid<DanceConfig>;
 using ValidGroup = Valid<GroupRequest>;
 

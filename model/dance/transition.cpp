@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "model/core/error.h"
-#include "model/dance/timeline.h"
-#include "model/dance/validation.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
@@ -112,18 +110,13 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
     : model_(&model), spec_(request.spec) {
-  CheckedIn(request.spec.frames, 1, std::min(model.max_transition_frames, kMaxTransitionFrames),
-            "frames");
-  for (size_t i = 0; i < request.spec.history.size(); ++i) {
-    CheckJoints(model.skeleton, request.spec.history[i], "history[" + std::to_string(i) + "]");
-  }
-  if (request.spec.target) CheckJoints(model.skeleton, request.spec.target->pose, "target");
+  spec_.history = before_ = FillHistory(model, request.spec.history);
+  spec_.Validate(model);
   if (request.after) {
     CheckJoints(model.skeleton, *request.after, "after");
     if (!request.spec.target) throw InvalidArgument("after", "needs a target");
   }
 
-  before_ = FillHistory(model, request.spec.history);
   world_ = before_.back();
   world_target_ = Placed(request.spec.target, request.spec.controls, world_);
   ground_ = GroundFrame::Of(world_);
@@ -162,7 +155,8 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
   if (held_) {
     Hold();
   } else {
-    drawn_ = co_await sampler.Begin(spec_);
+    const ValidSpec valid(spec_, *model_);
+    drawn_ = co_await sampler.Begin(valid);
   }
   Steer();
   while (frames_.size() < plan_.size()) {
@@ -174,7 +168,6 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
 
 // No model is asked: a new sample in each of these short transitions would tremble.
 void TransitionRun::Hold() {
-  ValidateSpec(spec_, *model_);
   Motion motion{.fps = model_->fps,
                 .frames = std::vector(static_cast<size_t>(spec_.frames), spec_.target->pose)};
   drawn_.contacts = DetectContacts(model_->skeleton, motion);

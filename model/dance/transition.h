@@ -60,15 +60,14 @@ struct RequiredSpeed {
 /// transitions, training and evaluation. Not thread-safe.
 class TransitionRun {
  public:
-  /// Throws Error(kInvalidArgument) for a request of the wrong shape ("frames",
-  /// "history[2].rotations", ...).
+  /// Throws what TransitionSpec::Validate throws, and the same for `after`.
   TransitionRun(const ModelInfo& model, const TransitionRequest& request);
 
   const TransitionSpec& spec() const { return spec_; }
 
   /// Makes all frames. Sampler and this must outlive the slices, and this must not move meanwhile.
   /// Throws Error(kInternal) for a plan of another length and for a value that is not finite,
-  /// whether the model made it or this class, and Error(kInvalidArgument) as Sampler::Begin does.
+  /// whether the model made it or this class.
   Slices<> Dance(Sampler& sampler);
 
   /// All frames, once they are made.

@@ -68,7 +68,8 @@ ContinuousFlowSampler::ContinuousFlowSampler(ModelInfo info, std::string device,
       parts_(std::move(parts)),
       network_(std::move(network)) {}
 
-Slices<Plan> ContinuousFlowSampler::BeginValid(const TransitionSpec& spec) {
+Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
+  const TransitionSpec& spec = *valid;
   const FlowNoise noise{.seed = spec.seed,
                         .candidate = spec.candidate,
                         .first_frame = spec.first_frame,

@@ -18,8 +18,7 @@ class ContinuousFlowSampler : public Sampler {
                         std::shared_ptr<const FlowModelParts> parts,
                         std::shared_ptr<const FlowNetwork> network);
 
- protected:
-  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> Begin(const ValidSpec& spec) override;
 
  private:
   std::shared_ptr<const FlowModelParts> parts_;

@@ -30,10 +30,10 @@ class Sampler {
   const std::string& device() const { return device_; }  ///< "cpu", "cuda:0"
 
   /// Samples a plan, in slices short enough for a due frame to wait for one. Spec and sampler must
-  /// outlive them. Throws Error(kInvalidArgument) for a spec of the wrong shape (ValidateSpec).
-  Slices<Plan> Begin(const TransitionSpec& spec);
-  /// The same at once.
-  Plan Sample(const TransitionSpec& spec) { return Begin(spec).Finish(); }
+  /// outlive them.
+  virtual Slices<Plan> Begin(const ValidSpec& spec) = 0;
+  /// The same at once. Throws what TransitionSpec::Validate throws.
+  Plan Sample(const TransitionSpec& spec) { return Begin(ValidSpec(spec, model_)).Finish(); }
 
   /// Measured by WarmUp; 0 before.
   double seconds_a_frame() const { return seconds_a_frame_; }
@@ -42,9 +42,6 @@ class Sampler {
  protected:
   Sampler(ModelInfo model, std::string device)
       : model_(std::move(model)), device_(std::move(device)) {}
-
-  /// The spec is valid.
-  virtual Slices<Plan> BeginValid(const TransitionSpec& spec) = 0;
 
   ModelInfo model_;
 

@@ -40,31 +40,31 @@ bool Keyed(const TransitionSpec& spec) {
          std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
 }
 
-void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model) {
-  if (spec.frames < 1 || spec.frames > model.max_transition_frames) {
-    throw InvalidArgument("frames", std::to_string(spec.frames) + " is not in [1, " +
+void TransitionSpec::Validate(const ModelInfo& model) const {
+  if (frames < 1 || frames > model.max_transition_frames) {
+    throw InvalidArgument("frames", std::to_string(frames) + " is not in [1, " +
                                         std::to_string(model.max_transition_frames) + "]");
   }
-  const int history = model.history_frames;
-  if (static_cast<int>(spec.history.size()) != history) {
-    throw InvalidArgument("history", std::to_string(spec.history.size()) + " poses, must be " +
-                                         std::to_string(history));
+  const int tau = model.history_frames;
+  if (static_cast<int>(history.size()) != tau) {
+    throw InvalidArgument(
+        "history", std::to_string(history.size()) + " poses, must be " + std::to_string(tau));
   }
-  for (size_t i = 0; i < spec.history.size(); ++i) {
-    CheckJoints(model.skeleton, spec.history[i], "history[" + std::to_string(i) + "]");
+  for (size_t i = 0; i < history.size(); ++i) {
+    CheckJoints(model.skeleton, history[i], "history[" + std::to_string(i) + "]");
   }
-  if (spec.target) CheckTarget(*spec.target, model, "target");
-  if (spec.later) CheckTarget(spec.later->target, model, "later");
-  if (const auto& music = spec.paper.music; music && model.hears_music) {
-    CheckRows(music->history, history, model, "audio_history");
-    CheckRows(music->rows, spec.frames, model, "audio_rows");
+  if (target) CheckTarget(*target, model, "target");
+  if (later) CheckTarget(later->target, model, "later");
+  if (const auto& music = paper.music; music && model.hears_music) {
+    CheckRows(music->history, tau, model, "audio_history");
+    CheckRows(music->rows, frames, model, "audio_rows");
   }
-  const size_t like = spec.noise_like.size();
-  if (like != 0 && static_cast<int>(like) != spec.frames) {
-    throw InvalidArgument("noise_like", std::to_string(like) + " frames, must be 0 or " +
-                                            std::to_string(spec.frames));
+  const size_t like = noise_like.size();
+  if (like != 0 && static_cast<int>(like) != frames) {
+    throw InvalidArgument("noise_like",
+                          std::to_string(like) + " frames, must be 0 or " + std::to_string(frames));
   }
-  spec.controls.Check(model.controls, model.name, spec.frames);
+  controls.Check(model.controls, model.name, frames);
 }
 
 }  // namespace choreo

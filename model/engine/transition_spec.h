@@ -11,6 +11,7 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
+#include "model/core/valid.h"
 #include "model/motion/canonical.h"
 #include "model/motion/controls.h"
 #include "model/motion/motion.h"
@@ -98,16 +99,17 @@ struct TransitionSpec {
   float temperature = 0.3F;
   std::string style = {};  ///< one of the model's, or empty for any
   PaperInputs paper = {};
+
+  /// Throws Error(kInvalidArgument) naming the field unless it has the model's shape: frames,
+  /// history, joints, mask, music rows and controls; also for a control that the model lacks.
+  void Validate(const ModelInfo& model) const;
 };
+using ValidSpec = Valid<TransitionSpec>;
 
 /// Whether its target fixes the root's position or a joint.
 bool Keyed(const TransitionSpec& spec);
 
 /// Throws Error(kInvalidArgument, field) unless the pose has the skeleton's joints.
 void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);
-
-/// Throws Error(kInvalidArgument) naming the field unless the spec has the model's shape: frames,
-/// history, joints, mask, music rows and controls; also for a control that the model lacks.
-void ValidateSpec(const TransitionSpec& spec, const ModelInfo& model);
 
 }  // namespace choreo

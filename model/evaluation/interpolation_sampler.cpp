@@ -17,7 +17,8 @@ ModelInfo Named(ModelInfo model) {
 InterpolationSampler::InterpolationSampler(ModelInfo model)
     : Sampler(Named(std::move(model)), "cpu") {}
 
-Slices<Plan> InterpolationSampler::BeginValid(const TransitionSpec& spec) {
+Slices<Plan> InterpolationSampler::Begin(const ValidSpec& valid) {
+  const TransitionSpec& spec = *valid;
   const Pose& from = spec.history.back();
   const Pose& to = spec.target ? spec.target->pose : from;
   Plan plan;

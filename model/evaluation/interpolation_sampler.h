@@ -12,8 +12,7 @@ class InterpolationSampler : public Sampler {
   /// Resembles `model` in everything that a request depends on.
   explicit InterpolationSampler(ModelInfo model);
 
- protected:
-  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> Begin(const ValidSpec& spec) override;
 };
 
 }  // namespace choreo

@@ -21,7 +21,7 @@ class ControlsTest : public testing::Test {
   }
 
   void ExpectRefused(const std::string& part) const {
-    ExpectError(ErrorCode::kInvalidArgument, part, [&] { ValidateSpec(spec_, model_); });
+    ExpectError(ErrorCode::kInvalidArgument, part, [&] { spec_.Validate(model_); });
   }
 
   ModelInfo model_;
@@ -29,11 +29,11 @@ class ControlsTest : public testing::Test {
 };
 
 TEST_F(ControlsTest, AreTakenBothOrEitherOrNone) {
-  EXPECT_NO_THROW(ValidateSpec(spec_, model_));
+  EXPECT_NO_THROW(spec_.Validate(model_));
   spec_.controls[kRootPath].values.resize(3, 0);
-  EXPECT_NO_THROW(ValidateSpec(spec_, model_));
+  EXPECT_NO_THROW(spec_.Validate(model_));
   spec_.controls = {};
-  EXPECT_NO_THROW(ValidateSpec(spec_, model_));
+  EXPECT_NO_THROW(spec_.Validate(model_));
 }
 
 TEST_F(ControlsTest, UnknownControlsAreRefused) {

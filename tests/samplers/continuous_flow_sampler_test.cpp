@@ -139,14 +139,16 @@ TEST_F(ContinuousFlowSamplerTest, InterleavedSlicesGiveTheSameBits) {
   std::vector<TransitionSpec> specs;
   for (const auto& [spec, slices] : wanted) {
     specs.push_back(spec);
-    auto sampling = sampler_->Begin(spec);
+    const ValidSpec valid(spec, sampler_->model());
+    auto sampling = sampler_->Begin(valid);
     int made = 1;
     while (sampling.Continue()) ++made;
     EXPECT_GE(made, slices);
     // This network knows nothing, so some windows before the key's are sampled again.
     EXPECT_EQ((made - slices) % 7, 0) << made;
   }
-  auto abandoned = sampler_->Begin(lively);
+  const ValidSpec valid(lively, sampler_->model());
+  auto abandoned = sampler_->Begin(valid);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(abandoned.Continue());
   const std::vector<Plan> plans = SampleInTurn(sampler_.get(), specs);
   for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], Dance(specs[i]));

@@ -82,7 +82,9 @@ TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames) {
 
 std::vector<Plan> SampleInTurn(Sampler* sampler, std::span<const TransitionSpec> specs) {
   std::vector<std::optional<Slices<Plan>>> samplings;
-  for (const TransitionSpec& spec : specs) samplings.emplace_back(sampler->Begin(spec));
+  std::vector<ValidSpec> valid;
+  for (const TransitionSpec& spec : specs) valid.emplace_back(spec, sampler->model());
+  for (const ValidSpec& spec : valid) samplings.emplace_back(sampler->Begin(spec));
   std::vector<Plan> plans(specs.size());
   for (bool any = true; any;) {
     any = false;

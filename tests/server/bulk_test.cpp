@@ -41,9 +41,8 @@ class LoggedSampler final : public Sampler {
         sampler_(std::move(sampler)),
         log_(std::move(log)) {}
 
- protected:
-  Slices<Plan> BeginValid(const TransitionSpec& spec) override {
-    const bool is_bulk = spec.frames == kBulkFrames;
+  Slices<Plan> Begin(const ValidSpec& spec) override {
+    const bool is_bulk = spec->frames == kBulkFrames;
     Slices<Plan> slices = sampler_->Begin(spec);
     for (bool more = true; more;) {
       log_->Add(is_bulk ? Log::Did::kBulkSlice : Log::Did::kDanceSlice);

@@ -43,8 +43,7 @@ class FakeSampler : public Sampler {
   /// Hook for subclasses after each frame: may change the plan, throw, or wait.
   virtual void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {}
 
- protected:
-  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> Begin(const ValidSpec& spec) override;
 };
 
 /// A transition of the fake model.
@@ -136,10 +135,10 @@ class FakeTransition {
   std::vector<float> noise_;
 };
 
-inline Slices<Plan> FakeSampler::BeginValid(const TransitionSpec& spec) {
-  FakeTransition transition(*this, spec);
+inline Slices<Plan> FakeSampler::Begin(const ValidSpec& spec) {
+  FakeTransition transition(*this, *spec);
   Plan plan;
-  for (int frame = 0; frame < spec.frames; ++frame) {
+  for (int frame = 0; frame < spec->frames; ++frame) {
     transition.Step(frame, &plan);
     co_await Pause();
   }

@@ -124,7 +124,8 @@ AutoregressiveFlowSampler::AutoregressiveFlowSampler(ModelInfo info, FlowConfig 
       config_(std::move(config)),
       make_stepper_(std::move(make_stepper)) {}
 
-Slices<Plan> AutoregressiveFlowSampler::BeginValid(const TransitionSpec& spec) {
+Slices<Plan> AutoregressiveFlowSampler::Begin(const ValidSpec& valid) {
+  const TransitionSpec& spec = *valid;
   const PoseCodec codec(model_.skeleton);
   const std::unique_ptr<FlowStepper> stepper = make_stepper_();
   stepper->Begin(KeyConditions(config_, codec.joints(), codec.width(), spec.frames,

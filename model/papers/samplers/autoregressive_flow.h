@@ -21,8 +21,7 @@ class AutoregressiveFlowSampler : public Sampler {
   AutoregressiveFlowSampler(ModelInfo info, FlowConfig config, std::string device,
                             MakeStepper make_stepper);
 
- protected:
-  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> Begin(const ValidSpec& spec) override;
 
  private:
   FlowConfig config_;

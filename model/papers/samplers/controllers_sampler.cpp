@@ -139,10 +139,10 @@ void ControllersWalk::Step(int frame, Plan* plan) {
 ControllersSampler::ControllersSampler(ModelInfo info, ControllersModel network)
     : Sampler(std::move(info), "cpu"), network_(std::move(network)) {}
 
-Slices<Plan> ControllersSampler::BeginValid(const TransitionSpec& spec) {
-  ControllersWalk walk(model_, network_, spec);
+Slices<Plan> ControllersSampler::Begin(const ValidSpec& spec) {
+  ControllersWalk walk(model_, network_, *spec);
   Plan plan;
-  for (int frame = 0; frame < spec.frames; ++frame) {
+  for (int frame = 0; frame < spec->frames; ++frame) {
     walk.Step(frame, &plan);
     co_await Pause();
   }

@@ -11,8 +11,7 @@ class ControllersSampler : public Sampler {
  public:
   ControllersSampler(ModelInfo info, ControllersModel network);
 
- protected:
-  Slices<Plan> BeginValid(const TransitionSpec& spec) override;
+  Slices<Plan> Begin(const ValidSpec& spec) override;
 
  private:
   ControllersModel network_;

@@ -7,7 +7,7 @@ namespace choreo {
 /// Fills in the controls of every frame, for a model that needs them all. A missing path starts at
 /// the history's last root with its velocity and leads to the target's root or height, or comes to
 /// a stop without one. Missing factors are the model's first reference. The spec must be valid
-/// (ValidateSpec), and the model must have a reference.
+/// (TransitionSpec::Validate), and the model must have a reference.
 Controls DenseControls(const TransitionSpec& spec, const ModelInfo& model);
 
 }  // namespace choreo
