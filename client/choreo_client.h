@@ -36,8 +36,8 @@ struct Options {
   bool tls = false;
   /// PEM file of the authority to trust, with `tls`; empty: the system's.
   std::filesystem::path ca_certificate = {};
-  /// Whether any certificate will do, an expired one, too, with `tls`: to ask only whether a server
-  /// lives. Excludes `token_file`, as anybody may have answered.
+  /// With `tls`: accepts any certificate, even an expired one, to ask only whether a server lives.
+  /// Excludes `token_file`, because anybody may answer.
   bool any_certificate = false;
   /// PEM files of a certificate and its key, with `tls`, if the server requires one.
   std::filesystem::path client_certificate = {}, client_key = {};
@@ -56,14 +56,14 @@ struct Options {
   /// resume either.
   double retry_s = 10;
   double first_backoff_s = 0.1;  ///< between attempts; doubled each time, up to 2 s
-  /// Continue if only a server with another fingerprint is left, not as the dance would have
-  /// continued: smoothly or, before the first continuation, with the frames that this server has
-  /// for it. `Resumed` reports it.
+  /// Resumes on a server with another fingerprint if no other is left. The dance then continues
+  /// differently: smoothly or, before the first continuation, with that server's own frames.
+  /// `Resumed` reports it.
   bool allow_inexact_resume = false;
-  /// Whether to ask servers that accept no new dances, too, to inspect them.
+  /// Also calls servers that accept no new dances, to inspect them.
   bool even_draining = false;
-  /// Called on a call's thread before each retry; an exception ends the call. It serves callers who
-  /// know that retrying is useless. May be empty.
+  /// Called on a call's thread before each retry. Throws to end the call, if the caller knows that
+  /// retrying is useless. May be empty.
   std::function<void()> before_retry = {};
 };
 

@@ -30,7 +30,7 @@ class Call {
   /// Ends the call with this error once its client took the answer on its way. Any thread may call
   /// it.
   virtual void Abort(const Error& error) = 0;
-  /// Ends an aborted call although its client takes nothing. Any thread may call it.
+  /// Ends an aborted call even if its client reads nothing. Any thread may call it.
   virtual void Reset() = 0;
   /// Logs the call as lost: the process ends at once. Any thread may call it.
   virtual void GiveUp() noexcept = 0;
@@ -40,8 +40,8 @@ class Call {
 /// Limits on clients' calls and idle time.
 struct CallLimits {
   int calls = 0;
-  /// One caller's calls, including those without a first message: the limit while another caller is
-  /// there, and while none is.
+  /// The most calls of one caller, those without a first message included: while another caller is
+  /// connected, and while none is.
   int calls_of_peer = 0, calls_of_lone_peer = 0;
   std::chrono::milliseconds first_message{};
   std::chrono::milliseconds idle{};    ///< without messages in either direction
@@ -69,7 +69,7 @@ class CallRegistry {
   /// Ends calls that were idle for too long. Call regularly.
   void EndIdle();
 
-  /// Call::GiveUp of each call that was admitted.
+  /// Gives up each admitted call (Call::GiveUp).
   void GiveUpAll();
 
   /// Admits no more calls, and ends those not yet admitted.
@@ -80,8 +80,8 @@ class CallRegistry {
   void AbortAll(const Error& error);
   bool WaitUntilEmpty(std::chrono::milliseconds limit) const;
 
-  /// Whether a caller other than `party` has a call, or came within the last minute. A refused
-  /// caller comes again, and must find a place then.
+  /// Whether a caller other than `party` has a call, or had one within the last minute: a refused
+  /// caller retries, and must find a place then.
   bool HasRival(const std::string& party) const;
 
   bool admitting() const;  ///< until StopAdmitting
@@ -89,12 +89,12 @@ class CallRegistry {
   /// A caller's, including those without a first message.
   int CountOf(const std::string& party) const;
   const CallLimits& limits() const { return limits_; }
-  /// The share of the limits that is taken: of all calls, or the busiest caller's.
+  /// The share of a limit in use: that of all calls or that of the busiest caller, the larger.
   double utilisation() const;
-  /// Seconds, 1 to 60, after which one more refused call should come again: when as many calls have
-  /// ended as were refused before it. Spread, so that they do not come together.
+  /// Seconds, 1 to 60, after which a refused call should retry: by then as many calls have ended as
+  /// were refused before it. Spread at random, so that retries do not come together.
   double RetryAfter();
-  /// The same for a client that has other servers to go to.
+  /// The same for a client that has other servers to try.
   double RetryElsewhere();
 
  private:

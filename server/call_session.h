@@ -75,8 +75,8 @@ class CallSession : public Call {
   }
 
   /// Call when the reactor is done: frees the dance, which holds this session, and counts the call.
-  /// `lost`: the status never went out. gRPC shows a dead connection as a half-close first, so the
-  /// dance may have ended well for nobody.
+  /// `lost`: the status was never sent. gRPC reports a dead connection as a half-close first, so
+  /// the dance may have ended well while nobody was listening.
   void Release(bool lost) noexcept try {
     CancelDance();
     serving_.frames.GiveBack(this);

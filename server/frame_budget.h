@@ -48,8 +48,8 @@ class FrameBudget {
 
   /// The promised share of the machine's time, by model name.
   std::map<std::string, double> loads() const;
-  /// The share of what may be promised that is promised: to all, or to the busiest caller. 1 as
-  /// soon as one more like the largest call would be refused; 0 if nobody is refused.
+  /// The share of the budget in use, by all calls or by the busiest caller, the larger. 1 once
+  /// another call as large as the largest would be refused; 0 if the budget refuses nobody.
   double utilisation() const;
 
  private:

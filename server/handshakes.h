@@ -23,13 +23,13 @@ inline constexpr std::array kHandshakeFaults = {
 using HandshakeFaults = std::array<uint64_t, kHandshakeFaults.size()>;
 
 /// Counts the failed handshake that a line of gRPC's log reports, if it reports one: gRPC 1.51
-/// tells of them in no other way. Thread-safe.
+/// reports them nowhere else. Thread-safe.
 void CountHandshakeFault(std::string_view line);
 /// Failed handshakes of this process. Thread-safe.
 HandshakeFaults CountedHandshakeFaults();
 
-/// Names in the log the likely peers of failed handshakes, which gRPC does not: connections that
-/// ended at that time and had begun no call. Thread-safe.
+/// Logs the likely peers of failed handshakes, which gRPC does not name: connections that ended at
+/// that time without a call. Thread-safe.
 class HandshakeWatch {
  public:
   /// A new connection.

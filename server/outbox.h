@@ -139,8 +139,8 @@ class Outbox {
     }
   }
 
-  /// Whether an answer waits for the client, and since when; if not, since when nothing came or
-  /// went.
+  /// Whether an answer waits for the client, and since when. If none does: when the last message
+  /// came or went.
   CallProgress progress() const {
     const std::lock_guard lock(mutex_);
     return {writing_, writing_ ? written_at_ : std::max(written_at_, read_at_)};

@@ -13,8 +13,8 @@ namespace choreo {
 /// Frames handed out before other dances get a turn.
 inline constexpr int kFramesASlice = 16;
 
-/// Calls a listener, one call at a time and in the order of Post, without a lock, on the thread
-/// that comes to Deliver first; other threads do not wait. So a listener may call its caller back.
+/// Calls a listener: one call at a time, in the order of Post, without a lock. The first thread to
+/// call Deliver makes the calls; other threads do not wait. So a listener may call its caller back.
 /// Drops posts after the last call. Thread-safe.
 template <typename Listener>
 class Mailbox {

@@ -9,17 +9,17 @@
 
 namespace choreo {
 
-/// Finds where music turns inside a transition, which was planned with the music before it. A pure
-/// function of the segment and of the music before the frame found, so chunks, timing and a resume
-/// have no effect. Not thread-safe.
+/// Finds where the music changes inside a transition that was planned with the music before it. A
+/// pure function of the segment and of the music before the frame found: chunk sizes, timing and
+/// resumes have no effect. Not thread-safe.
 class MusicTurn {
  public:
   /// `listens`: false finds nothing.
   explicit MusicTurn(bool listens, const MusicDynamicsOptions& options = {})
       : listens_(listens), options_(options) {}
 
-  /// Looks at this transition from now on. Rows before it must be ready; less than a second of them
-  /// says nothing.
+  /// Watches this transition from now on. Rows before it must be ready; less than a second of music
+  /// before it tells nothing.
   void Watch(const AudioFeed& audio, const Segment& segment);
 
   /// The frame before `stop` from which on the transition should be danced anew, as far as rows

@@ -41,7 +41,7 @@ struct Key {
   std::optional<double> hit = {};      ///< TransitionRequest::hit
   std::optional<HandPose> hands = {};  ///< KeyReached::hands
 
-  /// Whether the same is danced to both: hands do not count.
+  /// Whether both are danced alike: hands do not count.
   bool IsDancedAs(const Key& other) const;
 };
 
@@ -59,8 +59,8 @@ struct Segment {
 /// `longest` frames, after about kTypicalFrames, at most half the longest. So the rest before a key
 /// is never shorter.
 int64_t TransitionEnd(int64_t from, std::optional<int64_t> next_key, int longest);
-/// The `longest` for a model. One that sees later keys needs no long transitions, so its dances
-/// hear the music every two seconds.
+/// TransitionEnd's `longest` for a model. A model that sees later keys needs no long transitions,
+/// so its dances follow the music every two seconds.
 int LongestToKey(int max_transition_frames, int sight_frames);
 /// Whether a transition that begins at `from` and does not reach this key sees it.
 inline bool IsInSight(int64_t from, int64_t key, int sight_frames) {
@@ -97,7 +97,7 @@ class Timeline {
   /// kMaxKeys, and after Complete. The pose and `hit` must be valid (validation.h).
   std::optional<KeyRejected> Set(Key key, const KeyMoment& when, const std::string& field);
 
-  /// Answers a key that cannot be used, for this reason; changes nothing. `when`: none if the
+  /// Rejects a key that cannot be used, for this reason; changes nothing. `when`: none if the
   /// message has no moment.
   KeyRejected RejectInvalid(const std::string& id, const std::optional<KeyMoment>& when,
                             std::string reason);
@@ -123,7 +123,8 @@ class Timeline {
   void Complete();
 
   /// Sets frames where transitions without a key should end, ascending. A transition that would end
-  /// near one ends on it if it is then at least half a second long. Call before anything is danced.
+  /// near such a frame ends on it, unless that makes it shorter than half a second. Call before
+  /// anything is danced.
   void SetCuts(std::vector<int64_t> frames);
 
   /// Says that the music ends before `frame`.

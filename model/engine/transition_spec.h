@@ -38,8 +38,8 @@ struct ModelInfo {
   int sight_frames = 0;
   double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
-  /// Whether it reads a transition's MFCC rows, and so live must wait for all of its music. False:
-  /// rows change nothing.
+  /// Whether the model reads a transition's MFCC rows. If so, a transition waits for all of its
+  /// music.
   bool hears_music = true;
   bool deterministic = false;              ///< seed, candidate and temperature change nothing
   bool likelihood = false;                 ///< plans have exact ones (Plan::log_likelihoods)
@@ -60,7 +60,7 @@ struct LaterTarget {
   int frames = 0;  ///< >= 1, from the transition's last frame to the key's
 };
 
-/// What only the papers' models read, which make frame after frame.
+/// Inputs of the papers' models alone, which make one frame after another.
 struct PaperInputs {
   /// MFCC rows, oldest first.
   struct Music {

@@ -32,7 +32,7 @@ struct WindowRequest {
   std::optional<Eigen::Vector3d> turning = {};
   Controls controls = {};          ///< of its frames
   std::vector<double> beats = {};  ///< in frames from the window's first, ascending, or empty
-  EnergyShift energy_shift = {};   ///< of the body parts whose velocity factors nobody asks for
+  EnergyShift energy_shift = {};   ///< of the body parts without requested velocity factors
   int style = -1;                  ///< index of a style, or -1
   /// The middle of the floor that the dancer keeps to, and the audience. Off a path the dancer
   /// returns to both, unless a key says where the root goes or how it is turned.
