@@ -162,9 +162,12 @@ Path PathOf(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits
   if (path.empty() || path.back().pattern != 0) return path;
   const HalfBeats halves(onsets, path);
   const double fastest = std::min(limits.fastest_bpm, kMaxTappedBpm);
-  if (2 * 60 * kOnsetRate / (path[path.size() / 2].period + 0.5) <= fastest &&
-      halves.AreAlike(extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch))
-    return Doubled(path);
+  const int slow = static_cast<int>(std::ceil(2 * 60 * kOnsetRate / fastest - 0.5));
+  if (halves.Period() >= slow) {
+    if (halves.AreAlike(extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch))
+      return Doubled(path, slow);
+    if (const int snare = halves.SnareHalf(); snare >= 0) return Doubled(path, slow, 1 - snare);
+  }
   const Meter meter = halves.MeterOf();
   if (meter == Meter::kFour)
     return halves.BassIsBetween() ? HalfABeatEarly(path, std::ssize(onsets)) : path;

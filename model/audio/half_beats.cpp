@@ -8,10 +8,49 @@
 namespace choreo {
 namespace {
 
-constexpr int64_t kBehind = 3;      // frames after a beat in which it may sound
-constexpr double kClearly = 0.1;    // of all variance; less is chance
-constexpr double kLouderBass = 2;   // between beats than on them
-constexpr double kNearlyAll = 0.9;  // beats; a bass guitar's rhythm varies
+constexpr int64_t kBehind = 3;       // frames after a beat in which it may sound
+constexpr double kClearly = 0.1;     // of all variance; less is chance
+constexpr double kLouderBass = 2;    // between beats than on them
+constexpr double kAsMuchBass = 0.7;  // on kicks, beside snares that kicks may double
+constexpr double kNearlyAll = 0.9;   // beats; a bass guitar's rhythm varies
+constexpr size_t kAround = 4;        // beats that tell how strong a part's onsets are
+constexpr double kWeak = 0.5;        // beside the strongest part's
+
+/// How strong a band's onsets are before and after each beat, whichever is weaker, beside where
+/// they are strongest.
+std::vector<double> StrengthOf(size_t band, std::span<const Onset> onsets,
+                               std::span<const BarPointer::Step> path) {
+  std::vector<double> sums{0}, strength;
+  for (const Onset& onset : onsets) sums.push_back(sums.back() + onset.rise[band]);
+  const auto mean = [&](size_t first, size_t last) {
+    const auto from = static_cast<size_t>(path[first].frame);
+    const auto to = static_cast<size_t>(path[last].frame);
+    return (sums[to] - sums[from]) / static_cast<double>(to - from);
+  };
+  const size_t last = path.size() - 1;
+  for (size_t i = 0; i <= last && last > 0; ++i) {
+    const double before = i == 0 ? mean(0, 1) : mean(i - std::min(i, kAround), i);
+    const double after = i == last ? mean(last - 1, last) : mean(i, std::min(i + kAround, last));
+    strength.push_back(std::min(before, after));
+  }
+  const double most = strength.empty() ? 0 : *std::ranges::max_element(strength);
+  strength.resize(path.size());
+  for (double& value : strength) value = most > 0 ? value / most : 1;
+  return strength;
+}
+
+/// Whether each beat lies where all bands' onsets are strong: drums have all, few others do.
+std::vector<bool> AreStrong(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
+  std::vector<double> least(path.size(), 1);
+  for (size_t band = 0; band < Onset::kBands; ++band) {
+    const std::vector<double> strength = StrengthOf(band, onsets, path);
+    for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], strength[i]);
+  }
+  const double most = least.empty() ? 0 : *std::ranges::max_element(least);
+  std::vector<bool> are;
+  for (const double value : least) are.push_back(value >= kWeak * most);
+  return are;
+}
 
 }  // namespace
 
@@ -21,9 +60,13 @@ HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::
   EvenOnsets evened(std::numeric_limits<float>::infinity());
   evened.Settle(onsets);
   for (const Onset& onset : onsets) even.push_back(evened.Even(onset));
-  for (const BarPointer::Step& step : path) {
+  const std::vector<bool> strong = AreStrong(onsets, path);
+  for (size_t i = 0; i < path.size(); ++i) {
+    const BarPointer::Step& step = path[i];
     if (step.frame + step.period / 2 + kBehind > std::ssize(even))
       break;  // its second half is still to come
+    counts_.insert(counts_.end(), 2, strong[i]);
+    if (strong[i]) periods_.push_back(step.period);
     for (const int64_t frame : {step.frame, step.frame + step.period / 2}) {
       auto& half = halves_.emplace_back();
       half.fill(0);
@@ -36,12 +79,14 @@ HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::
   }
 }
 
+int HalfBeats::Period() const { return periods_.empty() ? 0 : periods_[periods_.size() / 2]; }
+
 bool HalfBeats::AreAlike(double share) const {
   bool any = false;
   for (size_t band = 0; band < Onset::kBands; ++band) {
     std::array<double, 2> sums{};
     for (size_t i = 0; i < halves_.size(); ++i)
-      sums[i % 2] += std::min<double>(halves_[i][band], EvenOnsets::kLoudest);
+      if (counts_[i]) sums[i % 2] += std::min<double>(halves_[i][band], EvenOnsets::kLoudest);
     const auto [weaker, stronger] = std::minmax(sums[0], sums[1]);
     if (weaker < share * stronger) return false;
     any = any || stronger > 0;
@@ -53,6 +98,7 @@ bool HalfBeats::BassIsBetween() const {
   std::array<double, 2> bass{};
   double louder = 0, beats = 0;
   for (size_t i = 0; i + 1 < halves_.size(); i += 2) {
+    if (!counts_[i]) continue;
     const double on = halves_[i][0], between = halves_[i + 1][0];
     bass[0] += on;
     bass[1] += between;
@@ -62,16 +108,43 @@ bool HalfBeats::BassIsBetween() const {
   return bass[1] > kLouderBass * bass[0] && louder > kNearlyAll * beats;
 }
 
-double HalfBeats::Correlation(size_t lag) const {
-  if (halves_.size() <= lag) return 0;
-  double sum = 0;
-  for (size_t band = 0; band < Onset::kBands; ++band) {
-    double mean = 0;
-    for (const auto& half : halves_) mean += half[band] / static_cast<double>(halves_.size());
-    for (size_t i = lag; i < halves_.size(); ++i)
-      sum += (halves_[i][band] - mean) * (halves_[i - lag][band] - mean);
+int HalfBeats::SnareHalf() const {
+  std::array<double, 2> bass{}, brighter{};
+  double beats = 0;
+  for (size_t i = 0; i + 1 < halves_.size(); i += 2) {
+    if (!counts_[i]) continue;
+    ++beats;
+    for (const size_t half : {0, 1}) {
+      const Bands &own = halves_[i + half], &other = halves_[i + 1 - half];
+      bass[half] += own[0];
+      brighter[half] += own[1] > other[1] && own[2] > other[2] ? 1 : 0;
+    }
   }
-  return sum / static_cast<double>(halves_.size() - lag);
+  for (const size_t half : {0, 1}) {
+    if (brighter[half] > kNearlyAll * beats && bass[1 - half] > kAsMuchBass * bass[half])
+      return static_cast<int>(half);
+  }
+  return -1;
+}
+
+double HalfBeats::Correlation(size_t lag) const {
+  Bands means{};
+  double counted = 0;
+  for (size_t i = 0; i < halves_.size(); ++i) {
+    if (!counts_[i]) continue;
+    ++counted;
+    for (size_t band = 0; band < Onset::kBands; ++band) means[band] += halves_[i][band];
+  }
+  double sum = 0, pairs = 0;
+  for (size_t i = lag; i < halves_.size(); ++i) {
+    if (!counts_[i] || !counts_[i - lag]) continue;
+    ++pairs;
+    for (size_t band = 0; band < Onset::kBands; ++band) {
+      const double mean = means[band] / counted;
+      sum += (halves_[i][band] - mean) * (halves_[i - lag][band] - mean);
+    }
+  }
+  return pairs > 0 ? sum / pairs : 0;
 }
 
 Meter HalfBeats::MeterOf() const {
@@ -94,18 +167,18 @@ std::vector<BarPointer::Step> HalfABeatEarly(const std::vector<BarPointer::Step>
   return early;
 }
 
-std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path) {
+std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path, int slow,
+                                      int half) {
   std::vector<BarPointer::Step> doubled;
-  for (BarPointer::Step step : path) {
-    const int64_t frame = step.frame;
-    const int period = step.period;
-    step.beats = 4;
-    step.period = period / 2;
-    for (const int half : {0, 1}) {
-      step.frame = frame + half * (period / 2);
-      step.in_bar = static_cast<int>(doubled.size() % 4);
-      doubled.push_back(step);
-    }
+  const auto add = [&](const BarPointer::Step& step, int64_t frame, int period) {
+    const size_t since = doubled.size() + static_cast<size_t>(4 - half);
+    doubled.push_back({frame, period, static_cast<int>(since % 4), step.pattern, 4});
+  };
+  for (const BarPointer::Step& step : path) {
+    const bool is_slow = step.period >= slow;
+    const int period = is_slow ? step.period / 2 : step.period;
+    add(step, step.frame, period);
+    if (is_slow) add(step, step.frame + period, period);
   }
   return doubled;
 }

@@ -13,10 +13,14 @@
 /// of a beat may be struck in any pattern; so the music's repetition decides.
 namespace choreo {
 
-/// The onsets at each half of each beat of a path: EvenOnsets' bands, the strongest nearby.
+/// The onsets at each half of each beat of a path: EvenOnsets' bands, the strongest nearby. Beats
+/// in parts whose onsets are weak beside the strongest part's, as without drums, decide nothing.
 class HalfBeats {
  public:
   HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path);
+
+  /// The period of the middle one of the beats that decide, in frames; 0: none does.
+  int Period() const;
 
   /// Whether both halves of beats sound the same in all bands, so that each is a beat: the weaker
   /// one's mean is at least this share of the stronger one's.
@@ -26,14 +30,23 @@ class HalfBeats {
   /// those are off-beats.
   bool BassIsBetween() const;
 
+  /// The half of nearly all beats, 0 or 1, on which a snare sounds while a bass drum sounds on the
+  /// other, so that each half is a beat; -1: neither. A hat between the beats has too little
+  /// middle, and beats that are not halves have too little bass between them.
+  int SnareHalf() const;
+
   /// Compares bars: music in 4/4 repeats after eight eighths, in 3/4 and 6/8 after six, and 6/8 is
   /// more alike after three eighths than after two.
   Meter MeterOf() const;
 
  private:
+  using Bands = std::array<double, Onset::kBands>;
+
   double Correlation(size_t lag) const;
 
-  std::vector<std::array<double, Onset::kBands>> halves_;
+  std::vector<Bands> halves_;
+  std::vector<bool> counts_;  // by half
+  std::vector<int> periods_;  // of the beats that count
 };
 
 /// The same path, each beat half a beat earlier, and one more after the last, among `frames`. Bars
@@ -41,7 +54,9 @@ class HalfBeats {
 std::vector<BarPointer::Step> HalfABeatEarly(const std::vector<BarPointer::Step>& path,
                                              int64_t frames);
 
-/// The same path with a beat added halfway to each next one, in bars of four.
-std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path);
+/// The same path with a beat added halfway to each next one that is at least `slow` frames away, in
+/// bars of four that begin with a first (0) or a second half.
+std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path, int slow,
+                                      int half = 0);
 
 }  // namespace choreo

@@ -11,6 +11,15 @@
 #include "tests/audio/signals.h"
 
 namespace choreo::beats_test {
+namespace {
+
+std::vector<double> Every(double period, double first, double end) {
+  std::vector<double> beats;
+  for (double beat = first; beat < end; beat += period) beats.push_back(beat);
+  return beats;
+}
+
+}  // namespace
 
 TEST(BeatsTest, ClickTracksAreCountedAtTheirTempo) {
   for (const int64_t period : {9216, 10240, 11776, 13312}) {  // samples: 144 to 99 a minute
@@ -103,12 +112,34 @@ TEST(BeatsTest, TheBassDrumKeepsTheBeatWhereHatsSoundBetween) {
     for (const double first : {0.03, 0.2, 0.31}) {
       for (const bool snared : {false, true}) {
         const double period = frames / kOnsetRate;
-        std::vector<double> beats;
-        for (double beat = first; beat < 20; beat += period) beats.push_back(beat);
-        const BeatTrack track = FindBeats(FourOnTheFloor(first, period, snared));
-        EXPECT_GT(BeatFMeasure(track.Seconds(), beats), 0.95)
+        const BeatTrack track = FindBeats(Drums(first, period, snared ? "khbh" : "kh"));
+        EXPECT_GT(BeatFMeasure(track.Seconds(), Every(period, first, 20)), 0.95)
             << frames << " frames from " << first << (snared ? ", snared" : "");
       }
+    }
+  }
+}
+
+// Patterns learned that hats fall between beats.
+TEST(BeatsTest, KickAndSnareWithoutHatsAreTwoBeats) {
+  for (const double bpm : {70, 90, 100, 110, 128, 150}) {
+    for (const char* steps : {"k.s.", "k.b.", "k.skk.s."}) {
+      const BeatTrack track = FindBeats(Drums(0.2, 60 / bpm, steps));
+      EXPECT_GT(BeatFMeasure(track.Seconds(), Every(60 / bpm, 0.2, 20)), 0.95)
+          << bpm << " " << steps;
+    }
+  }
+}
+
+// Beats that are heard from the bass, or two of a kind, must not depend on what follows.
+TEST(BeatsTest, DrumsKeepTheirBeatBesideAPartWithoutThem) {
+  for (const double bpm : {100, 128, 150}) {
+    for (const char* steps : {"kh", "k.s.", "khsh"}) {
+      std::vector<float> song = Drums(0.2, 60 / bpm, steps);
+      const std::vector<float> after = BrokenChord(20, 30 / bpm);
+      song.insert(song.end(), after.begin(), after.end());
+      EXPECT_GT(BeatFMeasure(FindBeats(song).Seconds(), Every(60 / bpm, 0.2, 20), 0, 19), 0.95)
+          << bpm << " " << steps;
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 namespace choreo {
@@ -74,23 +75,40 @@ inline std::vector<float> Metal(double seconds, double period) {
   return wave;
 }
 
-/// Dance music at 22 050 Hz, 20 s: the bass drum on each beat, a hat between beats, and, if
-/// `snared`, a snare on every second beat. Beat k is at second `first` + k * `period`.
-inline std::vector<float> FourOnTheFloor(double first, double period, bool snared) {
+/// Drums at 22 050 Hz, 20 s. `steps`, again and again: a letter per half beat: k bass drum, s
+/// snare, b both, h hat, . nothing. The first is at second `first`.
+inline std::vector<float> Drums(double first, double period, std::string_view steps) {
   constexpr int64_t kRate = 22050;
   std::vector<float> wave(20 * kRate, 0.0F);
   const std::vector<float> kick = Sine(60, kRate, kRate / 10, 0.39), hat = Noise(730, 5, 0.2),
                            snare = Noise(kRate / 8, 6, 0.25);
-  const auto add = [&wave](double second, const std::vector<float>& sound, float decay) {
-    const auto at = static_cast<size_t>(std::lround(second * kRate));
-    for (size_t i = 0; i < sound.size() && at + i < wave.size(); ++i)
-      wave[at + i] += sound[i] * std::exp(-decay * static_cast<float>(i) / kRate);
-  };
-  for (int beat = 0; first + beat * period < 20; ++beat) {
-    const double second = first + beat * period;
-    add(second, kick, 25);
-    add(second + 0.5 * period, hat, 100);
-    if (snared && beat % 2 == 1) add(second, snare, 20);
+  for (size_t step = 0; first + static_cast<double>(step) * period / 2 < 20; ++step) {
+    const double second = first + static_cast<double>(step) * period / 2;
+    const auto add = [&](const std::vector<float>& sound, float decay) {
+      const auto at = static_cast<size_t>(std::lround(second * kRate));
+      for (size_t i = 0; i < sound.size() && at + i < wave.size(); ++i)
+        wave[at + i] += sound[i] * std::exp(-decay * static_cast<float>(i) / kRate);
+    };
+    const char letter = steps[step % steps.size()];
+    if (letter == 'k' || letter == 'b') add(kick, 25);
+    if (letter == 'h') add(hat, 100);
+    if (letter == 's' || letter == 'b') add(snare, 20);
+  }
+  return wave;
+}
+
+/// Plucked tones at 22 050 Hz, a broken chord whose three tones return every `period` seconds each.
+inline std::vector<float> BrokenChord(double seconds, double period) {
+  constexpr int64_t kRate = 22050;
+  std::vector<float> wave(static_cast<size_t>(seconds * kRate));
+  const std::vector<std::vector<float>> tones{Sine(220, kRate, kRate / 2, 0.2),
+                                              Sine(277, kRate, kRate / 2, 0.2),
+                                              Sine(330, kRate, kRate / 2, 0.2)};
+  for (size_t nth = 0; static_cast<double>(nth) * period < seconds; ++nth) {
+    const auto at = static_cast<size_t>(static_cast<double>(nth) * period * kRate);
+    const std::vector<float>& tone = tones[nth % tones.size()];
+    for (size_t i = 0; i < tone.size() && at + i < wave.size(); ++i)
+      wave[at + i] += tone[i] * std::exp(-6 * static_cast<float>(i) / kRate);
   }
   return wave;
 }
