@@ -20,8 +20,9 @@ constexpr int64_t kPauseFrames = 2 * kModelSampleRate / kOnsetHop;
 constexpr int64_t kMinFrames = kModelSampleRate / kOnsetHop;  // of music between pauses
 
 constexpr size_t kConfidenceBeats = 8;  // on either side
-constexpr double kMinConfidence = 0.25;
-constexpr double kSameTempo = 0.06;  // deviation from the median
+constexpr double kMinExcess = 0.25;
+constexpr float kAudibleRise_dB = 2;  // of a band; swells of held chords rise by less than one
+constexpr double kSameTempo = 0.06;   // deviation from the median
 
 // If onsets on straight beats are stronger than on swung ones by this factor, the swung beats are
 // offbeats of the straight ones.
@@ -103,17 +104,36 @@ std::vector<double> Confidences(std::span<const Onset> onsets, std::span<const i
   return confidences;
 }
 
-/// Whether each beat belongs to a pulse: most beats around it stand out on both sides. In noise and
-/// held notes none do.
+/// How many beats, before each, have a sound that can be heard to begin by the next.
+std::vector<size_t> Audible(std::span<const Onset> onsets, std::span<const int64_t> frames) {
+  std::vector<size_t> audible{0};
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const auto from = static_cast<size_t>(std::max<int64_t>(0, frames[i] - 1));
+    const auto to = static_cast<size_t>(
+        std::min(i + 1 < frames.size() ? frames[i + 1] : frames[i] + OnsetSums::kBeatFrames,
+                 std::ssize(onsets)));
+    const bool is = std::ranges::any_of(onsets.subspan(from, to - from), [](const Onset& onset) {
+      return std::ranges::max(onset.rise) >= kAudibleRise_dB;
+    });
+    audible.push_back(audible.back() + (is ? 1 : 0));
+  }
+  return audible;
+}
+
+/// Whether each beat belongs to a pulse: most beats around it stand out on both sides, and most
+/// have a sound that can be heard to begin. In noise and held notes none do.
 std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   const OnsetSums sums(onsets);
   std::vector<int64_t> frames;
   for (const BarPointer::Step& step : path) frames.push_back(step.frame);
+  const std::vector<size_t> audible = Audible(onsets, frames);
   constexpr size_t kBeats = kConfidenceBeats;
   const size_t last = frames.size() - std::min(frames.size(), kBeats + 1);
   const auto is_clear = [&](size_t first) {
-    const auto stretch = std::span(frames).subspan(first, std::min(frames.size(), kBeats + 1));
-    return ExcessOf(sums, stretch, Where::kOnBeatsOrHalfBeats) >= kMinConfidence;
+    const size_t count = std::min(frames.size(), kBeats + 1);
+    return 2 * (audible[first + count] - audible[first]) > count &&
+           ExcessOf(sums, std::span(frames).subspan(first, count), Where::kOnBeatsOrHalfBeats) >=
+               kMinExcess;
   };
   std::vector<size_t> clear{0};  // before each beat
   for (size_t i = 0; i < frames.size(); ++i) {
@@ -212,6 +232,19 @@ double TempoOf(std::span<const double> seconds) {
     ++count;
   }
   return 60 * count / sum;
+}
+
+std::vector<std::pair<double, double>> WithoutBeats(std::span<const double> beats, double seconds) {
+  constexpr double kMissed_s = 4;  // more than three of the slowest beats
+  std::vector<std::pair<double, double>> without;
+  double last = 0;
+  const auto until = [&](double next) {
+    if (next - last > kMissed_s) without.emplace_back(last, next);
+    last = next;
+  };
+  for (const double beat : beats) until(beat);
+  until(seconds);
+  return without;
 }
 
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, MusicExtent extent) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/audio/onset.h"
@@ -16,11 +17,13 @@ inline constexpr int kTempoWindowSeconds = 8;
 
 /// The beats that a dancer would count.
 struct BeatTrack {
-  double tempo_bpm = 0;              ///< of most beats; 0 without beats
-  int beats_in_bar = 0;              ///< in most bars: 4, 3, or 2 of three eighths each
-  std::vector<int64_t> frames{};     ///< ascending, in steps of kOnsetHop samples at 22 050 Hz
-  std::vector<int> in_bar{};         ///< of each beat; 0: a downbeat
-  std::vector<double> confidence{};  ///< of each beat: 0 (as much begins elsewhere) to 1
+  double tempo_bpm = 0;           ///< of most beats; 0 without beats
+  int beats_in_bar = 0;           ///< in most bars: 4, 3, or 2 of three eighths each
+  std::vector<int64_t> frames{};  ///< ascending, in steps of kOnsetHop samples at 22 050 Hz
+  std::vector<int> in_bar{};      ///< of each beat; 0: a downbeat
+  /// Of each beat: how much more begins on the beats around it than elsewhere, 0 to 1. It is not
+  /// the chance that they are right: sound begins on half of the beats, or twice as many, too.
+  std::vector<double> confidence{};
 
   std::vector<double> Seconds() const;
   std::vector<double> DownbeatSeconds() const;
@@ -52,5 +55,9 @@ BeatTrack FindBeats(std::span<const float> mono);
 /// The tempo of most beats: the mean of the intervals near their median. 0 for fewer than two
 /// beats. `seconds` ascend.
 double TempoOf(std::span<const double> seconds);
+
+/// Where no beat is heard for more than four seconds, [from, to), in music of `seconds`. Beats, in
+/// seconds, ascend.
+std::vector<std::pair<double, double>> WithoutBeats(std::span<const double> beats, double seconds);
 
 }  // namespace choreo

@@ -100,6 +100,14 @@ TEST(BeatsTest, PartsWithoutAPulseHaveNone) {
             2);
 }
 
+// Chords that swell and fade had up to 56 beats.
+TEST(BeatsTest, SwellingChordsHaveNone) {
+  for (const uint64_t seed : {9'000'260, 9'000'261, 9'000'262}) {
+    const SongPlan plan{.seed = seed, .seconds = 40, .tempo = {{0, 90}}, .only_pad = true};
+    EXPECT_TRUE(FindBeats(MakeSong(plan).mono).frames.empty()) << seed;
+  }
+}
+
 // Guitars that are louder than the drums, half a beat later.
 TEST(BeatsTest, LoudOffBeatsAreAPulseToo) {
   const std::vector<float> metal = Metal(20, 0.5);
@@ -190,6 +198,14 @@ TEST(BeatsTest, SilenceHasNeitherTempoNorBeats) {
 TEST(BeatsTest, TempoIsThatOfMostBeats) {
   EXPECT_EQ(TempoOf({}), 0);
   EXPECT_NEAR(TempoOf(std::vector<double>{0, 0.5, 1, 1.5, 3, 3.5}), 120, 1e-9);
+}
+
+TEST(BeatsTest, PartsWithoutBeatsAreTold) {
+  using Spans = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(WithoutBeats({}, 30), (Spans{{0, 30}}));
+  const std::vector<double> beats{5, 6, 7, 15, 16};
+  EXPECT_EQ(WithoutBeats(beats, 20), (Spans{{0, 5}, {7, 15}}));
+  EXPECT_EQ(WithoutBeats(beats, 21), (Spans{{0, 5}, {7, 15}, {16, 21}}));
 }
 
 TEST(BeatsTest, SecondsCountFromTheFirstSample) {
