@@ -7,6 +7,7 @@
 #include "client/authoring/motion_input.h"
 #include "client/authoring/music.h"
 #include "client/authoring/written_controls.h"
+#include "client/cli/authoring_options.h"
 #include "client/cli/commands.h"
 #include "client/cli/options.h"
 #include "client/cli/output_file.h"
@@ -26,6 +27,8 @@ constexpr double kSmoothing_s = 0.5;  // window for averaging speeds
 struct PlotOptions {
   std::string of;
   std::string song;
+  double song_start_s = 0;
+  authoring::BeatOptions beats;
   std::vector<std::string> motions, labels, paths;
   std::vector<double> speeds;
   Plot plot;
@@ -114,7 +117,8 @@ PlotSeries MarksAt(const std::vector<double>& seconds, double top) {
 
 // The song's beats, the curve of the mean joint speed, and its maxima, the kinematic beats (paper
 // F, Figure 4).
-std::vector<PlotSeries> BeatsOf(const SkeletonMotion& dance, const std::string& song) {
+std::vector<PlotSeries> BeatsOf(const PlotOptions& options) {
+  const SkeletonMotion dance = authoring::ReadMotionNoting(options.motions.front());
   const auto& [skeleton, motion] = dance;
   std::vector<float> speeds;
   Eigen::Matrix3Xd before;
@@ -134,9 +138,10 @@ std::vector<PlotSeries> BeatsOf(const SkeletonMotion& dance, const std::string& 
   std::vector<double> kinematic;
   for (const int64_t frame : KinematicBeats(speeds, motion.fps))
     kinematic.push_back(static_cast<double>(frame) / motion.fps);
-  std::vector<PlotSeries> series = {
-      MarksAt(authoring::BeatsBefore(authoring::ReadMusic(song, seconds), seconds), top),
-      std::move(line), MarksAt(kinematic, top)};
+  const authoring::Music music =
+      authoring::ReadMusic(options.song, seconds, options.song_start_s, options.beats);
+  std::vector<PlotSeries> series = {MarksAt(authoring::BeatsBefore(music, seconds), top),
+                                    std::move(line), MarksAt(kinematic, top)};
   series.front().label = "beats of the song";
   series.back().label = "kinematic beats, its maxima";
   return series;
@@ -164,11 +169,13 @@ void Run(PlotOptions& options) {
   const std::optional<BodyPart> part = FindBodyPart(options.of);
   const bool beats = options.of == "beats";
   const bool height = options.of == "height";
+  if (!options.beats.FindsThem()) inputs.push_back({"--beats", *options.beats.beats});
   RequireOutputs({{"--out", options.out}}, inputs);
   if (beats != !options.song.empty()) {
     throw InvalidArgument("--song", beats ? "beats want the song that was danced to"
                                           : "goes with beats, not with " + options.of);
   }
+  authoring::RequireSong(options.beats, options.song);
   if (beats && options.motions.size() > 1) {
     throw InvalidArgument(
         "motions", std::to_string(options.motions.size()) + ", but beats are plotted of one");
@@ -191,7 +198,7 @@ void Run(PlotOptions& options) {
     plot.x_label = "s";
     plot.y_label = "m/s";
     plot.from_zero = true;
-    plot.series = BeatsOf(authoring::ReadMotionNoting(options.motions.front()), options.song);
+    plot.series = BeatsOf(options);
     DrawPlot(plot, options.out);
     return;
   }
@@ -247,6 +254,8 @@ void AddPlotCommand(CLI::App& program) {
       ->check(NumberFrom(0, 1000));
   command->add_option("--song", options->song, "Of beats: the song that was danced to.")
       ->check(CLI::ExistingFile);
+  AddSongStart(*command, options->song_start_s);
+  AddBeatOptions(*command, &options->beats);
   command->add_option("--title", options->plot.title, "Heading.");
   command->add_option("--width", options->plot.width, "Pixels.")
       ->check(WholeNumberFrom(kMinPlotPixels, kMaxPlotPixels))
@@ -254,7 +263,10 @@ void AddPlotCommand(CLI::App& program) {
   command->add_option("--height", options->plot.height, "Pixels.")
       ->check(WholeNumberFrom(kMinPlotPixels, kMaxPlotPixels))
       ->capture_default_str();
-  command->callback([options] { Run(*options); });
+  command->callback([options, command] {
+    CheckSongStart(*command, options->song);
+    Run(*options);
+  });
 }
 
 }  // namespace choreo::cli

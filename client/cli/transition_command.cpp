@@ -30,6 +30,7 @@ struct TransitionOptions : authoring::DanceManner {
   std::string to;
   int frames = kTypicalFrames;
   std::string song;
+  authoring::BeatOptions beats;
   std::string at = "0";
   int candidates = 1;
   std::string rank_by = "quality";
@@ -80,7 +81,9 @@ void Run(const TransitionOptions& options) {
   inputs.push_back({"--from", authoring::FileOf(options.from)});
   inputs.push_back({"--to", authoring::FileOf(options.to)});
   inputs.push_back({"--song", options.song});
+  if (!options.beats.FindsThem()) inputs.push_back({"--beats", *options.beats.beats});
   RequireOutputs(outputs, inputs);
+  authoring::RequireSong(options.beats, options.song);
   const Connection connection(options.server, options.model);
   const client::ModelDescription& model = connection.model(options.model);
 
@@ -103,7 +106,8 @@ void Run(const TransitionOptions& options) {
   authoring::Counts counts;
   if (!options.song.empty()) {
     constexpr double kAll = std::numeric_limits<double>::infinity();
-    music = authoring::ReadMusic(options.song, at.counts ? kAll : at.amount + seconds);
+    music = authoring::ReadMusic(options.song, at.counts ? kAll : at.amount + seconds, 0,
+                                 options.beats);
     counts = authoring::CountsOf(*music);
   }
   const double at_s = at.In(counts, "--at");
@@ -172,6 +176,7 @@ void AddTransitionCommand(CLI::App& program) {
       ->check(WholeNumberFrom(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->add_option("--song", options->song, "Music to move to.")->check(SongFile());
+  AddBeatOptions(*command, &options->beats);
   command
       ->add_option("--at", options->at,
                    "Second of the song, path and factors at which it begins, or count of the song "

@@ -82,10 +82,21 @@ TEST_F(PlotCommandTest, DrawsBeatsOfTheBodyAndOfTheSong) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   const int line = Drawn(kFirstLine), ink = Drawn(kInk);
   EXPECT_GT(line, 2000) << "the curve and its maxima";
+  ASSERT_EQ(Plot("beats " + At("sway.npz") + " --half-time --song " + At("song.wav")).code, 0);
+  EXPECT_LT(Drawn(kInk), ink - 200) << "half of the beats";
   WriteWav(folder_ / "song.wav", std::vector<float>(8 * 22050));
   ASSERT_EQ(Plot("beats " + At("sway.npz") + " --song " + At("song.wav")).code, 0);
   EXPECT_LT(Drawn(kInk), ink - 500) << "silence has no beats";
   EXPECT_NEAR(Drawn(kFirstLine), line, 10);
+}
+
+// Who corrects the beats of a song does so in each command.
+TEST_F(PlotCommandTest, EachCommandThatHearsASongTakesTheSameOptionsOfBeats) {
+  for (const char* command : {"analyze", "dance", "edit", "transition", "plot"}) {
+    const Outcome outcome = Choreo(std::string(command) + " --help");
+    for (const char* option : {"--beats", "--tempo", "--half-time", "--double-time", "--downbeat"})
+      EXPECT_THAT(outcome.said, HasSubstr(option)) << command;
+  }
 }
 
 TEST_F(PlotCommandTest, NamesMotionsThatDoNotFit) {
