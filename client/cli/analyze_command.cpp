@@ -82,6 +82,9 @@ void PrintJson(const authoring::Music& music, const authoring::Counts& counts,
   json["beats_in_bar"] = music.track.beats_in_bar;
   json["downbeats"] = music.track.DownbeatSeconds();
   json["confidence"] = music.track.confidence;
+  json["without_beats"] = nlohmann::ordered_json::array();
+  for (const auto& [from, to] : WithoutBeats(music.track.Seconds(), music.audio.seconds()))
+    json["without_beats"].push_back({{"from_s", from}, {"to_s", to}});
   json["passages"] = nlohmann::ordered_json::array();
   for (const Passage& passage : music.passages) {
     json["passages"].push_back(
@@ -103,7 +106,7 @@ void PrintJson(const authoring::Music& music, const authoring::Counts& counts,
   std::cout << json.dump(2) << std::endl;
 }
 
-/// Prints where the tempo changes, and the confidence of each stretch.
+/// Prints the tempo and confidence of each stretch of one tempo.
 void PrintStretches(const BeatTrack& track) {
   constexpr double kOther = 0.04;  // share by which another tempo differs
   constexpr size_t kMinBeats = 8;  // beats of a stretch
@@ -118,7 +121,7 @@ void PrintStretches(const BeatTrack& track) {
     if (std::abs(after / before - 1) > kOther && i - begins.back() >= kMinBeats)
       begins.push_back(i);
   }
-  if (beats.size() < 2 || begins.size() < 2) return;
+  if (beats.size() < 2) return;
   for (size_t k = 0; k < begins.size(); ++k) {
     const size_t end = k + 1 < begins.size() ? begins[k + 1] : beats.size() - 1;
     double confidence = 0;
@@ -137,14 +140,22 @@ std::string Counted(size_t count, const std::string& what) {
 void PrintText(const authoring::Music& music, const authoring::Counts& counts,
                const std::optional<std::vector<authoring::ProposedKey>>& keys) {
   const BeatTrack& track = music.track;
-  std::printf("%.2f s at %d Hz, %s; %.1f beats a minute, %s, %s of %d", music.audio.seconds(),
-              music.audio.sample_rate,
-              Counted(static_cast<size_t>(music.audio.channels), "channel").c_str(),
-              track.tempo_bpm, Counted(track.frames.size(), "beat").c_str(),
-              Counted(track.DownbeatSeconds().size(), "bar").c_str(), track.beats_in_bar);
+  std::printf("%.2f s at %d Hz, %s; ", music.audio.seconds(), music.audio.sample_rate,
+              Counted(static_cast<size_t>(music.audio.channels), "channel").c_str());
+  if (track.frames.empty()) {
+    std::printf("no beat heard");
+  } else {
+    std::printf("%.1f beats a minute, %s, %s of %d", track.tempo_bpm,
+                Counted(track.frames.size(), "beat").c_str(),
+                Counted(track.DownbeatSeconds().size(), "bar").c_str(), track.beats_in_bar);
+  }
   if (!counts.beats.empty()) std::printf(", count 1 at %.3f s", counts.beats[counts.one]);
   std::printf("\n");
   PrintStretches(track);
+  if (!track.frames.empty()) {
+    for (const auto& [from, to] : WithoutBeats(track.Seconds(), music.audio.seconds()))
+      std::printf("%9.3f s  to %.3f s no beat heard here\n", from, to);
+  }
   for (const Passage& passage : music.passages)
     std::printf("%9.3f s  to %.3f s comes back as from %.3f s\n", passage.from, passage.to,
                 passage.like);
@@ -202,7 +213,8 @@ void AddAnalyzeCommand(CLI::App& program) {
   command->add_flag(
       "--json", options->json,
       "Print duration_s, sample_rate, tempo_bpm, beats (seconds), beats_in_bar, downbeats "
-      "(seconds), confidence (of each beat, 0 to 1), passages (that come back), notes and "
+      "(seconds), confidence (of each beat, 0 to 1: how much more begins on the beats around it "
+      "than elsewhere), without_beats (where none is heard), passages (that come back), notes and "
       "suggested_keys as JSON.");
   command->add_option("--features", options->features,
                       "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
