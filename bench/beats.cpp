@@ -157,13 +157,18 @@ double Judge(const Judged& song) {
 }
 
 void JudgeFiles(const std::vector<std::string>& songs, const std::string& librosa) {
-  nlohmann::json golden;
-  if (!librosa.empty()) golden = nlohmann::json::parse(std::ifstream(librosa));
+  const nlohmann::json golden = nlohmann::json::parse(std::ifstream(librosa));
   for (const std::string& path : songs) {
     Judged song;
     song.name = std::filesystem::path(path).stem();
+    const auto map = std::filesystem::path(path).replace_extension(".beats");
+    if (!std::filesystem::exists(map)) {
+      std::printf("%-34s not judged: its beats are not known, %s is missing\n", song.name.c_str(),
+                  map.filename().c_str());
+      continue;
+    }
     song.mono = ToModelRate(DecodeAudioFile(path));
-    song.beats = ReadSeconds(std::filesystem::path(path).replace_extension(".beats"));
+    song.beats = ReadSeconds(map);
     if (golden.contains(song.name))
       song.librosa = BeatFMeasure(golden[song.name].get<std::vector<double>>(), song.beats);
     Judge(song);
@@ -222,12 +227,15 @@ int main(int argc, char** argv) {
   using namespace choreo;
   CLI::App program("Compares beats that are found, and heard live, with those that are known.");
   std::vector<std::string> songs;
-  std::string librosa;
+  std::string librosa = CHOREO_SOURCE_DIR "/bench/librosa.json";
   std::optional<uint64_t> made, patterns;
   program.add_option("songs", songs, "Songs, each with its tempo map SONG.beats beside it.")
       ->check(CLI::ExistingFile);
-  program.add_option("--librosa", librosa,
-                     "JSON of what librosa.beat.beat_track found: {\"SONG\": [seconds]}.");
+  program
+      .add_option("--librosa", librosa,
+                  "JSON of what librosa.beat.beat_track found: {\"SONG\": [seconds]}.")
+      ->check(CLI::ExistingFile)
+      ->capture_default_str();
   program.add_option("--made", made,
                      "First seed of made songs. Development had those below 1000000.");
   program.add_option("--patterns", patterns,
