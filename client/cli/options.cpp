@@ -112,7 +112,7 @@ void AddManner(CLI::App& command, authoring::DanceManner* manner) {
       ->check(NumberFrom(0, 1));
   command
       .add_option("--style", manner->style,
-                  "How to dance, as happy or tired: a style that `choreo info` lists, apart those "
+                  "How to dance, as happy or tired: a style that `choreo info` lists, apart from those "
                   "that do not show, as all of the model default. Default: no style in "
                   "particular.")
       ->check([](const std::string& name) {
