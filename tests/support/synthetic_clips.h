@@ -43,7 +43,7 @@ inline PreparedClip SyntheticClip(const std::string& name, int frames, double ph
     clip.audio.resize(40, frames);
     for (int f = 0; f < frames; ++f) {
       for (int i = 0; i < 40; ++i) {
-        const double beat = f % 15 < 2 ? 1 : 0;  // two a second
+        const double beat = f % 15 < 2 ? 4 : 0;  // two a second, which can be heard
         clip.audio(i, f) = static_cast<float>(0.1 * std::sin(0.3 * f + i) + beat);
       }
     }
