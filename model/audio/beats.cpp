@@ -108,10 +108,11 @@ std::vector<double> Confidences(std::span<const Onset> onsets, std::span<const i
 std::vector<size_t> Audible(std::span<const Onset> onsets, std::span<const int64_t> frames) {
   std::vector<size_t> audible{0};
   for (size_t i = 0; i < frames.size(); ++i) {
-    const auto from = static_cast<size_t>(std::max<int64_t>(0, frames[i] - 1));
-    const auto to = static_cast<size_t>(
-        std::min(i + 1 < frames.size() ? frames[i + 1] : frames[i] + OnsetSums::kBeatFrames,
-                 std::ssize(onsets)));
+    const int64_t end = i + 1 < frames.size() ? frames[i + 1] : frames[i] + OnsetSums::kBeatFrames;
+    const auto at = [&](int64_t frame) {  // the last beats may be ahead of the music
+      return static_cast<size_t>(std::clamp<int64_t>(frame, 0, std::ssize(onsets)));
+    };
+    const size_t from = at(frames[i] - 1), to = std::max(from, at(end));
     const bool is = std::ranges::any_of(onsets.subspan(from, to - from), [](const Onset& onset) {
       return std::ranges::max(onset.rise) >= kAudibleRise_dB;
     });

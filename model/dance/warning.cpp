@@ -69,7 +69,7 @@ Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest) {
 Warning PathBehindEnd(int64_t first_frame, int64_t end) {
   return {first_frame,
           "the root path begins at frame " + std::to_string(first_frame) +
-              ", and the last frame is " + std::to_string(end - 1) + ": nothing comes of it",
+              ", after the last one at frame " + std::to_string(end - 1) + ": nothing comes of it",
           Warning::Code::kPathBehindEnd};
 }
 

@@ -122,7 +122,7 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   EXPECT_THAT(text.said, HasSubstr(" Hz, 1 channel; "));
   EXPECT_THAT(Choreo("analyze --seconds 0.6 " + At("song.wav")).said, HasSubstr(" 1 bar of 4, "));
   EXPECT_EQ(text.code, 0);
-  EXPECT_EQ(std::count(text.said.begin(), text.said.end(), '\n'), 6) << text.said;
+  EXPECT_EQ(std::count(text.said.begin(), text.said.end(), '\n'), 7) << text.said;
   char line[32];
   std::snprintf(line, sizeof line, "%.3f s  count %d", keys[2]["time_s"].get<double>(),
                 keys[2]["count"].get<int>());

@@ -50,8 +50,10 @@ TEST_F(CommandTest, DancesThroughTheLibraryAndWritesBesideTheSong) {
     EXPECT_LE(key["final_error_m"].get<double>(), 0.001);
     EXPECT_LE(key["final_error_deg"].get<double>(), 0.1);
     EXPECT_GT(key["max_acceleration"].get<double>(), 0);
-    EXPECT_GT(key["raw_error_m"].get<double>(), 0);
-    EXPECT_GT(key["correction_m"].get<double>(), 0);
+    if (!key.contains("holds")) {  // no model dances those
+      EXPECT_GT(key["raw_error_m"].get<double>(), 0);
+      EXPECT_GT(key["correction_m"].get<double>(), 0);
+    }
     EXPECT_EQ(key["output_frame"], key["frame"]);
     EXPECT_TRUE(key["on_output_frame"].get<bool>());
     EXPECT_LE(key["output_error_m"].get<double>(), 0.001);

@@ -208,7 +208,7 @@ TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->code, Warning::Code::kPathBehindEnd);
   EXPECT_EQ(warning->message,
-            "the root path begins at frame 100, and the last frame is 99: nothing comes of it");
+            "the root path begins at frame 100, after the last one at frame 99: nothing comes of it");
   track_.Set(PathRequest({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
   EXPECT_FALSE(track_.BehindEnd(100));
 }
