@@ -34,7 +34,9 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
                            .style = request.style};
   const auto factors = MeanVelocityFactors(model.skeleton, request.history);
   for (size_t part = 0; part < factors.size(); ++part) {
-    if (factors[part] > 0) known.history[static_cast<int>(part)] = level(part, factors[part]);
+    const auto row = static_cast<Eigen::Index>(part);
+    known.history[row] = factors[part] > 0 ? level(part, factors[part])
+                                           : model.energy.least[EnergyPrior::kHistoryInput + row];
   }
   if (!known.key || !TellsLimbs(model.skeleton, request.mask)) return known;
   const BodyPartWeights weights = WeighBodyParts(model.skeleton);

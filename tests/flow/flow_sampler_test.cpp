@@ -454,6 +454,17 @@ TEST(KnownOfEnergy, ContainsTheDistanceToTheKey) {
             (*still.way)[kLeftArm]);
 }
 
+// A dancer who came out of a held pose was taken for one of median liveliness, and burst out of it.
+TEST(KnownOfEnergy, AStillHistoryIsTheCalmest) {
+  FlowModelParts parts = Parts();
+  parts.energy.least.segment<kBodyParts>(EnergyPrior::kHistoryInput).setConstant(-3);
+  const std::vector<Pose> history(2, RestPose(parts.skeleton));
+  WindowRequest request{.frames = 30, .history = history, .to_key = 30};
+  request.key = RestPose(parts.skeleton);
+  const auto known = KnownOfEnergy(parts, request, FlowWindow(parts.prior, request));
+  EXPECT_TRUE((known.history.array() == -3).all()) << known.history.transpose();
+}
+
 // Else dances through few keys would be as slow as the mean way to them.
 TEST(KnownOfEnergy, OmitsAKeyBeyondTheWindow) {
   const FlowModelParts parts = Parts();
