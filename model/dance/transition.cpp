@@ -72,7 +72,18 @@ Pose AtRest(Pose pose, const ControlCurve& path) {
   return pose;
 }
 
-constexpr int kFootworkFrames = 300;  // that footwork processes in one slice
+constexpr std::ptrdiff_t kFootworkFrames = 300;  // that footwork processes in one slice, at most
+
+// The last `count` poses of `before` and then the frames, of which it takes the pose.
+template <typename Frames, typename PoseOf>
+std::vector<Pose> LastPoses(size_t count, const std::vector<Pose>& before, const Frames& frames,
+                            PoseOf pose_of) {
+  std::vector<Pose> last;
+  const size_t all = before.size() + frames.size();
+  for (size_t at = all - std::min(count, all); at < all; ++at)
+    last.push_back(at < before.size() ? before[at] : pose_of(frames[at - before.size()]));
+  return last;
+}
 
 // The volatile keeps the rounding: GCC 12's SLP vectoriser at -O3 drops double -> float -> double
 // of neighbouring numbers, as in Eigen's cast<float>().cast<double>() of a Vector3d.
@@ -229,19 +240,21 @@ void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const 
                   whose + ", is not a finite pose");
 }
 
-// Processes the next kFootworkFrames frames only, so that other dances need not wait for the
-// footwork of a long plan.
+// Processes a part of the frames only, so that other dances need not wait for the footwork of a
+// long plan. Parts are about equally long: in a short last one the pelvis had to dash to the key.
 void TransitionRun::PutOnFeet() {
   const auto from = plan_.begin() + std::ssize(frames_);
-  const bool ends = std::distance(from, plan_.end()) <= kFootworkFrames;
-  const auto to = ends ? plan_.end() : from + kFootworkFrames;
+  const std::ptrdiff_t left = plan_.end() - from;
+  const std::ptrdiff_t parts = (left + kFootworkFrames - 1) / kFootworkFrames;
+  const auto to = from + (left + parts - 1) / parts;
   std::vector<Contacts> contacts;
   if (footwork_) {
-    std::vector<Pose> history = spec_.history;
-    history.insert(history.end(), plan_.begin(), from);
+    const std::vector<Pose> history =
+        LastPoses(spec_.history.size(), spec_.history, std::span(plan_.begin(), from),
+                  [](const Pose& pose) -> const Pose& { return pose; });
     const FootworkContext context{.skeleton = model_->skeleton,
-                                  .history = std::span(history).last(spec_.history.size()),
-                                  .keyed = ends && arrival_,
+                                  .history = history,
+                                  .keyed = to == plan_.end() && arrival_,
                                   .held = held_,
                                   .has_path = spec_.controls[kRootPath].IsGiven(),
                                   .offset_before = offset_,
@@ -296,10 +309,8 @@ GroundFrame TransitionRun::StageAfter(size_t frames) const {
 }
 
 std::vector<Pose> TransitionRun::HistoryAfter(size_t frames) const {
-  std::vector<Pose> history = before_;
-  for (size_t at = 0; at < frames; ++at) history.push_back(frames_[at].pose);
-  history.erase(history.begin(), history.end() - std::ssize(before_));
-  return history;
+  return LastPoses(before_.size(), before_, std::span(frames_).first(frames),
+                   [](const DanceFrame& frame) -> const Pose& { return frame.pose; });
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {

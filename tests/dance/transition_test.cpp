@@ -137,6 +137,30 @@ TEST(Transition, AHeldPoseKeepsItsPlace) {
   EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
 }
 
+// Footwork takes 300 frames at once; of 301 it left one frame in which the pelvis was to get to
+// the key.
+TEST(Transition, ALongPlanReachesItsKeyWithoutADash) {
+  FakeSampler sampler;
+  const auto hardest = [&](int frames) {
+    TransitionRequest request;
+    request.spec.frames = frames;
+    request.spec.temperature = 0;
+    Pose leaning = StandingPose(sampler.model().skeleton);
+    leaning.rotations.col(0).z() = 0.3;  // which footwork balances by the pelvis, but not in keys
+    request.spec.history.assign(10, leaning);
+    request.spec.target = Target{leaning, {}};
+    const TransitionRun run = DanceTransition(sampler, request);
+    double most = 0;
+    for (size_t i = run.frames().size() - 20; i + 1 < run.frames().size(); ++i) {
+      const auto root = [&](size_t at) { return run.frames()[at].pose.root_position; };
+      most = std::max(most, (root(i + 1) - 2 * root(i) + root(i - 1)).norm());
+    }
+    return most;
+  };
+  const double usual = hardest(300);
+  for (const int frames : {301, 302, 305}) EXPECT_LT(hardest(frames), 1.5 * usual) << frames;
+}
+
 TEST(Transition, FramesAreFloatsAndHitTheKey) {
   FakeSampler sampler;
   const TransitionRequest request = RandomRequest(3);
