@@ -68,6 +68,10 @@ class PlanStander {
       plan_ = proposed;
       PlaceLegs();
     }
+    if (!context_.held && RaiseFromFloor()) {
+      plan_ = proposed;
+      PlaceLegs();
+    }
     Footwork result{.contacts = FinalContacts()};
     result.offset.col(0) = context_.offset_before.col(1);
     result.offset.rightCols(std::min(2, frames_)) = offset_.rightCols(std::min(2, frames_));
@@ -76,6 +80,10 @@ class PlanStander {
 
  private:
   bool Stands(size_t side, int frame) const { return StanceAt(stances_[side], frame) != nullptr; }
+  // The share of a change within kSettleSeconds that is done after so many frames.
+  double Settled(int frames) const {
+    return SmoothStep(std::clamp(frames / (kSettleSeconds * context_.fps), 0.0, 1.0));
+  }
   bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
 
   // The smoothed centre of mass of the plan as it is now; index 0 is the frame before the first.
@@ -196,10 +204,9 @@ class PlanStander {
   double Bears(size_t side, int frame) const {
     const Stance* stance = StanceAt(stances_[side], frame);
     if (stance == nullptr) return 0;
-    const double settle = kSettleSeconds * context_.fps;
-    const double since = stance->from == 0 ? settle : frame - stance->from;
-    const double until = stance->to == frames_ - 1 && !context_.keyed ? settle : stance->to - frame;
-    return SmoothStep(std::clamp(std::min(since, until) / settle, 0.0, 1.0));
+    const int since = stance->from == 0 ? frames_ : frame - stance->from;
+    const int until = stance->to == frames_ - 1 && !context_.keyed ? frames_ : stance->to - frame;
+    return Settled(std::min(since, until));
   }
 
   // Limits ankles: none is lower than in a flat foot, and that of a supporting foot is at most as
@@ -207,7 +214,6 @@ class PlanStander {
   // do beyond these limits fades out, or in, within kSettleSeconds; a held pose keeps it.
   void LayDown(size_t side) {
     const Leg& leg = legs_[side];
-    const double settle = kSettleSeconds * context_.fps;
     const auto sunk = [&](const Eigen::Matrix3Xd& at) {
       return std::max(0.0, ankle_rest_[side] - at(1, leg.ankle));
     };
@@ -220,8 +226,7 @@ class PlanStander {
     const auto own = [&](const auto& measure, int frame) {
       const double first = measure(before), last = context_.keyed ? measure(end) : 0;
       if (context_.held) return std::max(first, last);
-      const auto fade = [&](int away) { return 1 - SmoothStep(std::min(1.0, away / settle)); };
-      return std::max(fade(frame + 1) * first, fade(frames_ - 1 - frame) * last);
+      return std::max((1 - Settled(frame + 1)) * first, (1 - Settled(frames_ - 1 - frame)) * last);
     };
     for (int frame = 0; frame < frames_; ++frame) {
       if (IsKey(frame)) return;
@@ -284,6 +289,29 @@ class PlanStander {
                                 NextBend(bends[side], 1 / context_.fps));
       }
     }
+  }
+
+  // Raises the pelvis around frames in which another joint than the feet's is under the floor, as
+  // knees are on the way to and from the floor. True if there are any.
+  bool RaiseFromFloor() {
+    const double lowest = std::min(toes_rest_[0], toes_rest_[1]);
+    std::vector<double> sunk(plan_.size());
+    for (int frame = 0; frame < frames_; ++frame) {
+      if (IsKey(frame)) continue;
+      const auto i = static_cast<size_t>(frame);
+      Eigen::RowVectorXd heights = JointPositions(skeleton_, plan_[i]).row(1);
+      for (const int foot : skeleton_.feet) heights[foot] = lowest;
+      sunk[i] = lowest - heights.minCoeff();
+    }
+    if (std::ranges::max(sunk) <= 0) return false;
+    for (int frame = 0; frame < frames_; ++frame) {
+      double most = 0;
+      for (int at = 0; at < frames_; ++at)
+        most = std::max(most, (1 - Settled(std::abs(at - frame))) * sunk[static_cast<size_t>(at)]);
+      const int from_end = context_.keyed ? frames_ - 1 - frame : frames_;
+      offset_(1, frame) += Settled(std::min(frame + 1, from_end)) * most;
+    }
+    return true;
   }
 
   // The foot keeps its rotation, so its ankle moves with its toes.

@@ -124,6 +124,31 @@ TEST(StandOnFeet, ATuckedBodyLandsInTimeForItsOwnFall) {
   EXPECT_GE(air, 6);
 }
 
+// Knees went through the floor on the way to splits and from them.
+TEST(StandOnFeet, NoKneeGoesThroughTheFloor) {
+  std::vector<Pose> plan;
+  for (int i = 1; i <= kFrames; ++i) {
+    const double low = std::pow(std::sin(M_PI * i / kFrames), 2);
+    Pose pose = At({0, -0.65 * low, 0});
+    for (const Leg& leg : Leg::Of(Body())) {
+      pose.rotations.col(leg.hip).x() += 0.25 * low;  // upright on the knees
+      pose.rotations.col(leg.knee).x() += 1.1 * low;
+    }
+    plan.push_back(pose);
+  }
+  const auto lowest = [](const Pose& pose) {
+    return JointPositions(Body(), pose).row(1).minCoeff();
+  };
+  ASSERT_LT(lowest(plan[kFrames / 2]), -0.1);
+  StandOnFeet(Context(), &plan);
+  double before = plan.front().root_position.y();
+  for (const Pose& pose : plan) {
+    EXPECT_GT(lowest(pose), -0.02);
+    EXPECT_LT(std::abs(pose.root_position.y() - before), 0.06);
+    before = pose.root_position.y();
+  }
+}
+
 TEST(StandOnFeet, FeetOfAGlidingBodyStandAndStep) {
   std::vector<Pose> plan = Glide(0.015);
   const Footwork footwork = StandOnFeet(Context(), &plan);
