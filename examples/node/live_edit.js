@@ -20,9 +20,8 @@ function edits(seconds, { skeleton, controls }) {
       { ahead: 1.5, rotations: { left_shoulder: arms.left_shoulder } },
       { ahead: 0.8, rotations: arms },
     ]) {
-      const { rotations: numbers } = pose(skeleton, rotations);
-      // Without a root position the key stands wherever the dancer is then.
-      said.push({ at: second - ahead, request: { keyframe: { id: `second ${second}`, time: second, pose: { rotations: numbers } } } });
+      const wanted = pose(skeleton, rotations); // wherever the dancer is then
+      said.push({ at: second - ahead, request: { keyframe: { id: `second ${second}`, time: second, pose: wanted } } });
     }
   }
   if (controls.includes('CONTROL_VELOCITY_FACTORS')) {

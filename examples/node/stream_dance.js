@@ -22,7 +22,7 @@ async function* requests(options, { skeleton, model_frame_rate }) {
       audio_format: options.song ? { encoding: 'AUDIO_ENCODING_FILE' } : pcm,
     },
   };
-  const armsUp = pose(skeleton, { left_shoulder: [0, 0, 1], right_shoulder: [0, 0, -1] }, { z: 0.3 });
+  const armsUp = pose(skeleton, { left_shoulder: [0, 0, 1], right_shoulder: [0, 0, -1] }, { place: [0, 0.3] });
   yield { keyframe: { id: 'arms up', time: seconds * 0.4, pose: armsUp } };
   yield { keyframe: { id: 'rest', time: seconds * 0.8, pose: pose(skeleton) } };
   yield { keyframes_complete: {} };

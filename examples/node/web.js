@@ -38,8 +38,7 @@ class Refusal extends Error {
 function keyRequest({ id, time, rotations }, { skeleton }) {
   const turns = rotations ?? {};
   const joints = skeleton.joint_names.flatMap((name, joint) => (Object.hasOwn(turns, name) ? joint : []));
-  // Without a root position the key stands wherever the dancer is then.
-  return { keyframe: { id, time, pose: { rotations: pose(skeleton, turns).rotations }, mask: { joints } } };
+  return { keyframe: { id, time, pose: pose(skeleton, turns), mask: { joints } } }; // wherever the dancer is then
 }
 
 class Backend {

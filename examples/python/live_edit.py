@@ -19,8 +19,7 @@ def edits(options, model):
     for second in range(2, int(options.seconds), 2):
         left, both = {"left_shoulder": [0, 0, 1]}, {"left_shoulder": [0, 0, 1], "right_shoulder": [0, 0, -1]}
         for ahead, rotations in ((1.5, left), (options.change_ahead, both)):
-            wanted = pose(model.skeleton, rotations)
-            wanted.ClearField("root_position")  # wherever the dancer is then
+            wanted = pose(model.skeleton, rotations)  # wherever the dancer is then
             said.append((second - ahead, {"keyframe": choreography.Keyframe(id=f"second {second}", time=second, pose=wanted)}))
     if choreography.CONTROL_VELOCITY_FACTORS in model.controls:
         livelier = choreography.VelocityFactors(factors=[1.5])

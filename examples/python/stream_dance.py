@@ -14,7 +14,7 @@ def requests(options, model, music):
     audio_format = choreography.AudioFormat(encoding=choreography.AUDIO_ENCODING_FILE) if options.song else PCM
     frames = round(options.seconds * model.model_frame_rate)
     yield {"config": choreography.DanceConfig(seed=options.seed, frames=frames, audio_format=audio_format)}
-    arms_up = pose(model.skeleton, {"left_shoulder": [0, 0, 1], "right_shoulder": [0, 0, -1]}, z=0.3)
+    arms_up = pose(model.skeleton, {"left_shoulder": [0, 0, 1], "right_shoulder": [0, 0, -1]}, place=[0, 0.3])
     yield {"keyframe": choreography.Keyframe(id="arms up", time=options.seconds * 0.4, pose=arms_up)}
     yield {"keyframe": choreography.Keyframe(id="rest", time=options.seconds * 0.8, pose=pose(model.skeleton))}
     yield {"keyframes_complete": choreography.KeyframesComplete()}

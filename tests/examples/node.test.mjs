@@ -57,7 +57,7 @@ test('live music is danced to while it plays, through the keys', async () => {
     let cameBefore = 0;
     async function* requests() {
       yield { config: { seed: '7', audio_format: pcm, frames: 3 * model_frame_rate } };
-      yield { keyframe: { id: 'a', frame: 40, pose: pose(skeleton, { head: [0, 0.5, 0] }, { z: 0.2 }) } };
+      yield { keyframe: { id: 'a', frame: 40, pose: pose(skeleton, { head: [0, 0.5, 0] }, { place: [0, 0.2] }) } };
       yield { keyframes_complete: {} };
       for await (const piece of live(clicks(3), 100)) {
         // The last piece waits for the first frames.
@@ -149,7 +149,7 @@ test('errors name code, field and value', async () => {
 
 test('warnings name their key', async () => {
   await withClient(async (client, { skeleton }) => {
-    const key = { id: 'far', frame: 10, pose: pose(skeleton, {}, { x: 50 }) };
+    const key = { id: 'far', frame: 10, pose: pose(skeleton, {}, { place: [50, 0] }) };
     const warned = (await collect(client.streamDance([{ config: {} }, { keyframe: key }]))).filter(({ event }) => event?.warning);
     assert.deepEqual(warned.map(({ event }) => [event.warning.keyframe_id, event.frame]), [['far', '10']]);
   });

@@ -192,7 +192,21 @@ test('a pose of joints that are not there, or of what is no rotation, is refused
   ]) {
     assert.throws(() => pose(skeleton, rotations), { code: 'INVALID_ARGUMENT', message });
   }
-  assert.throws(() => pose(skeleton, {}, { x: NaN }), { message: 'x: NaN is no finite number' });
   assert.throws(() => pose(null), { message: /^skeleton: null is none/ });
-  assert.deepEqual(pose(skeleton, { left_shoulder: new Float32Array([0, 0, 1]) }, { z: 2 }).rotations, [0, 0, 0, 0, 0, 1]);
+  assert.deepEqual(pose(skeleton, { left_shoulder: new Float32Array([0, 0, 1]) }).rotations, [0, 0, 0, 0, 0, 1]);
+});
+
+test('a pose is wherever the dancer is, or at its place', () => {
+  for (const where of [undefined, {}, { place: undefined }]) assert.ok(!('root_position' in pose(skeleton, {}, where)));
+  assert.deepEqual(pose(skeleton, {}, { place: [3, 2] }).root_position, { x: 3, y: 1, z: 2 });
+  for (const [where, message] of [
+    [[1, 2], 'where: [ 1, 2 ] is not { place: [x, z] }'],
+    [null, 'where: null is not { place: [x, z] }'],
+    [{ X: 1 }, 'where.X: is not known; it is { place: [x, z] }'],
+    [{ x: 1, z: 2 }, 'where.x: is not known; it is { place: [x, z] }'],
+    [{ place: [1] }, 'where.place: [ 1 ] is not a list of 2 numbers'],
+    [{ place: [NaN, 0] }, 'where.place[0]: NaN is not a number'],
+  ]) {
+    assert.throws(() => pose(skeleton, {}, where), { code: 'INVALID_ARGUMENT', message });
+  }
 });

@@ -188,7 +188,7 @@ const refusedHere = [
 /** A dance to live music whose keys change on the way, one of them too late. Its last second waits for `goOn`. */
 async function* edited(skeleton, { goOn, frame_rate } = {}) {
   yield { config: { seed: '5', audio_format: pcm, frames: 180, frame_rate, generate_until: 0, reject_invalid_keys: true } };
-  const key = (id, when, turn) => ({ keyframe: { id, ...when, pose: { rotations: pose(skeleton, { head: [0, turn, 0] }).rotations } } });
+  const key = (id, when, turn) => ({ keyframe: { id, ...when, pose: pose(skeleton, { head: [0, turn, 0] }) } });
   yield key('early', { frame: 30 }, 0.2);
   yield key('next', { interval_after_previous: 20 }, 0.4);
   for await (const piece of live(clicks(6), 1000)) {

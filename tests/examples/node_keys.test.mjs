@@ -47,6 +47,16 @@ test('a pose of the library is danced', async () => {
   assert.throws(() => libraryPose('kik', skeleton), { message: "libraryPose.pose: 'kik' is no pose of the library; did you mean kick?" });
 });
 
+test('where a pose of the library is to be has no other members', () => {
+  const form = '{ place: [x, z], facing: degrees }';
+  for (const [where, message] of [
+    [[1, 2], `where: [ 1, 2 ] is not ${form}`],
+    [{ plase: [1, 2] }, `where.plase: is not known; it is ${form}`],
+  ]) {
+    assert.throws(() => libraryPose('kick', skeleton, where), { code: 'INVALID_ARGUMENT', message });
+  }
+});
+
 test('poses have names and tags', () => {
   const files = readdirSync(new URL('../../client/poses', import.meta.url)).map((name) => name.replace('.json', ''));
   assert.deepEqual(poses().map(({ id }) => id), files.sort());

@@ -71,9 +71,7 @@ def edited(skeleton, frame_rate=0, go_on=None):
     yield {"config": choreography.DanceConfig(seed=5, audio_format=PCM, frames=180, frame_rate=frame_rate, generate_until=0, reject_invalid_keys=True)}
 
     def key(turn, **fields):
-        wanted = pose(skeleton, {"head": [0, turn, 0]})
-        wanted.ClearField("root_position")
-        return {"keyframe": choreography.Keyframe(pose=wanted, **fields)}
+        return {"keyframe": choreography.Keyframe(pose=pose(skeleton, {"head": [0, turn, 0]}), **fields)}
 
     yield key(0.2, id="early", frame=30)
     yield key(0.4, id="next", interval_after_previous=20)

@@ -178,8 +178,18 @@ class PythonTest(unittest.TestCase):
             list(self.client.stream_dance([{"config": {}}, {"keyframe": {"id": "c", "frame": "soon"}}]))
         self.assertEqual(raised.exception.violations[0].keyframe_id, "c")
 
+    def test_a_pose_is_wherever_the_dancer_is_or_at_its_place(self):
+        skeleton = self.client.info().models[0].skeleton
+        self.assertFalse(pose(skeleton).HasField("root_position"))
+        placed = pose(skeleton, {}, place=(3, 2)).root_position
+        self.assertEqual((placed.x, placed.z), (3, 2))
+        self.assertAlmostEqual(placed.y, skeleton.pelvis_height, 6)
+        for place in ([1], 50, "ab", {"x": 1, "z": 2}, [float("nan"), 0]):
+            with self.assertRaisesRegex(ChoreoError, r"^place: .* is not \[x, z\], two finite numbers$"):
+                pose(skeleton, {}, place=place)
+
     def test_warnings_name_their_key(self):
-        key = {"keyframe": {"id": "far", "frame": 10, "pose": pose(self.client.info().models[0].skeleton, {}, x=50)}}
+        key = {"keyframe": {"id": "far", "frame": 10, "pose": pose(self.client.info().models[0].skeleton, {}, place=[50, 0])}}
         (warning,) = (one.event for one in self.client.stream_dance([{"config": {}}, key]) if one.event.HasField("warning"))
         self.assertEqual((warning.warning.keyframe_id, warning.frame), ("far", 10))
 

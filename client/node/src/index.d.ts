@@ -106,13 +106,13 @@ export class ChoreoClient {
 }
 
 /**
- * The body of `skeleton` standing at rest, where and however `rotations` ({joint name: [x, y, z] in radians}) turn it. Throws ChoreoError for
- * joints that it lacks, and what is no rotation.
+ * The body of `skeleton` at rest, but for `rotations`, {joint name: [x, y, z] in radians}: wherever the dancer is, or, with `place`, at [x, z] in
+ * metres. Throws ChoreoError for joints that it lacks, and what is no rotation.
  */
 export function pose(
   skeleton: Pick<Skeleton, 'pelvis_height' | 'joint_names'>,
   rotations?: Record<string, [number, number, number]>,
-  place?: { x?: number; z?: number },
+  where?: { place?: [number, number] },
 ): Pose & { rotations: number[] };
 
 /** A pose that has a name, of smpl24. */

@@ -1,5 +1,6 @@
 // Key files, as `choreo dance --keyframes` takes them: docs/poses.md.
 import { invalid } from './error.js';
+import { isObject, number, requireWhere, vector } from './fields.js';
 import { find } from './poses.js';
 import { radians, times, turned } from './turns.js';
 import { hint, quoted } from './words.js';
@@ -46,7 +47,9 @@ function parsed(file) {
 }
 
 /** A pose of the library as a Pose; index.d.ts says more. */
-export function libraryPose(name, skeleton, { place, facing } = {}) {
+export function libraryPose(name, skeleton, where = {}) {
+  requireWhere(where, '{ place: [x, z], facing: degrees }', ['place', 'facing']);
+  const { place, facing } = where;
   const value = { pose: name, ...(place !== undefined && { place }), ...(facing !== undefined && { facing }) };
   return poseOf(readPose(value, 'libraryPose', skeleton));
 }
@@ -129,13 +132,7 @@ function held(key, hold, starts, field) {
   return Array.from({ length: steps }, (_, at) => ({ ...other, id: `${key.id} held ${at + 1}`, time: key.time + (hold * (at + 1)) / steps })).filter(({ time }) => time <= last);
 }
 
-const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 const ascending = (numbers) => [...new Set(numbers)].sort((a, b) => a - b);
-
-function number(value, field) {
-  if (Number.isFinite(value)) return value;
-  throw invalid(field, `${quoted(value)} is not a number${/c$/.test(value) ? "; counts need a song's beats: say seconds" : ''}`);
-}
 
 function moment(value, kind, field) {
   if (kind === 'frame') {
@@ -151,11 +148,6 @@ function rotationOf(value, field) {
   const angle = Math.hypot(...vector(value, 3, field));
   if (angle > 2 * Math.PI) throw invalid(field, `${Number(angle.toPrecision(6))} rad exceeds 2π; angles are in radians`);
   return value;
-}
-
-function vector(value, size, field) {
-  if (!Array.isArray(value) || value.length !== size) throw invalid(field, `${quoted(value)} is not a list of ${size} numbers`);
-  return value.map((one, at) => number(one, `${field}[${at}]`));
 }
 
 function jointOf(name, { name: body, joint_names: names }, field) {

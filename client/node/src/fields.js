@@ -1,0 +1,22 @@
+// Numbers and members out of what callers give.
+import { invalid } from './error.js';
+import { quoted } from './words.js';
+
+export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+
+export function number(value, field) {
+  if (Number.isFinite(value)) return value;
+  throw invalid(field, `${quoted(value)} is not a number${/c$/.test(value) ? "; counts need a song's beats: say seconds" : ''}`);
+}
+
+export function vector(value, size, field) {
+  if (!Array.isArray(value) || value.length !== size) throw invalid(field, `${quoted(value)} is not a list of ${size} numbers`);
+  return value.map((one, at) => number(one, `${field}[${at}]`));
+}
+
+/** Throws for a `where` with other members than `form`, as in '{ place: [x, z] }', has. */
+export function requireWhere(where, form, members) {
+  if (!isObject(where)) throw invalid('where', `${quoted(where)} is not ${form}`);
+  const unknown = Object.keys(where).find((member) => !members.includes(member));
+  if (unknown !== undefined) throw invalid(`where.${unknown}`, `is not known; it is ${form}`);
+}
