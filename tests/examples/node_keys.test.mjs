@@ -47,6 +47,23 @@ test('a pose of the library is danced', async () => {
   assert.throws(() => libraryPose('kik', skeleton), { message: "libraryPose.pose: 'kik' is no pose of the library; did you mean kick?" });
 });
 
+test('a jump without a place, which stands, is warned of once a key', (t) => {
+  const warn = t.mock.method(console, 'warn', () => {});
+  const said = (make) => {
+    warn.mock.resetCalls();
+    make();
+    return warn.mock.calls.map(({ arguments: [text] }) => text);
+  };
+  const stands = 'side_leap is in the air, but without a place it stands on the floor; give it one: "place": [x, z]';
+  const leap = { id: 'up', time: 1, pose: 'side_leap' };
+  const read = (key) => said(() => readKeys({ keyframes: [key] }, skeleton));
+  assert.deepEqual(read({ ...leap, hold: 1 }), [`warning: key "up": ${stands}`]);
+  assert.deepEqual(read({ ...leap, joints: ['legs', 'pelvis'] }), [`warning: key "up": ${stands}`]);
+  assert.deepEqual(said(() => libraryPose('side_leap', skeleton)), [`warning: libraryPose: ${stands}`]);
+  for (const fine of [{ place: [0, 0] }, { joints: ['arms'] }, { pose: 'kick' }]) assert.deepEqual(read({ ...leap, ...fine }), []);
+  assert.deepEqual(said(() => [libraryPose('side_leap', skeleton, { place: [0, 0] }), libraryPose('kick', skeleton)]), []);
+});
+
 test('where a pose of the library is to be has no other members', () => {
   const form = '{ place: [x, z], facing: degrees }';
   for (const [where, message] of [

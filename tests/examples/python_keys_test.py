@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import unittest
+import warnings
 
 from choreo_client import ChoreoError, Client, choreography, library_pose, poses, read_keys
 
@@ -67,6 +68,26 @@ class KeysTest(unittest.TestCase):
             list(client.stream_dance([{"config": {"frames": 60}}, {"keyframe": {"id": "a", "time": 1, "pose": kick}}]))
         with self.assertRaisesRegex(ChoreoError, r"^library_pose\.pose: 'kik' is no pose of the library; did you mean kick\?$"):
             library_pose("kik", self.skeleton)
+
+    def test_a_jump_without_a_place_which_stands_is_warned_of_once_a_key(self):
+        def said(make):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                make()
+            self.assertEqual({warning.filename for warning in caught}, {__file__} if caught else set())
+            return [str(warning.message) for warning in caught]
+
+        def read(**fields):
+            key = {"id": "up", "time": 1, "pose": "side_leap", **fields}
+            return said(lambda: read_keys({"keyframes": [key]}, self.skeleton))
+
+        stands = 'side_leap is in the air, but without a place it stands on the floor; give it one: "place": [x, z]'
+        self.assertEqual(read(hold=1), [f'key "up": {stands}'])
+        self.assertEqual(read(joints=["legs", "pelvis"]), [f'key "up": {stands}'])
+        self.assertEqual(said(lambda: library_pose("side_leap", self.skeleton)), [f"library_pose: {stands}"])
+        for fine in ({"place": [0, 0]}, {"joints": ["arms"]}, {"pose": "kick"}):
+            self.assertEqual(read(**fine), [])
+        self.assertEqual(said(lambda: (library_pose("side_leap", self.skeleton, [0, 0]), library_pose("kick", self.skeleton))), [])
 
     def test_keys_come_in_order(self):
         keys = [{"time": 3, "pose": "kick", "hold": 0.4}, {"time": 1, "pose": "bow"}, {"time": 3.3, "pose": "dab"}]

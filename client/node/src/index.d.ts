@@ -131,12 +131,13 @@ export function poses(): LibraryPose[];
 
 /**
  * The library's pose of this name, for a Keyframe: wherever the dancer is, or, with `place`, at [x, z] in metres; turned by `facing` degrees.
- * `skeleton`: the model's, smpl24. Throws ChoreoError.
+ * `skeleton`: the model's, smpl24. Throws ChoreoError. A jump without a place stands: the console is told.
  */
 export function libraryPose(name: string, skeleton: Skeleton, where?: { place?: [number, number]; facing?: number }): Pose & { rotations: number[] };
 
 /**
  * The keys of a key file, its text or what JSON.parse has made of it, as requests of streamDance. A key that is held becomes several. They come
- * in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are `rotations`. Throws ChoreoError.
+ * in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats, which `choreo` finds. Poses in numbers are
+ * `rotations`. Throws ChoreoError. Of a jump without a place, which stands, the console is told.
  */
 export function readKeys(file: string | Uint8Array | object, skeleton: Skeleton): { keyframe: Keyframe }[];

@@ -51,7 +51,9 @@ export function libraryPose(name, skeleton, where = {}) {
   requireWhere(where, '{ place: [x, z], facing: degrees }', ['place', 'facing']);
   const { place, facing } = where;
   const value = { pose: name, ...(place !== undefined && { place }), ...(facing !== undefined && { facing }) };
-  return poseOf(readPose(value, 'libraryPose', skeleton));
+  const read = readPose(value, 'libraryPose', skeleton);
+  if (read.lostJump) console.warn(`warning: libraryPose: ${read.lostJump}`);
+  return poseOf(read);
 }
 
 const poseOf = ({ rotations, root }) => ({ ...(root && { root_position: { x: root[0], y: root[1], z: root[2] } }), rotations: rotations.flat() });
@@ -87,11 +89,18 @@ function readKey(value, field, name, skeleton) {
   } else if (joints !== undefined) {
     key.mask = { joints: maskOf(joints, skeleton, `${field}.joints`) };
   }
+  if (read.lostJump && setsFeet(key.mask, skeleton)) console.warn(`warning: key "${id}": ${read.lostJump}`);
   key.pose = poseOf(read);
   return { key, hold };
 }
 
-/** The rotations of all joints, and where the root is, or nothing. */
+/** Whether a key says how far below the root its feet are, and so how high it stands. */
+function setsFeet(mask, { feet, parents }) {
+  const isSet = (joint) => joint < 0 || (mask.joints.includes(joint) && isSet(parents[joint]));
+  return !mask || feet.every((foot) => isSet(parents[foot]));
+}
+
+/** The rotations of all joints, where the root is, or nothing, and, of a jump that will stand, what to say. */
 function readPose(value, field, skeleton) {
   for (const member of ['place', 'facing']) if (member in value && !('pose' in value)) throw invalid(`${field}.${member}`, 'goes with pose');
   const count = skeleton.joint_names.length;
@@ -112,7 +121,10 @@ function readPose(value, field, skeleton) {
   if (Math.abs(number(facing, `${field}.facing`)) > 360) throw invalid(`${field}.facing`, `${facing} degrees, must be -360 to 360`);
   const heading = [0, radians(facing), 0];
   const rotations = named.rotations.map((one, joint) => (joint === 0 ? times(heading, one) : [...one]));
-  if (!('place' in value)) return { rotations };
+  if (!('place' in value)) {
+    const lostJump = `${named.id} is in the air, but without a place it stands on the floor; give it one: "place": [x, z]`;
+    return { rotations, ...(named.tags.includes('jump') && { lostJump }) };
+  }
   const [x, z] = vector(value.place, 2, `${field}.place`);
   const root = turned(heading, named.root_position);
   return { rotations, root: [root[0] + x, root[1], root[2] + z] };

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import typing
+import warnings
 
 from . import choreography
 from ._errors import invalid
@@ -28,7 +29,7 @@ _MOST_TURN = {"collar": 60, "wrist": 90, "ankle": 80, "foot": 60, "toe": 60, "sp
 def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], skeleton: choreography.Skeleton) -> list[dict]:
     """The keys of a key file, its text or what JSON has made of it, as requests of stream_dance: [{"keyframe": ...}, ...]. A key that is held
     becomes several. They come in order, unless some say their time and others their frame. Times are seconds: counts of a song ("9c") need its beats,
-    which `choreo` finds. Poses in numbers are `rotations`. Raises ChoreoError."""
+    which `choreo` finds. Poses in numbers are `rotations`. Raises ChoreoError. Warns of a jump without a place, which stands."""
     content = _parsed(file) if isinstance(file, (str, bytes)) else file
     keys = content.get("keyframes") if isinstance(content, typing.Mapping) else None
     if not isinstance(keys, list):
@@ -37,13 +38,15 @@ def read_keys(file: typing.Union[str, bytes, typing.Mapping[str, typing.Any]], s
         raise invalid("keyframes", "is empty")
     read = [_key(key, f"keyframes[{at}]", f"key{at + 1}", skeleton) for at, key in enumerate(keys)]
     ids = set()
-    for at, (key, _) in enumerate(read):
+    for at, (key, _, lost_jump) in enumerate(read):
         if key["id"] in ids:
             raise invalid(f"keyframes[{at}].id", f'"{key["id"]}" stands for an earlier key already')
         ids.add(key["id"])
-    starts = sorted(key["time"] for key, _ in read if "time" in key)
+        if lost_jump and _sets_feet(key.get("mask"), skeleton):
+            warnings.warn(f'key "{key["id"]}": {lost_jump}', stacklevel=2)
+    starts = sorted(key["time"] for key, *_ in read if "time" in key)
     timed = []
-    for at, (key, hold) in enumerate(read):
+    for at, (key, hold, _) in enumerate(read):
         timed += [key, *_held(key, hold, starts, f"keyframes[{at}].hold")]
     for when in ("time", "frame"):
         if all(when in key for key in timed):
@@ -55,9 +58,12 @@ def library_pose(
     name: str, skeleton: choreography.Skeleton, place: typing.Optional[typing.Sequence[float]] = None, facing: float = 0.0
 ) -> choreography.Pose:
     """The library's pose of this name, for a Keyframe: wherever the dancer is, or at `place`, [x, z] in metres; turned by `facing` degrees.
-    `skeleton`: the model's, smpl24. Raises ChoreoError."""
+    `skeleton`: the model's, smpl24. Raises ChoreoError. Warns of a jump without a place, which stands."""
     given = {"pose": name, "facing": facing} | ({} if place is None else {"place": list(place)})
-    return choreography.Pose(**_pose_of(*_pose(given, "library_pose", skeleton)))
+    rotations, root, lost_jump = _pose(given, "library_pose", skeleton)
+    if lost_jump:
+        warnings.warn(f"library_pose: {lost_jump}", stacklevel=2)
+    return choreography.Pose(**_pose_of(rotations, root))
 
 
 def _parsed(text):
@@ -68,7 +74,7 @@ def _parsed(text):
 
 
 def _key(value, field, name, skeleton):
-    """A Keyframe's fields, and for how long it is held."""
+    """A Keyframe's fields, for how long it is held, and, of a jump that will stand, what to say."""
     if not isinstance(value, typing.Mapping):
         raise invalid(field, f"{quoted(value)} is no key")
     for member in value:
@@ -89,7 +95,7 @@ def _key(value, field, name, skeleton):
         if value["hands"] not in _HANDS:
             raise invalid(f"{field}.hands", f"{quoted(value['hands'])} is none of {', '.join(_HANDS)}")
         key["hands"] = f"HAND_POSE_{value['hands'].upper()}"
-    rotations, root = _pose(value, field, skeleton)
+    rotations, root, lost_jump = _pose(value, field, skeleton)
     joints = value.get("joints")
     if isinstance(joints, typing.Mapping):
         if not joints:
@@ -101,7 +107,7 @@ def _key(value, field, name, skeleton):
     elif "joints" in value:
         key["mask"] = {"joints": _mask(joints, skeleton, f"{field}.joints")}
     key["pose"] = _pose_of(rotations, root)
-    return key, _number(value["hold"], f"{field}.hold") if "hold" in value else None
+    return key, _number(value["hold"], f"{field}.hold") if "hold" in value else None, lost_jump
 
 
 def _pose_of(rotations, root):
@@ -111,7 +117,7 @@ def _pose_of(rotations, root):
 
 
 def _pose(value, field, skeleton):
-    """The rotations of all joints, and where the root is, or None."""
+    """The rotations of all joints, where the root is, or None, and, of a jump that will stand, what to say."""
     for member in ("place", "facing"):
         if member in value and "pose" not in value:
             raise invalid(f"{field}.{member}", "goes with pose")
@@ -122,13 +128,14 @@ def _pose(value, field, skeleton):
         if not isinstance(rotations, list) or len(rotations) != len(skeleton.joint_names):
             raise invalid(f"{field}.rotations", f"{quoted(rotations)} is not one vector for each of {len(skeleton.joint_names)} joints")
         turns = [_rotation(one, f"{field}.rotations[{at}]") for at, one in enumerate(rotations)]
-        return turns, _vector(value["root_position"], 3, f"{field}.root_position") if "root_position" in value else None
+        root = _vector(value["root_position"], 3, f"{field}.root_position") if "root_position" in value else None
+        return turns, root, None
     if "root_position" in value:
         raise invalid(f"{field}.rotations", "is missing beside root_position")
     if "pose" not in value:
         if not isinstance(value.get("joints"), typing.Mapping):
             raise invalid(f"{field}.rotations", "is missing, and so is pose")
-        return [[0.0] * 3 for _ in skeleton.joint_names], None
+        return [[0.0] * 3 for _ in skeleton.joint_names], None, None
     if skeleton.name != "smpl24":
         raise invalid(f"{field}.pose", f"poses of the library are of smpl24, not of {skeleton.name or 'this skeleton'}")
     named = find(value["pose"], f"{field}.pose")
@@ -139,10 +146,20 @@ def _pose(value, field, skeleton):
     rotations = [list(one) for one in named.rotations]
     rotations[0] = _log(_times(_quaternion(heading), _quaternion(rotations[0])))
     if "place" not in value:
-        return rotations, None
+        lost_jump = f'{named.id} is in the air, but without a place it stands on the floor; give it one: "place": [x, z]'
+        return rotations, None, lost_jump if "jump" in named.tags else None
     x, z = _vector(value["place"], 2, f"{field}.place")
     turned = _turned(_quaternion(heading), named.root_position)
-    return rotations, [turned[0] + x, turned[1], turned[2] + z]
+    return rotations, [turned[0] + x, turned[1], turned[2] + z], None
+
+
+def _sets_feet(mask, skeleton):
+    """Whether a key says how far below the root its feet are, and so how high it stands."""
+
+    def is_set(joint):
+        return joint < 0 or (joint in mask["joints"] and is_set(skeleton.parents[joint]))
+
+    return mask is None or all(is_set(skeleton.parents[foot]) for foot in skeleton.feet)
 
 
 def _held(key, hold, starts, field):
