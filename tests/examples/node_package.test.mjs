@@ -102,6 +102,8 @@ for await (const answer of client.streamDance(requests)) {
   // @ts-expect-error: 64 bits are text
   frames = answer.frames!.first_frame;
 }
+// @ts-expect-error: text is no time
+requests.push({ keyframe: { id: 'b', time: '6' } });
 // @ts-expect-error: it is tokenFile
 new ChoreoClient([], { token_file: 'x' });
 // @ts-expect-error: text is no music

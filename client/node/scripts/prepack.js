@@ -29,18 +29,19 @@ execFileSync(process.execPath, [
   'choreo/v1/choreography.proto',
 ]);
 
-// Declarations hold no values, which the tool writes for enums all the same. What may be sent is wider than the tool knows: src/check.js.
+// Declarations hold no values, which the tool writes for enums all the same. What may be sent is other than the tool knows: src/check.js.
 const messages = join(types, 'choreo/v1');
 for (const name of readdirSync(messages)) {
   const text = readFileSync(join(messages, name), 'utf8');
   const declared = text.replace(/^export const (\w+) = \{\n([^}]*)\} as const;/gm, (_, type, values) => {
     return `export declare const ${type}: {\n${values.replace(/^( +)(\w+: '\w+'),$/gm, '$1readonly $2;')}};`;
   });
-  const wider = declared
+  const sendable = declared
     .replaceAll('(number | string | Long)', '(number | bigint | string | Long)')
-    .replace("'rotations'?: (number | string)[]", "'rotations'?: (number | string)[] | Float32Array | Float64Array")
+    .replaceAll('(number | string)', 'number')
+    .replace("'rotations'?: number[]", "'rotations'?: number[] | Float32Array | Float64Array")
     .replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
-  const narrowing = withUnions(wider, api.lookup('choreo.v1').nested[name.replace('.d.ts', '')]);
+  const narrowing = withUnions(sendable, api.lookup('choreo.v1').nested[name.replace('.d.ts', '')]);
   writeFileSync(join(messages, name), narrowing.replace(/^\/\/ Original file: .*\n\n/, ''));
 }
 

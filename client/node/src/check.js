@@ -84,15 +84,14 @@ function label({ name, values }, value, path) {
 }
 
 function real(value, path) {
-  const number = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
-  if (!Number.isFinite(number)) throw invalid(path, `${quoted(value)} is no finite number`);
-  return number;
+  if (!Number.isFinite(value)) throw invalid(path, `${quoted(value)} is no finite number`);
+  return value;
 }
 
 function whole(type, value, path) {
   const [least, most] = ranges[type];
   const isLong = typeof value === 'object' && value !== null && 'low' in value && 'high' in value; // of the package "long"
-  const isText = typeof value === 'string' && /^-?\d+$/.test(value);
+  const isText = most > 2n ** 32n && typeof value === 'string' && /^-?\d+$/.test(value);
   const number = Number.isSafeInteger(value) || typeof value === 'bigint' || isText || isLong ? BigInt(String(value)) : undefined;
   if (number >= least && number <= most) return typeof value === 'number' ? value : String(value);
   const asText = Number.isInteger(value) && number === undefined ? '; numbers above 2^53 go as text' : '';
