@@ -86,6 +86,16 @@ async function compile(name, text, ...more) {
   assert.equal(code, 0, said);
 }
 
+test('CommonJS knows it, too', async (t) => {
+  if (skip) return t.skip(skip);
+  const text = `import { ChoreoClient, type Keyframe } from 'choreo-client';\nnew ChoreoClient('one:1').close();\nexport const key: Keyframe = { id: 'a', time: 2 };\n`;
+  await compile('common.ts', text, '--module', 'commonjs', '--moduleResolution', 'node10');
+  if (!process.features.require_module) return; // before Node.js 20.19 and 22.12
+  await writeFile(join(app, 'common.cjs'), "const { ChoreoClient } = require('choreo-client');\nnew ChoreoClient('one:1').close();\n");
+  const { code, said } = await run(process.execPath, ['common.cjs'], app);
+  assert.equal(code, 0, said);
+});
+
 test("the page's programs are TypeScript, too", async (t) => {
   if (skip) return t.skip(skip);
   const page = await readFile(join(root, 'client/node/README.md'), 'utf8');
