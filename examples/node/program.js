@@ -16,6 +16,12 @@ export function positive(options, name) {
   throw Object.assign(new Error(`${options[name]} is not a number above 0`), { code: `--${name}` });
 }
 
+/** A JSON file's path out of a program's options, or undefined. */
+export function jsonFile(options, name) {
+  if (options[name] === undefined || options[name].endsWith('.json')) return options[name];
+  throw Object.assign(new Error(`${options[name]} does not end with .json`), { code: `--${name}` });
+}
+
 /** A whole number from `least` to `most` out of a program's options, as text: a seed has 64 bits. */
 export function whole(options, name, least = 0n, most = 2n ** 64n - 1n) {
   const text = options[name];

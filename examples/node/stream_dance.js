@@ -3,7 +3,7 @@
 import { writeFile } from 'node:fs/promises';
 import { pose } from 'choreo-client';
 import { clicks, file, live, pcm } from './music.js';
-import { onResume, positive, run, whole } from './program.js';
+import { jsonFile, onResume, positive, run, whole } from './program.js';
 
 const flags = {
   song: { type: 'string' },
@@ -31,6 +31,7 @@ async function* requests(options, { skeleton, model_frame_rate }) {
 }
 
 await run(flags, async (client, options, signal) => {
+  const out = jsonFile(options, 'out');
   const model = (await client.info()).models[0];
   const dance = { frame_rate: 0, root_positions: [], rotations: [] };
   let frames = 0;
@@ -57,5 +58,5 @@ await run(flags, async (client, options, signal) => {
         break;
     }
   }
-  if (options.out) await writeFile(options.out, JSON.stringify(dance));
+  if (out) await writeFile(out, JSON.stringify(dance));
 });

@@ -5,7 +5,7 @@ danced by, and goes on at another one, bit for bit."""
 
 import json
 
-from program import arguments, connect, positive, run, seed, tell_resume
+from program import arguments, connect, json_file, positive, run, seed, tell_resume
 
 from choreo_client import choreography, pose
 from music import PCM, RATE, clicks, live
@@ -49,7 +49,7 @@ def main():
     parser.add_argument("--seed", type=seed, default=1)
     parser.add_argument("--speed", type=positive, default=1, help="of the clicks; 2 plays them twice as fast")
     parser.add_argument("--change-ahead", type=positive, default=0.8, help="seconds before a pose at which it is changed")
-    parser.add_argument("--out", help="JSON file for the dance")
+    parser.add_argument("--out", type=json_file, help="JSON file for the dance")
     options = parser.parse_args()
 
     client = connect(options)

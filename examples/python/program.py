@@ -45,6 +45,13 @@ def positive(text):
     return number
 
 
+def json_file(text):
+    """A JSON file's path out of a program's options, for argparse."""
+    if not text.endswith(".json"):
+        raise argparse.ArgumentTypeError(f"{text} does not end with .json")
+    return text
+
+
 def whole(least, most):
     """A whole number from `least` to `most` out of a program's options, for argparse."""
 

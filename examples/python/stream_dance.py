@@ -4,7 +4,7 @@
 import json
 import sys
 
-from program import arguments, connect, positive, run, seed, tell_resume
+from program import arguments, connect, json_file, positive, run, seed, tell_resume
 
 from choreo_client import choreography, pose
 from music import PCM, clicks, file, live
@@ -29,7 +29,7 @@ def main():
     parser.add_argument("--seconds", type=positive, default=6)
     parser.add_argument("--seed", type=seed, default=1)
     parser.add_argument("--speed", type=positive, default=1, help="of the clicks; 2 plays them twice as fast")
-    parser.add_argument("--out", help="JSON file for the dance")
+    parser.add_argument("--out", type=json_file, help="JSON file for the dance")
     options = parser.parse_args()
 
     music = file(options.song) if options.song else live(clicks(options.seconds), options.speed)

@@ -272,7 +272,7 @@ test('live_edit.js changes keys on the way', async () => {
   assert.equal(out, 'second 2: reached\nsecond 4: reached\n150 frames\n');
 });
 
-test('options that are no numbers, and songs that are missing, are named', async () => {
+test('options that are no numbers, files of other kinds, and songs that are missing, are named', async () => {
   for (const seconds of ['abc', '-3', '0']) {
     const { code, err } = await program('stream_dance.js', `--seconds=${seconds}`);
     assert.equal(code, 1);
@@ -285,6 +285,8 @@ test('options that are no numbers, and songs that are missing, are named', async
       assert.equal(err, `--seed: ${seed} is not a whole number from 0 to 18446744073709551615\n`);
     }
   }
+  const wrong = await program('stream_dance.js', '--out', '/absent/dance.npz');
+  assert.deepEqual([wrong.code, wrong.err], [1, '--out: /absent/dance.npz does not end with .json\n']);
   const dash = await program('stream_dance.js', '--seconds', '-3');
   assert.equal(dash.code, 1);
   assert.match(dash.err, /^ERR_PARSE_ARGS_INVALID_OPTION_VALUE: Option '--seconds'/);

@@ -132,6 +132,12 @@ class PythonTest(unittest.TestCase):
         again = self.client.stream_dance([{"config": {"frames": 90, "continuation": continuation}}, *rest])
         self.assertEqual([number for answer in again for number in answer.frames.rotations], whole[len(whole) * continuation.frame // 90 :])
 
+    def test_a_dance_is_written_as_json_alone(self):
+        for name in ("stream_dance.py", "live_edit.py"):
+            done = program(name, "--out", "/absent/dance.npz")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("argument --out: /absent/dance.npz does not end with .json\n", done.stderr)
+
     def test_a_missing_song_is_named(self):
         done = program("stream_dance.py", "--song", "/absent/song.mp3")
         self.assertEqual((done.returncode, done.stderr), (1, "/absent/song.mp3: No such file or directory\n"))
