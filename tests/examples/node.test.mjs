@@ -147,6 +147,18 @@ test('errors name code, field and value', async () => {
   });
 });
 
+test('keys come in order of time, or in any without grants', async () => {
+  await withClient(async (client, { skeleton }) => {
+    const keys = [40, 20].map((frame) => ({ keyframe: { id: `at ${frame}`, frame, pose: pose(skeleton) } }));
+    const reached = async (config) => {
+      const events = (await collect(client.streamDance([{ config: { frames: 60, ...config } }, ...keys]))).map(({ event }) => event);
+      return [events.flatMap((event) => event?.keyframe_reached?.id ?? []), events.flatMap((event) => event?.keyframe_rejected?.id ?? [])];
+    };
+    assert.deepEqual(await reached({}), [['at 40'], ['at 20']]);
+    assert.deepEqual(await reached({ generate_until: 0 }), [['at 20', 'at 40'], []]);
+  });
+});
+
 test('warnings name their key', async () => {
   await withClient(async (client, { skeleton }) => {
     const key = { id: 'far', frame: 10, pose: pose(skeleton, {}, { place: [50, 0] }) };
