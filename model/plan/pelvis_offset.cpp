@@ -68,9 +68,9 @@ class PelvisSolver {
         count_(static_cast<int>(frames.size())),
         moved_(rules.returns ? count_ - 1 : count_),
         step_(1 / Square(rules.fps)),
+        push_(static_cast<int>(std::lround(kPushSeconds * rules.fps))),
         offset_(Eigen::Matrix3Xd::Zero(3, count_)),
         pushes_(frames.size()) {
-    const int push = static_cast<int>(std::lround(kPushSeconds * rules.fps));
     const auto bears = [](const SupportFrame& frame) { return !frame.support.empty(); };
     const auto first = std::ranges::find_if(frames, bears);
     const auto last = std::find_if(frames.rbegin(), frames.rend(), bears).base();
@@ -80,7 +80,7 @@ class PelvisSolver {
     takes_off_ = TakesOff();
     for (int frame = 0; frame < count_; ++frame) {
       if (!Leaps(frame)) continue;
-      for (int i = std::max(0, frame - push); i < std::min(count_, frame + push + 1); ++i)
+      for (int i = std::max(0, frame - push_); i < std::min(count_, frame + push_ + 1); ++i)
         pushes_[static_cast<size_t>(i)] = true;
     }
   }
@@ -113,17 +113,25 @@ class PelvisSolver {
     if (frame < first_borne_) return lands_;
     return frame < last_borne_ || takes_off_;
   }
-  // Whether a body that flies before the first frame and falls freely lands near its plan.
+  // Metres that a body falls from rest in so many frames.
+  double Fall(int frames) const { return kGravity / 2 * step_ * Square(frames); }
+  // Whether a body that flies before the first frame and falls freely lands near its plan. Feet
+  // that a recording has a little above the floor are no leap.
   bool Lands() const {
     if (first_borne_ == 0 || first_borne_ == count_) return false;
-    const double rise = Planned(0).y() - Planned(-1).y();  // a frame
-    const double fallen = 0.5 * kGravity * step_ * first_borne_ * (first_borne_ + 1);
-    const double landing = Planned(0).y() + rise * first_borne_ - fallen;
-    return std::abs(landing - Planned(first_borne_).y()) < kGive;
+    const int frames = first_borne_ + 1;
+    const double planned = Planned(-1).y() - Planned(first_borne_).y();
+    const double fall = Fall(frames) - (Planned(0).y() - Planned(-1).y()) * frames;
+    return std::abs(fall - planned) < std::min(kGive, Fall(frames) / 2);
   }
-  // Whether a flight to a key at the end is short enough for its arc to stay near the plan.
+  // Whether a flight to a key at the end rises as a leap would, and its arc stays near the plan.
   bool TakesOff() const {
-    return rules_.returns && kGravity / 8 * step_ * Square(count_ - 1 - last_borne_) < kGive;
+    if (!rules_.returns || last_borne_ < 0) return false;
+    const double fall = Fall(count_ - 1 - last_borne_);
+    double lowest = Planned(last_borne_).y();  // while legs may push
+    for (int frame = std::max(0, last_borne_ - push_); frame < last_borne_; ++frame)
+      lowest = std::min(lowest, Planned(frame).y());
+    return fall / 4 < kGive && Planned(count_ - 1).y() - lowest > fall / 2;
   }
   LeastSquares::Term Term(int frame, int axis, double factor) const {
     const bool fixed = frame < 0 || frame >= moved_ || (axis != 1 && rules_.heights_alone);
@@ -225,6 +233,7 @@ class PelvisSolver {
   const PelvisRules& rules_;
   const int count_, moved_;
   const double step_;  // squared seconds between frames
+  const int push_;     // frames in which legs may push
   Eigen::Matrix3Xd offset_;
   int first_borne_, last_borne_;  // frames with a standing foot
   // Whether the flight before first_borne_, and the one after last_borne_, are leaps.
