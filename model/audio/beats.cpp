@@ -122,7 +122,8 @@ std::vector<size_t> Audible(std::span<const Onset> onsets, std::span<const int64
 }
 
 /// Whether each beat belongs to a pulse: most beats around it stand out on both sides, and most
-/// have a sound that can be heard to begin. In noise and held notes none do.
+/// have a sound that can be heard to begin. In noise and held notes none do. A pulse starts, and
+/// ends, with the beats next to these that stand out themselves.
 std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
   const OnsetSums sums(onsets);
   std::vector<int64_t> frames;
@@ -147,6 +148,17 @@ std::vector<bool> HavePulse(std::span<const Onset> onsets, const Path& path) {
     const size_t first = i - std::min(i, kBeats), end = std::min(frames.size(), i + kBeats + 1);
     have.push_back(2 * (clear[end] - clear[first]) > end - first);
   }
+  const auto leads = [&](size_t beat, size_t first) {  // to the pulse of the beats from `first` on
+    const auto pulse = std::span(frames).subspan(first, std::min(frames.size(), kBeats + 1));
+    const double even = sums.Between(pulse.front(), pulse.back()) * OnsetSums::kBeatFrames /
+                        static_cast<double>(pulse.back() - pulse.front());
+    return is_clear(first) && audible[beat + 1] > audible[beat] &&
+           Excess(sums.OnBeat(frames[beat]), even) >= kMinExcess;
+  };
+  for (size_t i = frames.size(); i-- > 1;)
+    if (have[i] && !have[i - 1]) have[i - 1] = leads(i - 1, std::min(i - 1, last));
+  for (size_t i = 1; i < frames.size(); ++i)
+    if (have[i - 1] && !have[i]) have[i] = leads(i, std::min(i - std::min(i, kBeats), last));
   return have;
 }
 

@@ -108,6 +108,25 @@ TEST(BeatsTest, SwellingChordsHaveNone) {
   }
 }
 
+// The first and last four beats beside a pad were lost.
+TEST(BeatsTest, DrumsBesideAPadKeepTheirFirstAndLastBeats) {
+  constexpr int64_t kRate = 22050, kPad = 12 * kRate;
+  for (const double bpm : {100, 128, 150}) {
+    for (const double gain : {0.02, 0.2}) {
+      const std::vector<float> pad = Sine(220, kRate, kPad, gain),
+                               drums = Drums(0, 60 / bpm, "khsh");
+      std::vector<float> song = pad;
+      song.insert(song.end(), drums.begin(), drums.end());
+      song.insert(song.end(), pad.begin(), pad.end());
+      const std::vector<double> heard = FindBeats(song).Seconds();
+      EXPECT_GT(BeatFMeasure(heard, Every(60 / bpm, 12, 32), 0, 44), 0.97) << bpm << ", " << gain;
+      EXPECT_NEAR(heard.front(), 12, 0.07) << bpm << ", " << gain;
+      // The pad that starts may draw the very last one.
+      EXPECT_GT(heard.back(), 32 - 2.2 * 60 / bpm) << bpm << ", " << gain;
+    }
+  }
+}
+
 // Guitars that are louder than the drums, half a beat later.
 TEST(BeatsTest, LoudOffBeatsAreAPulseToo) {
   const std::vector<float> metal = Metal(20, 0.5);
