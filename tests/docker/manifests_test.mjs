@@ -200,7 +200,7 @@ test('the adapter hands on what the autoscaler scales by, of each pod', () => {
 test('Envoy turns gRPC-Web into gRPC, for pages that are named', () => {
   const {listeners: [listener], clusters} = yaml.load(read('envoy.yaml')).static_resources;
   const [chain] = listener.filter_chains;
-  const manager = chain.filters[0].typed_config;
+  const manager = chain.filters.at(-1).typed_config;
   assert.deepEqual(manager.http_filters.map(({name}) => name),
       ['envoy.filters.http.grpc_web', 'envoy.filters.http.cors', 'envoy.filters.http.router']);
   manager.http_filters.forEach(({name, typed_config: config}) =>
@@ -229,9 +229,25 @@ test('Envoy turns gRPC-Web into gRPC, for pages that are named', () => {
   assert.equal(manager.use_remote_address, true);
   assert.equal(manager.access_log.length, 1);
   // Each type says its package and its name.
-  for (const part of parts(listener)) {
+  for (const part of parts(yaml.load(read('envoy.yaml')))) {
     if ('@type' in part) assert.match(part['@type'], /^type\.googleapis\.com\/envoy\.extensions\.[a-z0-9_.]+\.v3\.[A-Z][A-Za-z]+$/);
   }
+});
+
+test('Envoy bounds connections and what each may hold', () => {
+  const {overload_manager: {resource_monitors: [monitor]}, static_resources: {listeners: [listener], clusters: [cluster]}} = yaml.load(read('envoy.yaml'));
+  const [chain] = listener.filter_chains;
+  const [limit, {typed_config: manager}] = chain.filters;
+  assert.equal(limit.name, 'envoy.filters.network.connection_limit');
+  assert.equal(monitor.name, 'envoy.resource_monitors.global_downstream_max_connections');
+  assert.ok(limit.typed_config.max_connections < monitor.typed_config.max_active_downstream_connections);
+  [listener, cluster].forEach((side) => assert.ok(side.per_connection_buffer_limit_bytes <= 65536));
+  const {max_concurrent_streams: calls, initial_stream_window_size: ofCall, initial_connection_window_size: ofAll} = manager.http2_protocol_options;
+  assert.ok(calls <= 256 && ofCall >= 65535 && ofAll <= 1 << 20);
+  assert.ok(chain.transport_socket_connect_timeout && manager.request_headers_timeout && manager.common_http_protocol_options.idle_timeout);
+  // A dance takes as long as its music.
+  assert.equal(manager.stream_idle_timeout, '0s');
+  assert.ok(!('request_timeout' in manager));
 });
 
 test('the dashboard is well formed, and no panel covers another', () => {
