@@ -250,6 +250,21 @@ test('Envoy bounds connections and what each may hold', () => {
   assert.ok(!('request_timeout' in manager));
 });
 
+test('the pages make the files that the manifests want', () => {
+  const [serve, deploy, kubernetes, tls] = ['docs/serve.md', 'docs/deploy.md', 'docs/kubernetes.md', 'docker/compose.tls.yaml'].map(readSource);
+  for (const file of ['tls.crt', 'tls.key', 'ca.crt', 'tokens']) {
+    [serve, deploy, kubernetes, tls].forEach((text) => assert.ok(text.includes(file), file));
+    assert.match(deploy, new RegExp(`sudo install -m 400 -o ${pod.securityContext.runAsUser} [^\n]*\\b${file.replace('.', '\\.')}\\b`));
+  }
+  assert.ok(![serve, deploy, kubernetes, tls].some((text) => /\b(cert|key)\.pem\b/.test(text)));
+  // One certificate is good for the container's own probe, for Envoy, and for the pods' probe.
+  const names = serve.match(/subjectAltName=(\S+)/)[1].split(',');
+  assert.ok(tls.includes('${CHOREO_SERVER_NAME:-localhost}') && names.includes('DNS:localhost'));
+  assert.ok(names.includes(`DNS:${setting('CHOREO_SERVER_NAME')}`));
+  const [{transport_socket: {typed_config: {sni}}}] = yaml.load(read('envoy.yaml')).static_resources.clusters;
+  assert.ok(names.includes(`DNS:${sni}`));
+});
+
 test('the dashboard is well formed, and no panel covers another', () => {
   const {panels} = JSON.parse(read('grafana.json'));
   const places = new Set(panels.map(({gridPos}) => `${gridPos.x},${gridPos.y}`));
