@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "server/caller.h"
+#include "server/frame_guard.h"
 #include "server/handshakes.h"
-#include "server/header_guard.h"
 #include "server/process_usage.h"
 #include "server/refusal.h"
 #include "server/status.h"
@@ -109,6 +109,10 @@ class Figures {
     out.Begin("header_floods_total", "Connections that were ended because of endless headers.",
               MetricType::Counter);
     out.Add(static_cast<double>(HeaderFloods()));
+    out.Begin("empty_frame_floods_total",
+              "Connections that were ended because of too many frames without content.",
+              MetricType::Counter);
+    out.Add(static_cast<double>(EmptyFrameFloods()));
     const CallRegistry& calls = serving_.calls;
     out.Begin("draining", "1 once the server is shutting down, 0 before.", MetricType::Gauge);
     out.Add(calls.admitting() ? 0 : 1);

@@ -23,7 +23,7 @@
 #include "server/certificate_files.h"
 #include "server/connection_limits.h"
 #include "server/handshakes.h"
-#include "server/header_guard.h"
+#include "server/frame_guard.h"
 #include "server/listener.h"
 #include "server/log.h"
 #include "server/metrics.h"
@@ -208,7 +208,7 @@ struct Server::Impl {
         close(connection);
         return;
       }
-      GuardHeaders(connection, certificate.has_value());
+      GuardFrames(connection, certificate.has_value());
       if (certificate) handshakes.Accepted(connection);
       grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
       parameters.listener_fd = listening;

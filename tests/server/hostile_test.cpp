@@ -6,6 +6,7 @@
 #include <iostream>
 #include <thread>
 
+#include "server/frame_guard.h"
 #include "server/listener.h"
 #include "tests/server/fixture.h"
 #include "tests/server/http2.h"
@@ -218,6 +219,26 @@ TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
   size_t sent = 0;
   while (sent < kMost && client.Send(frames)) sent += frames.size();
   EXPECT_LT(sent, kMost);
+  EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
+}
+
+// Frames that belong to no call: no window holds them back, and gRPC works on each.
+TEST_F(HostileTest, FramesWithoutContentAreCutOff) {
+  Start(1);
+  const auto behaved = StubOfAnotherAddress(server->port());
+  constexpr int kPriority = 2, kWindow = 8;
+  const auto before = EmptyFrameFloods();
+  for (const auto& frame : {Http2::Frame(kPriority, 0, 1, std::string("\0\0\0\0\x10", 5)),
+                            Http2::Frame(kWindow, 0, 0, std::string("\0\0\0\1", 4))}) {
+    std::string frames;
+    while (frames.size() < (64 << 10)) frames += frame;
+    constexpr size_t kMost = 64 << 20;
+    Http2 client(server->port());
+    size_t sent = 0;
+    while (sent < kMost && client.Send(frames)) sent += frames.size();
+    EXPECT_LT(sent, kMost);
+  }
+  EXPECT_EQ(EmptyFrameFloods(), before + 2);
   EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
 }
 

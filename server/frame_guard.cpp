@@ -1,4 +1,4 @@
-#include "server/header_guard.h"
+#include "server/frame_guard.h"
 
 #include <dlfcn.h>
 #include <openssl/ssl.h>
@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "server/caller.h"
-#include "server/header_meter.h"
+#include "server/frame_meter.h"
 
 namespace choreo {
 namespace {
@@ -28,7 +28,7 @@ struct Guarded {
   uint64_t cookie = 0;  ///< the socket's: a descriptor may be in use again
   std::string peer;
   bool encrypted = false;
-  HeaderMeter meter = {};
+  FrameMeter meter = {};
 };
 
 struct Guardeds {
@@ -41,7 +41,7 @@ Guardeds& All() {
   return *all;
 }
 
-std::atomic<uint64_t> floods = 0;
+std::atomic<uint64_t> header_floods = 0, empty_frame_floods = 0;
 /// Whose bytes this thread has read last; gRPC decrypts them next.
 thread_local std::weak_ptr<Guarded> last_read;
 
@@ -63,23 +63,27 @@ std::shared_ptr<Guarded> Find(int connection) {
 }
 
 /// One line a second, as floods come many at a time.
-void Tell(const std::string& peer) {
+void Tell(FrameMeter::Flood flood, const std::string& peer) {
   static std::mutex mutex;
   static std::chrono::steady_clock::time_point next_report;
-  ++floods;
+  const bool headers = flood == FrameMeter::Flood::kHeaders;
+  const uint64_t so_far = headers ? ++header_floods : ++empty_frame_floods;
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex);
   if (now < next_report) return;
   next_report = now + kBetweenFloodReports;
-  spdlog::warn(
-      "{} has sent more than {} KiB of headers for one call; its connection is closed, of {} so "
-      "far",
-      peer, HeaderMeter::kMostBytes >> 10, floods.load());
+  const std::string what =
+      headers
+          ? std::to_string(FrameMeter::kMostHeaderBytes >> 10) + " KiB of headers for one call"
+          : std::to_string(FrameMeter::kMostEmptyFrames) + " frames without content in a second";
+  spdlog::warn("{} has sent more than {}; its connection is closed, of {} so far", peer, what,
+               so_far);
 }
 
-bool Take(HeaderMeter& meter, const void* bytes, size_t count, const std::string& peer) {
-  if (meter.Take({static_cast<const uint8_t*>(bytes), count})) return true;
-  Tell(peer);
+bool Take(FrameMeter& meter, const void* bytes, size_t count, const std::string& peer) {
+  const FrameMeter::Flood flood = meter.Take({static_cast<const uint8_t*>(bytes), count});
+  if (flood == FrameMeter::Flood::kNone) return true;
+  Tell(flood, peer);
   return false;
 }
 
@@ -95,13 +99,13 @@ bool TakeMessage(Guarded& connection, const msghdr& message, size_t count) {
 
 void Forget(void* /*ssl*/, void* meter, CRYPTO_EX_DATA* /*data*/, int /*index*/, long /*argument*/,
             void* /*pointer*/) {
-  delete static_cast<HeaderMeter*>(meter);
+  delete static_cast<FrameMeter*>(meter);
 }
 
-HeaderMeter& MeterOf(SSL* ssl) {
+FrameMeter& MeterOf(SSL* ssl) {
   static const int index = SSL_get_ex_new_index(0, nullptr, nullptr, nullptr, Forget);
-  auto* meter = static_cast<HeaderMeter*>(SSL_get_ex_data(ssl, index));
-  if (meter == nullptr) SSL_set_ex_data(ssl, index, meter = new HeaderMeter);
+  auto* meter = static_cast<FrameMeter*>(SSL_get_ex_data(ssl, index));
+  if (meter == nullptr) SSL_set_ex_data(ssl, index, meter = new FrameMeter);
   return *meter;
 }
 
@@ -112,7 +116,7 @@ Function* Next(const char* name) {
 
 }  // namespace
 
-void GuardHeaders(int connection, bool encrypted) {
+void GuardFrames(int connection, bool encrypted) {
   auto guarded = std::make_shared<Guarded>(
       Guarded{.cookie = CookieOf(connection), .peer = PeerOf(connection), .encrypted = encrypted});
   Guardeds& all = All();
@@ -120,7 +124,8 @@ void GuardHeaders(int connection, bool encrypted) {
   all.by_descriptor[connection] = std::move(guarded);
 }
 
-uint64_t HeaderFloods() { return floods; }
+uint64_t HeaderFloods() { return header_floods; }
+uint64_t EmptyFrameFloods() { return empty_frame_floods; }
 
 }  // namespace choreo
 

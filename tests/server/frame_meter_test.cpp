@@ -1,0 +1,86 @@
+#include "server/frame_meter.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/server/http2.h"
+
+namespace choreo::frame_meter_test {
+
+using Flood = FrameMeter::Flood;
+
+constexpr size_t kFrame = 16 << 10;
+const std::string kPreface = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
+
+std::string Frames(int type, size_t bytes, size_t size = kFrame) {
+  std::string frames;
+  while (frames.size() < bytes) frames += Http2::Frame(type, 0, 1, std::string(size, 'a'));
+  return frames;
+}
+
+Flood Take(FrameMeter* meter, const std::string& bytes, FrameMeter::Clock::time_point now = {}) {
+  return meter->Take({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, now);
+}
+
+bool Passes(const std::string& bytes, size_t at_once = 1000) {
+  FrameMeter meter;
+  for (size_t at = 0; at < bytes.size(); at += at_once) {
+    const auto piece = bytes.substr(at, at_once);
+    if (Take(&meter, piece) != Flood::kNone) return false;
+  }
+  return true;
+}
+
+TEST(FrameMeterTest, MessagesMayBeLong) {
+  const std::string call = Http2::Call(1, "StreamDance") + Frames(Http2::kData, 32 << 20);
+  EXPECT_TRUE(Passes(kPreface + call + call));
+}
+
+TEST(FrameMeterTest, EachCallMayHaveHeaders) {
+  std::string calls = kPreface;
+  for (int i = 0; i < 100; ++i) calls += Frames(Http2::kHeaders, kFrame);
+  EXPECT_TRUE(Passes(calls));
+}
+
+TEST(FrameMeterTest, HeadersHaveAnEnd) {
+  const std::string begun = kPreface + Http2::Frame(Http2::kHeaders, 0, 1, "x");
+  for (const size_t size : {size_t{0}, size_t{1}, kFrame}) {
+    const std::string endless =
+        begun + Frames(Http2::kContinuation, FrameMeter::kMostHeaderBytes, size);
+    for (const size_t at_once : {size_t{1}, size_t{7}, endless.size()}) {
+      EXPECT_FALSE(Passes(endless, at_once)) << size << " bytes a frame";
+    }
+  }
+}
+
+// PRIORITY, a reset, SETTINGS, PING, WINDOW_UPDATE, a type that nobody knows, and empty data.
+TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
+  const std::vector<std::pair<int, size_t>> kinds = {{2, 5}, {3, 4},   {4, 6}, {6, 8},
+                                                     {8, 4}, {250, 0}, {0, 0}};
+  for (const auto& [type, length] : kinds) {
+    const std::string frame = Http2::Frame(type, 0, 0, std::string(length, 'a'));
+    std::string most;
+    for (int i = 0; i < FrameMeter::kMostEmptyFrames; ++i) most += frame;
+    FrameMeter meter;
+    FrameMeter::Clock::time_point now{};
+    EXPECT_EQ(Take(&meter, kPreface, now), Flood::kNone);
+    for (int second = 0; second < 3; ++second, now += std::chrono::seconds(1))
+      EXPECT_EQ(Take(&meter, most, now), Flood::kNone) << "type " << type;
+    EXPECT_EQ(Take(&meter, most + frame, now), Flood::kEmptyFrames) << "type " << type;
+  }
+}
+
+TEST(FrameMeterTest, CallsAndTheirMessagesMayBeMany) {
+  std::string calls = kPreface;
+  for (int i = 0; i <= FrameMeter::kMostEmptyFrames; ++i)
+    calls += Http2::Call(1, "StreamDance") + Http2::Frame(Http2::kData, 0, 1, "x");
+  EXPECT_TRUE(Passes(calls));
+}
+
+}  // namespace choreo::frame_meter_test
