@@ -165,7 +165,7 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
   }
   ['choreo_draining', 'choreo_refused_calls_total', 'choreo_lateness_seconds_bucket', 'choreo_calls_total', 'choreo_utilisation', 'choreo_engine_failures',
-    'choreo_last_reload_successful', 'choreo_certificate_expiry_timestamp_seconds', 'choreo_tls_handshake_failures_total']
+    'choreo_last_reload_successful', 'choreo_header_floods_total', 'choreo_empty_frame_floods_total', 'choreo_certificate_expiry_timestamp_seconds', 'choreo_tls_handshake_failures_total']
       .forEach((name) => assert.ok(asked.has(name), `nobody is woken for ${name}`));
   assert.equal(new Set(alerts.map(({alert}) => alert)).size, alerts.length);
 });
