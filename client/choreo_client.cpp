@@ -24,6 +24,7 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     if (status.ok()) return;
     const auto wait = patience.Next(status, replicas->Leave(server));
     if (!wait) throw ToError(patience.Verdict(), server.address, replicas->options().tls);
+    replicas->TellOfRetry(server, status);
     replicas->Wait(*wait, [] { return false; });
   }
 }

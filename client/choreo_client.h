@@ -65,6 +65,9 @@ struct Options {
   /// Called on a call's thread before each retry. Throws to end the call, if the caller knows that
   /// retrying is useless. May be empty.
   std::function<void()> before_retry = {};
+  /// Told of each failure that is retried, after `before_retry`: whose it was, and what it was. May
+  /// be empty.
+  std::function<void(const std::string& address, const Error& failure)> retried = {};
 };
 
 /// A dance in progress: send requests while its frames arrive. When its server is lost, it resumes

@@ -141,6 +141,7 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   const auto wait = patience_.Next(status, replicas_->Leave(failed));
   if (!wait) throw ToError(patience_.Verdict(), failed.address, replicas_->options().tls);
   lock.unlock();
+  replicas_->TellOfRetry(failed, status);
   replicas_->Wait(*wait, [&] {
     const std::lock_guard guard(mutex_);
     return cancelled_;

@@ -188,6 +188,11 @@ bool Replicas::Leave(const Server& failed) {
   return servers_.size() > 1;
 }
 
+void Replicas::TellOfRetry(const Server& failed, const grpc::Status& status) const {
+  if (options_.retried)
+    options_.retried(failed.address, ToError(status, failed.address, options_.tls));
+}
+
 void Replicas::Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const {
   constexpr std::chrono::milliseconds kPiece{20};
   using Clock = std::chrono::system_clock;

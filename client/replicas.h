@@ -39,6 +39,8 @@ class Replicas {
   /// Moves on from a failed server to the next, unless another caller already has. False if there
   /// is no other.
   bool Leave(const Server& failed);
+  /// Calls Options::retried.
+  void TellOfRetry(const Server& failed, const grpc::Status& status) const;
   /// Waits before the next attempt, or until `stop`, which is polled, returns true; connections are
   /// made meanwhile.
   void Wait(std::chrono::duration<double> time, const std::function<bool()>& stop) const;

@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "client/cli/interruption.h"
@@ -72,6 +74,29 @@ client::Options ServerOptions::ForClient() const {
   return options;
 }
 
+struct Connection::Failures {
+  explicit Failures(double seconds) : retry_s(seconds) {}
+
+  /// Notes each loss of a server once.
+  void Take(const std::string& address, const Error& failure) {
+    // The error itself reports a server that was never reached.
+    if (!reached) return;
+    const std::lock_guard lock(mutex);
+    latest = failure;
+    // Retries are at most seconds apart; later failures are another loss.
+    const Clock::time_point before = std::exchange(told[address], Clock::now());
+    if (told[address] - before <= kOfOneLoss) return;
+    std::cerr << "note: " << failure.Of(address).what() << "; servers are asked again for up to "
+              << Rounded(retry_s) << " s\n";
+  }
+
+  const double retry_s;
+  std::atomic<bool> reached = false;
+  std::mutex mutex;
+  std::optional<Error> latest;                    // lock: mutex
+  std::map<std::string, Clock::time_point> told;  // by address; lock: mutex
+};
+
 Connection::Connection(const ServerOptions& options, const std::optional<std::string>& model) {
   client::Options client_options = options.ForClient();
   if (options.addresses.empty()) {
@@ -86,22 +111,23 @@ Connection::Connection(const ServerOptions& options, const std::optional<std::st
     client_options.tls = false;
     client_options.token_file.clear();
   }
-  // The error itself reports a server that was never reached.
-  const auto reached = std::make_shared<std::atomic<bool>>(false);
-  const std::string note = "note: " + Joined(client_options.addresses) +
-                           ": lost or full; asked again for up to " +
-                           Rounded(client_options.retry_s) + " s\n";
-  client_options.before_retry = [own = own_.get(), reached, note,
-                                 told = Clock::time_point()]() mutable {
+  client_options.before_retry = [own = own_.get()] {
     Interruption::Check();
     if (own) own->RequireRunning();
-    // Retries are at most seconds apart; later failures are another loss.
-    const Clock::time_point before = std::exchange(told, Clock::now());
-    if (*reached && told - before > kOfOneLoss) std::cerr << note;
+  };
+  failures_ = std::make_shared<Failures>(client_options.retry_s);
+  client_options.retried = [failures = failures_](const std::string& address,
+                                                  const Error& failure) {
+    failures->Take(address, failure);
   };
   client_ = std::make_unique<client::Client>(client_options);
   server_ = client_->GetServerInfo();
-  *reached = true;
+  failures_->reached = true;
+}
+
+std::optional<Error> Connection::failure() const {
+  const std::lock_guard lock(failures_->mutex);
+  return failures_->latest;
 }
 
 const client::ModelDescription& Connection::model(const std::string& name) const {

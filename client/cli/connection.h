@@ -37,9 +37,14 @@ class Connection {
   const client::ServerDescription& server() const { return server_; }
   /// The model of this name, or the default. Throws Error(kNotFound) naming the existing ones.
   const client::ModelDescription& model(const std::string& name) const;
+  /// The latest failure of a server, once reached, that another attempt followed. Thread-safe.
+  std::optional<Error> failure() const;
 
  private:
+  struct Failures;
+
   std::unique_ptr<authoring::LocalServer> own_;
+  std::shared_ptr<Failures> failures_;
   std::unique_ptr<client::Client> client_;
   client::ServerDescription server_;
 };

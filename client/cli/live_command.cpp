@@ -193,6 +193,7 @@ void Run(const LiveCommand& options) {
   observer.go_on = [] { return !Interruption::Came(); };
   observer.figures = [](const live::LiveFigures& figures) { std::cout << Say(figures); };
   observer.note = [](const std::string& text) { std::cerr << "note: " << text << '\n'; };
+  observer.failure = [&connection] { return connection.failure(); };
   std::optional<live::VmcSender> vmc;
   if (!options.vmc.empty()) {
     vmc.emplace(options.vmc, model.skeleton);

@@ -55,6 +55,7 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   std::thread reader([this] { Read(); });
   try {
     Play(sound, cues, midi);
+    RequireBegun();
   } catch (...) {
     dance_->Cancel();
     reader.join();
@@ -66,6 +67,12 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   Add(since_, &all_);
   all_.seconds = since_.seconds;
   observer_.figures(all_);
+}
+
+// Nobody watches a dance that begins after its music.
+void LiveDance::RequireBegun() {
+  if (begun_ || over_ || !observer_.failure || !observer_.go_on()) return;
+  if (const auto failure = observer_.failure()) throw *failure;
 }
 
 void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi) {
@@ -216,6 +223,7 @@ void LiveDance::Read() {
 void LiveDance::Take(const client::Message& message) {
   if (const auto* header = std::get_if<client::Header>(&message)) {
     header_ = *header;
+    begun_ = true;
     motion_.fps = header->fps;
     const std::chrono::duration<double> behind(header->latency_frames / header->model_fps +
                                                kPieceSeconds + kSpareSeconds);

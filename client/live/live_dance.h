@@ -54,7 +54,9 @@ struct LiveObserver {
   std::function<void(const LiveFigures&)>
       figures;  ///< called every second, and once at the end for everything
   std::function<void(const std::string&)> note;  ///< for people, printable; a few per second
-  PosePlayer::Show show = {};                    ///< shows frames in time; may be empty
+  /// The latest failure that the client has retried, if any. May be empty.
+  std::function<std::optional<Error>()> failure = {};
+  PosePlayer::Show show = {};  ///< shows frames in time; may be empty
 };
 
 /// Dances to live music. Each frame is shown after its music by the model's look-ahead, one piece
@@ -65,8 +67,8 @@ class LiveDance {
             LiveOptions options, LiveObserver observer);
   ~LiveDance();
 
-  /// Runs until the music ends or `go_on` is false. Throws Error if the dance fails; keeps the
-  /// frames received. `midi`: a source of beats, or null.
+  /// Runs until the music ends or `go_on` is false. Throws Error if the dance fails, or is refused
+  /// until the music is over; keeps the frames received. `midi`: a source of beats, or null.
   void Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi = nullptr);
 
   const client::Header& header() const { return header_; }
@@ -92,6 +94,7 @@ class LiveDance {
   std::optional<int64_t> KeyNear(int64_t frame) const;
   int64_t FrameAt(double seconds) const;
   void ShowFigures(double seconds);
+  void RequireBegun();
 
   // Runs on the reading thread.
   void Read();
@@ -120,7 +123,7 @@ class LiveDance {
   std::optional<client::Report> report_;
   std::exception_ptr failure_;
   std::unique_ptr<PosePlayer> player_;
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> begun_ = false, over_ = false;
 
   std::mutex mutex_;  // guards the members below and the observer
   BeatClock clock_;
