@@ -34,17 +34,19 @@ class Nearest {
   // other.
   static size_t MostEdits(size_t letters) { return letters < 3 ? 0 : letters < 6 ? 1 : 2; }
 
-  // Letters inserted, removed or changed (Levenshtein).
+  // Letters inserted, removed, changed, or exchanged with the next one (optimal string alignment).
   size_t Edits(const std::string& known) const {
-    std::vector<size_t> row(known.size() + 1);
+    std::vector<size_t> two_before, before, row(known.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});
     for (size_t i = 0; i < word_.size(); ++i) {
-      size_t diagonal = row[0];
+      two_before = std::exchange(before, row);
       row[0] = i + 1;
       for (size_t j = 0; j < known.size(); ++j) {
-        const size_t changed = diagonal + (word_[i] == known[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+        const size_t changed = before[j] + (word_[i] == known[j] ? 0 : 1);
+        row[j + 1] = std::min({changed, before[j + 1] + 1, row[j] + 1});
+        const bool is_exchanged =
+            i > 0 && j > 0 && word_[i] == known[j - 1] && word_[i - 1] == known[j];
+        if (is_exchanged) row[j + 1] = std::min(row[j + 1], two_before[j - 1] + 1);
       }
     }
     return row.back();
