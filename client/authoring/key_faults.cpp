@@ -70,6 +70,25 @@ void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton) {
   }
 }
 
+void RefuseHeldInAir(const client::KeyPose& key, double seconds, const std::string& field,
+                     const Skeleton& skeleton) {
+  const std::string fault = HoldFault(skeleton, key.pose, key.mask, seconds);
+  if (fault.empty()) return;
+  throw InvalidArgument(field, "key \"" + key.id + "\": " + fault + "; hold the landing instead");
+}
+
+void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton) {
+  for (size_t i = 0, end = 0; i < keys.poses.size(); i = end) {
+    end = i + 1;
+    while (end < keys.poses.size() && IsHeld(keys.places[end])) ++end;
+    if (end == i + 1) continue;
+    const int64_t frames = FrameOf(keys.poses[end - 1], fps) - FrameOf(keys.poses[i], fps);
+    const bool is_option = keys.places[i].starts_with("--");  // --end always holds
+    RefuseHeldInAir(keys.poses[i], static_cast<double>(frames) / fps,
+                    keys.places[i + (is_option ? 0 : 1)], skeleton);
+  }
+}
+
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
                                        const Skeleton& skeleton) {
   DanceKeys by_time{.poses = keys, .places = {}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "client/authoring/dance_keys.h"
@@ -15,7 +16,14 @@ std::vector<client::Warning> KeyFaults(const DanceKeys& keys, double fps, const 
 /// bend of a knee or an elbow, naming joint, degrees and limit.
 void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton);
 
-/// The same warnings for keys without a file, in order of time.
+/// Throws Error(kInvalidArgument) with this field for a key in the air that is held for longer than
+/// a jump of its height lasts.
+void RefuseHeldInAir(const client::KeyPose& key, double seconds, const std::string& field,
+                     const Skeleton& skeleton);
+/// The same for all keys that others hold; fields are "keys.json:keyframes[2].hold" and "--end".
+void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton);
+
+/// The warnings of KeyFaults for keys without a file, in order of time.
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
                                        const Skeleton& skeleton);
 

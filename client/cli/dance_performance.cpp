@@ -183,6 +183,7 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   authoring::DanceKeys keys = ChooseKeys(options, music, seconds, length, model);
   AddEnding(options, music, controls, length, model, &keys);
   options.controls.RequireBegun(controls, length);
+  authoring::RefuseHeldInAir(keys, model.fps, model.skeleton);
   const std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
   ShowWarnings(faults, {model.fps});
 

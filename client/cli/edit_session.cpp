@@ -66,6 +66,10 @@ void EditSession::SetKey(const std::string& source, double at_s) {
         authoring::ParseTime(options_.hold, "--hold").After(at_s, counts_, "--hold");
     edit.held = authoring::Holding(&edit.key, until_s - at_s, "--hold");
   }
+  if (!edit.held.empty()) {
+    authoring::RefuseHeldInAir(edit.key, edit.held.back().time_s - edit.key.time_s,
+                               options_.hold.empty() ? source : "--hold", edit_.model.skeleton);
+  }
   for (client::KeyPose& held : edit.held) {
     held.frame = Frame(at_s + held.time_s - edit.key.time_s);
     held.pose = pose;

@@ -1,11 +1,13 @@
 #include "model/motion/pose_faults.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/rounded.h"
 #include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
+#include "model/motion/support.h"
 
 namespace choreo {
 namespace {
@@ -82,6 +84,16 @@ std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
   std::erase(faults, "");
   for (std::string& fault : BendFaults(skeleton, pose, mask)) faults.push_back(std::move(fault));
   return faults;
+}
+
+std::string HoldFault(const Skeleton& skeleton, const Pose& pose, const PoseMask& mask,
+                      double seconds) {
+  if (!AsksForAll(mask)) return "";
+  const double height = HeightAboveFloor(skeleton, pose);
+  const double jump = 2 * std::sqrt(2 * std::max(0.0, height) / kGravity);  // up and down
+  if (height <= kInAir || seconds <= jump) return "";
+  return "the body is " + Rounded(height) + " m in the air, where a jump keeps it for " +
+         Rounded(jump) + " s, not " + Rounded(seconds) + " s";
 }
 
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses) {

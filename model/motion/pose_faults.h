@@ -21,6 +21,11 @@ std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
+/// The fault of a pose in the air that is held for longer than a jump of its height lasts: "the
+/// body is 0.25 m in the air, where a jump keeps it for 0.45 s, not 1 s"; empty if there is none.
+std::string HoldFault(const Skeleton& skeleton, const Pose& pose, const PoseMask& mask,
+                      double seconds);
+
 /// A key's pose and its time.
 struct TimedPose {
   std::string name;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/motion/floor_clearance.h"
 #include "model/motion/kinematics.h"
 
 namespace choreo::pose_faults_test {
@@ -78,6 +79,18 @@ TEST(DanceFaults, NamesBodiesThatStayInTheAir) {
               IsEmpty());
   EXPECT_THAT(Messages({{"a", 1, At(0, 0.4)}, {"b", 3, At(0, 0.4)}, {"c", 4, At(0)}}),
               ElementsAre("b: the body would be in the air for 2 s, since \"a\"; a jump takes 1"));
+}
+
+TEST(HoldFault, NamesAJumpThatIsHeldForLongerThanItLasts) {
+  Pose up = At(0);
+  up.root_position.y() += 0.25 - HeightAboveFloor(Body(), up);
+  EXPECT_EQ(HoldFault(Body(), up, {}, 0.4), "");
+  EXPECT_EQ(HoldFault(Body(), up, {}, 1),
+            "the body is 0.25 m in the air, where a jump keeps it for 0.45 s, not 1 s");
+  EXPECT_EQ(HoldFault(Body(), At(0), {}, 8), "");
+  PoseMask nowhere;
+  nowhere.root_position = false;
+  EXPECT_EQ(HoldFault(Body(), up, nowhere, 1), "");
 }
 
 }  // namespace choreo::pose_faults_test
