@@ -26,6 +26,13 @@ namespace {
 /// Seconds in which a dancer can get from a held pose back into the dance and be seen to.
 constexpr double kLeastAfterHold = 1;
 
+void NoteUnknown(const EditOptions& options) {
+  std::cerr << "note: without --report the dance's keys"
+            << (options.song.empty() ? " and song are not known: new frames follow no music, and"
+                                     : " are not known:")
+            << " keys near an edit are danced over\n";
+}
+
 }  // namespace
 
 EditSession::EditSession(const EditOptions& options, const Connection& connection)
@@ -37,6 +44,8 @@ EditSession::EditSession(const EditOptions& options, const Connection& connectio
   frames_ = CountModelFrames(dance_, edit_.model);
   if (!options.report.empty())
     known_ = ReadKnown(options.report, frames_, edit_.model.fps, dance_.motion);
+  else
+    NoteUnknown(options);
   const int64_t end = frames_ + (options.loop ? LoopFrames().added : 0);
   std::tie(edit_, counts_) = HowToDance(options, connection, Seconds(end));
   path_ = edit_.controls.root_path;

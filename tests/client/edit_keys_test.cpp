@@ -302,6 +302,19 @@ TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));
 }
 
+TEST_F(EditTest, WithoutAReportAnEditSaysWhatItDoesNotKnow) {
+  const std::string key = "--key kick --at 4 -o " + At("n.npz");
+  EXPECT_THAT(
+      Edit(key).said,
+      HasSubstr("note: without --report the dance's keys and song are not known: new frames "
+                "follow no music, and keys near an edit are danced over\n"));
+  EXPECT_THAT(Edit(key + " --song " + At("song.wav")).said,
+              HasSubstr("note: without --report the dance's keys are not known: keys near an edit "
+                        "are danced over\n"));
+  EXPECT_THAT(Edit(key + " --report " + At("report.json")).said,
+              Not(HasSubstr("without --report")));
+}
+
 TEST_F(EditTest, AnotherDancesReportIsRefused) {
   nlohmann::json report = ReadJson(folder_ / "report.json");
   report["frames"] = report["frames"].get<int>() + 30;
