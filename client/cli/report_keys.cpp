@@ -100,8 +100,9 @@ std::vector<int64_t> FindKey(const ReportKeys& keys, const std::string& id, doub
       found.push_back(nearest);
   }
   if (found.empty()) {
-    throw InvalidArgument(
-        field, "the report has no key \"" + id + "\"; " + DescribeKnown(keys, id, known, second));
+    throw InvalidArgument(field, "the report has no key \"" + id + "\"; " +
+                                     DescribeKnown(keys, id, known, second) +
+                                     " (after an edit, --new-report lists its keys)");
   }
   if (found.size() > 1) {
     throw InvalidArgument(field, "the report has keys \"" + id + "\" at " + seconds +

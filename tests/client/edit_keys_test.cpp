@@ -369,6 +369,7 @@ TEST_F(EditTest, ARemovedKeyIsDancedPast) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.said, HasSubstr("--remove: the report has no key \"nosuch\"; it has " +
                                       keys[0]["id"].get<std::string>()));
+  EXPECT_THAT(outcome.said, HasSubstr(" (after an edit, --new-report lists its keys)\n"));
   const std::string first = keys[0]["id"].get<std::string>();
   const std::string begun = first.substr(0, first.size() - 1);
   outcome = Edit("--remove '" + begun + "' --report " + At("report.json") + " -o " + At("o.npz"));
