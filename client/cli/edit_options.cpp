@@ -57,24 +57,6 @@ bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, dou
   return after_s > 0 && after_s * file.fps < 1 - kOnFrame;
 }
 
-/// Refuses the report of a dance that mostly looks different.
-void CheckSketch(const std::string& path, const nlohmann::ordered_json& report, const Motion& file,
-                 double fps) {
-  const MotionSketch known = ReadSketch(report, path);
-  if (known.empty() || !report.contains("frames")) return;
-  const size_t unlike = CountUnlike(known, SketchOf(file, report["frames"].get<int64_t>(), fps));
-  if (unlike == 0) return;
-  const std::string moments =
-      std::to_string(unlike) + " of " + std::to_string(known.size()) + " moments";
-  if (2 * unlike > known.size()) {
-    throw InvalidArgument(path,
-                          "is another dance's report: this one looks otherwise at " + moments);
-  }
-  std::cerr << "note: the dance looks otherwise than " << path << " says at " << moments
-            << ": it was edited since, and what those edits set is not known; their --new-report "
-               "tells\n";
-}
-
 /// Fills in the controls of the report that the command line does not give, and this model has.
 void TakeControls(const ControlRequest& known, const client::ModelDescription& model,
                   ControlRequest* controls) {
@@ -212,7 +194,7 @@ KnownDance ReadKnown(const std::string& path, int64_t frames, double fps, const 
                                                 std::to_string(frames) +
                                                 ": this is another dance's report");
   }
-  CheckSketch(path, report, file, fps);
+  CheckSketch(path, report, file);
   const int64_t missing = report.contains("frames") ? report["frames"].get<int64_t>() - frames : 0;
   return {KeysOf(report, frames, path, missing), ReadWarnings(report, path),
           Asked::ReadFrom(report, path)};

@@ -182,6 +182,9 @@ void Run(RenderOptions options) {
   for (const std::string& motion : options.motions) inputs.push_back({"motion", motion});
   RequireOutputs({{"--out", options.out}, {"--video", options.video}}, inputs);
   Stage stage = ReadStage(options.motions);
+  // Of several, the report is that of one.
+  if (!options.report.empty() && stage.size() == 1)
+    CheckSketch(options.report, ReadReport(options.report), stage.front().motion);
   std::vector<double> keys = KeyTimes(options.report);
   Cut(&options, &stage, &keys);
   if (!options.out.empty()) DrawSheet(options, stage, keys);

@@ -151,6 +151,25 @@ void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes&
   for (const client::Warning& warning : warnings) std::cerr << Told(warning, times) << '\n';
 }
 
+void CheckSketch(const std::filesystem::path& path, const nlohmann::ordered_json& report,
+                 const Motion& file) {
+  const MotionSketch known = ReadSketch(report, path);
+  if (known.empty() || !report.contains("frames") || !authoring::IsFrameNumber(report["frames"]))
+    return;
+  const size_t unlike = CountUnlike(
+      known, SketchOf(file, report["frames"].get<int64_t>(), report["fps"].get<double>()));
+  if (unlike == 0) return;
+  const std::string moments =
+      std::to_string(unlike) + " of " + std::to_string(known.size()) + " moments";
+  if (2 * unlike > known.size()) {
+    throw InvalidArgument(path.string(),
+                          "is another dance's report: this one looks otherwise at " + moments);
+  }
+  std::cerr << "note: the dance looks otherwise than " << path.string() << " says at " << moments
+            << ": it was edited since, and what those edits set is not known; their --new-report "
+               "tells\n";
+}
+
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};

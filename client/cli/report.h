@@ -33,6 +33,11 @@ std::string Told(const client::Warning& warning, const ToldTimes& times);
 void WriteSketch(const MotionSketch& sketch, nlohmann::ordered_json* report);
 MotionSketch ReadSketch(const nlohmann::ordered_json& report, const std::filesystem::path& path);
 
+/// Notes where a dance looks otherwise than its report says. Throws Error(kInvalidArgument), whose
+/// field is the path, for the report of another one: most of the sketch differs.
+void CheckSketch(const std::filesystem::path& path, const nlohmann::ordered_json& report,
+                 const Motion& file);
+
 /// A report written by ReportJson, with valid fps and keyframes. Throws Error(kInvalidArgument)
 /// whose field begins with the path.
 nlohmann::ordered_json ReadReport(const std::filesystem::path& path);

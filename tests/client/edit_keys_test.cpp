@@ -281,6 +281,13 @@ TEST_F(EditTest, TheReportOfADanceThatLooksOtherwiseIsRefused) {
   Outcome outcome = Edit("--key kick --at 4.5 --report " + At("other.json") + " -o " + At("n.npz"));
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.said, HasSubstr("other.json: is another dance's report: this one looks "));
+  const std::string render = "render " + At("dance.npz") + " --out " + At("s.png") + " --report ";
+  outcome = Choreo(render + At("other.json"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("other.json: is another dance's report: this one looks "));
+  outcome = Choreo(render + At("dance.json"));
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_THAT(outcome.said, Not(HasSubstr("looks otherwise")));
   // In whatever format and rate, and by earlier versions.
   ASSERT_EQ(Choreo("convert " + At("dance.npz") + " " + At("dance.bvh")).code, 0);
   outcome = Choreo("edit " + At("dance.bvh") + Server() + "--key kick --at 4.5 --report " +
