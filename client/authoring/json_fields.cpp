@@ -91,6 +91,16 @@ std::string WordAt(std::string_view text, size_t byte) {
   return ", \"" + std::string(begin, end).substr(0, kMaxShownLength) + '"';
 }
 
+/// What is wrong with the text at that character, the last one that was read, and where.
+std::string DescribeBreak(std::string_view text, size_t byte) {
+  if (byte > 0 && byte <= text.size() && (text[byte - 1] == '}' || text[byte - 1] == ']')) {
+    const size_t before = text.substr(0, byte - 1).find_last_not_of(" \t\r\n");
+    if (before != std::string_view::npos && text[before] == ',')
+      return "it has a comma too many at " + At(text, before + 1);
+  }
+  return "it breaks off at " + At(text, byte) + WordAt(text, byte);
+}
+
 void RefuseOthers(const json& object, const std::string& prefix,
                   std::initializer_list<std::string_view> members, const std::string& described) {
   for (const auto& [member, ignored] : object.items()) {
@@ -155,8 +165,7 @@ json ParseJson(std::string_view text, const std::string& name) {
       return true;
     });
   } catch (const json::parse_error& error) {
-    throw InvalidArgument(place.Text(), "is not JSON: it breaks off at " + At(text, error.byte) +
-                                            WordAt(text, error.byte));
+    throw InvalidArgument(place.Text(), "is not JSON: " + DescribeBreak(text, error.byte));
   } catch (const json::exception& error) {  // "... number overflow parsing '1e999'"
     const std::string message = error.what();
     const size_t from = message.find('\''), to = message.rfind('\'');
