@@ -1,3 +1,4 @@
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -80,12 +81,16 @@ void Run(const ConvertOptions& options) {
     skeleton = Skeleton::Smpl24();
   }
   if (options.fps > 0) motion = Resample(motion, options.fps);
-  if (options.character.given())
-    return options.character.Write(options.out, skeleton, motion, root);
-  if (is_glb && root == RootMotion::kRoot) return WriteGlb(options.out, skeleton, motion, root);
-  const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
-  if (root == RootMotion::kInPlace) motion = InPlace(std::move(motion));
-  options.bvh.Write(options.out, skeleton, motion, contacts);
+  if (options.character.given()) {
+    options.character.Write(options.out, skeleton, motion, root);
+  } else if (is_glb && root == RootMotion::kRoot) {
+    WriteGlb(options.out, skeleton, motion, root);
+  } else {
+    const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
+    if (root == RootMotion::kInPlace) motion = InPlace(std::move(motion));
+    options.bvh.Write(options.out, skeleton, motion, contacts);
+  }
+  std::cout << options.out << std::endl;
 }
 
 }  // namespace

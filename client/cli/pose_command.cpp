@@ -133,6 +133,8 @@ void Run(const PoseOptions& options) {
   }
   if (!options.png.empty()) DrawAround(key, options.png);
   if (options.out.empty() && options.png.empty()) PrintAngles(key);
+  for (const std::string& written : {options.out, options.png})
+    if (!written.empty()) std::cout << written << std::endl;
 }
 
 }  // namespace

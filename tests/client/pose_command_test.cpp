@@ -36,6 +36,8 @@ TEST_F(PoseCommandTest, WritesAKeyAndAPicture) {
       "--ground --out " +
       At("p.json") + " --png " + At("out.png"));
   ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(outcome.said,
+            (folder_ / "p.json").string() + '\n' + (folder_ / "out.png").string() + '\n');
   EXPECT_GT(std::filesystem::file_size(folder_ / "out.png"), 10'000U);
   const Pose pose = Read("p.json");
   const Eigen::Matrix3Xd joints = JointPositions(Body(), pose);
