@@ -188,8 +188,10 @@ void AddEditCommand(CLI::App& program) {
       "Set, move, remove and repeat key poses of a finished dance, dance a part or all of it anew, "
       "or close it to a loop; or cut, mirror and join whole dances.\n"
       "Only the two intervals around a key are danced anew; every other frame stays as it is, bit "
-      "for bit. They end at the neighbouring keys, if --report names them within 4 s, else --around "
-      "seconds away. A key at the frame of another one replaces it, which a note says. A TIME is in seconds, or in counts of "
+      "for bit. They end at the neighbouring keys, if --report names them within 4 s, else "
+      "--around "
+      "seconds away. A key at the frame of another one replaces it, which a note says. A TIME is "
+      "in seconds, or in counts of "
       "--song: 1c is its first downbeat, 9c the next eight's 1, 9.5c the half beat after it. Keys "
       "are removed first, then moved, stretched, repeated, mirrored and set; takes come after "
       "them. With --seed, --style, --path or --velocity alone all is danced anew, through the "
@@ -304,7 +306,7 @@ void AddEditCommand(CLI::App& program) {
       ->add_option("--song", options->song,
                    "Music that the dance was made to. Default: the song that --report names; none: "
                    "new frames follow no music.")
-      ->check(CLI::ExistingFile | CLI::IsMember({kNoSong}));
+      ->check(SongOrNone());
   AddSongStart(*command, options->song_start_s);
   AddBeatOptions(*command, &options->beats);
   command

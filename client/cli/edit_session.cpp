@@ -351,8 +351,9 @@ void EditSession::CheckAround(double seconds) const {
 }
 
 int64_t EditSession::Around() const {
-  return std::min(longest_, static_cast<int64_t>(std::llround(options_.around_s.value_or(authoring::kEditAround) *
-                                                              edit_.model.fps)));
+  return std::min(longest_,
+                  static_cast<int64_t>(std::llround(
+                      options_.around_s.value_or(authoring::kEditAround) * edit_.model.fps)));
 }
 
 bool EditSession::Reaches(int64_t frames) const {

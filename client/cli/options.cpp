@@ -9,9 +9,11 @@
 
 #include "client/authoring/counts.h"
 #include "client/authoring/json_fields.h"
+#include "client/cli/asked.h"
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
 #include "model/core/limits.h"
+#include "model/core/nearest.h"
 #include "model/core/rounded.h"
 #include "model/motion/pose_faults.h"
 
@@ -69,6 +71,28 @@ CLI::Validator WholeNumberFrom(int64_t low, int64_t high) {
                     });
 }
 
+CLI::Validator OneOf(const std::vector<std::string>& words) {
+  const CLI::Validator member = CLI::IsMember(words);
+  return {[member, words](const std::string& text) -> std::string {
+            if (std::ranges::find(words, text) != words.end()) return {};
+            Nearest meant(text);
+            for (const std::string& word : words) meant.Offer(word);
+            if (meant.nearest().empty()) return member(text);
+            return text + " is not known; did you mean " + meant.nearest() + "?";
+          },
+          member.get_description()};
+}
+
+const CLI::Validator& SongOrNone() {
+  static const CLI::Validator kCheck(
+      [](std::string& text) -> std::string {
+        if (text == kNoSong || CLI::ExistingFile(text).empty()) return {};
+        return text + " is no file that is there; " + kNoSong + " stands for no song";
+      },
+      "FILE|" + std::string(kNoSong));
+  return kCheck;
+}
+
 void AddSongStart(CLI::App& command, double& seconds) {
   command
       .add_option("--song-start", seconds,
@@ -111,10 +135,11 @@ void AddManner(CLI::App& command, authoring::DanceManner* manner) {
                       Rounded(kDefaultVariation) + ".")
       ->check(NumberFrom(0, 1));
   command
-      .add_option("--style", manner->style,
-                  "How to dance, as happy or tired: a style that `choreo info` lists, apart from those "
-                  "that do not show, as all of the model default. Default: no style in "
-                  "particular.")
+      .add_option(
+          "--style", manner->style,
+          "How to dance, as happy or tired: a style that `choreo info` lists, apart from those "
+          "that do not show, as all of the model default. Default: no style in "
+          "particular.")
       ->check([](const std::string& name) {
         return name.empty() ? std::string("is empty; leave it out for no style in particular")
                             : std::string();
@@ -132,8 +157,7 @@ void AddHit(CLI::App& command, std::optional<double>& hit, const std::string& wh
 
 void AddHands(CLI::App& command, std::string& hands, const std::string& what) {
   command.add_option("--hands", hands, what + ": " + HandPoseNames() + ".")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(kHandPoseNames.begin(), kHandPoseNames.end())));
+      ->check(OneOf({kHandPoseNames.begin(), kHandPoseNames.end()}));
 }
 
 void AddModel(CLI::App& command, std::string& model) {

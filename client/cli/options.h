@@ -26,6 +26,11 @@ const CLI::Validator& TimeOrCount();
 CLI::Validator NumberFrom(double low, double high);
 CLI::Validator WholeNumberFrom(int64_t low, int64_t high);
 
+/// One of these words; the message names the one that a misspelt word may mean.
+CLI::Validator OneOf(const std::vector<std::string>& words);
+/// The file of a song, or kNoSong.
+const CLI::Validator& SongOrNone();
+
 /// `--song-start`, seconds.
 void AddSongStart(CLI::App& command, double& seconds);
 /// Throws CLI::ValidationError if it is given without a song.

@@ -239,7 +239,7 @@ void AddPlotCommand(CLI::App& program) {
                    "path (from above), height (of the root), the speed of trunk, left_arm, "
                    "right_arm, left_leg, right_leg, or beats (of the body and of --song).")
       ->required()
-      ->check(CLI::IsMember(
+      ->check(OneOf(
           {"path", "height", "trunk", "left_arm", "right_arm", "left_leg", "right_leg", "beats"}));
   command->add_option("motions", options->motions, MotionFileExtensions() + " files.")
       ->required()

@@ -227,7 +227,7 @@ void AddRenderCommand(CLI::App& program) {
                    "left), back, of one dancer as she faces at the beginning, of several as the "
                    "stage does; or follow: three quarters from the front, turning with one dancer. "
                    "Default: three-quarter; of several front.")
-      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())));
+      ->check(OneOf({kCameraNames.begin(), kCameraNames.end()}));
   command->add_option("--columns", options->sheet.columns, "Frames in a row.")
       ->check(WholeNumberFrom(1, kMaxSheetColumns))
       ->capture_default_str();
@@ -239,7 +239,7 @@ void AddRenderCommand(CLI::App& program) {
                    "The video's music: begins with the motion's first frame, ends with the last "
                    "one drawn. Default: "
                    "the song that --report names, where its dance begins; none: silence.")
-      ->check(CLI::ExistingFile | CLI::IsMember({kNoSong}));
+      ->check(SongOrNone());
   AddSongStart(*command, options->film.format.song_start_s);
   command->add_option("--fps", options->film.format.fps, "Frames a second of the video.")
       ->needs(video)

@@ -194,7 +194,7 @@ void AddTransitionCommand(CLI::App& program) {
           "--rank-by", options->rank_by,
           "quality (steering, support, skating) | likelihood (of models that have one, see "
           "`choreo info`): which alternative is the best.")
-      ->check(CLI::IsMember({"quality", "likelihood"}))
+      ->check(OneOf({"quality", "likelihood"}))
       ->capture_default_str();
   AddHit(*command, options->hit, "the end is");
   AddHands(*command, options->hands,

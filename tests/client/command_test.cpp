@@ -209,6 +209,10 @@ TEST_F(CommandTest, RendersFromTheSideThatIsAskedFor) {
   EXPECT_TRUE(sheets.contains(ReadFile(folder_ / "s.png")));
   EXPECT_THAT(render(" --camera above").said,
               HasSubstr("--camera: above not in {front,three-quarter,side,back,follow}"));
+  EXPECT_THAT(render(" --camera fron").said,
+              HasSubstr("--camera: fron is not known; did you mean front?"));
+  EXPECT_THAT(render(" --song songg.ogg").said,
+              HasSubstr("--song: songg.ogg is no file that is there; none stands for no song"));
   EXPECT_THAT(render(" " + At("a.npz") + " --camera follow").said,
               HasSubstr("--camera: follow turns with one dancer, and there are 2"));
 }
