@@ -120,8 +120,8 @@ TEST(KeyFileTest, ErrorsNameTheFieldTheValueAndTheLimit) {
   };
   refused("{", "keys.json: is not JSON: it breaks off at line 1, column 2");
   const std::string comma = "is not JSON: it has a comma too many at line ";
-  refused("{\"keyframes\": [{\"time\": 2, \"pose\": \"kick\",}]}", comma + "1, column 41");
-  refused("{\"keyframes\": [{\"time\": 2},\n ]}", comma + "1, column 28");
+  refused("{\"keyframes\": [{\"time\": 2, \"pose\": \"kick\",}]}", comma + "1, column 42");
+  refused("{\"keyframes\": [{\"time\": 2},\n ]}", comma + "1, column 27");
   refused("[]", "keys.json: has no list \"keyframes\"");
   refused(R"({"keyframes": []})", "keys.json:keyframes: is empty");
   refused(R"({"keyframes": [3]})", "keyframes[0]: 3 is not an object");
