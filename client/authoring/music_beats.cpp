@@ -127,11 +127,20 @@ BeatTrack FindAsAsked(std::span<const Onset> onsets, const BeatHint& hint) {
   return track;
 }
 
+/// The index, below zero, of a beat before the song's part, at the tempo of its first beats.
+int64_t BeatBefore(const BeatTrack& track, int64_t frame) {
+  constexpr size_t kBeats = 8;
+  const std::vector<double> seconds = track.Seconds();
+  const double bpm = TempoOf(std::span(seconds).first(std::min(seconds.size(), kBeats + 1)));
+  const auto before = static_cast<double>(frame - track.frames.front());
+  return std::llround(before / kOnsetRate * bpm / 60);
+}
+
 void Change(const BeatOptions& options, double start, BeatTrack* track) {
   Follow(options.hint, track);
   if (!options.downbeat_s) return;
   const auto wanted = std::llround((*options.downbeat_s - start) * kOnsetRate);
-  CountFrom(NearestBeat(*track, wanted), track);
+  CountFrom(wanted < 0 ? BeatBefore(*track, wanted) : NearestBeat(*track, wanted), track);
 }
 
 }  // namespace

@@ -72,6 +72,12 @@ TEST_F(MusicBeats, CountsFromTheChosenDownbeat) {
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(3)));
 }
 
+// The dance begins after it: at 3.5 s, with beat 4, the fourth of the bar from 1 on.
+TEST_F(MusicBeats, CountsFromADownbeatBeforeTheDance) {
+  const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n7\n8\n9\n", {.downbeat_s = 1}, 3.5);
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1.5), Near(5.5)));
+}
+
 TEST_F(MusicBeats, CountsFromGivenDownbeats) {
   const BeatTrack track = Read("0.5 1\n1\n1.5\n2 1\n2.5\n3\n");
   EXPECT_EQ(track.beats_in_bar, 3);
