@@ -76,8 +76,10 @@ class PelvisSolver {
     const auto last = std::find_if(frames.rbegin(), frames.rend(), bears).base();
     first_borne_ = static_cast<int>(first - frames.begin());
     last_borne_ = static_cast<int>(last - frames.begin()) - 1;
-    lands_ = Lands();
-    takes_off_ = TakesOff();
+    if (!rules.heights_alone) {  // on a path they stay as planned: it may say how high they are
+      lands_ = Lands();
+      takes_off_ = TakesOff();
+    }
     for (int frame = 0; frame < count_; ++frame) {
       if (!Leaps(frame)) continue;
       for (int i = std::max(0, frame - push_); i < std::min(count_, frame + push_ + 1); ++i)
