@@ -214,59 +214,63 @@ TEST_F(ServeTest, StopsAtOnceWhenSignalledTwice) {
   EXPECT_THAT(outcome.said, HasSubstr("the server was told to leave at once"));
 }
 
+/// systemd, as far as it listens to what a service tells it.
+class Manager {
+ public:
+  explicit Manager(const std::filesystem::path& path) {
+    sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+    std::ranges::copy(path.string(), address.sun_path);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    const timeval patience{.tv_sec = 10, .tv_usec = 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  }
+  Manager(const Manager&) = delete;
+  Manager& operator=(const Manager&) = delete;
+  ~Manager() {
+    unsetenv("NOTIFY_SOCKET");
+    close(socket_);
+  }
+
+  /// The next message; "" after ten seconds without one.
+  std::string Hear() const {
+    char text[1024];
+    const ssize_t size = recv(socket_, text, sizeof text, 0);
+    return std::string(text, static_cast<size_t>(std::max<ssize_t>(size, 0)));
+  }
+
+ private:
+  const int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+};
+
 // systemd's Type=notify: who depends on choreod starts once it serves.
 TEST_F(ServeTest, TellsItsManagerHowFarItIs) {
-  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
-  std::ranges::copy((folder_ / "notify").string(), address.sun_path);
-  const int manager = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  ASSERT_EQ(bind(manager, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  const timeval patience{.tv_sec = 10, .tv_usec = 0};
-  setsockopt(manager, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  const auto hear = [manager] {
-    char text[1024];
-    const ssize_t size = recv(manager, text, sizeof text, 0);
-    return std::string(text, static_cast<size_t>(std::max<ssize_t>(size, 0)));
-  };
+  const Manager manager(folder_ / "notify");
   std::filesystem::create_directory(folder_ / "models");
   std::ofstream(folder_ / "models/a.safetensors").flush();
-  setenv("NOTIFY_SOCKET", (folder_ / "notify").c_str(), 1);
   Start("--drain-seconds 1 --models '" + (folder_ / "models").string() + "'");
-  EXPECT_THAT(hear(), testing::StartsWith("READY=1\nSTATUS=choreod listens on 127.0.0.1:"));
-  unsetenv("NOTIFY_SOCKET");
+  EXPECT_THAT(manager.Hear(), testing::StartsWith("READY=1\nSTATUS=choreod listens on 127.0.0.1:"));
   AwaitListening();
   Send(SIGHUP);
-  EXPECT_THAT(hear(), ContainsRegex("^RELOADING=1\nMONOTONIC_USEC=[0-9]+$"));
-  EXPECT_EQ(hear(), "READY=1");
+  EXPECT_THAT(manager.Hear(), ContainsRegex("^RELOADING=1\nMONOTONIC_USEC=[0-9]+$"));
+  EXPECT_EQ(manager.Hear(), "READY=1");
   Send(SIGTERM);
-  EXPECT_THAT(hear(), testing::StartsWith("STOPPING=1\n"));
+  EXPECT_THAT(manager.Hear(), testing::StartsWith("STOPPING=1\n"));
   EXPECT_EQ(End().code, 0);
-  close(manager);
 }
 
 // systemd's WatchdogSec=: who says nothing for that long is begun again.
 TEST_F(ServeTest, TellsItsManagerThatItLives) {
-  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
-  std::ranges::copy((folder_ / "notify").string(), address.sun_path);
-  const int manager = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  ASSERT_EQ(bind(manager, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  const timeval patience{.tv_sec = 10, .tv_usec = 0};
-  setsockopt(manager, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  setenv("NOTIFY_SOCKET", (folder_ / "notify").c_str(), 1);
+  const Manager manager(folder_ / "notify");
   setenv("WATCHDOG_USEC", "400000", 1);
   Start("--drain-seconds 1");
   int alive = 0;
-  for (int i = 0; i < 4; ++i) {  // READY=1 comes among them
-    char text[1024];
-    const ssize_t size = recv(manager, text, sizeof text, 0);
-    if (size > 0) alive += std::string(text, static_cast<size_t>(size)) == "WATCHDOG=1" ? 1 : 0;
-  }
-  unsetenv("NOTIFY_SOCKET");
+  for (int i = 0; i < 4; ++i) alive += manager.Hear() == "WATCHDOG=1" ? 1 : 0;  // and READY=1
   unsetenv("WATCHDOG_USEC");
   EXPECT_EQ(alive, 3);
   AwaitListening();
   Send(SIGTERM);
   EXPECT_EQ(End().code, 0);
-  close(manager);
 }
 
 TEST_F(ServeTest, ContinuesWithoutALogReader) {
