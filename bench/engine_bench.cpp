@@ -70,8 +70,8 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
   if (model.hears_music) {
-    spec.paper.music = {Eigen::MatrixXf::Zero(model.audio_features, model.history_frames),
-                        Eigen::MatrixXf::Zero(model.audio_features, spec.frames)};
+    spec.music = {Eigen::MatrixXf::Zero(model.audio_features, model.history_frames),
+                  Eigen::MatrixXf::Zero(model.audio_features, spec.frames)};
   }
   if (model.Takes(kRootPath)) {
     const Eigen::Vector3d from = spec.history.back().root_position;

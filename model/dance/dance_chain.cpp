@@ -87,7 +87,7 @@ class DanceChain::Job : public SampleJob {
     beats_ = next.beats.For(segment_.from, segment_.to);
     PreparedTransition prepared = PrepareTransition(
         model, next.inputs, BeatsAround(SecondsOf(beats_), model.fps, segment_.from, frames()));
-    run_.emplace(model, prepared.request);
+    run_.emplace(model, prepared.spec);
     WarnOfSpeed(model, *run_, &prepared);
     warnings_ = std::move(prepared.warnings);
   }

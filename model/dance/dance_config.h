@@ -98,7 +98,7 @@ struct GroupRequest : DanceStart {
   std::optional<Target> target;
   std::string target_id = "target";  ///< its name in warnings and the report
   std::optional<Pose> after;
-  std::optional<double> hit;  ///< TransitionRequest::hit
+  std::optional<double> hit;  ///< TransitionSpec::hit
   ControlRequest controls;
 
   /// The music around the transition, from audio->first_sample on, interleaved; beyond its end is

@@ -32,12 +32,12 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
                                      std::vector<double> beats) {
   const auto& [manner, controls, segment, before, noise_like, audio, rows_end] = inputs;
   PreparedTransition prepared;
-  TransitionSpec& spec = prepared.request.spec;
+  TransitionSpec& spec = prepared.spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
   spec.first_frame = segment.from;
   if (segment.key) {
     spec.target = Target{segment.key->pose, segment.key->mask};
-    prepared.request.hit = segment.key->hit;
+    spec.hit = segment.key->hit;
     prepared.key_id = segment.key->id;
   } else if (segment.later) {
     const Key& key = *segment.later;
@@ -54,7 +54,7 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
   if (audio != nullptr) {
     if (model.hears_music) {
       const auto heard = static_cast<int>(rows_end - segment.from);
-      auto& music = spec.paper.music.emplace();
+      auto& music = spec.music.emplace();
       music.history = audio->History(segment.from, model.history_frames);
       music.rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
       music.rows.leftCols(heard) = audio->History(rows_end, heard);
@@ -77,9 +77,8 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
 void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared) {
   const std::optional<RequiredSpeed> speed = run.required_speed();
   if (!speed || !speed->TooFast()) return;
-  prepared->warnings.push_back(IntervalTooShort(model.skeleton, prepared->key_id,
-                                                prepared->request.spec.first_frame,
-                                                prepared->request.spec.frames, *speed));
+  prepared->warnings.push_back(IntervalTooShort(
+      model.skeleton, prepared->key_id, prepared->spec.first_frame, prepared->spec.frames, *speed));
 }
 
 DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio)

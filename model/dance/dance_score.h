@@ -37,7 +37,7 @@ struct TransitionInputs {
 };
 
 struct PreparedTransition {
-  TransitionRequest request;
+  TransitionSpec spec;
   std::string key_id;             ///< names its target in warnings
   std::vector<Warning> warnings;  ///< about its controls and its key
 };

@@ -38,7 +38,7 @@ struct Key {
   int64_t frame = 0;
   Pose pose = {};
   PoseMask mask = {};
-  std::optional<double> hit = {};      ///< TransitionRequest::hit
+  std::optional<double> hit = {};      ///< TransitionSpec::hit
   std::optional<HandPose> hands = {};  ///< KeyReached::hands
 
   /// Whether both are danced alike: hands do not count.

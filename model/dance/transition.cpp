@@ -119,20 +119,16 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
   return beats;
 }
 
-TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& request)
-    : model_(&model), spec_(request.spec) {
-  spec_.history = before_ = FillHistory(model, request.spec.history);
+TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world)
+    : model_(&model), spec_(world) {
+  spec_.history = before_ = FillHistory(model, world.history);
   spec_.Validate(model);
-  if (request.after) {
-    CheckJoints(model.skeleton, *request.after, "after");
-    if (!request.spec.target) throw InvalidArgument("after", "needs a target");
-  }
 
   world_ = before_.back();
-  world_target_ = Placed(request.spec.target, request.spec.controls, world_);
+  world_target_ = Placed(world.target, world.controls, world_);
   ground_ = GroundFrame::Of(world_);
   spec_.history = CanonicalHistory(ground_, before_);
-  stage_ = request.spec.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
+  stage_ = world.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
   spec_.stage = ground_.ToLocal(stage_);
   const auto to_local = [&](Target& target) {
     target.height = target.mask.root_position
@@ -146,20 +142,13 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionRequest& re
   spec_.controls.ToLocal(ground_);
   for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
     spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
-  held_ = world_target_ && request.arrival_frames > 0 &&
-          request.spec.frames < kHoldSeconds * model.fps && IsHeld(*world_target_, world_) &&
-          IsThere(*world_target_, world_);
-  footwork_ = request.footwork;
-  if (!request.spec.target || request.arrival_frames <= 0) return;
-  std::optional<Pose> after;
-  if (request.after)
-    after = ground_.ToLocal(*request.after);
-  else if (request.hit || held_)
-    after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
-  hit_ = request.hit;
-  arrival_.emplace(request.arrival_frames, request.spec.frames, *spec_.target, spec_.history, after,
-                   held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
-  spec_.paper.arrival = arrival_;
+  held_ = world_target_ && spec_.arrival_frames > 0 && spec_.frames < kHoldSeconds * model.fps &&
+          IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
+  if (world.after)
+    spec_.after = ground_.ToLocal(*world.after);
+  else if (spec_.target && (spec_.hit || held_))
+    spec_.after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
+  arrival_ = ArrivalOf(spec_, held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
 }
 
 Slices<> TransitionRun::Dance(Sampler& sampler) {
@@ -188,13 +177,13 @@ void TransitionRun::Hold() {
 void TransitionRun::Steer() {
   CheckLength();
   const ControlCurve& path = spec_.controls[kRootPath];
-  if (hit_) {
+  if (spec_.hit && arrival_) {
     HitKey({.skeleton = model_->skeleton,
             .history = spec_.history,
             .has_path = path.IsGiven(),
             .has_heights = path.requested[kPathHeight],
             .fps = model_->fps},
-           *hit_, &drawn_.poses);
+           *spec_.hit, &drawn_.poses);
   }
   plan_.reserve(drawn_.poses.size());
   frames_.reserve(drawn_.poses.size());
@@ -248,7 +237,7 @@ void TransitionRun::PutOnFeet() {
   const std::ptrdiff_t parts = (left + kFootworkFrames - 1) / kFootworkFrames;
   const auto to = from + (left + parts - 1) / parts;
   std::vector<Contacts> contacts;
-  if (footwork_) {
+  if (spec_.footwork) {
     const std::vector<Pose> history =
         LastPoses(spec_.history.size(), spec_.history, std::span(plan_.begin(), from),
                   [](const Pose& pose) -> const Pose& { return pose; });
@@ -335,11 +324,11 @@ std::optional<RequiredSpeed> TransitionRun::required_speed() const {
   return speed;
 }
 
-TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
+TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,
                               const std::function<void(int)>& danced) {
-  TransitionRun run(sampler.model(), request);
+  TransitionRun run(sampler.model(), world);
   run.Dance(sampler).Finish();
-  if (danced) danced(request.spec.frames);
+  if (danced) danced(world.frames);
   return run;
 }
 

@@ -18,22 +18,6 @@
 
 namespace choreo {
 
-/// One transition as its caller describes it.
-struct TransitionRequest {
-  /// What to make, in the world frame. The history may have any number of poses: the last tau
-  /// count, fewer are padded with the earliest, and none means the neutral stance at the origin. A
-  /// target without a position needs no height.
-  TransitionSpec spec;
-  /// The pose one frame after the key, if the motion that follows exists already.
-  std::optional<Pose> after;
-  /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h), and then rested in unless
-  /// `after` follows. None: it is passed at the dance's own speed.
-  std::optional<double> hit = {};
-  // For measuring the model alone, set these to 0 and false.
-  int arrival_frames = 12;  ///< Arrival's window
-  bool footwork = true;
-};
-
 /// One finished frame.
 struct DanceFrame {
   Pose pose;  ///< world; rounded to floats, as sent, and the next transition starts from it
@@ -56,12 +40,14 @@ struct RequiredSpeed {
 };
 
 /// Makes one transition slice by slice: samples it, steers it onto its key, and puts it on its
-/// feet. A pure function of the request and the model; the same code serves streams, single
-/// transitions, training and evaluation. Not thread-safe.
+/// feet. A pure function of the spec and the model; the same code serves streams, single
+/// transitions and evaluation. Not thread-safe.
 class TransitionRun {
  public:
-  /// Throws what TransitionSpec::Validate throws, and the same for `after`.
-  TransitionRun(const ModelInfo& model, const TransitionRequest& request);
+  /// `world`: in the world frame. Its history may have any number of poses: the last tau count,
+  /// fewer are padded with the earliest, and none means the neutral stance at the origin. A target
+  /// without a position needs no height. Throws what TransitionSpec::Validate throws.
+  TransitionRun(const ModelInfo& model, const TransitionSpec& world);
 
   const TransitionSpec& spec() const { return spec_; }
 
@@ -97,12 +83,10 @@ class TransitionRun {
   std::optional<Target> world_target_;
   GroundFrame ground_;
   std::optional<Arrival> arrival_;  // none: no steering
-  std::optional<double> hit_;
-  bool held_ = false;  // the dancer holds the target's pose
-  bool footwork_;
-  GroundFrame stage_;         // of the request, world
-  std::vector<Pose> before_;  // the history, world
-  Pose world_;                // the newest frame, whose signs are kept
+  bool held_ = false;               // the dancer holds the target's pose
+  GroundFrame stage_;               // world
+  std::vector<Pose> before_;        // the history, world
+  Pose world_;                      // the newest frame, whose signs are kept
 
   Plan drawn_;              // as sampled
   std::vector<Pose> plan_;  // canonical, steered; those of frames_ stand on their feet
@@ -113,7 +97,7 @@ class TransitionRun {
 };
 
 /// Makes all slices; calls `danced` with the number of frames made. Throws like TransitionRun.
-TransitionRun DanceTransition(Sampler& sampler, const TransitionRequest& request,
+TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,
                               const std::function<void(int)>& danced = {});
 
 /// Pads or cuts `poses` to the history of a transition: exactly tau poses, rounded to floats. No

@@ -67,14 +67,13 @@ class TransitionGroup::Impl::Job : public SampleJob {
  public:
   /// `run`: of the first candidate only, made to check the common request. The others make theirs
   /// when a worker begins them, as many may be cancelled before.
-  Job(std::shared_ptr<Impl> group, const TransitionRequest& request,
-      std::optional<TransitionRun> run)
+  Job(std::shared_ptr<Impl> group, const TransitionSpec& spec, std::optional<TransitionRun> run)
       : group_(std::move(group)),
-        request_(request),
+        spec_(spec),
         run_(std::move(run)),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
-                request_.spec.history.back()) {}
+                spec_.history.back()) {}
 
   bool Continue(Sampler& sampler) override {
     if (!slices_) slices_.emplace(Work(sampler));
@@ -93,7 +92,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   }
 
   double Deadline() const override { return deadline_; }
-  int frames() const override { return request_.spec.frames; }
+  int frames() const override { return spec_.frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
   /// Hands out the next frames once sampled, unless the group is paused. True while there are more.
@@ -112,7 +111,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
 
  private:
   Slices<> Work(Sampler& sampler) {
-    if (!run_) run_.emplace(group_->model_, request_);
+    if (!run_) run_.emplace(group_->model_, spec_);
     co_await run_->Dance(sampler);
     is_sampled_ = true;
     do {
@@ -141,11 +140,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
     return true;
   }
 
-  int Number() const { return static_cast<int>(request_.spec.candidate); }
+  int Number() const { return static_cast<int>(spec_.candidate); }
 
   Continuation GoesOn() const {
     const size_t danced = run_->frames().size();
-    Continuation end{request_.spec.first_frame + frames(), run_->HistoryAfter(danced),
+    Continuation end{spec_.first_frame + frames(), run_->HistoryAfter(danced),
                      group_->model_.fingerprint};
     end.stage = run_->StageAfter(danced);
     const GroupRequest& request = group_->request_;
@@ -155,7 +154,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   }
 
   const std::shared_ptr<Impl> group_;
-  const TransitionRequest request_;
+  const TransitionSpec spec_;
   const double deadline_ = PlaybackClock();
   std::optional<TransitionRun> run_;  // the worker's until it is sampled
   std::optional<Slices<>> slices_;    // the worker's
@@ -214,7 +213,7 @@ void TransitionGroup::Impl::Begin() {
        .audio = audio_.get(),
        .rows_end = end},
       BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames));
-  TransitionRequest& transition = prepared.request;
+  TransitionSpec& transition = prepared.spec;
   transition.after = request_.after;
   if (const auto warning = controls_.BehindEnd(end)) prepared.warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
@@ -228,7 +227,7 @@ void TransitionGroup::Impl::Begin() {
   for (const Warning& warning : prepared.warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
-    transition.spec.candidate = static_cast<uint32_t>(candidate);
+    transition.candidate = static_cast<uint32_t>(candidate);
     jobs.push_back(std::make_shared<Job>(shared_from_this(), transition, std::exchange(run, {})));
   }
   {

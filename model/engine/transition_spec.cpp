@@ -40,6 +40,11 @@ bool Keyed(const TransitionSpec& spec) {
          std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
 }
 
+std::optional<Arrival> ArrivalOf(const TransitionSpec& spec, Arrival::Lead lead) {
+  if (!spec.target || spec.arrival_frames <= 0) return std::nullopt;
+  return Arrival(spec.arrival_frames, spec.frames, *spec.target, spec.history, spec.after, lead);
+}
+
 void TransitionSpec::Validate(const ModelInfo& model) const {
   if (frames < 1 || frames > model.max_transition_frames) {
     throw InvalidArgument("frames", std::to_string(frames) + " is not in [1, " +
@@ -55,7 +60,11 @@ void TransitionSpec::Validate(const ModelInfo& model) const {
   }
   if (target) CheckTarget(*target, model, "target");
   if (later) CheckTarget(later->target, model, "later");
-  if (const auto& music = paper.music; music && model.hears_music) {
+  if (after) {
+    CheckJoints(model.skeleton, *after, "after");
+    if (!target) throw InvalidArgument("after", "needs a target");
+  }
+  if (music && model.hears_music) {
     CheckRows(music->history, tau, model, "audio_history");
     CheckRows(music->rows, frames, model, "audio_rows");
   }

@@ -60,25 +60,24 @@ struct LaterTarget {
   int frames = 0;  ///< >= 1, from the transition's last frame to the key's
 };
 
-/// Inputs of the papers' models alone, which make one frame after another.
-struct PaperInputs {
-  /// MFCC rows, oldest first.
-  struct Music {
-    Eigen::MatrixXf history;  ///< [audio_features, tau], of the history's frames
-    Eigen::MatrixXf rows;     ///< [audio_features, frames], of the transition's own
-  };
-  std::optional<Music> music = {};  ///< none: dances without
-  /// Steers each frame before the next is made, so that the model continues from where the dance
-  /// is.
-  std::optional<Arrival> arrival = {};
+/// What a model hears of the music besides beats and energy (ModelInfo::audio_features).
+struct MusicRows {
+  Eigen::MatrixXf history;  ///< [audio_features, tau], of the history's frames, oldest first
+  Eigen::MatrixXf rows;     ///< [audio_features, frames], of the transition's own
 };
 
-/// All inputs of a transition. All poses are in its canonical frame (motion/canonical.h).
+/// All inputs of a transition. All poses are in one frame: the world's for a TransitionRun, the
+/// canonical one (motion/canonical.h) for a Sampler.
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
   std::vector<Pose> history;  ///< tau poses, oldest first; the last one directly precedes frame 0
   std::optional<Target> target;           ///< none: dances to music alone
   std::optional<LaterTarget> later = {};  ///< only without a target; for models with sight_frames
+  /// The pose one frame after the target, if the motion that follows exists already.
+  std::optional<Pose> after = {};
+  /// How hard the target is hit, 0 to kMaxHit (plan/plan_stages.h), and then rested in unless
+  /// `after` follows. None: it is passed at the dance's own speed.
+  std::optional<double> hit = {};
   /// The middle of the floor area that the dance keeps to if nothing fixes its position, and the
   /// audience, which the dancer faces if nothing fixes the facing. None: where the history ends and
   /// faces.
@@ -97,8 +96,11 @@ struct TransitionSpec {
   std::vector<int64_t> noise_like = {};
   double variation = 0;
   float temperature = 0.3F;
-  std::string style = {};  ///< one of the model's, or empty for any
-  PaperInputs paper = {};
+  std::string style = {};               ///< one of the model's, or empty for any
+  std::optional<MusicRows> music = {};  ///< for models that hear rows; none: dances without
+  // For measuring the model alone, set these to 0 and false.
+  int arrival_frames = 12;  ///< Arrival's window
+  bool footwork = true;
 
   /// Throws Error(kInvalidArgument) naming the field unless it has the model's shape: frames,
   /// history, joints, mask, music rows and controls; also for a control that the model lacks.
@@ -108,6 +110,12 @@ using ValidSpec = Valid<TransitionSpec>;
 
 /// Whether its target fixes the root's position or a joint.
 bool Keyed(const TransitionSpec& spec);
+
+/// What steers its frames to its target; none without a target or with arrival_frames 0. A model
+/// that makes one frame after another steers each before it makes the next, so that it continues
+/// from where the dance is.
+std::optional<Arrival> ArrivalOf(const TransitionSpec& spec,
+                                 Arrival::Lead lead = Arrival::Lead::kWithModel);
 
 /// Throws Error(kInvalidArgument, field) unless the pose has the skeleton's joints.
 void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);

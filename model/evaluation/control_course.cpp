@@ -59,10 +59,10 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
   }
 }
 
-TransitionRequest ControlCourse::RequestFor(size_t window) const {
-  TransitionRequest request = RequestOf(model_, evaluation_.set, windows_[window], frames_,
-                                        evaluation_.options.temperature, window);
-  request.spec.target->pose = windows_[window].key;
+TransitionSpec ControlCourse::RequestFor(size_t window) const {
+  TransitionSpec request = RequestOf(model_, evaluation_.set, windows_[window], frames_,
+                                     evaluation_.options.temperature, window);
+  request.target->pose = windows_[window].key;
   return request;
 }
 
@@ -72,10 +72,10 @@ void ControlCourse::Redraw(const Draw& draw) {
     asked.root_path = draw(&windows_[i]);
     ControlTrack track(model_);
     track.Set(asked, 0, "path");
-    TransitionRequest request = RequestFor(i);
+    TransitionSpec request = RequestFor(i);
     std::vector<Warning> warnings;
-    track.FillControls("key", &request.spec, &warnings);
-    windows_[i].path = request.spec.controls[kRootPath].values;
+    track.FillControls("key", &request, &warnings);
+    windows_[i].path = request.controls[kRootPath].values;
     windows_[i].factors.resize(kBodyParts, 0);
   }
 }
@@ -101,12 +101,12 @@ Dances ControlCourse::Dance(const Method& way, double scale) const {
     }
     return dances;
   }
-  std::vector<TransitionRequest> requests;
+  std::vector<TransitionSpec> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
-    TransitionRequest request = RequestFor(i);
-    if (way.TakesPath()) request.spec.controls[kRootPath].values = windows_[i].path;
+    TransitionSpec request = RequestFor(i);
+    if (way.TakesPath()) request.controls[kRootPath].values = windows_[i].path;
     if (way.TakesVelocityFactors())
-      request.spec.controls[kVelocityFactors].values = scale * windows_[i].factors;
+      request.controls[kVelocityFactors].values = scale * windows_[i].factors;
     way.Restrict(&request);
     requests.push_back(std::move(request));
   }

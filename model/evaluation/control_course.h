@@ -54,7 +54,7 @@ class ControlCourse {
   std::vector<ClipFigure> FiguresOf(const Dances& dances, const Figure& figure) const;
 
  private:
-  TransitionRequest RequestFor(size_t window) const;
+  TransitionSpec RequestFor(size_t window) const;
 
   const Evaluation& evaluation_;
   const ModelInfo& model_;

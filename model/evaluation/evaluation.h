@@ -39,8 +39,8 @@ struct Method {
     return kind == Kind::kModel && sampler->model().Takes(kVelocityFactors);
   }
   /// Removes from a request the inputs that this method does not take.
-  void Restrict(TransitionRequest* request) const {
-    if (!keys) request->spec.target.reset();
+  void Restrict(TransitionSpec* request) const {
+    if (!keys) request->target.reset();
     if (finished) return;
     request->arrival_frames = 0;
     request->footwork = false;

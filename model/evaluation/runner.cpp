@@ -9,7 +9,7 @@ namespace {
 
 /// The next transition of a long dance, and how many of its frames are used.
 struct Next {
-  TransitionRequest request;
+  TransitionSpec spec;
   int danced;
 };
 
@@ -17,8 +17,7 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
   const int at = static_cast<int>(chain.poses.size());
   const auto key = plan.keys.lower_bound(at);
   Next out;
-  TransitionRequest& request = out.request;
-  TransitionSpec& spec = request.spec;
+  TransitionSpec& spec = out.spec;
   const auto next = key == plan.keys.end() ? std::nullopt : std::optional<int64_t>(key->first);
   const int longest = LongestToKey(model.max_transition_frames, model.sight_frames);
   const auto to = static_cast<int>(TransitionEnd(at, next, longest));
@@ -39,13 +38,13 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
   spec.temperature = plan.temperature;
   spec.style = plan.style;
   if (!plan.finished) {
-    request.arrival_frames = 0;
-    request.footwork = false;
+    spec.arrival_frames = 0;
+    spec.footwork = false;
   }
   if (plan.audio.cols() > 0 && model.hears_music) {
     const int history = model.history_frames;
     // Nothing is danced after the plan's end, whatever its audio.
-    PaperInputs::Music& music = spec.paper.music.emplace();
+    MusicRows& music = spec.music.emplace();
     music.history = plan.audio.middleCols(at, history);
     music.rows = Eigen::MatrixXf::Zero(plan.audio.rows(), spec.frames);
     music.rows.leftCols(out.danced) = plan.audio.middleCols(at + history, out.danced);
@@ -55,9 +54,9 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
 
 }  // namespace
 
-Dances Runner::Dance(Sampler& sampler, std::span<const TransitionRequest> requests) const {
+Dances Runner::Dance(Sampler& sampler, std::span<const TransitionSpec> requests) const {
   Dances dances;
-  for (const TransitionRequest& request : requests) {
+  for (const TransitionSpec& request : requests) {
     std::vector<Pose>& poses = dances.emplace_back();
     const TransitionRun run = DanceTransition(sampler, request, danced_);
     for (const DanceFrame& frame : run.frames()) poses.push_back(frame.pose);
@@ -71,7 +70,7 @@ std::vector<LongDance> Runner::DanceLong(Sampler& sampler, std::span<const LongP
     LongDance& chain = chains.emplace_back();
     while (static_cast<int>(chain.poses.size()) < plan.frames) {
       const Next next = NextOf(sampler.model(), plan, chain);
-      const TransitionRun run = DanceTransition(sampler, next.request, danced_);
+      const TransitionRun run = DanceTransition(sampler, next.spec, danced_);
       const auto danced = static_cast<size_t>(next.danced);
       for (size_t i = 0; i < danced; ++i) chain.poses.push_back(run.frames()[i].pose);
       chain.stage = run.StageAfter(danced);

@@ -46,7 +46,7 @@ class Runner {
   explicit Runner(std::function<void(int)> danced = {}) : danced_(std::move(danced)) {}
 
   /// The poses of each request. Throws what TransitionRun throws.
-  Dances Dance(Sampler& sampler, std::span<const TransitionRequest> requests) const;
+  Dances Dance(Sampler& sampler, std::span<const TransitionSpec> requests) const;
 
   /// Dances each plan transition by transition (TransitionEnd). No dance depends on the others.
   /// Throws Error(kInternal) at the first value that is not finite.

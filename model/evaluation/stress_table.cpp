@@ -54,10 +54,10 @@ Pose Lying(const Skeleton& skeleton, const Pose& standing) {
 
 // A case's key, derived from the real one; none if it has none.
 std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
-                            const TransitionRequest& request) {
-  if (one.kind == KeyKind::kReal) return request.spec.target;
+                            const TransitionSpec& request) {
+  if (one.kind == KeyKind::kReal) return request.target;
   if (one.kind == KeyKind::kNoKey) return std::nullopt;
-  const Pose& from = request.spec.history.back();
+  const Pose& from = request.history.back();
   Pose key = one.kind == KeyKind::kLying ? Lying(skeleton, from) : from;
   const double heading = Heading(ExpMap(from.rotations.col(0)));
   key.root_position += HeadingRotation(heading) * Eigen::Vector3d(0, 0, one.shift_m);
@@ -74,15 +74,15 @@ struct Danced {
 std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   const ClipSet& set = evaluation.set;
-  std::vector<TransitionRequest> requests;
+  std::vector<TransitionSpec> requests;
   std::vector<Danced> all;
   for (const EvalWindow& window :
        ChooseWindows(set, model.history_frames, one.frames, kWindowsPerClip)) {
-    TransitionRequest& request = requests.emplace_back(
+    TransitionSpec& request = requests.emplace_back(
         RequestOf(model, set, window, one.frames, evaluation.options.temperature, requests.size()));
-    request.spec.target = KeyOf(one, model.skeleton, request);
+    request.target = KeyOf(one, model.skeleton, request);
     all.push_back({{.fps = model.fps, .frames = RealPoses(set, window, one.frames, kFramesBefore)},
-                   request.spec.target,
+                   request.target,
                    TransitionRun(model, request).required_speed()});
   }
   if (one.kind == KeyKind::kReal) return all;

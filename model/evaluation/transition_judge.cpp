@@ -119,10 +119,10 @@ void TransitionJudge::AddRawKeys(Method method, float temperature, Figures* figu
 }
 
 Dances TransitionJudge::Dance(const Method& method, float temperature, uint32_t candidate) const {
-  std::vector<TransitionRequest> requests;
+  std::vector<TransitionSpec> requests;
   for (size_t i = 0; i < windows_.size(); ++i) {
     requests.push_back(RequestOf(model_, evaluation_.set, windows_[i], frames_, temperature, i));
-    requests.back().spec.candidate = candidate;
+    requests.back().candidate = candidate;
     method.Restrict(&requests.back());
   }
   return evaluation_.runner.Dance(*method.sampler, requests);

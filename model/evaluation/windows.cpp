@@ -32,14 +32,13 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
   return windows;
 }
 
-TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
-                            int frames, float temperature, size_t number) {
+TransitionSpec RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                         int frames, float temperature, size_t number) {
   constexpr int kBeatMargin = 60;  // frames around a transition, whose timing looks to both sides
   const PreparedClip& clip = set.clips[window.clip];
   const auto first = clip.motion.frames.begin() + window.start;
   const int history = model.history_frames;
-  TransitionRequest request;
-  TransitionSpec& spec = request.spec;
+  TransitionSpec spec;
   spec.frames = frames;
   spec.history.assign(first - history, first);
   spec.target = Target{first[frames - 1], {}};
@@ -48,10 +47,10 @@ TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const Ev
   spec.beats = set.BeatsBetween(window.clip, window.start - kBeatMargin, frames + 2 * kBeatMargin);
   for (double& beat : spec.beats) beat -= kBeatMargin;
   if (clip.audio.cols() > 0 && model.hears_music) {
-    spec.paper.music = {clip.audio.middleCols(window.start - history, history),
-                        clip.audio.middleCols(window.start, frames)};
+    spec.music = {clip.audio.middleCols(window.start - history, history),
+                  clip.audio.middleCols(window.start, frames)};
   }
-  return request;
+  return spec;
 }
 
 std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before) {

@@ -35,8 +35,8 @@ std::vector<EvalWindow> ChooseWindows(const ClipSet& set, int history, int frame
 
 /// The request for a window, with its real key and its clip's music, if it has any. The window's
 /// number is the seed.
-TransitionRequest RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
-                            int frames, float temperature, size_t number);
+TransitionSpec RequestOf(const ModelInfo& model, const ClipSet& set, const EvalWindow& window,
+                         int frames, float temperature, size_t number);
 
 /// The real dance there, with `before` frames of the history in front.
 std::vector<Pose> RealPoses(const ClipSet& set, const EvalWindow& window, int frames, int before);

@@ -97,7 +97,7 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
                model, next->inputs,
                BeatsAround(SecondsOf(next->beats.For(segment.from, segment.to)), model.fps,
                            segment.from, static_cast<int>(segment.to - segment.from)))
-        .request.spec;
+        .spec;
   };
   const TransitionSpec before = prepare();
   score.GiveBeats({14.1, 14.7, 15.3}, {}, {}, "beats");

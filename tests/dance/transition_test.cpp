@@ -9,13 +9,13 @@
 
 namespace choreo::transition_test {
 
-TransitionRequest RandomRequest(uint32_t seed) {
+TransitionSpec RandomRequest(uint32_t seed) {
   std::mt19937 random(seed);
-  TransitionRequest request;
-  request.spec.frames = 30;
-  request.spec.history = MotionTo(RandomPose(random), 10, random);
-  request.spec.target = Target{RandomPose(random), {}};
-  request.spec.seed = seed;
+  TransitionSpec request;
+  request.frames = 30;
+  request.history = MotionTo(RandomPose(random), 10, random);
+  request.target = Target{RandomPose(random), {}};
+  request.seed = seed;
   return request;
 }
 
@@ -35,9 +35,9 @@ TEST(Transition, FewerHistoryPosesHoldTheEarliest) {
 
 TEST(Transition, SpecIsInTheCanonicalFrame) {
   const FakeSampler sampler;
-  TransitionRequest request = RandomRequest(2);
+  TransitionSpec request = RandomRequest(2);
   // Some joints wound up by whole turns, as after many pirouettes.
-  for (Pose& pose : request.spec.history) {
+  for (Pose& pose : request.history) {
     const Eigen::Vector3d w = pose.rotations.col(5);
     pose.rotations.col(5) = w * (1 + 4 * 3.14159265358979 / w.norm());
   }
@@ -55,9 +55,9 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
     }
   }
   // The target is where it was, seen from there.
-  const GroundFrame ground = GroundFrame::Of(RoundToFloat(request.spec.history.back()));
+  const GroundFrame ground = GroundFrame::Of(RoundToFloat(request.history.back()));
   EXPECT_LT(ComparePoses(Skeleton::Smpl24(), ground.ToWorld(run.spec().target->pose),
-                         request.spec.target->pose)
+                         request.target->pose)
                 .position_m,
             1e-9);
 }
@@ -65,13 +65,13 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
 // Rest in a pose is that of the joints: the root goes on along the path.
 TEST(Transition, AKeyHitOnAPathKeepsItsWay) {
   ControlledSampler sampler;
-  TransitionRequest request = RandomRequest(4);
+  TransitionSpec request = RandomRequest(4);
   request.hit = 1;
-  request.spec.target->mask.root_position = false;
-  const Eigen::Vector3d from = request.spec.history.back().root_position, step(0, 0, 0.02);
-  Eigen::Matrix3Xd path(3, request.spec.frames);
-  for (int i = 0; i < request.spec.frames; ++i) path.col(i) = from + (i + 1) * step;
-  request.spec.controls[kRootPath].values = path;
+  request.target->mask.root_position = false;
+  const Eigen::Vector3d from = request.history.back().root_position, step(0, 0, 0.02);
+  Eigen::Matrix3Xd path(3, request.frames);
+  for (int i = 0; i < request.frames; ++i) path.col(i) = from + (i + 1) * step;
+  request.controls[kRootPath].values = path;
   const std::vector<DanceFrame> frames = DanceTransition(sampler, request).frames();
   const auto root = [&](size_t back) { return frames[frames.size() - back].pose.root_position; };
   EXPECT_LT((root(1) - path.rightCols<1>()).norm(), 1e-3);
@@ -86,9 +86,9 @@ class SwayingSampler : public FakeSampler {
 };
 
 // How far a dance to a request's target leads away from where it begins, at most: radians, metres.
-double Farthest(const TransitionRequest& request) {
+double Farthest(const TransitionSpec& request) {
   SwayingSampler sampler;
-  const Pose& from = request.spec.history.back();
+  const Pose& from = request.history.back();
   double farthest = 0;
   const TransitionRun run = DanceTransition(sampler, request);
   for (const DanceFrame& frame : run.frames()) {
@@ -102,38 +102,38 @@ double Farthest(const TransitionRequest& request) {
 TEST(Transition, OnlyAHeldPoseIsStill) {
   constexpr double kStill = 1e-5;
   std::mt19937 random(5);
-  TransitionRequest request;
+  TransitionSpec request;
   request.footwork = false;
-  request.spec.temperature = 0.8F;
-  request.spec.history.assign(10, RandomPose(random));
-  request.spec.target = Target{request.spec.history.back(), {}};
-  request.spec.frames = 6;
+  request.temperature = 0.8F;
+  request.history.assign(10, RandomPose(random));
+  request.target = Target{request.history.back(), {}};
+  request.frames = 6;
   EXPECT_LT(Farthest(request), kStill);
-  request.spec.frames = 30;  // time to dance away and back
+  request.frames = 30;  // time to dance away and back
   EXPECT_GT(Farthest(request), 100 * kStill);
-  request.spec.frames = 6;
-  request.spec.target->pose.root_position.x() += 0.3;  // aside
+  request.frames = 6;
+  request.target->pose.root_position.x() += 0.3;  // aside
   EXPECT_GT(Farthest(request), 100 * kStill);
-  request.spec.target->mask.root_position = false;
+  request.target->mask.root_position = false;
   EXPECT_LT(Farthest(request), kStill);
-  request.spec.target = Target{RandomPose(random), {}};
+  request.target = Target{RandomPose(random), {}};
   EXPECT_GT(Farthest(request), 100 * kStill);
 }
 
 // A repeated key without a place once let a held pose glide by up to a metre.
 TEST(Transition, AHeldPoseKeepsItsPlace) {
   const FakeSampler sampler;
-  TransitionRequest request = RandomRequest(5);
-  request.spec.target->mask.root_position = false;
+  TransitionSpec request = RandomRequest(5);
+  request.target->mask.root_position = false;
   EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
-  request.spec.target->pose.rotations = request.spec.history.back().rotations;
+  request.target->pose.rotations = request.history.back().rotations;
   const TransitionRun held(sampler.model(), request);
   EXPECT_TRUE(held.spec().target->mask.root_position);
   EXPECT_LT(
       (held.spec().target->pose.root_position - held.spec().history.back().root_position).norm(),
       1e-6);
-  request.spec.target->mask.joints.assign(24, true);
-  request.spec.target->mask.joints[16] = false;  // an open arm moves the body
+  request.target->mask.joints.assign(24, true);
+  request.target->mask.joints[16] = false;  // an open arm moves the body
   EXPECT_FALSE(TransitionRun(sampler.model(), request).spec().target->mask.root_position);
 }
 
@@ -142,13 +142,13 @@ TEST(Transition, AHeldPoseKeepsItsPlace) {
 TEST(Transition, ALongPlanReachesItsKeyWithoutADash) {
   FakeSampler sampler;
   const auto hardest = [&](int frames) {
-    TransitionRequest request;
-    request.spec.frames = frames;
-    request.spec.temperature = 0;
+    TransitionSpec request;
+    request.frames = frames;
+    request.temperature = 0;
     Pose leaning = StandingPose(sampler.model().skeleton);
     leaning.rotations.col(0).z() = 0.3;  // which footwork balances by the pelvis, but not in keys
-    request.spec.history.assign(10, leaning);
-    request.spec.target = Target{leaning, {}};
+    request.history.assign(10, leaning);
+    request.target = Target{leaning, {}};
     const TransitionRun run = DanceTransition(sampler, request);
     double most = 0;
     for (size_t i = run.frames().size() - 20; i + 1 < run.frames().size(); ++i) {
@@ -163,7 +163,7 @@ TEST(Transition, ALongPlanReachesItsKeyWithoutADash) {
 
 TEST(Transition, FramesAreFloatsAndHitTheKey) {
   FakeSampler sampler;
-  const TransitionRequest request = RandomRequest(3);
+  const TransitionSpec request = RandomRequest(3);
   const TransitionRun run = DanceTransition(sampler, request);
   const std::vector<DanceFrame>& frames = run.frames();
   const auto& arrival = run.arrival();
@@ -181,7 +181,7 @@ TEST(Transition, AHitComesToRestInTheKeyLateOrGently) {
   FakeSampler sampler;
   const Skeleton& skeleton = Skeleton::Smpl24();
   const auto dance = [&](std::optional<double> hit) {
-    TransitionRequest request = RandomRequest(3);
+    TransitionSpec request = RandomRequest(3);
     request.hit = hit;
     return DanceTransition(sampler, request);
   };
@@ -203,16 +203,16 @@ TEST(Transition, AHitComesToRestInTheKeyLateOrGently) {
 
 TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   FakeSampler sampler;
-  TransitionRequest request = RandomRequest(4);
+  TransitionSpec request = RandomRequest(4);
   request.arrival_frames = 0;
   request.footwork = false;
-  request.spec.temperature = 1;
+  request.temperature = 1;
   const TransitionRun run = DanceTransition(sampler, request);
   const std::vector<DanceFrame>& frames = run.frames();
   const auto& arrival = run.arrival();
   ASSERT_TRUE(arrival);
   const PoseError error =
-      ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.spec.target->pose);
+      ComparePoses(Skeleton::Smpl24(), frames.back().pose, request.target->pose);
   EXPECT_GT(error.position_m, 1e-3);
   EXPECT_NEAR(arrival->raw_error_m, error.position_m, 1e-6);
   EXPECT_NEAR(arrival->final_error_m, error.position_m, 1e-12);
@@ -221,31 +221,30 @@ TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
 
 TEST(Transition, MeasuresRequiredSpeeds) {
   const FakeSampler sampler;
-  TransitionRequest request;
-  request.spec.frames = 15;
+  TransitionSpec request;
+  request.frames = 15;
   Pose pose = RestPose(Skeleton::Smpl24());
-  request.spec.history = {pose};
+  request.history = {pose};
   pose.root_position.z() += 3;
   pose.rotations.col(18) = Eigen::Vector3d(0, 2, 0);
-  request.spec.target = Target{pose, {}};
+  request.target = Target{pose, {}};
   RequiredSpeed speed = *TransitionRun(sampler.model(), request).required_speed();
   EXPECT_NEAR(speed.root_m_per_s, 6, 1e-5);
   EXPECT_NEAR(speed.joint_rad_per_s, 4, 1e-5);
   EXPECT_EQ(speed.joint, 18);
   EXPECT_TRUE(speed.TooFast());
-  request.spec.target->mask.root_position = false;
+  request.target->mask.root_position = false;
   speed = *TransitionRun(sampler.model(), request).required_speed();
   EXPECT_EQ(speed.root_m_per_s, 0);
   EXPECT_FALSE(speed.TooFast());
-  request.spec.target.reset();
+  request.target.reset();
   EXPECT_FALSE(TransitionRun(sampler.model(), request).required_speed());
 }
 
 TEST(Transition, RefusesRequestsOfTheWrongShape) {
   const FakeSampler sampler;
-  const auto field =
-      [&sampler](const std::function<void(TransitionRequest&)>& spoil) -> std::string {
-    TransitionRequest request = RandomRequest(5);
+  const auto field = [&sampler](const std::function<void(TransitionSpec&)>& spoil) -> std::string {
+    TransitionSpec request = RandomRequest(5);
     spoil(request);
     try {
       TransitionRun run(sampler.model(), request);
@@ -256,16 +255,15 @@ TEST(Transition, RefusesRequestsOfTheWrongShape) {
     return "accepted";
   };
   const Pose other{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, 23)};
-  EXPECT_EQ(field([](TransitionRequest&) {}), "accepted");
-  EXPECT_EQ(field([](TransitionRequest& r) { r.spec.frames = 0; }), "frames");
-  EXPECT_EQ(field([](TransitionRequest& r) { r.spec.frames = 1801; }), "frames");
-  EXPECT_EQ(field([&](TransitionRequest& r) { r.spec.history[3] = other; }),
-            "history[3].rotations");
-  EXPECT_EQ(field([&](TransitionRequest& r) { r.spec.target->pose = other; }), "target.rotations");
-  EXPECT_EQ(field([&](TransitionRequest& r) { r.after = other; }), "after.rotations");
-  EXPECT_EQ(field([](TransitionRequest& r) {
-              r.after = r.spec.target->pose;
-              r.spec.target.reset();
+  EXPECT_EQ(field([](TransitionSpec&) {}), "accepted");
+  EXPECT_EQ(field([](TransitionSpec& r) { r.frames = 0; }), "frames");
+  EXPECT_EQ(field([](TransitionSpec& r) { r.frames = 1801; }), "frames");
+  EXPECT_EQ(field([&](TransitionSpec& r) { r.history[3] = other; }), "history[3].rotations");
+  EXPECT_EQ(field([&](TransitionSpec& r) { r.target->pose = other; }), "target.rotations");
+  EXPECT_EQ(field([&](TransitionSpec& r) { r.after = other; }), "after.rotations");
+  EXPECT_EQ(field([](TransitionSpec& r) {
+              r.after = r.target->pose;
+              r.target.reset();
             }),
             "after");
 }

@@ -27,7 +27,7 @@ ClipSet TwoClips() {
 TEST(Runner, DancesEachAsIfAlone) {
   const ClipSet set = TwoClips();
   HearingSampler sampler;
-  std::vector<TransitionRequest> requests;
+  std::vector<TransitionSpec> requests;
   for (const int frames : {30, 12}) {
     for (const EvalWindow& window : ChooseWindows(set, 10, frames, 3))
       requests.push_back(RequestOf(sampler.model(), set, window, frames, 0.5F, requests.size()));
@@ -43,18 +43,18 @@ TEST(Runner, DancesEachAsIfAlone) {
     for (size_t t = 0; t < dances[i].size(); ++t)
       ASSERT_EQ(dances[i][t].rotations, alone.frames()[t].pose.rotations);
   }
-  requests[1].spec.paper.music->rows.conservativeResize(Eigen::NoChange, 5);
+  requests[1].music->rows.conservativeResize(Eigen::NoChange, 5);
   ExpectError(ErrorCode::kInvalidArgument, "audio_rows", [&] { runner.Dance(sampler, requests); });
 }
 
 TEST(InterpolationSampler, WalksTheLineOntoTheKey) {
   const ClipSet set = TwoClips();
   InterpolationSampler sampler(FakeSampler().model());
-  TransitionRequest request = RequestOf(sampler.model(), set, {0, 40}, 20, 0.5F, 0);
+  TransitionSpec request = RequestOf(sampler.model(), set, {0, 40}, 20, 0.5F, 0);
   request.arrival_frames = 0;
   request.footwork = false;
   const TransitionRun run = DanceTransition(sampler, request);
-  const Pose half = InterpolatePoses(request.spec.history.back(), request.spec.target->pose, 0.5);
+  const Pose half = InterpolatePoses(request.history.back(), request.target->pose, 0.5);
   EXPECT_LT(ComparePoses(sampler.model().skeleton, run.frames()[9].pose, half).position_m, 1e-5);
   EXPECT_LT(run.arrival()->raw_error_m, 1e-5);
 }

@@ -203,13 +203,13 @@ TEST_F(ContinuousFlowSamplerTest, DancesWithoutAKeyWithAPathAndFromHeldHistory) 
 }
 
 TEST_F(ContinuousFlowSamplerTest, AServedTransitionArrivesExactly) {
-  TransitionRequest request;
-  request.spec.frames = 30;
-  request.spec.seed = 4;
-  request.spec.temperature = 0.7F;
+  TransitionSpec request;
+  request.frames = 30;
+  request.seed = 4;
+  request.temperature = 0.7F;
   Target target{RestPose(Skeleton::Smpl24()), {}};
   target.pose.rotations(2, 16) = 1.0;
-  request.spec.target = target;
+  request.target = target;
   const auto arrival = DanceTransition(*sampler_, request).arrival();
   ASSERT_TRUE(arrival);
   EXPECT_LT(arrival->final_error_m, 1e-3);

@@ -64,10 +64,9 @@ TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames) {
     spec.target->mask.joints[5] = false;
   }
   if (seed % 5 == 0) spec.target.reset();
-  if (spec.target && seed % 4 == 3)
-    spec.paper.arrival.emplace(6, frames, *spec.target, spec.history);
+  spec.arrival_frames = seed % 4 == 3 ? 6 : 0;
   if (seed % 2 == 1) {
-    PaperInputs::Music& music = spec.paper.music.emplace();
+    MusicRows& music = spec.music.emplace();
     music.history.resize(model.audio_features, model.history_frames);
     music.rows.resize(model.audio_features, frames);
     for (auto* rows : {&music.history, &music.rows})

@@ -87,9 +87,9 @@ TEST_P(SamplersTest, EveryInputMatters) {
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.target->pose.rotations(0, 9) += 0.2; }));
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.target->mask.root_position = false; }));
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.target.reset(); }));
-  EXPECT_TRUE(differs([](TransitionSpec& it) { it.paper.music->history(3, 9) += 1; }));
-  EXPECT_TRUE(differs([](TransitionSpec& it) { it.paper.music->rows(5, 0) += 1; }));
-  EXPECT_TRUE(differs([](TransitionSpec& it) { it.paper.music.reset(); }));
+  EXPECT_TRUE(differs([](TransitionSpec& it) { it.music->history(3, 9) += 1; }));
+  EXPECT_TRUE(differs([](TransitionSpec& it) { it.music->rows(5, 0) += 1; }));
+  EXPECT_TRUE(differs([](TransitionSpec& it) { it.music.reset(); }));
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.candidate += 1; }));
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.first_frame += 1; }));
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.temperature = 0; }));
@@ -117,9 +117,9 @@ TEST_P(SamplersTest, RefusesUnfitSpecsAndStaysUsable) {
               HasSubstr("history[4].rotations: 22 joints"));
   EXPECT_THAT(refused([](auto& spec) { spec.target->mask.joints.resize(3); }),
               HasSubstr("target.mask: 3 joints"));
-  EXPECT_THAT(refused([](auto& spec) { spec.paper.music->history.resize(40, 3); }),
+  EXPECT_THAT(refused([](auto& spec) { spec.music->history.resize(40, 3); }),
               HasSubstr("audio_history: 40 x 3, must be 40 x 10"));
-  EXPECT_THAT(refused([](auto& spec) { spec.paper.music->rows.resize(40, 11); }),
+  EXPECT_THAT(refused([](auto& spec) { spec.music->rows.resize(40, 11); }),
               HasSubstr("audio_rows: 40 x 11, must be 40 x 12"));
   EXPECT_EQ(sampler->Sample(RandomSpec(sampler->model(), 8)).poses.size(), 12U);
 }

@@ -53,6 +53,7 @@ class FakeTransition {
       : sampler_(sampler),
         model_(sampler.model()),
         spec_(spec),
+        arrival_(ArrivalOf(spec)),
         pose_(spec.history.back()),
         velocity_(Eigen::VectorXd::Zero(Width())),
         noise_(static_cast<size_t>(Width())) {}
@@ -64,8 +65,8 @@ class FakeTransition {
         spec_.noise_like.empty() ? own : spec_.noise_like[static_cast<size_t>(frame)];
     FillNormalLike(spec_.seed, spec_.candidate, own, like, spec_.variation, noise_);
     double music = 0;
-    if (spec_.paper.music && model_.hears_music)
-      music = std::tanh(spec_.paper.music->rows.col(frame).cast<double>().sum() / 100.0);
+    if (spec_.music && model_.hears_music)
+      music = std::tanh(spec_.music->rows.col(frame).cast<double>().sum() / 100.0);
     const double left = spec_.frames - frame;  // reaches the goal in this many steps
     const Eigen::VectorXd now = Flat(pose_);
     velocity_ = 0.5 * velocity_ + 0.5 * (Goal() - now) / left;
@@ -94,7 +95,7 @@ class FakeTransition {
         static_cast<float>(-0.5 * energy - 0.9189385332046727 * Width()));
     sampler_.OnFrame(spec_, plan);
     const Pose& drawn = plan->poses.back();
-    pose_ = spec_.paper.arrival ? spec_.paper.arrival->Apply(drawn) : drawn;
+    pose_ = arrival_ ? arrival_->Apply(drawn) : drawn;
   }
 
  private:
@@ -130,6 +131,7 @@ class FakeTransition {
   FakeSampler& sampler_;
   const ModelInfo& model_;
   TransitionSpec spec_;
+  std::optional<Arrival> arrival_;
   Pose pose_;  // the frame before, steered by arrival
   Eigen::VectorXd velocity_;
   std::vector<float> noise_;

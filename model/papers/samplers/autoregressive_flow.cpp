@@ -36,7 +36,7 @@ class TransitionWindow {
   PoseCodec codec_;
   std::vector<float> past_;   // [tau, width], oldest first
   std::vector<float> audio_;  // [tau + 1, audio_features]
-  std::optional<PaperInputs::Music> music_;
+  std::optional<MusicRows> music_;
 
   int frame_ = 0;
   FrameNoise noise_;           // the frame's
@@ -55,7 +55,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
       codec_(model.skeleton),
       past_(static_cast<size_t>(model.history_frames * codec_.width())),
       audio_(static_cast<size_t>((model.history_frames + 1) * model.audio_features)),
-      music_(model.hears_music ? spec.paper.music : std::nullopt),
+      music_(model.hears_music ? spec.music : std::nullopt),
       noise_{.seed = spec.seed,
              .frame = spec.first_frame,
              .candidate = spec.candidate,
@@ -132,7 +132,7 @@ Slices<Plan> AutoregressiveFlowSampler::Begin(const ValidSpec& valid) {
                                spec.target ? &spec.target->pose : nullptr,
                                spec.target ? spec.target->mask : PoseMask{}));
   TransitionWindow window(model_, spec);
-  std::optional<Arrival> arrival = spec.paper.arrival;
+  std::optional<Arrival> arrival = ArrivalOf(spec);
   std::vector<float> features(static_cast<size_t>(codec.width()));
   FlowFrame frame;
   frame.features = features;

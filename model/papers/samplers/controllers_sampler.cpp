@@ -74,7 +74,7 @@ ControllersWalk::ControllersWalk(const ModelInfo& model, ControllersModel networ
                                  const TransitionSpec& spec)
     : model_(model),
       network_(std::move(network)),
-      arrival_(spec.paper.arrival),
+      arrival_(ArrivalOf(spec)),
       frames_(spec.frames),
       fitter_(model.skeleton, DrawnPositions(model.skeleton), kFitOptions, model.fps) {
   const c10::InferenceMode inference;

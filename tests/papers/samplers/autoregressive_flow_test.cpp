@@ -42,9 +42,9 @@ std::vector<std::vector<float>> Heard(const ModelInfo& model) {
   TransitionSpec spec;
   spec.frames = 2;
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
-  spec.paper.music = {Eigen::MatrixXf::Constant(model.audio_features, model.history_frames, 4),
-                      Eigen::MatrixXf::Constant(model.audio_features, 2, 7)};
-  spec.paper.music->rows.col(1).setConstant(8);
+  spec.music = {Eigen::MatrixXf::Constant(model.audio_features, model.history_frames, 4),
+                Eigen::MatrixXf::Constant(model.audio_features, 2, 7)};
+  spec.music->rows.col(1).setConstant(8);
   EXPECT_EQ(sampler.Sample(spec).poses.size(), 2U);
   return heard;
 }

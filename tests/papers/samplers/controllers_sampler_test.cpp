@@ -70,7 +70,7 @@ TEST_F(ControllersSamplerTest, NeitherSeedNorTemperatureNorMusicChangeIt) {
   spec.seed = 99;
   spec.candidate = 5;
   spec.temperature = 0;
-  spec.paper.music.reset();
+  spec.music.reset();
   ExpectSameBits(once, sampler_->Sample(spec));
 }
 
@@ -94,12 +94,12 @@ TEST_F(ControllersSamplerTest, FollowsItsPathAndReachesItsKey) {
 }
 
 TEST_F(ControllersSamplerTest, DancesOnTheServedPipeline) {
-  TransitionRequest request;
-  request.spec.frames = 30;
+  TransitionSpec request;
+  request.frames = 30;
   Pose there = RestPose(sampler_->model().skeleton);
   there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
   there.rotations(2, 16) = 0.8;
-  request.spec.target = Target{there, {}};
+  request.target = Target{there, {}};
   const TransitionRun run = DanceTransition(*sampler_, request);
   ASSERT_EQ(run.frames().size(), 30U);
   ASSERT_TRUE(run.arrival());

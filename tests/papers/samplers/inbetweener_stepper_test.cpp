@@ -60,11 +60,11 @@ TEST_F(InbetweenerStepperTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikeli
 }
 
 TEST_F(InbetweenerStepperTest, DancesOnTheServedPipeline) {
-  TransitionRequest request;
-  request.spec.frames = 30;
+  TransitionSpec request;
+  request.frames = 30;
   Pose there = RestPose(sampler_->model().skeleton);
   there.root_position += Eigen::Vector3d(0.4, 0, 0.6);
-  request.spec.target = Target{there, {}};
+  request.target = Target{there, {}};
   const TransitionRun run = DanceTransition(*sampler_, request);
   ASSERT_EQ(run.frames().size(), 30U);
   ASSERT_TRUE(run.arrival());

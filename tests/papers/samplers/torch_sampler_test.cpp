@@ -42,7 +42,7 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
     const int tau = model_->config().history_frames, joints = skeleton.joints();
     Motion motion;
     motion.frames = spec.history;
-    std::optional<Arrival> arrival = spec.paper.arrival;
+    std::optional<Arrival> arrival = ArrivalOf(spec);
     for (const Pose& pose : plan.poses)
       motion.frames.push_back(arrival ? arrival->Apply(pose) : pose);
     const std::vector<Contacts> contacts = DetectContacts(skeleton, motion);
@@ -98,13 +98,13 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
       std::copy(x.data(), x.data() + width, features[i].data_ptr<float>());
     }
     torch::Tensor audio = torch::zeros({tau + spec.frames, model_->config().audio_features});
-    if (const auto& music = spec.paper.music) {
+    if (const auto& music = spec.music) {
       for (int i = 0; i < tau + spec.frames; ++i) {
         const Eigen::VectorXf row = i < tau ? music->history.col(i) : music->rows.col(i - tau);
         audio[i] = torch::tensor(std::vector<float>(row.begin(), row.end()));
       }
     }
-    const torch::Tensor has_audio = torch::full({1, 1}, spec.paper.music ? 1.0F : 0.0F);
+    const torch::Tensor has_audio = torch::full({1, 1}, spec.music ? 1.0F : 0.0F);
     const auto inverse_weights = model_->InverseWeights();
     FlowState state = torch::zeros({1, model_->StateWidth()});
     double largest_effect_of_state = 0;
