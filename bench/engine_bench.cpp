@@ -69,9 +69,9 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
   spec.target = Target{key, {}};
   spec.seed = seed;
   spec.temperature = static_cast<float>(model.default_temperature);
-  if (model.hears_music) {
-    spec.music = {Eigen::MatrixXf::Zero(model.audio_features, model.history_frames),
-                  Eigen::MatrixXf::Zero(model.audio_features, spec.frames)};
+  if (model.hearing) {
+    spec.music = {Eigen::MatrixXf::Zero(model.hearing.features, model.history_frames),
+                  Eigen::MatrixXf::Zero(model.hearing.features, spec.frames)};
   }
   if (model.Takes(kRootPath)) {
     const Eigen::Vector3d from = spec.history.back().root_position;

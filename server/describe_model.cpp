@@ -22,7 +22,7 @@ ModelDescription DescribeModel(const ModelInfo& model) {
       .velocity_references = model.velocity_references,
       .styles = model.styles,
       .style_figures = FindStyleFigures(model.fingerprint),
-      .takes_music = TakesMusic(model),
+      .takes_music = model.takes_music,
       .likelihood = model.likelihood,
       .deterministic = model.deterministic,
       .max_transition_frames = std::min(model.max_transition_frames, kMaxTransitionFrames)};

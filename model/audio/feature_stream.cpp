@@ -75,12 +75,10 @@ FeatureStream::RowValues FeatureStream::RowOf(std::span<const float> samples,
                                               Beginnings* beginnings) {
   // Shared per thread: its work space is several times the size of a stream.
   thread_local MelSpectrum spectrum;
-  const MelBandsDb db = spectrum.Decibels(samples);
-  RowValues row{};
-  MfccOfMelDb(db, row.mfcc);
+  RowValues row{.bands = spectrum.Decibels(samples), .sound = {}};
   if (beginnings == nullptr) return row;
-  row.sound = PowersOf(db);
-  row.sound.onset = beginnings->rows.Add(db);
+  row.sound = PowersOf(row.bands);
+  row.sound.onset = beginnings->rows.Add(row.bands);
   for (size_t i = 0; i < kRowOnsets; ++i) {
     const size_t centre = kHalfWindow + i * kOnsetHop;
     row.sound.onsets[i] =
@@ -101,7 +99,7 @@ int64_t FeatureStream::audio_rows() const {
   return 1 + mono / kFeatureHop;
 }
 
-std::span<const float> FeatureStream::Row(int64_t row) const { return ValuesOf(row).mfcc; }
+const MelBandsDb& FeatureStream::Bands(int64_t row) const { return ValuesOf(row).bands; }
 const RowSound& FeatureStream::Sound(int64_t row) const { return ValuesOf(row).sound; }
 
 const FeatureStream::RowValues& FeatureStream::ValuesOf(int64_t row) const {

@@ -1,20 +1,19 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <span>
 #include <vector>
 
 #include "model/audio/mel.h"
-#include "model/audio/mfcc.h"
 #include "model/audio/resample.h"
 #include "model/audio/row_sound.h"
 
 namespace choreo {
 
-/// Turns arriving music into the models' input: push samples of any format, read MFCC rows at 30 a
-/// second. Row r is centred at second r / 30 of the absolute audio clock and equals that of Mfcc().
+/// Turns arriving music into rows, 30 a second: push samples of any format, read mel bands and
+/// sound. Row r is centred at second r / 30 of the absolute audio clock and equals that of
+/// MelSpectrogram().
 /// Audio before 0 and after the end is silence. A row's bits depend only on the samples near it,
 /// not on chunk sizes or where the stream starts. Not thread-safe.
 class FeatureStream {
@@ -37,9 +36,9 @@ class FeatureStream {
   /// The number of rows from 0 on whose centre lies within the audio so far: 1 + samples / 735 at
   /// 22 050 Hz, as librosa counts; 0 before any audio.
   int64_t audio_rows() const;
-  /// kMfccCount values, valid until forgotten. Throws Error(kOutOfRange) for a row that is not
-  /// final or before first_row().
-  std::span<const float> Row(int64_t row) const;
+  /// Valid until forgotten. Throws Error(kOutOfRange) for a row that is not final or before
+  /// first_row().
+  const MelBandsDb& Bands(int64_t row) const;
   /// The sound of a row that is final and not forgotten; no onset and no power beyond the audio. In
   /// a stream that starts later, the first kRowSoundMemory rows' onsets differ from the whole
   /// song's.
@@ -60,7 +59,7 @@ class FeatureStream {
 
  private:
   struct RowValues {
-    std::array<float, kMfccCount> mfcc{};
+    MelBandsDb bands{};
     RowSound sound;
   };
 

@@ -5,10 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "model/audio/format.h"
 #include "model/audio/fourier.h"
+#include "model/core/grid.h"
 
 namespace choreo {
 
+/// Samples between rows; one row per frame of motion.
+inline constexpr int kFeatureHop = kModelSampleRate / static_cast<int>(kModelFps);
 inline constexpr int kFftSize = 2048;  ///< samples at 22 050 Hz in an analysis window
 /// Slaney's bands between 0 and 11 025 Hz, each of unit area.
 inline constexpr int kMelBands = 128;

@@ -20,7 +20,7 @@ const DctTable& Dct() {
 
 }  // namespace
 
-void MfccOfMelDb(const MelBandsDb& db, std::span<float, kMfccCount> row) {
+void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCount> row) {
   const DctTable& dct = Dct();
   for (size_t k = 0; k < row.size(); ++k) {
     double sum = 0;

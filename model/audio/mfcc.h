@@ -3,18 +3,14 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "model/audio/format.h"
 #include "model/audio/mel.h"
 #include "model/core/grid.h"
 
 namespace choreo {
 
-/// Samples between rows; one row per frame of motion.
-inline constexpr int kFeatureHop = kModelSampleRate / static_cast<int>(kModelFps);
-
 /// One row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
 /// spectrum in dB.
-void MfccOfMelDb(const MelBandsDb& db, std::span<float, kMfccCount> row);
+void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCount> row);
 
 /// [row, coefficient]
 using FeatureMatrix = Eigen::Matrix<float, Eigen::Dynamic, kMfccCount, Eigen::RowMajor>;

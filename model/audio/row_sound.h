@@ -3,7 +3,6 @@
 #include <array>
 
 #include "model/audio/mel.h"
-#include "model/audio/mfcc.h"
 #include "model/audio/onset.h"
 #include "model/audio/row_onset.h"
 
@@ -16,13 +15,13 @@ static_assert(kRowOnsets * kOnsetHop == kFeatureHop);
 inline constexpr int kRowSoundMemory = RowOnset::kMemory;
 static_assert(OnsetMeter::kMemory <= kRowOnsets * kRowSoundMemory);
 
-/// The sound of a FeatureStream's row, besides its MFCC. Powers are mean squares over its window; a
+/// The sound of a FeatureStream's row. Powers are mean squares over its window; a
 /// full-scale sine has 0.5.
 struct RowSound {
-  float onset = 0;  ///< from RowOnset
+  float onset = 0;                         ///< from RowOnset
   std::array<Onset, kRowOnsets> onsets{};  ///< from OnsetMeter, oldest first
-  float power = 0;  ///< K-weighted as in ITU-R BS.1770: its loudness
-  float bass = 0;   ///< the power below 130 Hz, unweighted
+  float power = 0;                         ///< K-weighted as in ITU-R BS.1770: its loudness
+  float bass = 0;                          ///< the power below 130 Hz, unweighted
 };
 
 /// The powers of a row with these bands, without its onset.

@@ -10,12 +10,17 @@
 namespace choreo {
 namespace {
 
-std::array<float, kMfccCount> SilenceRow() {
+Eigen::VectorXf Hear(const Hearing& hearing, const FeatureStream& music, int64_t row) {
+  Eigen::VectorXf features(hearing.features);
+  hearing.row(music.Bands(row), {features.data(), static_cast<size_t>(hearing.features)});
+  return features;
+}
+
+Eigen::VectorXf HearSilence(const Hearing& hearing) {
+  if (!hearing) return {};
   FeatureStream silence(kModelSampleRate, 1);
   silence.Finish();
-  std::array<float, kMfccCount> row{};
-  std::ranges::copy(silence.Row(0), row.begin());
-  return row;
+  return Hear(hearing, silence, 0);
 }
 
 }  // namespace
@@ -29,14 +34,16 @@ void CheckSamples(std::span<const float> interleaved, int channels, int64_t firs
   CheckLevels(interleaved, channels, first_sample);
 }
 
-AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample)
+AudioFeed::AudioFeed(double sample_rate, int channels, int64_t first_sample, Hearing hearing)
     : sample_rate_(sample_rate),
       channels_(channels),
       features_(sample_rate, channels, first_sample),
-      silence_(SilenceRow()),
+      hearing_(hearing),
+      silence_(HearSilence(hearing)),
       whole_(first_sample == 0),
       first_row_(features_.first_row()),
-      ready_(features_.first_row()),
+      ready_(first_row_),
+      published_(first_row_),
       first_sound_(first_row_ > 0 ? first_row_ + kRowSoundMemory : 0) {}
 
 void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
@@ -93,9 +100,9 @@ void AudioFeed::Publish() {
   const int64_t computed = features_.final_rows();
   std::lock_guard lock(mutex_);
   const int64_t end = std::min(computed, features_.audio_rows() + kTail);
-  for (int64_t row = first_row_ + static_cast<int64_t>(rows_.size()); row < end; ++row) {
-    std::ranges::copy(features_.Row(row), rows_.emplace_back().begin());
-    if (row >= first_sound_) sounds_.push_back(features_.Sound(row));
+  for (; published_ < end; ++published_) {
+    if (hearing_) rows_.push_back(Hear(hearing_, features_, published_));
+    if (published_ >= first_sound_) sounds_.push_back(features_.Sound(published_));
   }
   features_.Forget(end);
   ready_ = computed;
@@ -106,19 +113,20 @@ int64_t AudioFeed::ready() const {
   return ready_;
 }
 
-void AudioFeed::CopyRow(int64_t row, std::span<float> to) const {
-  std::lock_guard lock(mutex_);
+const Eigen::VectorXf& AudioFeed::Heard(int64_t row) const {
   if (row >= ready_ || (row >= 0 && row < first_row_)) {
     throw Error(ErrorCode::kInternal, "",
                 "audio row " + std::to_string(row) + " is forgotten, or was never sent");
   }
-  const auto at = static_cast<size_t>(row - first_row_);
-  std::ranges::copy(row < 0 || at >= rows_.size() ? silence_ : rows_[at], to.begin());
+  if (row < 0 || row >= published_) return silence_;
+  return rows_[static_cast<size_t>(row - first_row_)];
 }
 
 void AudioFeed::Forget(int64_t row) {
   std::lock_guard lock(mutex_);
-  for (; first_row_ < row && !rows_.empty(); ++first_row_) rows_.pop_front();
+  const int64_t first_kept = std::clamp(row, first_row_, published_);
+  if (hearing_) rows_.erase(rows_.begin(), rows_.begin() + (first_kept - first_row_));
+  first_row_ = first_kept;
   for (; first_sound_ < row - kSoundMemory && !sounds_.empty(); ++first_sound_) sounds_.pop_front();
 }
 
@@ -132,10 +140,9 @@ std::vector<RowSound> AudioFeed::Sounds(int64_t row, int count) const {
 }
 
 Eigen::MatrixXf AudioFeed::History(int64_t frame, int count) const {
-  Eigen::MatrixXf history(kMfccCount, count);
-  for (int i = 0; i < count; ++i) {
-    CopyRow(frame - count + i, {history.col(i).data(), static_cast<size_t>(kMfccCount)});
-  }
+  Eigen::MatrixXf history(hearing_.features, count);
+  std::lock_guard lock(mutex_);
+  for (int i = 0; i < count; ++i) history.col(i) = Heard(frame - count + i);
   return history;
 }
 

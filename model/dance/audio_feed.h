@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -10,9 +9,9 @@
 #include <vector>
 
 #include "model/audio/feature_stream.h"
-#include "model/audio/mfcc.h"
 #include "model/audio/music_dynamics.h"
 #include "model/core/grid.h"
+#include "model/engine/transition_spec.h"
 
 namespace choreo {
 
@@ -23,13 +22,14 @@ void CheckSamples(std::span<const float> interleaved, int channels, int64_t firs
 /// How many past rows keep their sound: as many as a dance needs.
 inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 
-/// Turns samples into the model's audio rows. One thread at a time pushes; any thread reads.
+/// Turns samples into what a dance hears: the sound of each row, and the rows of a model's own
+/// hearing. One thread at a time pushes; any thread reads.
 /// Readers never wait for a transform: rows are computed outside the lock and published in short
 /// turns.
 class AudioFeed {
  public:
   /// Throws what FeatureStream throws.
-  AudioFeed(double sample_rate, int channels, int64_t first_sample);
+  AudioFeed(double sample_rate, int channels, int64_t first_sample, Hearing hearing = {});
 
   /// Calls `on_rows` whenever it has added rows. Throws Error(kOutOfRange) unless `first_sample` is
   /// the next one, Error(kInvalidArgument) for bad samples and beyond kMaxAudioSeconds,
@@ -55,9 +55,8 @@ class AudioFeed {
 
   /// Rows below this one can be read.
   int64_t ready() const;
-  /// Copies a row, which must be ready. Rows before 0 are silence.
-  void CopyRow(int64_t row, std::span<float> to) const;
-  /// The `count` rows before `frame`, oldest first, one per column; all must be ready.
+  /// What the model hears in the `count` rows before `frame`, oldest first, one per column; all
+  /// must be ready. Rows before 0 are silence.
   Eigen::MatrixXf History(int64_t frame, int count) const;
   /// The sound of the last `count` rows before `row`, at most kSoundMemory; fewer at the start of
   /// the music. All must be ready.
@@ -66,21 +65,23 @@ class AudioFeed {
   void Forget(int64_t row);
 
  private:
-  using RowValues = std::array<float, kMfccCount>;
-
   void Publish();
+  // Requires mutex_.
+  const Eigen::VectorXf& Heard(int64_t row) const;
 
   double sample_rate_;
   int channels_;
   FeatureStream features_;
-  RowValues silence_;
+  const Hearing hearing_;
+  Eigen::VectorXf silence_;          // as the model hears it; empty if it hears nothing
   bool whole_;                       // begins with the music's first sample
   float peak_ = 0, mixed_peak_ = 0;  // of its channels, and of their mix
 
   mutable std::mutex mutex_;  // of what follows
   int64_t first_row_;
   int64_t ready_;
-  std::deque<RowValues> rows_;  // from first_row_ on; later rows are silence
+  int64_t published_;                 // rows before it
+  std::deque<Eigen::VectorXf> rows_;  // as the model hears them, from first_row_ to published_
   int64_t first_sound_;
   std::deque<RowSound> sounds_;  // from first_sound_ on
 };

@@ -112,7 +112,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
       mailbox_(std::move(sink)),
       audio_(asked->audio
                  ? std::make_unique<AudioFeed>(asked->audio->sample_rate, asked->audio->channels,
-                                               asked->audio->first_sample)
+                                               asked->audio->first_sample, model_.hearing)
                  : nullptr),
       report_(model_, asked, audio(), mailbox_),
       start_time_(PlaybackClock()),

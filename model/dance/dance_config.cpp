@@ -18,7 +18,7 @@ namespace {
 void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
                         int64_t first_frame) {
   const std::string field = "config.audio_format";
-  if (!TakesMusic(model)) {
+  if (!model.takes_music) {
     throw Error(ErrorCode::kUnimplemented, field, "this model does not take music");
   }
   CheckAudioFormat(audio.sample_rate, audio.channels, field);
@@ -126,11 +126,6 @@ int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelIn
   if (heard == 0) return LatestFirstSample(first_frame, rate, model);
   const int64_t row = std::max<int64_t>(0, first_frame - heard - kRowSoundMemory);
   return std::max(first_sample, FeatureStream::FirstSampleFor(row, rate));
-}
-
-bool TakesMusic(const ModelInfo& model) {
-  // FeatureStream makes 30 rows a second.
-  return model.audio_features == kMfccCount && model.fps == kModelFps;
 }
 
 }  // namespace choreo

@@ -126,7 +126,4 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats);
 
-/// Whether the model takes music.
-bool TakesMusic(const ModelInfo& model);
-
 }  // namespace choreo

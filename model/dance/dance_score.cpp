@@ -52,11 +52,11 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
   }
   spec.stage = before.stage;
   if (audio != nullptr) {
-    if (model.hears_music) {
+    if (model.hearing) {
       const auto heard = static_cast<int>(rows_end - segment.from);
       auto& music = spec.music.emplace();
       music.history = audio->History(segment.from, model.history_frames);
-      music.rows = Eigen::MatrixXf::Zero(model.audio_features, spec.frames);
+      music.rows = Eigen::MatrixXf::Zero(model.hearing.features, spec.frames);
       music.rows.leftCols(heard) = audio->History(rows_end, heard);
     }
     spec.energy = {HearEnergyAt(*audio, manner, segment.from - kTypicalFrames),
@@ -94,7 +94,7 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
       has_beats_(!asked->music_beats.empty()),
       manner_(*asked),
       // A model that hears music hears that of the transition itself.
-      turn_(asked->music_dynamics > 0 && !model.hears_music) {
+      turn_(asked->music_dynamics > 0 && !model.hearing) {
   if (asked->continuation) reached_before_ = asked->continuation->reached;
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model.fps));
 }
@@ -218,7 +218,7 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   if (segment == nullptr || EndsBy(segment->from) || !timeline_.IsCertain(segment->from))
     return std::nullopt;
   int64_t rows_end = segment->from;
-  if (model_.hears_music) rows_end = std::min(segment->to, end_frame_.value_or(segment->to));
+  if (model_.hearing) rows_end = std::min(segment->to, end_frame_.value_or(segment->to));
   // Beats of the whole music are set before its first row is ready, so a transition that waits for
   // one row knows them.
   if (audio_ != nullptr && ready < std::max(rows_end, first_frame_ + 1)) return std::nullopt;

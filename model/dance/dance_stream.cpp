@@ -141,7 +141,7 @@ void DanceStream::Cancel() noexcept { chain_->Cancel(); }
 int DanceStream::LatencyFrames(const DanceStart& config, const ModelInfo& model) {
   double seconds = 0;
   if (config.audio) {
-    if (model.hears_music) seconds += kTypicalFrames / model.fps;
+    if (model.hearing) seconds += kTypicalFrames / model.fps;
     const FeatureStream stream(config.audio->sample_rate, config.audio->channels);
     seconds += static_cast<double>(stream.latency_samples()) / kModelSampleRate;
   }

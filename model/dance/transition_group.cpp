@@ -184,8 +184,8 @@ TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
   const size_t skipped =
       std::min(static_cast<size_t>(first - first_sample) * channels, samples.size());
   std::span<const float> rest = std::span(samples).subspan(skipped);
-  audio_ = std::make_unique<AudioFeed>(rate, channel_count,
-                                       first_sample + static_cast<int64_t>(skipped / channels));
+  audio_ = std::make_unique<AudioFeed>(
+      rate, channel_count, first_sample + static_cast<int64_t>(skipped / channels), model_.hearing);
   const size_t second = static_cast<size_t>(rate) * channels;
   while (!rest.empty() && audio_->ready() < first_frame_ + request_.frames) {
     const size_t count = std::min(second, rest.size());

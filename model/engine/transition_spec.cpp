@@ -9,9 +9,9 @@ namespace {
 
 void CheckRows(const Eigen::MatrixXf& rows, int count, const ModelInfo& model,
                const std::string& field) {
-  if (rows.rows() == model.audio_features && rows.cols() == count) return;
+  if (rows.rows() == model.hearing.features && rows.cols() == count) return;
   throw InvalidArgument(field, std::to_string(rows.rows()) + " x " + std::to_string(rows.cols()) +
-                                   ", must be " + std::to_string(model.audio_features) + " x " +
+                                   ", must be " + std::to_string(model.hearing.features) + " x " +
                                    std::to_string(count));
 }
 
@@ -64,7 +64,7 @@ void TransitionSpec::Validate(const ModelInfo& model) const {
     CheckJoints(model.skeleton, *after, "after");
     if (!target) throw InvalidArgument("after", "needs a target");
   }
-  if (music && model.hears_music) {
+  if (music && model.hearing) {
     CheckRows(music->history, tau, model, "audio_history");
     CheckRows(music->rows, frames, model, "audio_rows");
   }

@@ -23,6 +23,16 @@
 /// Describes models and requests for transitions.
 namespace choreo {
 
+/// What a model hears of each frame of music besides beats and energy. A transition of a model that
+/// hears waits for all of its music.
+struct Hearing {
+  int features = 0;  ///< numbers of a frame; 0: nothing
+  /// Makes them of the mel bands, in dB.
+  void (*row)(std::span<const double> bands, std::span<float> features) = nullptr;
+
+  explicit operator bool() const { return features > 0; }
+};
+
 /// Describes a loaded model. Constant for the life of a sampler.
 struct ModelInfo {
   std::string name;         ///< "default", "paper-f", ...
@@ -32,15 +42,13 @@ struct ModelInfo {
   Skeleton skeleton;
   double fps = kModelFps;               ///< rate at which the model runs
   int history_frames = kHistoryFrames;  ///< tau
-  int audio_features = kMfccCount;      ///< columns of MFCC rows
   int max_transition_frames = kMaxTransitionFrames;
   /// How far ahead the model sees a key beyond its transition (LaterTarget). 0: not at all.
   int sight_frames = 0;
   double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
-  /// Whether the model reads a transition's MFCC rows. If so, a transition waits for all of its
-  /// music.
-  bool hears_music = true;
+  bool takes_music = true;                   ///< false: its dances have no music
+  Hearing hearing = {};
   bool deterministic = false;              ///< seed, candidate and temperature change nothing
   bool likelihood = false;                 ///< plans have exact ones (Plan::log_likelihoods)
   std::vector<std::string> controls = {};  ///< that it takes, of the names in kControls
@@ -60,10 +68,10 @@ struct LaterTarget {
   int frames = 0;  ///< >= 1, from the transition's last frame to the key's
 };
 
-/// What a model hears of the music besides beats and energy (ModelInfo::audio_features).
+/// The music as a model hears it (Hearing).
 struct MusicRows {
-  Eigen::MatrixXf history;  ///< [audio_features, tau], of the history's frames, oldest first
-  Eigen::MatrixXf rows;     ///< [audio_features, frames], of the transition's own
+  Eigen::MatrixXf history;  ///< [features, tau], of the history's frames, oldest first
+  Eigen::MatrixXf rows;     ///< [features, frames], of the transition's own
 };
 
 /// All inputs of a transition. All poses are in one frame: the world's for a TransitionRun, the
@@ -97,7 +105,7 @@ struct TransitionSpec {
   double variation = 0;
   float temperature = 0.3F;
   std::string style = {};               ///< one of the model's, or empty for any
-  std::optional<MusicRows> music = {};  ///< for models that hear rows; none: dances without
+  std::optional<MusicRows> music = {};  ///< for models that hear; none: dances without
   // For measuring the model alone, set these to 0 and false.
   int arrival_frames = 12;  ///< Arrival's window
   bool footwork = true;

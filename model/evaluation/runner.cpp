@@ -41,7 +41,7 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
     spec.arrival_frames = 0;
     spec.footwork = false;
   }
-  if (plan.audio.cols() > 0 && model.hears_music) {
+  if (plan.audio.cols() > 0 && model.hearing) {
     const int history = model.history_frames;
     // Nothing is danced after the plan's end, whatever its audio.
     MusicRows& music = spec.music.emplace();

@@ -36,7 +36,6 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
     network = MakeTorchFlowNetwork(checkpoint.model, there);
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
-  info.hears_music = false;  // except its beats
   info.sight_frames = kSightFrames;
   info.default_temperature = config.temperature;
   info.max_temperature = kMaxFlowTemperature;

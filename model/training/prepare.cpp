@@ -11,6 +11,7 @@
 
 #include "model/audio/decode.h"
 #include "model/audio/feature_stream.h"
+#include "model/audio/mfcc.h"
 #include "model/core/atomic_file.h"
 #include "model/core/error.h"
 #include "model/core/grid.h"
@@ -94,9 +95,11 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
     std::snprintf(text, sizeof(text), "the music ends %.1f s before the dance", missing_s);
     warnings.push_back(text);
   }
-  Eigen::MatrixXf rows(stream.Row(0).size(), frames);
-  for (size_t f = 0; f < frames; ++f)
-    std::ranges::copy(stream.Row(first + static_cast<int64_t>(f)), rows.col(f).data());
+  Eigen::MatrixXf rows(kMfccCount, frames);
+  for (size_t f = 0; f < frames; ++f) {
+    MfccOfMelDb(stream.Bands(first + static_cast<int64_t>(f)),
+                std::span<float, kMfccCount>(rows.col(f).data(), kMfccCount));
+  }
   return rows;
 }
 

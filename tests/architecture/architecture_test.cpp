@@ -64,7 +64,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {flow, {core, motion, plan}},
         {engine, {core, motion, flow, plan}},
         {networks, {core, motion, flow}},
-        {paper_samplers, {core, motion, fit, flow, engine, networks}},
+        {paper_samplers, {core, audio, motion, fit, flow, engine, networks}},
         {samplers, {core, flow, engine, paper_samplers}},
         {messages, {core, motion}},
         {dance, {core, audio, motion, plan, engine, messages}},

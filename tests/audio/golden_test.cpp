@@ -87,7 +87,7 @@ TEST_P(GoldenTest, FeatureStream) {
   stream.Finish();
   FeatureMatrix rows(stream.audio_rows(), kMfccCount);
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    std::copy_n(stream.Row(r).begin(), kMfccCount, rows.row(r).data());
+    MfccOfMelDb(stream.Bands(r), std::span<float, kMfccCount>(rows.row(r).data(), kMfccCount));
   }
   ExpectMfcc(".mfcc40_hop735_notopdb.npy", rows);
 }

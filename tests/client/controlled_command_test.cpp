@@ -16,7 +16,7 @@ const Skeleton& Body() { return Skeleton::Smpl24(); }
 /// One that takes no music.
 class SilentSampler final : public ControlledSampler {
  public:
-  SilentSampler() { model_.audio_features = 0; }
+  SilentSampler() { model_.takes_music = false; }
 };
 
 /// One that draws nothing.

@@ -7,23 +7,22 @@
 #include <utility>
 #include <vector>
 
-#include "model/audio/mfcc.h"
+#include "model/audio/mel.h"
 #include "model/core/error.h"
 #include "tests/audio/signals.h"
 
 namespace choreo::audio_feed_test {
 
-using Row = std::array<float, kMfccCount>;
+// Of a model that hears the bands themselves.
+const Hearing kHearing = {kMelBands, [](std::span<const double> bands, std::span<float> features) {
+                            std::ranges::copy(bands, features.begin());
+                          }};
 
-Row RowOf(const AudioFeed& feed, int64_t row) {
-  Row values{};
-  feed.CopyRow(row, values);
-  return values;
-}
+Eigen::VectorXf RowOf(const AudioFeed& feed, int64_t row) { return feed.History(row + 1, 1); }
 
 TEST(AudioFeedTest, ForgottenRowsAreGoneAndTheOthersStay) {
   const std::vector<float> wave = TonesAndBursts();
-  AudioFeed whole(22050, 1, 0), feed(22050, 1, 0);
+  AudioFeed whole(22050, 1, 0, kHearing), feed(22050, 1, 0, kHearing);
   whole.Push(wave, 0, [] {});
   int64_t at = 0;
   for (; at < static_cast<int64_t>(wave.size()); at += 735) {
@@ -38,16 +37,23 @@ TEST(AudioFeedTest, ForgottenRowsAreGoneAndTheOthersStay) {
   for (int64_t row = kept; row < kept + 30; ++row) EXPECT_EQ(RowOf(feed, row), RowOf(whole, row));
   EXPECT_EQ(feed.History(kept + 10, 10), whole.History(kept + 10, 10));
   EXPECT_NE(RowOf(whole, kept), RowOf(whole, kept + 1));
-  Row values{};
-  EXPECT_THROW(feed.CopyRow(kept - 1, values), Error);
+  EXPECT_THROW(RowOf(feed, kept - 1), Error);
   EXPECT_EQ(RowOf(feed, -1), RowOf(whole, -1));  // silence's, before all music
+}
+
+TEST(AudioFeedTest, HearsNothingForAModelThatDoesNot) {
+  AudioFeed feed(22050, 1, 0);
+  feed.Push(TonesAndBursts(), 0, [] {});
+  EXPECT_EQ(feed.History(10, 10).rows(), 0);
+  EXPECT_EQ(feed.Sounds(20, 5).size(), 5U);
 }
 
 TEST(AudioFeedTest, KnowsSilenceAndChannelsThatCancelEachOther) {
   const auto stereo = [](float left, float right, int64_t first_sample) {
     AudioFeed feed(22050, 2, first_sample);
     std::vector<float> wave;
-    for (const float level : Noise(22050, 5)) wave.insert(wave.end(), {left * level, right * level});
+    for (const float level : Noise(22050, 5))
+      wave.insert(wave.end(), {left * level, right * level});
     feed.Push(wave, first_sample, [] {});
     return std::pair(feed.silent(), feed.cancels());
   };
@@ -61,7 +67,7 @@ TEST(AudioFeedTest, KnowsSilenceAndChannelsThatCancelEachOther) {
 
 TEST(AudioFeedTest, RefusesPartialFramesAndNonFiniteSamples) {
   const std::vector<float> wave = Noise(2 * 30000, 5);
-  AudioFeed whole(44100, 2, 0), feed(44100, 2, 0);
+  AudioFeed whole(44100, 2, 0, kHearing), feed(44100, 2, 0, kHearing);
   whole.Push(wave, 0, [] {});
   feed.Push(std::span(wave).first(20000), 0, [] {});
   EXPECT_THROW(feed.Push(std::span(wave).first(3), 10000, [] {}), Error);

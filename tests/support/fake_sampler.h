@@ -36,7 +36,6 @@ class FakeSampler : public Sampler {
     model_.card = R"({"name": "fake"})";
     model_.skeleton = skeleton;
     model_.styles = {"calm", "wild"};
-    model_.hears_music = false;
     model_.likelihood = true;
   }
 
@@ -65,7 +64,7 @@ class FakeTransition {
         spec_.noise_like.empty() ? own : spec_.noise_like[static_cast<size_t>(frame)];
     FillNormalLike(spec_.seed, spec_.candidate, own, like, spec_.variation, noise_);
     double music = 0;
-    if (spec_.music && model_.hears_music)
+    if (spec_.music && model_.hearing)
       music = std::tanh(spec_.music->rows.col(frame).cast<double>().sum() / 100.0);
     const double left = spec_.frames - frame;  // reaches the goal in this many steps
     const Eigen::VectorXd now = Flat(pose_);
@@ -150,7 +149,12 @@ inline Slices<Plan> FakeSampler::Begin(const ValidSpec& spec) {
 /// A model with more music input than beats, so it waits for a whole transition's music.
 class HearingSampler : public FakeSampler {
  public:
-  HearingSampler() { model_.hears_music = true; }
+  HearingSampler() {
+    model_.hearing = {2, [](std::span<const double> bands, std::span<float> features) {
+                        features[0] = static_cast<float>(bands.front());
+                        features[1] = static_cast<float>(bands.back());
+                      }};
+  }
 };
 
 /// A model with controls.

@@ -18,7 +18,7 @@ namespace choreo {
 /// allocate nothing.
 class TransitionWindow {
  public:
-  TransitionWindow(const ModelInfo& model, const TransitionSpec& spec);
+  TransitionWindow(const ModelInfo& model, int audio_features, const TransitionSpec& spec);
 
   /// Moves on to the next frame. `previous`: the frame danced before it; null for the first.
   void Advance(const Pose* previous);
@@ -50,12 +50,13 @@ class TransitionWindow {
   PoseCodec::Decoded decoded_;
 };
 
-TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec& spec)
+TransitionWindow::TransitionWindow(const ModelInfo& model, int audio_features,
+                                   const TransitionSpec& spec)
     : model_(&model),
       codec_(model.skeleton),
       past_(static_cast<size_t>(model.history_frames * codec_.width())),
-      audio_(static_cast<size_t>((model.history_frames + 1) * model.audio_features)),
-      music_(model.hears_music ? spec.music : std::nullopt),
+      audio_(static_cast<size_t>((model.history_frames + 1) * audio_features)),
+      music_(model.hearing ? spec.music : std::nullopt),
       noise_{.seed = spec.seed,
              .frame = spec.first_frame,
              .candidate = spec.candidate,
@@ -80,8 +81,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, const TransitionSpec&
     PastRow(0).segment<3>(codec_.velocity_at()) = PastRow(1).segment<3>(codec_.velocity_at());
   }
   last_placement_ = std::move(placements.back());
-  if (music_)
-    Eigen::Map<Eigen::MatrixXf>(audio_.data(), model.audio_features, tau) = music_->history;
+  if (music_) Eigen::Map<Eigen::MatrixXf>(audio_.data(), audio_features, tau) = music_->history;
 }
 
 void TransitionWindow::Advance(const Pose* previous) {
@@ -95,7 +95,7 @@ void TransitionWindow::Advance(const Pose* previous) {
     std::swap(last_placement_, placement_);
   }
   if (music_) {
-    const int row = model_->audio_features;
+    const std::ptrdiff_t row = music_->rows.rows();
     // Before frame 0 the last row is still free.
     if (frame_ > 0) std::copy(audio_.begin() + row, audio_.end(), audio_.begin());
     std::copy_n(music_->rows.col(frame_).data(), row, audio_.end() - row);
@@ -131,7 +131,7 @@ Slices<Plan> AutoregressiveFlowSampler::Begin(const ValidSpec& valid) {
   stepper->Begin(KeyConditions(config_, codec.joints(), codec.width(), spec.frames,
                                spec.target ? &spec.target->pose : nullptr,
                                spec.target ? spec.target->mask : PoseMask{}));
-  TransitionWindow window(model_, spec);
+  TransitionWindow window(model_, config_.audio_features, spec);
   std::optional<Arrival> arrival = ArrivalOf(spec);
   std::vector<float> features(static_cast<size_t>(codec.width()));
   FlowFrame frame;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "model/audio/mfcc.h"
 #include "model/flow/torch_kernels.h"
 #include "model/papers/networks/controllers_checkpoint.h"
 #include "model/papers/networks/flow_checkpoint.h"
@@ -15,12 +16,15 @@
 namespace choreo {
 namespace {
 
+void HearMfcc(std::span<const double> bands, std::span<float> features) {
+  MfccOfMelDb(bands.first<kMelBands>(), features.first<kMfccCount>());
+}
+
 // Always on the CPU: the network is small.
 SamplerFactory LoadControllers(const Safetensors& content, const std::string& name) {
   const ControllersCheckpoint checkpoint = ParseControllers(content, name);
   ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
-  info.audio_features = 0;  // no music input
-  info.hears_music = false;
+  info.takes_music = false;
   info.default_temperature = 0;
   info.deterministic = true;
   info.controls.emplace_back(kControls[kRootPath].name);
@@ -36,7 +40,6 @@ SamplerFactory LoadControllers(const Safetensors& content, const std::string& na
 SamplerFactory LoadInbetweener(const Safetensors& content, const std::string& name) {
   const InbetweenerCheckpoint checkpoint = ParseInbetweener(content, name);
   ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
-  info.hears_music = false;
   info.default_temperature = 0;
   info.deterministic = true;
   return [info, model = checkpoint.model] {
@@ -67,8 +70,8 @@ SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
     stepper = [weights] { return std::make_unique<TorchStepper>(weights); };
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
-  info.audio_features = config.audio_features;
-  info.hears_music = config.hears_music;
+  info.takes_music = config.audio_features == kMfccCount;
+  if (config.hears_music) info.hearing = {config.audio_features, &HearMfcc};
   info.default_temperature = config.temperature;
   info.likelihood = true;
   return [info, config, device = request.device.name(), stepper] {

@@ -14,8 +14,7 @@ ModelInfo Model(bool hears_music) {
   ModelInfo model;
   model.skeleton = Skeleton::Smpl24();
   model.history_frames = 3;
-  model.audio_features = 2;
-  model.hears_music = hears_music;
+  if (hears_music) model.hearing.features = 2;
   return model;
 }
 
@@ -37,13 +36,13 @@ class ListeningStepper : public FlowStepper {
 // What the network is given of music that is 4 in the history, then 7 and 8.
 std::vector<std::vector<float>> Heard(const ModelInfo& model) {
   std::vector<std::vector<float>> heard;
-  AutoregressiveFlowSampler sampler(model, {}, "cpu",
+  AutoregressiveFlowSampler sampler(model, {.audio_features = 2}, "cpu",
                                     [&] { return std::make_unique<ListeningStepper>(&heard); });
   TransitionSpec spec;
   spec.frames = 2;
   spec.history.assign(static_cast<size_t>(model.history_frames), RestPose(model.skeleton));
-  spec.music = {Eigen::MatrixXf::Constant(model.audio_features, model.history_frames, 4),
-                Eigen::MatrixXf::Constant(model.audio_features, 2, 7)};
+  spec.music = {Eigen::MatrixXf::Constant(2, model.history_frames, 4),
+                Eigen::MatrixXf::Constant(2, 2, 7)};
   spec.music->rows.col(1).setConstant(8);
   EXPECT_EQ(sampler.Sample(spec).poses.size(), 2U);
   return heard;

@@ -36,7 +36,7 @@ TEST_F(InbetweenerStepperTest, IsDeterministicWithoutMusicInput) {
   const ModelInfo& model = sampler_->model();
   EXPECT_EQ(model.name, "harvey");
   EXPECT_TRUE(model.deterministic);
-  EXPECT_FALSE(model.hears_music);
+  EXPECT_FALSE(model.hearing);
   EXPECT_FALSE(model.Takes(kRootPath));
   EXPECT_FALSE(SettingsUsedBy(*sampler_).kind);
 }
