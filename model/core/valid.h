@@ -11,6 +11,9 @@ class Valid {
   /// Throws what Asked::Validate throws.
   Valid(Asked asked, const auto& model) : asked_(std::move(asked)) { asked_.Validate(model); }
 
+  /// Applies a change that keeps it valid, such as of the frame of its poses.
+  void Change(const auto& change) { change(asked_); }
+
   const Asked& operator*() const& { return asked_; }
   Asked&& operator*() && { return std::move(asked_); }
   const Asked* operator->() const { return &asked_; }

@@ -85,6 +85,12 @@ std::vector<Pose> LastPoses(size_t count, const std::vector<Pose>& before, const
   return last;
 }
 
+// The spec of a transition with exactly tau poses before it.
+TransitionSpec WithHistory(const ModelInfo& model, TransitionSpec spec) {
+  spec.history = FillHistory(model, spec.history);
+  return spec;
+}
+
 // The volatile keeps the rounding: GCC 12's SLP vectoriser at -O3 drops double -> float -> double
 // of neighbouring numbers, as in Eigen's cast<float>().cast<double>() of a Vector3d.
 double ToFloat(double value) {
@@ -120,44 +126,44 @@ std::vector<double> BeatsAround(std::span<const double> seconds, double fps, int
 }
 
 TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world)
-    : model_(&model), spec_(world) {
-  spec_.history = before_ = FillHistory(model, world.history);
-  spec_.Validate(model);
-
+    : model_(&model), spec_(WithHistory(model, world), model) {
+  before_ = spec_->history;
   world_ = before_.back();
-  world_target_ = Placed(world.target, world.controls, world_);
+  world_target_ = Placed(spec_->target, spec_->controls, world_);
   ground_ = GroundFrame::Of(world_);
-  spec_.history = CanonicalHistory(ground_, before_);
-  stage_ = world.stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
-  spec_.stage = ground_.ToLocal(stage_);
+  stage_ = spec_->stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
+  held_ = world_target_ && spec_->arrival_frames > 0 && spec_->frames < kHoldSeconds * model.fps &&
+          IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
+  spec_.Change([this](TransitionSpec& spec) { MoveToCanonicalFrame(spec); });
+  arrival_ = ArrivalOf(*spec_, held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
+}
+
+void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
+  spec.history = CanonicalHistory(ground_, before_);
+  spec.stage = ground_.ToLocal(stage_);
   const auto to_local = [&](Target& target) {
     target.height = target.mask.root_position
                         ? std::nullopt
-                        : StandingHeight(model.skeleton, target.pose, target.mask);
+                        : StandingHeight(model_->skeleton, target.pose, target.mask);
     target.pose = ground_.ToLocal(target.pose);
-    MakeContinuous(target.pose, spec_.history.back());
+    MakeContinuous(target.pose, spec.history.back());
   };
-  if (world_target_) to_local(spec_.target.emplace(*world_target_));
-  if (spec_.later) to_local(spec_.later->target);
-  spec_.controls.ToLocal(ground_);
-  for (size_t i = 0; i < spec_.controls.rows().size(); ++i)
-    spec_.controls[i].values = spec_.controls[i].values.unaryExpr(&ToFloat);
-  held_ = world_target_ && spec_.arrival_frames > 0 && spec_.frames < kHoldSeconds * model.fps &&
-          IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
-  if (world.after)
-    spec_.after = ground_.ToLocal(*world.after);
-  else if (spec_.target && (spec_.hit || held_))
-    spec_.after = AtRest(spec_.target->pose, spec_.controls[kRootPath]);
-  arrival_ = ArrivalOf(spec_, held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
+  if (world_target_) to_local(spec.target.emplace(*world_target_));
+  if (spec.later) to_local(spec.later->target);
+  spec.controls.ToLocal(ground_);
+  for (size_t i = 0; i < spec.controls.rows().size(); ++i)
+    spec.controls[i].values = spec.controls[i].values.unaryExpr(&ToFloat);
+  if (spec.after)
+    spec.after = ground_.ToLocal(*spec.after);
+  else if (spec.target && (spec.hit || held_))
+    spec.after = AtRest(spec.target->pose, spec.controls[kRootPath]);
 }
 
 Slices<> TransitionRun::Dance(Sampler& sampler) {
-  if (held_) {
+  if (held_)
     Hold();
-  } else {
-    const ValidSpec valid(spec_, *model_);
-    drawn_ = co_await sampler.Begin(valid);
-  }
+  else
+    drawn_ = co_await sampler.Begin(spec_);
   Steer();
   while (frames_.size() < plan_.size()) {
     co_await Pause();
@@ -169,21 +175,21 @@ Slices<> TransitionRun::Dance(Sampler& sampler) {
 // No model is asked: a new sample in each of these short transitions would tremble.
 void TransitionRun::Hold() {
   Motion motion{.fps = model_->fps,
-                .frames = std::vector(static_cast<size_t>(spec_.frames), spec_.target->pose)};
+                .frames = std::vector(static_cast<size_t>(spec_->frames), spec_->target->pose)};
   drawn_.contacts = DetectContacts(model_->skeleton, motion);
   drawn_.poses = std::move(motion.frames);
 }
 
 void TransitionRun::Steer() {
   CheckLength();
-  const ControlCurve& path = spec_.controls[kRootPath];
-  if (spec_.hit && arrival_) {
+  const ControlCurve& path = spec_->controls[kRootPath];
+  if (spec_->hit && arrival_) {
     HitKey({.skeleton = model_->skeleton,
-            .history = spec_.history,
+            .history = spec_->history,
             .has_path = path.IsGiven(),
             .has_heights = path.requested[kPathHeight],
             .fps = model_->fps},
-           *spec_.hit, &drawn_.poses);
+           *spec_->hit, &drawn_.poses);
   }
   plan_.reserve(drawn_.poses.size());
   frames_.reserve(drawn_.poses.size());
@@ -194,20 +200,20 @@ void TransitionRun::Steer() {
     if (!drawn_.log_likelihoods.empty() && !std::isfinite(drawn_.log_likelihoods[at])) {
       throw Error(ErrorCode::kInternal, "",
                   "the likelihood of frame " +
-                      std::to_string(spec_.first_frame + static_cast<int64_t>(at)) +
+                      std::to_string(spec_->first_frame + static_cast<int64_t>(at)) +
                       " is not finite");
     }
     plan_.push_back(arrival ? arrival->Apply(drawn) : drawn);
     if (arrival && drawn_.poses.size() - at <= static_cast<size_t>(arrival->window())) {
       correction_m_ = std::max(
           correction_m_,
-          ComparePoses(model_->skeleton, drawn, plan_.back(), spec_.target->mask).position_m);
+          ComparePoses(model_->skeleton, drawn, plan_.back(), spec_->target->mask).position_m);
     }
   }
 }
 
 void TransitionRun::CheckLength() const {
-  const auto frames = static_cast<size_t>(spec_.frames);
+  const auto frames = static_cast<size_t>(spec_->frames);
   const size_t likelihoods = drawn_.log_likelihoods.size();
   if (drawn_.poses.size() == frames && drawn_.contacts.size() == frames &&
       (likelihoods == 0 || likelihoods == frames))
@@ -225,7 +231,7 @@ void TransitionRun::CheckFinite(size_t frame, const Pose& pose, std::span<const 
   for (float contact : contacts) finite = finite && std::isfinite(contact);
   if (finite && pose.rotations.cols() == model_->skeleton.joints()) return;
   throw Error(ErrorCode::kInternal, "",
-              "frame " + std::to_string(spec_.first_frame + static_cast<int64_t>(frame)) + ", " +
+              "frame " + std::to_string(spec_->first_frame + static_cast<int64_t>(frame)) + ", " +
                   whose + ", is not a finite pose");
 }
 
@@ -237,15 +243,15 @@ void TransitionRun::PutOnFeet() {
   const std::ptrdiff_t parts = (left + kFootworkFrames - 1) / kFootworkFrames;
   const auto to = from + (left + parts - 1) / parts;
   std::vector<Contacts> contacts;
-  if (spec_.footwork) {
+  if (spec_->footwork) {
     const std::vector<Pose> history =
-        LastPoses(spec_.history.size(), spec_.history, std::span(plan_.begin(), from),
+        LastPoses(spec_->history.size(), spec_->history, std::span(plan_.begin(), from),
                   [](const Pose& pose) -> const Pose& { return pose; });
     const FootworkContext context{.skeleton = model_->skeleton,
                                   .history = history,
                                   .keyed = to == plan_.end() && arrival_,
                                   .held = held_,
-                                  .has_path = spec_.controls[kRootPath].IsGiven(),
+                                  .has_path = spec_->controls[kRootPath].IsGiven(),
                                   .offset_before = offset_,
                                   .fps = model_->fps,
                                   .options = model_->footwork};
@@ -268,7 +274,7 @@ DanceFrame TransitionRun::Finish(size_t at) {
   CheckFinite(at, world_, contacts, "as arrival and footwork leave it");
   DanceFrame frame{world_, contacts};
   if (!drawn_.log_likelihoods.empty()) frame.log_likelihood = drawn_.log_likelihoods[at];
-  if (const ControlCurve& factors = spec_.controls[kVelocityFactors]; factors.IsGiven()) {
+  if (const ControlCurve& factors = spec_->controls[kVelocityFactors]; factors.IsGiven()) {
     std::ranges::copy(factors.values.col(static_cast<Eigen::Index>(at)).cast<float>(),
                       frame.asked_speeds.emplace().begin());
   }
@@ -276,12 +282,12 @@ DanceFrame TransitionRun::Finish(size_t at) {
 }
 
 void TransitionRun::MeasureArrival() {
-  if (!spec_.target) return;
-  const PoseMask& mask = spec_.target->mask;
+  if (!spec_->target) return;
+  const PoseMask& mask = spec_->target->mask;
   const PoseError raw =
-      ComparePoses(model_->skeleton, drawn_.poses.back(), spec_.target->pose, mask);
+      ComparePoses(model_->skeleton, drawn_.poses.back(), spec_->target->pose, mask);
   const PoseError final = ComparePoses(model_->skeleton, world_, world_target_->pose, mask);
-  arrival_result_ = KeyReached{.frame = spec_.first_frame + spec_.frames - 1,
+  arrival_result_ = KeyReached{.frame = spec_->first_frame + spec_->frames - 1,
                                .raw_error_m = raw.position_m,
                                .final_error_m = final.position_m,
                                .final_error_deg = final.angle_deg,
@@ -291,8 +297,8 @@ void TransitionRun::MeasureArrival() {
 GroundFrame TransitionRun::StageAfter(size_t frames) const {
   if (frames == 0) return stage_;
   const bool is_there =
-      frames == frames_.size() && spec_.target && spec_.target->mask.root_position;
-  const bool has_path = spec_.controls[kRootPath].IsGiven();
+      frames == frames_.size() && spec_->target && spec_->target->mask.root_position;
+  const bool has_path = spec_->controls[kRootPath].IsGiven();
   if (!is_there && !has_path) return stage_;
   return {frames_[frames - 1].pose.root_position, stage_.heading};
 }
@@ -303,13 +309,13 @@ std::vector<Pose> TransitionRun::HistoryAfter(size_t frames) const {
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {
-  if (!spec_.target) return std::nullopt;
-  const Pose& from = spec_.history.back();
-  const Target& target = *spec_.target;
-  const double seconds = spec_.frames / model_->fps;
+  if (!spec_->target) return std::nullopt;
+  const Pose& from = spec_->history.back();
+  const Target& target = *spec_->target;
+  const double seconds = spec_->frames / model_->fps;
   RequiredSpeed speed;
   // The key did not ask for a position that came from the path, so its error does not count here.
-  if (target.mask.root_position && !spec_.controls[kRootPath].IsGiven()) {
+  if (target.mask.root_position && !spec_->controls[kRootPath].IsGiven()) {
     speed.root_m_per_s = (target.pose.root_position - from.root_position).norm() / seconds;
   }
   for (int joint = 0; joint < from.rotations.cols(); ++joint) {

@@ -49,7 +49,8 @@ class TransitionRun {
   /// without a position needs no height. Throws what TransitionSpec::Validate throws.
   TransitionRun(const ModelInfo& model, const TransitionSpec& world);
 
-  const TransitionSpec& spec() const { return spec_; }
+  /// In its canonical frame.
+  const TransitionSpec& spec() const { return *spec_; }
 
   /// Makes all frames. Sampler and this must outlive the slices, and this must not move meanwhile.
   /// Throws Error(kInternal) for a plan of another length and for a value that is not finite,
@@ -69,6 +70,7 @@ class TransitionRun {
   std::optional<RequiredSpeed> required_speed() const;
 
  private:
+  void MoveToCanonicalFrame(TransitionSpec& spec);
   void CheckLength() const;
   void Hold();
   void Steer();
@@ -79,7 +81,7 @@ class TransitionRun {
                    const std::string& whose) const;
 
   const ModelInfo* model_;
-  TransitionSpec spec_;
+  ValidSpec spec_;
   std::optional<Target> world_target_;
   GroundFrame ground_;
   std::optional<Arrival> arrival_;  // none: no steering
