@@ -62,8 +62,7 @@ class DanceChain::Job : public SampleJob {
   }
   /// The state from which a transition that begins at `frame`, in or right after this one, starts.
   DancedState StateBefore(int64_t frame) const {
-    const auto danced = static_cast<size_t>(frame - segment_.from);
-    return {run_->HistoryAfter(danced), run_->StageAfter(danced)};
+    return run_->StateAfter(static_cast<size_t>(frame - segment_.from));
   }
 
  private:
@@ -82,13 +81,11 @@ class DanceChain::Job : public SampleJob {
     } while (chain_->HandOut(kFramesASlice));
   }
 
-  void Prepare(const DanceScore::Next& next) {
-    const ModelInfo& model = chain_->model_;
+  void Prepare(DanceScore::Next next) {
     beats_ = next.beats.For(segment_.from, segment_.to);
-    PreparedTransition prepared = PrepareTransition(
-        model, next.inputs, BeatsAround(SecondsOf(beats_), model.fps, segment_.from, frames()));
-    run_.emplace(model, prepared.spec);
-    WarnOfSpeed(model, *run_, &prepared);
+    next.inputs.beats = SecondsOf(beats_);
+    PreparedTransition prepared = PrepareTransition(chain_->model_, next.inputs);
+    run_.emplace(std::move(prepared.run));
     warnings_ = std::move(prepared.warnings);
   }
 

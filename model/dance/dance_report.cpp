@@ -4,6 +4,14 @@
 
 namespace choreo {
 
+Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
+                            const DanceStart& asked, bool hears_beats) {
+  Continuation continuation{frame, danced.history, model.fingerprint};
+  if (asked.audio) continuation.audio_from_sample = ResumeSample(asked, frame, model, hears_beats);
+  continuation.stage = danced.stage;
+  return continuation;
+}
+
 DanceReport::DanceReport(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio,
                          Mailbox<DanceSink>& mailbox)
     : model_(model),
@@ -41,13 +49,9 @@ void DanceReport::Reach(const Key& key, KeyReached reached) {
 }
 
 void DanceReport::End(int64_t frame, const DancedState& danced) {
-  Continuation continuation{frame, danced.history, model_.fingerprint};
-  if (asked_.audio) {
-    continuation.audio_from_sample =
-        ResumeSample(asked_, frame, model_, asked_.music_beats.empty());
-  }
+  Continuation continuation =
+      ContinuationAt(frame, danced, model_, asked_, asked_.music_beats.empty());
   continuation.last_beat = beats_.last();
-  continuation.stage = danced.stage;
   continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {
     sink.OnContinuation(continuation);

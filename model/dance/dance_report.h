@@ -23,6 +23,11 @@ inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
   mailbox.Post([event](DanceSink& sink) { sink.OnEvent(event); });
 }
 
+/// Where a dance continues with `frame`, but for what only streams know: its last beat and the keys
+/// that it has reached. `hears_beats`: whether it detects beats in the music.
+Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
+                            const DanceStart& asked, bool hears_beats);
+
 /// Tells the sink of a dance what is danced: frames at the client's rate, their beats and keys,
 /// continuations, the summary. Not thread-safe.
 class DanceReport {

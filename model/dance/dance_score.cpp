@@ -17,32 +17,33 @@ double HearEnergyAt(const AudioFeed& audio, const DanceManner& manner, int64_t f
 }
 
 // Warns of the key's faults, except those that the pose before it has, as when a pose is held.
-void WarnOfPose(const Skeleton& skeleton, const Pose& before, int64_t frame, const Target& key,
-                PreparedTransition* prepared) {
-  const std::vector<std::string> told = PoseFaults(skeleton, before, key.mask);
-  for (const std::string& fault : PoseFaults(skeleton, key.pose, key.mask)) {
+void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std::string& key_id,
+                std::vector<Warning>* warnings) {
+  const PoseMask& mask = spec.target->mask;
+  const std::vector<std::string> told = PoseFaults(skeleton, spec.history.back(), mask);
+  for (const std::string& fault : PoseFaults(skeleton, spec.target->pose, mask)) {
     if (std::ranges::find(told, fault) == told.end())
-      prepared->warnings.push_back(KeyImpossible(prepared->key_id, frame, fault));
+      warnings->push_back(KeyImpossible(key_id, spec.first_frame + spec.frames - 1, fault));
   }
 }
 
 }  // namespace
 
-PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs,
-                                     std::vector<double> beats) {
-  const auto& [manner, controls, segment, before, noise_like, audio, rows_end] = inputs;
-  PreparedTransition prepared;
-  TransitionSpec& spec = prepared.spec;
+PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
+  const auto& [manner, controls, segment, before, after, beats, noise_like, audio, rows_end] =
+      inputs;
+  TransitionSpec spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
   spec.first_frame = segment.from;
+  const std::string key_id = segment.key ? segment.key->id : "";
   if (segment.key) {
     spec.target = Target{segment.key->pose, segment.key->mask};
     spec.hit = segment.key->hit;
-    prepared.key_id = segment.key->id;
   } else if (segment.later) {
     const Key& key = *segment.later;
     spec.later = {{key.pose, key.mask}, static_cast<int>(key.frame + 1 - segment.to)};
   }
+  spec.after = after;
   if (before.history.empty()) {
     const Pose stance =
         controls.Stance(segment.from, spec.frames == 1 ? spec.target : std::nullopt);
@@ -62,23 +63,21 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
     spec.energy = {HearEnergyAt(*audio, manner, segment.from - kTypicalFrames),
                    HearEnergyAt(*audio, manner, segment.from)};
   }
-  spec.beats = std::move(beats);
+  spec.beats = BeatsAround(beats, model.fps, segment.from, spec.frames);
   spec.seed = manner.seed ^ manner.music_id;
   spec.noise_like = noise_like;
   spec.variation = manner.variation;
   spec.style = manner.style;
   spec.temperature = manner.temperature.value_or(static_cast<float>(model.default_temperature));
-  controls.FillControls(prepared.key_id, &spec, &prepared.warnings);
-  if (spec.target)
-    WarnOfPose(model.skeleton, spec.history.back(), segment.to - 1, *spec.target, &prepared);
-  return prepared;
-}
-
-void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared) {
-  const std::optional<RequiredSpeed> speed = run.required_speed();
-  if (!speed || !speed->TooFast()) return;
-  prepared->warnings.push_back(IntervalTooShort(
-      model.skeleton, prepared->key_id, prepared->spec.first_frame, prepared->spec.frames, *speed));
+  std::vector<Warning> warnings;
+  controls.FillControls(key_id, &spec, &warnings);
+  if (spec.target) WarnOfPose(model.skeleton, spec, key_id, &warnings);
+  TransitionRun run(model, spec);
+  if (const auto speed = run.required_speed(); speed && speed->TooFast()) {
+    warnings.push_back(
+        IntervalTooShort(model.skeleton, key_id, spec.first_frame, spec.frames, *speed));
+  }
+  return {std::move(run), std::move(warnings)};
 }
 
 DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio)

@@ -17,12 +17,6 @@
 
 namespace choreo {
 
-/// The state from which a transition continues.
-struct DancedState {
-  std::vector<Pose> history = {};  ///< the last tau poses; empty: the dance begins without any
-  std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage
-};
-
 /// What a transition of a dance depends on. Values, so that later messages change nothing.
 struct TransitionInputs {
   DanceManner manner;
@@ -31,24 +25,20 @@ struct TransitionInputs {
   /// The poses danced or given before the transition; without any it starts from
   /// ControlTrack::Stance.
   DancedState before = {};
+  std::optional<Pose> after = {};        ///< TransitionSpec::after
+  std::vector<double> beats = {};        ///< of the music, seconds, ascending
   std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
   const AudioFeed* audio = nullptr;      ///< null without music
   int64_t rows_end = 0;  ///< rows before it must be ready; the model gets no music from later ones
 };
 
 struct PreparedTransition {
-  TransitionSpec spec;
-  std::string key_id;             ///< names its target in warnings
+  TransitionRun run;
   std::vector<Warning> warnings;  ///< about its controls and its key
 };
 
-/// Builds the request for one transition of a dance that is timed to these beats
-/// (TransitionSpec::beats).
-PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs,
-                                     std::vector<double> beats);
-
-/// Adds a warning if the key is too far away for the time left.
-void WarnOfSpeed(const ModelInfo& model, const TransitionRun& run, PreparedTransition* prepared);
+/// Prepares one transition of a dance. Throws what TransitionRun throws.
+PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs);
 
 using DanceEvents = std::vector<DanceEvent>;
 

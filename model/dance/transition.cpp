@@ -294,18 +294,16 @@ void TransitionRun::MeasureArrival() {
                                .correction_m = correction_m_};
 }
 
-GroundFrame TransitionRun::StageAfter(size_t frames) const {
-  if (frames == 0) return stage_;
+DancedState TransitionRun::StateAfter(size_t frames) const {
+  DancedState state{LastPoses(before_.size(), before_, std::span(frames_).first(frames),
+                              [](const DanceFrame& frame) -> const Pose& { return frame.pose; }),
+                    stage_};
   const bool is_there =
       frames == frames_.size() && spec_->target && spec_->target->mask.root_position;
   const bool has_path = spec_->controls[kRootPath].IsGiven();
-  if (!is_there && !has_path) return stage_;
-  return {frames_[frames - 1].pose.root_position, stage_.heading};
-}
-
-std::vector<Pose> TransitionRun::HistoryAfter(size_t frames) const {
-  return LastPoses(before_.size(), before_, std::span(frames_).first(frames),
-                   [](const DanceFrame& frame) -> const Pose& { return frame.pose; });
+  if (frames > 0 && (is_there || has_path))
+    state.stage->origin = state.history.back().root_position;
+  return state;
 }
 
 std::optional<RequiredSpeed> TransitionRun::required_speed() const {

@@ -27,6 +27,12 @@ struct DanceFrame {
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
 };
 
+/// The state from which a transition continues.
+struct DancedState {
+  std::vector<Pose> history = {};  ///< the last tau poses; empty: the dance begins without any
+  std::optional<GroundFrame> stage = {};  ///< TransitionSpec::stage
+};
+
 /// The average speeds needed to reach a key. Paper F, Section 5.2: an interval too short for the
 /// change fails.
 struct RequiredSpeed {
@@ -51,6 +57,9 @@ class TransitionRun {
 
   /// In its canonical frame.
   const TransitionSpec& spec() const { return *spec_; }
+  void set_candidate(uint32_t candidate) {
+    spec_.Change([candidate](TransitionSpec& spec) { spec.candidate = candidate; });
+  }
 
   /// Makes all frames. Sampler and this must outlive the slices, and this must not move meanwhile.
   /// Throws Error(kInternal) for a plan of another length and for a value that is not finite,
@@ -61,11 +70,9 @@ class TransitionRun {
   const std::vector<DanceFrame>& frames() const { return frames_; }
   /// Set after the last frame of a transition with a target; the caller fills in the id.
   const std::optional<KeyReached>& arrival() const { return arrival_result_; }
-  /// TransitionSpec::stage for a dance that continues after this many frames. A path, or a key
-  /// with a root position, moves the stage there.
-  GroundFrame StageAfter(size_t frames) const;
-  /// The last tau poses, world, after this many frames.
-  std::vector<Pose> HistoryAfter(size_t frames) const;
+  /// The state, world, from which a dance continues after this many frames. A path, or a key with a
+  /// root position, moves the stage there.
+  DancedState StateAfter(size_t frames) const;
   /// None without a target.
   std::optional<RequiredSpeed> required_speed() const;
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/dance_report.h"
 #include "model/dance/dance_score.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
@@ -65,15 +66,12 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
 
 class TransitionGroup::Impl::Job : public SampleJob {
  public:
-  /// `run`: of the first candidate only, made to check the common request. The others make theirs
-  /// when a worker begins them, as many may be cancelled before.
-  Job(std::shared_ptr<Impl> group, const TransitionSpec& spec, std::optional<TransitionRun> run)
+  Job(std::shared_ptr<Impl> group, TransitionRun run)
       : group_(std::move(group)),
-        spec_(spec),
         run_(std::move(run)),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
-                spec_.history.back()) {}
+                run_.StateAfter(0).history.back()) {}
 
   bool Continue(Sampler& sampler) override {
     if (!slices_) slices_.emplace(Work(sampler));
@@ -92,7 +90,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   }
 
   double Deadline() const override { return deadline_; }
-  int frames() const override { return spec_.frames; }
+  int frames() const override { return run_.spec().frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
   /// Hands out the next frames once sampled, unless the group is paused. True while there are more.
@@ -111,8 +109,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
 
  private:
   Slices<> Work(Sampler& sampler) {
-    if (!run_) run_.emplace(group_->model_, spec_);
-    co_await run_->Dance(sampler);
+    co_await run_.Dance(sampler);
     is_sampled_ = true;
     do {
       co_await Pause();
@@ -122,11 +119,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
   bool HandOutNext() {
     if (!is_sampled_ || group_->paused_ || group_->cancelled_ || handed_out_ == frames())
       return false;
-    const DanceFrame& frame = run_->frames()[static_cast<size_t>(handed_out_++)];
+    const DanceFrame& frame = run_.frames()[static_cast<size_t>(handed_out_++)];
     meter_.Add(frame);
     const bool is_last = handed_out_ == frames();
-    if (is_last && run_->arrival()) {
-      KeyReached reached = *run_->arrival();
+    if (is_last && run_.arrival()) {
+      KeyReached reached = *run_.arrival();
       reached.id = group_->request_.target_id;
       meter_.AddKey(std::move(reached));
     }
@@ -136,28 +133,21 @@ class TransitionGroup::Impl::Job : public SampleJob {
         sink.OnFrames(candidate, output.first_frame, output.poses, output.contacts);
       });
     }
-    if (is_last) group_->Done({Number(), meter_.Report(group_->request_.music_beats), GoesOn()});
+    if (!is_last) return true;
+    const GroupRequest& request = group_->request_;
+    group_->Done({Number(), meter_.Report(request.music_beats),
+                  ContinuationAt(run_.spec().first_frame + frames(),
+                                 run_.StateAfter(run_.frames().size()), group_->model_, request,
+                                 /*hears_beats=*/false)});
     return true;
   }
 
-  int Number() const { return static_cast<int>(spec_.candidate); }
-
-  Continuation GoesOn() const {
-    const size_t danced = run_->frames().size();
-    Continuation end{spec_.first_frame + frames(), run_->HistoryAfter(danced),
-                     group_->model_.fingerprint};
-    end.stage = run_->StageAfter(danced);
-    const GroupRequest& request = group_->request_;
-    if (request.audio)
-      end.audio_from_sample = ResumeSample(request, end.frame, group_->model_, /*beats=*/false);
-    return end;
-  }
+  int Number() const { return static_cast<int>(run_.spec().candidate); }
 
   const std::shared_ptr<Impl> group_;
-  const TransitionSpec spec_;
   const double deadline_ = PlaybackClock();
-  std::optional<TransitionRun> run_;  // the worker's until it is sampled
-  std::optional<Slices<>> slices_;    // the worker's
+  TransitionRun run_;               // the worker's until it is sampled
+  std::optional<Slices<>> slices_;  // the worker's
   std::atomic<bool> is_sampled_ = false;
 
   std::mutex mutex_;  // guards the members below
@@ -201,34 +191,30 @@ void TransitionGroup::Impl::Begin() {
   Segment segment{first_frame_, end, std::nullopt};
   if (const auto& target = request_.target)
     segment.key = Key{request_.target_id, end - 1, target->pose, target->mask, request_.hit};
-  PreparedTransition prepared = PrepareTransition(
+  // All candidates have the same request, so it is checked and warned of once.
+  auto [run, warnings] = PrepareTransition(
       model_,
       {.manner = request_,
        .controls = controls_,
        .segment = segment,
        .before = {request_.Before(),
                   request_.continuation ? request_.continuation->stage : std::nullopt},
+       .after = request_.after,
+       .beats = request_.music_beats,
        .noise_like =
            Recurrence(model_.fps, request_.music_passages).Origins(segment.from, segment.to),
        .audio = audio_.get(),
-       .rows_end = end},
-      BeatsAround(request_.music_beats, model_.fps, first_frame_, request_.frames));
-  TransitionSpec& transition = prepared.spec;
-  transition.after = request_.after;
-  if (const auto warning = controls_.BehindEnd(end)) prepared.warnings.push_back(*warning);
+       .rows_end = end});
+  if (const auto warning = controls_.BehindEnd(end)) warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)
-    prepared.warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
-
-  // All candidates have the same request, so the first one checks it and warns.
-  std::optional<TransitionRun> run(std::in_place, model_, transition);
-  WarnOfSpeed(model_, *run, &prepared);
+    warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
   for (const Warning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
-  for (const Warning& warning : prepared.warnings) Warn(warning);
+  for (const Warning& warning : warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
-    transition.candidate = static_cast<uint32_t>(candidate);
-    jobs.push_back(std::make_shared<Job>(shared_from_this(), transition, std::exchange(run, {})));
+    run.set_candidate(static_cast<uint32_t>(candidate));
+    jobs.push_back(std::make_shared<Job>(shared_from_this(), run));
   }
   {
     std::lock_guard lock(mutex_);

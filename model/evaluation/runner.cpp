@@ -73,7 +73,7 @@ std::vector<LongDance> Runner::DanceLong(Sampler& sampler, std::span<const LongP
       const TransitionRun run = DanceTransition(sampler, next.spec, danced_);
       const auto danced = static_cast<size_t>(next.danced);
       for (size_t i = 0; i < danced; ++i) chain.poses.push_back(run.frames()[i].pose);
-      chain.stage = run.StageAfter(danced);
+      chain.stage = run.StateAfter(danced).stage;
       if (run.arrival() && danced == run.frames().size())
         chain.keys[static_cast<int>(chain.poses.size()) - 1] = run.arrival()->final_error_m;
     }

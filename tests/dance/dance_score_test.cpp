@@ -91,13 +91,10 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
   ASSERT_TRUE(score.TakeNext(0, feed.ready()));
   const auto next = score.TakeNext(1, feed.ready());
   ASSERT_TRUE(next);
-  const Segment& segment = next->inputs.segment;
   const auto prepare = [&] {
-    return PrepareTransition(
-               model, next->inputs,
-               BeatsAround(SecondsOf(next->beats.For(segment.from, segment.to)), model.fps,
-                           segment.from, static_cast<int>(segment.to - segment.from)))
-        .spec;
+    TransitionInputs inputs = next->inputs;
+    inputs.beats = SecondsOf(next->beats.For(inputs.segment.from, inputs.segment.to));
+    return PrepareTransition(model, inputs).run.spec();
   };
   const TransitionSpec before = prepare();
   score.GiveBeats({14.1, 14.7, 15.3}, {}, {}, "beats");
