@@ -8,49 +8,19 @@
 
 #include "model/core/error.h"
 #include "model/flow/checkpoint.h"
-#include "model/motion/kinematics.h"
-#include "model/motion/resample.h"
 #include "model/training/clip_statistics.h"
 #include "model/training/flow_matching.h"
 #include "model/training/flow_statistics.h"
+#include "model/training/flow_training.h"
 #include "model/training/trainer.h"
 #include "model/training/training_run.h"
 #include "model/training/window_clips.h"
+#include "model/training/window_figures.h"
 
 namespace choreo {
 namespace {
 
-constexpr int kStatisticsBatches = 12, kStatisticsWindows = 48, kTurnBatches = 120,
-              kResponseBatches = 4;
-constexpr int kMatchingValidationWindows = 24;
-constexpr double kAverage = 0.999;                                  // of the weights, per step
-constexpr double kFarKeys = 0.12, kNoKeys = 0.3, kNoLabels = 0.35;  // shares of steps
-constexpr double kEnergy = 0.9;  // share of windows whose energy is given, as when serving
-// Lengths of training windows in frames: few, so that data per length is made once.
-constexpr int kLengths[] = {5, 8, 10, 15, 20, 25, 30, 36, 42, 48, 54, 60, 66, 72, 80, 90, 96};
-
-// Mean joint distance between two sequences of poses, metres.
-double Distance(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    sum +=
-        (JointPositions(skeleton, a[i]) - JointPositions(skeleton, b[i])).colwise().norm().mean();
-  }
-  return sum / static_cast<double>(a.size());
-}
-
-// Sums of the joints' speeds and third differences.
-struct Liveness {
-  double speed = 0, jerk = 0;
-  void Add(const Skeleton& skeleton, std::span<const Pose> poses) {
-    std::vector<Eigen::Matrix3Xd> at;
-    for (const Pose& pose : poses) at.push_back(JointPositions(skeleton, pose));
-    for (size_t i = 3; i < at.size(); ++i) {
-      speed += (at[i] - at[i - 1]).colwise().norm().sum();
-      jerk += (at[i] - 3 * at[i - 1] + 3 * at[i - 2] - at[i - 3]).colwise().norm().sum();
-    }
-  }
-};
+const FlowTraining kTraining;
 
 // Adapts another model's weights to the styles of `model`: a style that both have keeps its
 // weights, a new one begins at zero.
@@ -136,79 +106,33 @@ class FlowMatchingRun : public TrainingRun {
   WindowBatch Draw(int64_t step) const {
     Random random = RandomOf(step);
     const int most = train_.Longest(model_->config().history_frames);
-    const int frames = std::min(kLengths[random.Integer(0, std::size(kLengths))], most);
-    WindowClips::Variation variation{.mirror = 0.5,
-                                     .tempo = options().tempo,
-                                     .partial_key = 0.12,
-                                     .beats = 0.8,
-                                     .energy = kEnergy,
-                                     .path = 0.2,
-                                     .style = 0.8,
-                                     .stage = 0.8,
-                                     .hold_history = 0.05,
-                                     .other_style = 0.6,
-                                     .even_styles = 0.5,
-                                     .standing = 0.05,
-                                     .astray = 0.2};
-    if (random.Uniform() < kNoLabels) variation.beats = variation.path = variation.style = 0;
+    const int frames = std::min(DrawLength(&random), most);
+    WindowClips::Variation variation = kTraining.shares;
+    variation.tempo = options().tempo;
+    if (random.Uniform() < kTraining.no_labels)
+      variation.beats = variation.path = variation.style = 0;
     int window = frames, to_key = frames;
     const double kind = random.Uniform();
-    if (kind < kNoKeys) {
+    if (kind < kTraining.no_key) {
       variation.no_key = 1;
-      window = to_key = std::min(std::max(frames, 30), most);
-    } else if (kind < kNoKeys + kFarKeys) {
-      window = std::min(72, most);
-      to_key = std::min(kSightFrames - 24 * static_cast<int>(random.Integer(0, 5)), most);
+      window = to_key = std::min(std::max(frames, kTraining.no_key_frames), most);
+    } else if (kind < kTraining.no_key + kTraining.far_key) {
+      window = std::min(kTraining.far_frames, most);
+      const auto nearer = static_cast<int>(random.Integer(0, kTraining.far_places));
+      to_key = std::min(kSightFrames - kTraining.far_step * nearer, most);
     }
     return train_.Draw(matching_->parts(), WindowsOf(options().batch, window), window, to_key,
                        variation, &random);
   }
 
-  void AfterStep() override { Copy(1 - std::min(kAverage, (1.0 + step()) / (10.0 + step()))); }
+  void AfterStep() override {
+    Copy(1 - std::min(kTraining.average, (1.0 + step()) / (10.0 + step())));
+  }
 
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
     const auto network = MakeTorchFlowNetwork(Blended(), device_);
-    const FlowModelParts& parts = matching_->parts();
-    const Skeleton& skeleton = train_.skeleton();
-    NamedFigures figures;
-    for (const int frames : kComparedFrames) {
-      if (frames > validation_.Longest(parts.config.history_frames)) continue;
-      Random random(kValidationSeed, static_cast<uint32_t>(frames));
-      const WindowBatch batch =
-          validation_.Draw(parts, kMatchingValidationWindows, frames, frames, {}, &random);
-      double line = 0, mean = 0, seeds = 0;
-      Liveness real, danced, planned;
-      for (size_t i = 0; i < batch.truth.size(); ++i) {
-        const WindowRequest& request = batch.requests[i];
-        const auto sample = [&](uint32_t candidate, double temperature) {
-          return SampleWindow(parts, *network, request,
-                              {.seed = i, .candidate = candidate, .temperature = temperature})
-              .Finish();
-        };
-        std::vector<Pose> interpolated;
-        for (int k = 1; k <= frames; ++k) {
-          interpolated.push_back(InterpolatePoses(request.history.back(), *request.key,
-                                                  static_cast<double>(k) / frames));
-        }
-        const std::vector<Pose> plan = sample(0, 0), one = sample(0, parts.config.temperature),
-                                other = sample(1, parts.config.temperature);
-        line += Distance(skeleton, interpolated, batch.truth[i]);
-        mean += Distance(skeleton, plan, batch.truth[i]);
-        seeds += Distance(skeleton, one, other);
-        real.Add(skeleton, batch.truth[i]);
-        danced.Add(skeleton, one);
-        planned.Add(skeleton, plan);
-      }
-      const std::string n = std::to_string(frames);
-      figures.insert(figures.end(),
-                     {{"l2p_ratio_" + n, mean / line},
-                      {"seeds_cm_" + n, 100 * seeds / static_cast<double>(batch.truth.size())},
-                      {"speed_ratio_" + n, danced.speed / real.speed},
-                      {"jerk_ratio_" + n, danced.jerk / real.jerk},
-                      {"mean_jerk_ratio_" + n, planned.jerk / real.jerk}});
-    }
-    return figures;
+    return CompareWindows(*network, matching_->parts(), validation_, kTraining.validation_windows);
   }
 
   void Export(Safetensors* state) const override {
@@ -233,13 +157,18 @@ class FlowMatchingRun : public TrainingRun {
     return SaveContinuousFlow(path, blended, weights, card);
   }
   std::string Limits() const override {
-    return "Trained on windows of up to " + std::to_string(std::end(kLengths)[-1]) +
+    return "Trained on windows of up to " + std::to_string(kTraining.lengths.back()) +
            " frames at 30 fps; longer transitions are cut. It hears beats, not sounds. Feet slide "
            "without footwork. What the data lacks (lying, acrobatics, props, partners) it "
            "can't do.";
   }
 
  private:
+  static int DrawLength(Random* random) {
+    const auto which = random->Integer(0, std::ssize(kTraining.lengths));
+    return kTraining.lengths[static_cast<size_t>(which)];
+  }
+
   // Moves the average by `share` of the way to the weights.
   void Copy(double share) {
     const torch::NoGradGuard no_grad;
@@ -264,9 +193,9 @@ class FlowMatchingRun : public TrainingRun {
     const VariancePowers powers =
         MeasureVariancePowers(model_->Parts().prior, StatisticsBatches(1));
     set(powers, none);
-    set(powers, MeasureWindows(StatisticsBatches(kEnergy)));
+    set(powers, MeasureWindows(StatisticsBatches(kTraining.shares.energy)));
     std::vector<WindowRequest> of_all_lengths;
-    for (const int frames : {20, 60, 90}) {
+    for (const int frames : kTraining.energy_frames) {
       for (WindowBatch& batch : StatisticsBatches(1, frames))
         std::ranges::move(batch.requests, std::back_inserter(of_all_lengths));
     }
@@ -299,11 +228,11 @@ class FlowMatchingRun : public TrainingRun {
     FlowModelParts parts = model->Parts();
     parts.response = {};
     std::vector<WindowRequest> requests;
-    for (uint32_t i = 0; i < kResponseBatches; ++i) {
+    for (uint32_t i = 0; i < static_cast<uint32_t>(kTraining.response_batches); ++i) {
       Random random(kValidationSeed, i + 1);
       const int frames = std::min(60, validation_.Longest(parts.config.history_frames));
       WindowBatch batch =
-          validation_.Draw(parts, kStatisticsWindows, frames, frames,
+          validation_.Draw(parts, kTraining.measured_windows, frames, frames,
                            {.no_key = i % 2 == 0 ? 0.0 : 1.0, .energy = 1}, &random);
       for (WindowRequest& request : batch.requests) {
         request.controls[kVelocityFactors].requested.assign(kBodyParts, true);
@@ -317,11 +246,11 @@ class FlowMatchingRun : public TrainingRun {
   // Uses many windows, because dancers seldom turn far.
   std::vector<WindowRequest> KeyedRequests() const {
     std::vector<WindowRequest> requests;
-    for (uint32_t i = 0; i < kTurnBatches; ++i) {
+    for (uint32_t i = 0; i < static_cast<uint32_t>(kTraining.turn_batches); ++i) {
       Random random(options().seed + 4, i + 1);
-      const int frames = std::min<int>(kLengths[random.Integer(0, std::size(kLengths))],
-                                       train_.Longest(model_->config().history_frames));
-      WindowBatch batch = train_.Draw(model_->Parts(), kStatisticsWindows, frames, frames,
+      const int frames =
+          std::min(DrawLength(&random), train_.Longest(model_->config().history_frames));
+      WindowBatch batch = train_.Draw(model_->Parts(), kTraining.measured_windows, frames, frames,
                                       {.mirror = 0.5, .tempo = options().tempo}, &random);
       std::ranges::move(batch.requests, std::back_inserter(requests));
     }
@@ -331,10 +260,10 @@ class FlowMatchingRun : public TrainingRun {
   std::vector<WindowBatch> StatisticsBatches(double energy, int most = 60) const {
     const int frames = std::min(most, train_.Longest(model_->config().history_frames));
     std::vector<WindowBatch> batches;
-    for (int i = 0; i < kStatisticsBatches; ++i) {
+    for (int i = 0; i < kTraining.prior_batches; ++i) {
       Random random(options().seed + 3, static_cast<uint32_t>(i + 1));
       batches.push_back(train_.Draw(
-          model_->Parts(), kStatisticsWindows, frames, frames,
+          model_->Parts(), kTraining.measured_windows, frames, frames,
           {.mirror = 0.5, .no_key = i % 3 == 0 ? 1.0 : 0.0, .energy = energy, .style = 1},
           &random));
     }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "model/training/curves.h"
+#include "model/training/window_clips.h"
+
+namespace choreo {
+
+/// Compares sampled windows with real ones, at each of kComparedFrames: the mean's distance over
+/// interpolation's, how far two seeds are apart, and speed and jerk over the real ones'.
+NamedFigures CompareWindows(const FlowNetwork& network, const FlowModelParts& parts,
+                            const WindowClips& clips, int windows);
+
+}  // namespace choreo
