@@ -1,0 +1,124 @@
+#include "model/plan/foot_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/core/gaussian_mean.h"
+#include "model/motion/body_mass.h"
+#include "model/motion/contacts.h"
+#include "model/motion/support.h"
+
+namespace choreo {
+namespace {
+
+constexpr double kStillSpeed = 0.3;    // m/s: a low foot slower than this stands
+constexpr double kSmoothFrames = 1.5;  // smoothing of the centre of mass
+constexpr int kSmoothReach = 4;
+
+Eigen::Vector2d ZeroMomentPoint(const std::vector<Eigen::Vector3d>& centres, int frame,
+                                double fps) {
+  const auto centre = [&](int i) -> const Eigen::Vector3d& {
+    return centres[std::min(static_cast<size_t>(i + 1), centres.size() - 1)];
+  };
+  const Eigen::Vector3d& at = centre(frame);
+  const Eigen::Vector3d acceleration =
+      (centre(frame + 1) - 2 * at + centre(frame - 1)) * (fps * fps);
+  const double lever = MomentLever(at.y(), acceleration.y());
+  return {at.x() - lever * acceleration.x(), at.z() - lever * acceleration.z()};
+}
+
+FootTrack Track(const FootworkContext& context, const Leg& leg, double toes_rest, double ankle_rest,
+                const std::vector<JointPlacement>& placements,
+                const std::vector<Eigen::Vector3d>& centres) {
+  const auto height = [&](const Eigen::Matrix3Xd& at) {
+    return std::min(at(1, leg.toes) - toes_rest, at(1, leg.ankle) - ankle_rest);
+  };
+  FootTrack track;
+  for (size_t i = 0; i < placements.size(); ++i) {
+    const Eigen::Matrix3Xd& at = placements[i].positions;
+    track.toes.push_back(at.col(leg.toes));
+    track.heights.push_back(height(at));
+    const double outside =
+        DistanceToHull(ZeroMomentPoint(centres, static_cast<int>(i), context.fps),
+                       {{at(0, leg.toes), at(2, leg.toes)}, {at(0, leg.ankle), at(2, leg.ankle)}});
+    const double beyond = std::max(0.0, outside - context.options.sole);
+    track.unbalanced.push_back(beyond * beyond);
+  }
+  const auto& history = context.history;
+  const Eigen::Matrix3Xd before = JointPositions(context.skeleton, history.back());
+  const Eigen::Matrix3Xd earlier = JointPositions(
+      context.skeleton, history[history.size() - std::min<size_t>(2, history.size())]);
+  track.before = before.col(leg.toes);
+  track.fall_before = height(before);
+  track.fall_after = track.heights.back();
+  const double speed = (track.before - earlier.col(leg.toes)).norm() * context.fps;
+  track.stood = track.before.y() - toes_rest < kUpHeight && speed < kStillSpeed;
+  if (context.keyed) {
+    const bool low = track.toes.back().y() - toes_rest < kUpHeight;
+    track.end = low ? FootTrack::End::kStands : FootTrack::End::kInAir;
+  }
+  return track;
+}
+
+// A flying body falls no farther than to where it stands, however high its feet are.
+void LimitFalls(const FootworkContext& context, const Pose& end, double rise,
+                std::array<FootTrack, 2>* feet) {
+  const auto fly = [&](double FootTrack::*fall) {
+    return std::ranges::all_of(*feet,
+                               [&](const FootTrack& foot) { return foot.*fall > kSoleHeight; });
+  };
+  const auto limit = [&](double FootTrack::*fall, const Pose& from) {
+    const double stands = RestPose(context.skeleton).root_position.y();
+    for (FootTrack& foot : *feet)
+      foot.*fall = std::min(foot.*fall, std::max(0.0, from.root_position.y() - stands));
+  };
+  if (fly(&FootTrack::fall_before)) {
+    for (FootTrack& foot : *feet) foot.rise_before = rise;
+    limit(&FootTrack::fall_before, context.history.back());
+  }
+  if (fly(&FootTrack::fall_after)) limit(&FootTrack::fall_after, end);
+}
+
+}  // namespace
+
+FeetAtRest::FeetAtRest(const Skeleton& skeleton) : legs(Leg::Of(skeleton)) {
+  const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
+  for (size_t side = 0; side < 2; ++side) {
+    toes_rest[side] = rest(1, legs[side].toes);
+    ankle_rest[side] = rest(1, legs[side].ankle);
+  }
+}
+
+std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
+                                           const std::vector<Pose>& plan) {
+  const Eigen::VectorXd masses = MassWeights(context.skeleton);
+  std::vector<Eigen::Vector3d> exact, smooth;
+  const auto add = [&](const Pose& pose) {
+    exact.push_back(JointPositions(context.skeleton, pose) * masses);
+  };
+  std::ranges::for_each(context.history, add);
+  std::ranges::for_each(plan, add);
+  const auto last = static_cast<int64_t>(exact.size()) - 1;
+  for (int64_t at = last - std::ssize(plan); at <= last; ++at) {
+    smooth.push_back(GaussianMean(
+        std::max<int64_t>(0, at - kSmoothReach), std::min(last, at + kSmoothReach), at,
+        kSmoothFrames, Eigen::Vector3d(Eigen::Vector3d::Zero()),
+        [&](int64_t i) -> const Eigen::Vector3d& { return exact[static_cast<size_t>(i)]; }));
+  }
+  return smooth;
+}
+
+std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtRest& feet,
+                                   const std::vector<Pose>& plan,
+                                   const std::vector<JointPlacement>& placements,
+                                   const std::vector<Eigen::Vector3d>& centres) {
+  const auto track = [&](size_t side) {
+    return Track(context, feet.legs[side], feet.toes_rest[side], feet.ankle_rest[side], placements,
+                 centres);
+  };
+  std::array<FootTrack, 2> tracks = {track(0), track(1)};
+  LimitFalls(context, plan.back(), (centres[1] - centres[0]).y() * context.fps, &tracks);
+  return tracks;
+}
+
+}  // namespace choreo

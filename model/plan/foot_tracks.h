@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "model/motion/kinematics.h"
+#include "model/motion/limb.h"
+#include "model/plan/contact_plan.h"
+#include "model/plan/footwork.h"
+
+/// Measures what the feet and the balance of a plan are like before footwork. Pure functions.
+namespace choreo {
+
+/// The feet of a skeleton that has legs, and their heights at rest, metres.
+struct FeetAtRest {
+  explicit FeetAtRest(const Skeleton& skeleton);
+
+  std::array<Leg, 2> legs;
+  std::array<double, 2> toes_rest, ankle_rest;
+};
+
+/// The smoothed centre of mass, beginning with the frame before the plan's first.
+std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
+                                           const std::vector<Pose>& plan);
+
+/// Both feet of the plan, whose joints are at `placements` and whose CentresOfMass are `centres`.
+std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtRest& feet,
+                                   const std::vector<Pose>& plan,
+                                   const std::vector<JointPlacement>& placements,
+                                   const std::vector<Eigen::Vector3d>& centres);
+
+}  // namespace choreo
