@@ -9,12 +9,15 @@
 #include "model/core/hand_pose.h"
 #include "model/core/hit.h"
 #include "model/core/passage.h"
+#include "model/messages/dance_manner.h"
 #include "model/motion/control_request.h"
 #include "model/motion/motion.h"
 
 /// A client's request: music, key poses, controls, and the settings of the dance. Frames are
 /// counted at the model's rate; for other conventions see choreo_client.h.
 namespace choreo::client {
+
+using choreo::DanceManner, choreo::KnownMusic;
 
 /// The encoding of the music's bytes.
 enum class AudioKind {

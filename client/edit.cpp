@@ -126,13 +126,8 @@ class Edit {
     TransitionRequest request;
     request.config.model = options_.model.name;
     request.config.seed = options_.seed;
-    request.config.temperature = options_.temperature;
-    request.config.style = options_.style;
-    request.config.music_dynamics = options_.music_dynamics;
-    request.config.music_beats = options_.music_beats;
-    request.config.music_passages = options_.music_passages;
-    request.config.music_id = options_.music_id;
-    request.config.variation = options_.variation;
+    options_.DanceManner::SetIn(&request.config);
+    options_.KnownMusic::SetIn(&request.config);
     request.config.controls = options_.controls;
     request.frames = static_cast<int>(std::min<int64_t>(frames, 1 << 30));
     SetMusic(options_.audio, options_.model, first, &request);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/choreo_client.h"
+#include "model/messages/dance_manner.h"
 
 /// Edits of finished dances. Frames outside an edit stay the same, bit for bit; GenerateTransition
 /// dances those inside again, from the frames before into those after, so that neither end shows.
@@ -28,18 +29,11 @@ struct FinishedDance {
 };
 
 /// Settings for the new frames.
-struct EditOptions {
-  ModelDescription model = {};                ///< on the client's server
-  uint64_t seed = 0;                          ///< the same seed gives the same edit
-  std::optional<double> temperature = {};     ///< 0 to kMaxTemperature
-  std::string style = {};                     ///< one of the model's; empty: any
-  std::optional<double> music_dynamics = {};  ///< as in DanceConfig
-  Audio audio = {};                           ///< the song from its start, kPcmFloat; or none
-  std::optional<double> variation = {};       ///< as in DanceConfig
-  std::vector<double> music_beats = {};       ///< as in DanceConfig::music_beats
-  std::vector<Passage> music_passages = {};   ///< as in DanceConfig
-  uint64_t music_id = 0;                      ///< as in DanceConfig
-  ControlRequest controls = {};               ///< for the new frames
+struct EditOptions : DanceManner, KnownMusic {
+  ModelDescription model = {};   ///< on the client's server
+  uint64_t seed = 0;             ///< the same seed gives the same edit
+  Audio audio = {};              ///< the song from its start, kPcmFloat; or none
+  ControlRequest controls = {};  ///< for the new frames
 };
 
 /// A key pose to set into a dance: changes the frames between `from` and `to`, both exclusive.

@@ -13,17 +13,12 @@ DanceConfig ConfigFor(const FinishedDance& dance, const EditOptions& options) {
   config.model = options.model.name;
   config.fps = dance.motion.fps;
   config.seed = options.seed;
-  config.temperature = options.temperature;
-  config.style = options.style;
-  config.music_dynamics = options.music_dynamics;
+  options.DanceManner::SetIn(&config);
+  options.KnownMusic::SetIn(&config);
   config.frames = CountModelFrames(dance, options.model);
-  config.music_beats = options.music_beats;
-  config.music_id = options.music_id;
-  config.music_passages = options.music_passages;
   const double end_s = static_cast<double>(*config.frames) / options.model.fps;
   std::erase_if(config.music_passages,
                 [end_s](const Passage& passage) { return passage.from >= end_s; });
-  config.variation = options.variation;
   config.controls = options.controls;
   return config;
 }

@@ -28,9 +28,8 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
   out.set_frame_rate(config.fps);
   out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
   if (config.seed) out.set_seed(*config.seed);
-  if (config.temperature) out.set_temperature(*config.temperature);
-  if (config.music_dynamics) out.set_music_dynamics(*config.music_dynamics);
-  out.set_style(config.style);
+  wire::Write(DanceManner::Of(config), &out);
+  wire::Write(KnownMusic::Of(config), &out);
   if (config.continuation) {
     if (!out.mutable_continuation()->ParseFromString(config.continuation->bytes)) {
       throw InvalidArgument("continuation", "the bytes are not those of a continuation");
@@ -52,11 +51,6 @@ v1::DanceConfig ToProto(const DanceConfig& config) {
       break;
   }
   if (config.frames) out.set_frames(*config.frames);
-  out.mutable_music_beats()->Add(config.music_beats.begin(), config.music_beats.end());
-  out.mutable_music_downbeats()->Add(config.music_downbeats.begin(), config.music_downbeats.end());
-  for (const Passage& passage : config.music_passages) *out.add_music_passages() = ToProto(passage);
-  out.set_music_id(config.music_id);
-  if (config.variation) out.set_variation(*config.variation);
   if (config.generate_until) out.set_generate_until(*config.generate_until);
   out.set_reject_invalid_keys(config.reject_invalid_keys);
   return out;

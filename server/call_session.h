@@ -143,8 +143,7 @@ class CallSession : public Call {
                     .fingerprint = model.fingerprint,
                     .skeleton = model.skeleton,
                     .seed = config.seed,
-                    .temperature = config.temperature ? static_cast<double>(*config.temperature)
-                                                      : model.default_temperature,
+                    .temperature = config.temperature.value_or(model.default_temperature),
                     .fps = config.output_fps,
                     .model_fps = model.fps,
                     .first_frame = first_frame,

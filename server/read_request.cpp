@@ -12,6 +12,7 @@
 #include "model/dance/validation.h"
 #include "proto/wire/continuation.h"
 #include "proto/wire/controls.h"
+#include "proto/wire/convert.h"
 #include "proto/wire/read_pose.h"
 
 namespace choreo {
@@ -39,10 +40,8 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
                 DanceStart* out) {
   wire::NumbersPerJoint(config.encoding(), "config.encoding");
   out->output_fps = config.frame_rate() == 0 ? model.fps : config.frame_rate();
-  if (config.has_temperature()) out->temperature = static_cast<float>(config.temperature());
-  if (config.has_music_dynamics()) out->music_dynamics = config.music_dynamics();
-  if (config.has_variation()) out->variation = config.variation();
-  out->style = config.style();
+  static_cast<DanceManner&>(*out) = wire::MannerOf(config);
+  static_cast<KnownMusic&>(*out) = wire::MusicOf(config);
   out->seed = config.has_seed()           ? config.seed()
               : config.has_continuation() ? config.continuation().seed()
                                           : fresh_seed;
@@ -51,10 +50,6 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
     out->continuation = wire::FromProto(config.continuation(), model.skeleton, model.history_frames,
                                         "config.continuation");
   }
-  out->music_beats.assign(config.music_beats().begin(), config.music_beats().end());
-  out->music_downbeats.assign(config.music_downbeats().begin(), config.music_downbeats().end());
-  out->music_id = config.music_id();
-  out->music_passages = ToPassages(config.music_passages());
 }
 
 void CheckMusic(const v1::AudioFormat& format) {
@@ -219,12 +214,6 @@ ControlRequest ToControls(const v1::Controls& controls, const std::string& field
   if (!said.empty()) return wire::FromProto(controls, field);
   throw InvalidArgument(
       field, "empty; " + Joined(kControls, &ControlRow::name, " or ") + " must be there");
-}
-
-std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {
-  std::vector<Passage> passages;
-  for (const v1::MusicPassage& one : sent) passages.push_back({one.from(), one.to(), one.like()});
-  return passages;
 }
 
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
-#include "model/core/passage.h"
 #include "model/dance/dance_stream.h"
 #include "model/dance/transition_group.h"
 #include "model/engine/transition_spec.h"
@@ -31,9 +30,6 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const 
 
 /// Throws if no control is given. ValidateControls checks the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);
-
-/// Converts passages unchecked; CheckPassages checks them.
-std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 
 /// PCM bytes -> samples, interleaved, full scale [-1, 1].
 std::vector<float> ToSamples(const std::string& bytes, const v1::AudioFormat& format,

@@ -131,7 +131,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kMusicBeats:
         return GiveBeats(*stream, request.music_beats());
       case DanceRequest::kMusicPassages:
-        return stream->GivePassages(ToPassages(request.music_passages().passages()));
+        return stream->GivePassages(wire::ToPassages(request.music_passages().passages()));
       case DanceRequest::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
       case DanceRequest::kKeyframesComplete:

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/dance_manner.h"
 #include "client/authoring/written_controls.h"
+#include "client/dance_config.h"
 
 namespace choreo::authoring {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "client/authoring/dance_manner.h"
+#include "client/dance_config.h"
 #include "model/motion/control_request.h"
 
 namespace choreo::cli {
@@ -16,7 +16,7 @@ namespace choreo::cli {
 inline constexpr const char* kNoSong = "none";
 
 /// A dance's request beside its keys. Its report states it for later edits.
-struct Asked : authoring::DanceManner {
+struct Asked : DanceManner {
   std::string model = {};
   std::optional<uint64_t> seed = {};
   std::string song = {};  ///< the file as it was named

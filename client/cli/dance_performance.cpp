@@ -147,7 +147,7 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
 
 Asked AskedFor(const DanceOptions& options, const client::Header& header,
                const client::DanceConfig& config) {
-  Asked asked{authoring::DanceManner::Of(config), header.model, header.seed};
+  Asked asked{DanceManner::Of(config), header.model, header.seed};
   asked.controls = config.controls;
   if (options.song.empty() || options.song == "-") return asked;
   asked.song = options.song;

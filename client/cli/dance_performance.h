@@ -16,7 +16,7 @@
 namespace choreo::cli {
 
 /// The options of `choreo dance`.
-struct DanceOptions : authoring::DanceManner {
+struct DanceOptions : DanceManner {
   ServerOptions server;
   std::string song;
   authoring::BeatOptions beats;

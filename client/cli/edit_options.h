@@ -21,7 +21,7 @@ namespace choreo::cli {
 enum class DanceChange { kNothing, kSeed, kPath, kOther };
 
 /// The options of `choreo edit`.
-struct EditOptions : authoring::DanceManner {
+struct EditOptions : DanceManner {
   ServerOptions server;
   std::string dance;
   std::vector<std::string> keys;

@@ -38,7 +38,7 @@ void EditSession::DanceOtherwise() {
   const bool begins_later = options_.changed == DanceChange::kPath && path->frames.front() > 0;
   DanceAnew("danced anew", begins_later ? path->frames.front() : -1, frames_);
   Asked& asked = known_.asked;
-  static_cast<authoring::DanceManner&>(asked) = authoring::DanceManner::Of(edit_);
+  static_cast<DanceManner&>(asked) = edit_;
   asked.seed = edit_.seed;
   if (!options_.controls.path.empty()) asked.controls.root_path = edit_.controls.root_path;
   if (!options_.controls.velocities.empty())

@@ -31,7 +31,7 @@
 namespace choreo::cli {
 namespace {
 
-struct LiveCommand : authoring::DanceManner {
+struct LiveCommand : DanceManner {
   ServerOptions server;
   std::string song;
   double song_start_s = 0;

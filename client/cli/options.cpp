@@ -119,7 +119,7 @@ void AddVmc(CLI::App& command, std::string& address) {
                      "and game engines receive, often at port 39539.");
 }
 
-void AddManner(CLI::App& command, authoring::DanceManner* manner) {
+void AddManner(CLI::App& command, DanceManner* manner) {
   command.add_option(
       "--temperature", manner->temperature,
       "Variety, 0 (calm) to " + Rounded(kMaxTemperature) + "; default: the model's. " + kOfChance);

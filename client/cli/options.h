@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/authoring/dance_manner.h"
 #include "client/choreo_client.h"
+#include "client/dance_config.h"
 
 /// Options shared by several commands, and checks with readable messages.
 namespace choreo::cli {
@@ -49,7 +49,7 @@ void AddHands(CLI::App& command, std::string& hands, const std::string& what);
 void AddVmc(CLI::App& command, std::string& address);
 
 /// `--temperature`, `--music-dynamics`, `--variation`, and `--style`, one that `choreo info` lists.
-void AddManner(CLI::App& command, authoring::DanceManner* manner);
+void AddManner(CLI::App& command, DanceManner* manner);
 
 /// `--model`, one of the server's.
 void AddModel(CLI::App& command, std::string& model);

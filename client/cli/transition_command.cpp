@@ -24,7 +24,7 @@
 namespace choreo::cli {
 namespace {
 
-struct TransitionOptions : authoring::DanceManner {
+struct TransitionOptions : DanceManner {
   ServerOptions server;
   std::string from;
   std::string to;

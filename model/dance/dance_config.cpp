@@ -35,8 +35,8 @@ void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
 
 void DanceStart::ValidateStart(const ModelInfo& model) const {
   if (temperature) ValidateTemperature(*temperature, "config.temperature");
-  ValidateShare(music_dynamics, "config.music_dynamics");
-  ValidateShare(variation, "config.variation");
+  ValidateShare(Dynamics(), "config.music_dynamics");
+  ValidateShare(Variation(), "config.variation");
   CheckBeats(music_beats, "config.music_beats");
   CheckDownbeats(music_downbeats, music_beats, "config.music_downbeats");
   CheckPassages(music_passages, "config.music_passages");
@@ -122,7 +122,7 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats) {
   const auto& [rate, channels, first_sample] = *start.audio;
-  const int heard = start.music_dynamics > 0 ? kSoundMemory : beats ? kBeatMemory : 0;
+  const int heard = start.Dynamics() > 0 ? kSoundMemory : beats ? kBeatMemory : 0;
   if (heard == 0) return LatestFirstSample(first_frame, rate, model);
   const int64_t row = std::max<int64_t>(0, first_frame - heard - kRowSoundMemory);
   return std::max(first_sample, FeatureStream::FirstSampleFor(row, rate));

@@ -7,32 +7,18 @@
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
-#include "model/core/passage.h"
 #include "model/core/valid.h"
 #include "model/dance/control_track.h"
 #include "model/dance/transition.h"
 #include "model/dance/warning.h"
+#include "model/messages/dance_manner.h"
 #include "model/messages/quality_report.h"
 
 namespace choreo {
 
-/// How to dance, in all of a dance's transitions.
-struct DanceManner {
-  uint64_t seed = 0;
-  /// Identifies the music (MusicId). It is part of the seed: two songs differ as two seeds do. 0:
-  /// unknown.
-  uint64_t music_id = 0;
-  std::optional<float> temperature;  ///< 0..2; none: the model's default
-  std::string style;                 ///< one of the model's, or empty: any
-  double music_dynamics =
-      kDefaultDynamics;  ///< 0..1: how closely the dance's energy follows the music's (HearEnergy)
-  /// 0: passages of music that repeat (DanceStart::music_passages) are danced with the same noise;
-  /// 1: without any repetition.
-  double variation = kDefaultVariation;
-};
-
 /// The part that a dance and a single transition share: how to dance, and from where.
-struct DanceStart : DanceManner {
+struct DanceStart : DanceManner, KnownMusic {
+  uint64_t seed = 0;
   double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
   /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
   /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
@@ -42,14 +28,6 @@ struct DanceStart : DanceManner {
   /// Resume from a continuation of another fingerprint with a warning instead of
   /// Error(kFailedPrecondition).
   bool allow_inexact_resume = false;
-  /// Seconds, valid by CheckBeats: the dance is timed to them. Empty: to the beats that it detects
-  /// in the music.
-  std::vector<double> music_beats;
-  std::vector<double> music_downbeats;  ///< those that begin a bar; reported, not danced
-  /// Passages that repeat earlier ones (see CheckPassages). The dance repeats, too, with
-  /// `variation`.
-  std::vector<Passage> music_passages;
-
   struct Audio {
     double sample_rate = 0;  ///< 8000..192000
     int channels = 0;        ///< 1..8, interleaved

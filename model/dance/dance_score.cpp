@@ -13,7 +13,7 @@ const std::vector<Passage> kNoPassages;
 
 // The energy of the music before a frame.
 double HearEnergyAt(const AudioFeed& audio, const DanceManner& manner, int64_t frame) {
-  return manner.music_dynamics * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
+  return manner.Dynamics() * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
 }
 
 // Warns of the key's faults, except those that the pose before it has, as when a pose is held.
@@ -30,7 +30,7 @@ void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std:
 }  // namespace
 
 PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
-  const auto& [manner, controls, segment, before, after, beats, noise_like, audio, rows_end] =
+  const auto& [manner, seed, controls, segment, before, after, beats, noise_like, audio, rows_end] =
       inputs;
   TransitionSpec spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
@@ -64,11 +64,11 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
                    HearEnergyAt(*audio, manner, segment.from)};
   }
   spec.beats = BeatsAround(beats, model.fps, segment.from, spec.frames);
-  spec.seed = manner.seed ^ manner.music_id;
+  spec.seed = seed;
   spec.noise_like = noise_like;
-  spec.variation = manner.variation;
+  spec.variation = manner.Variation();
   spec.style = manner.style;
-  spec.temperature = manner.temperature.value_or(static_cast<float>(model.default_temperature));
+  spec.temperature = static_cast<float>(manner.temperature.value_or(model.default_temperature));
   std::vector<Warning> warnings;
   controls.FillControls(key_id, &spec, &warnings);
   if (spec.target) WarnOfPose(model.skeleton, spec, key_id, &warnings);
@@ -85,15 +85,17 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
                  asked->generate_until, model.max_transition_frames, model.sight_frames}),
       controls_(model),
       beats_(model.fps, asked->music_beats, audio, asked->music_downbeats),
-      recurrence_(model.fps, asked->variation < 1 ? asked->music_passages : kNoPassages),
+      recurrence_(model.fps, asked->Variation() < 1 ? asked->music_passages : kNoPassages),
       model_(model),
       audio_(audio),
       first_frame_(asked->FirstFrame()),
       end_frame_(asked->end_frame),
       has_beats_(!asked->music_beats.empty()),
       manner_(*asked),
+      seed_(asked->seed),
+      music_id_(asked->music_id),
       // A model that hears music hears that of the transition itself.
-      turn_(asked->music_dynamics > 0 && !model.hearing) {
+      turn_(asked->Dynamics() > 0 && !model.hearing) {
   if (asked->continuation) reached_before_ = asked->continuation->reached;
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model.fps));
 }
@@ -173,9 +175,9 @@ DanceEvents DanceScore::KeysBehindMusic(const std::string* only) const {
 }
 
 DanceEvents DanceScore::SetMusic(const MusicAnalysis& music) {
-  if (manner_.music_id == 0) manner_.music_id = music.id;
+  if (music_id_ == 0) music_id_ = music.id;
   if (!has_beats_) beats_.ReplaceAll(music);
-  if (!recurrence_.empty() || music.passages.empty() || manner_.variation >= 1) return {};
+  if (!recurrence_.empty() || music.passages.empty() || manner_.Variation() >= 1) return {};
   recurrence_ = Recurrence(model_.fps, music.passages);
   timeline_.SetCuts(CutsOf(music.passages, model_.fps));
   return {};
@@ -224,6 +226,7 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
   if (audio_ != nullptr) turn_.Watch(*audio_, *segment);
   recurrence_.Begin(segment->from);
   return Next{{.manner = manner_,
+               .seed = seed_ ^ music_id_,
                .controls = controls_,
                .segment = *segment,
                .noise_like = recurrence_.Origins(segment->from, segment->to),

@@ -20,6 +20,7 @@ namespace choreo {
 /// What a transition of a dance depends on. Values, so that later messages change nothing.
 struct TransitionInputs {
   DanceManner manner;
+  uint64_t seed = 0;  ///< the music's identity included
   ControlTrack controls;
   Segment segment;
   /// The poses danced or given before the transition; without any it starts from
@@ -105,6 +106,7 @@ class DanceScore {
   const std::optional<int64_t> end_frame_;
   const bool has_beats_;  // the config has
   DanceManner manner_;
+  uint64_t seed_, music_id_;
   MusicTurn turn_;                          // watches the transition that was taken last
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
 };

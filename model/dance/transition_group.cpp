@@ -195,6 +195,7 @@ void TransitionGroup::Impl::Begin() {
   auto [run, warnings] = PrepareTransition(
       model_,
       {.manner = request_,
+       .seed = request_.seed ^ request_.music_id,
        .controls = controls_,
        .segment = segment,
        .before = {request_.Before(),

@@ -60,7 +60,7 @@ void ValidateFrames(std::span<const int64_t> frames, const std::string& field) {
   }
 }
 
-void ValidateTemperature(float temperature, const std::string& field) {
+void ValidateTemperature(double temperature, const std::string& field) {
   // Written so that NaN fails too.
   if (!(temperature >= 0 && temperature <= kMaxTemperature)) {
     throw InvalidArgument(field,

@@ -38,7 +38,7 @@ void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
 /// Checks frames of a control: strictly ascending, within the longest dance.
 void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
 
-void ValidateTemperature(float temperature, const std::string& field);
+void ValidateTemperature(double temperature, const std::string& field);
 /// Checks a style: empty, or one of the model's.
 void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field);
 void ValidateShare(double share, const std::string& field);

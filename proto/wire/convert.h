@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "choreo/v1/choreography.pb.h"
 #include "choreo/v1/motion.pb.h"
@@ -11,13 +12,14 @@
 #include "model/messages/call_timing.h"
 #include "model/messages/dance_event.h"
 #include "model/messages/dance_header.h"
+#include "model/messages/dance_manner.h"
 #include "model/messages/model_description.h"
 #include "model/messages/quality_report.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Our own types <-> messages of the API, for server, client and studio. What comes in is a
-/// server's: one that breaks the protocol raises Error(kInternal). Pure functions, thread-safe.
+/// Our own types <-> messages of the API, for server, client and studio. FromProto reads a server's
+/// messages: one that breaks the protocol raises Error(kInternal). Pure functions, thread-safe.
 namespace choreo::wire {
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
@@ -27,6 +29,9 @@ v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
 v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
+/// Sets the fields of these names.
+void Write(const DanceManner& manner, v1::DanceConfig* out);
+void Write(const KnownMusic& music, v1::DanceConfig* out);
 v1::ModelInfo ToProto(const ModelDescription& model);
 /// The header declares frames in axis-angle.
 v1::Header ToProto(const DanceHeader& header);
@@ -38,6 +43,11 @@ v1::Event ToProto(const DanceEvent& event, double fps);
 v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
                    std::span<const Contacts> contacts,
                    v1::RotationEncoding encoding = v1::ROTATION_ENCODING_AXIS_ANGLE);
+
+/// A client's, unchecked.
+DanceManner MannerOf(const v1::DanceConfig& config);
+KnownMusic MusicOf(const v1::DanceConfig& config);
+std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent);
 
 Skeleton FromProto(const v1::Skeleton& skeleton);
 /// None if unspecified, or one that this version does not know.

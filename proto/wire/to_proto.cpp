@@ -99,6 +99,20 @@ v1::HandPose ToProto(HandPose hands) {
   return static_cast<v1::HandPose>(v1::HAND_POSE_REST + static_cast<int>(hands));
 }
 
+void Write(const DanceManner& manner, v1::DanceConfig* out) {
+  if (manner.temperature) out->set_temperature(*manner.temperature);
+  out->set_style(manner.style);
+  if (manner.music_dynamics) out->set_music_dynamics(*manner.music_dynamics);
+  if (manner.variation) out->set_variation(*manner.variation);
+}
+
+void Write(const KnownMusic& music, v1::DanceConfig* out) {
+  out->mutable_music_beats()->Add(music.music_beats.begin(), music.music_beats.end());
+  out->mutable_music_downbeats()->Add(music.music_downbeats.begin(), music.music_downbeats.end());
+  out->set_music_id(music.music_id);
+  for (const Passage& passage : music.music_passages) *out->add_music_passages() = ToProto(passage);
+}
+
 v1::ModelInfo ToProto(const ModelDescription& model) {
   v1::ModelInfo out;
   out.set_name(model.name);

@@ -148,7 +148,8 @@ TEST(ControlsTest, OfATransitionAndOfAnEdit) {
 
   // Without controls in the edit, as ever; with them the new frames have them.
   const FinishedDance dance{result.candidates[0].motion, result.candidates[0].contacts};
-  EditOptions options{.model = client.GetServerInfo().models[0]};
+  EditOptions options;
+  options.model = client.GetServerInfo().models[0];
   KeyEdit edit{
       .key = {.id = "key", .frame = 50, .pose = dance.motion.frames[50]}, .from = 20, .to = 80};
   EXPECT_NEAR(

@@ -76,7 +76,7 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
   const Pose rest = RestPose(Skeleton::Smpl24());
   const Continuation good{60, std::vector<Pose>(10, rest), "fake-1"};
   EXPECT_EQ(refusal([](DanceConfig&) {}), "accepted");
-  EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = -0.1F; }),
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = -0.1; }),
             "config.temperature: -0.1 is not in [0, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.temperature = std::nanf(""); }),
             "config.temperature: nan is not in [0, 2]");

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/core/limits.h"
+#include "model/core/passage.h"
+
+/// What a request says of a dance and of its music: the same for server, projects, reports and
+/// edits. client::DanceConfig has members of these names.
+namespace choreo {
+
+/// How to dance. Empty: not stated.
+struct DanceManner {
+  std::optional<double> temperature = {};  ///< 0 to kMaxTemperature; none: the model's
+  std::string style = {};                  ///< one of the model's; empty: any
+  /// 0 to 1: how closely the dance's energy follows the music's; none: kDefaultDynamics.
+  std::optional<double> music_dynamics = {};
+  /// 0 to 1: how much a repeated passage's dance differs from that of the passage it repeats; none:
+  /// kDefaultVariation.
+  std::optional<double> variation = {};
+
+  static DanceManner Of(const auto& request) {
+    return {request.temperature, request.style, request.music_dynamics, request.variation};
+  }
+  void SetIn(auto* request) const {
+    request->temperature = temperature;
+    request->style = style;
+    request->music_dynamics = music_dynamics;
+    request->variation = variation;
+  }
+
+  double Dynamics() const { return music_dynamics.value_or(kDefaultDynamics); }
+  double Variation() const { return variation.value_or(kDefaultVariation); }
+};
+
+/// What is known of a dance's music beforehand.
+struct KnownMusic {
+  /// Times of its beats, seconds, strictly ascending, 0 to 600: limbs are fastest on them, and
+  /// events and the report contain them. Empty: a server finds them in a file, and predicts those
+  /// of each transition from the 12 s of samples before it.
+  std::vector<double> music_beats = {};
+  std::vector<double> music_downbeats = {};  ///< those that begin a bar; reported, not danced
+  /// Identifies the music (MusicId), as a part of the seed: two songs differ as two seeds do. 0:
+  /// unknown; a server computes it of a file.
+  uint64_t music_id = 0;
+  /// Passages that repeat earlier ones (CheckPassages), and the dance with them. Empty: a server
+  /// finds them in a file.
+  std::vector<Passage> music_passages = {};
+
+  static KnownMusic Of(const auto& request) {
+    return {request.music_beats, request.music_downbeats, request.music_id,
+            request.music_passages};
+  }
+  void SetIn(auto* request) const {
+    request->music_beats = music_beats;
+    request->music_downbeats = music_downbeats;
+    request->music_id = music_id;
+    request->music_passages = music_passages;
+  }
+};
+
+}  // namespace choreo
