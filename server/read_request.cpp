@@ -84,30 +84,6 @@ DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
 
 }  // namespace
 
-Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field) {
-  if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
-  Target target = wire::ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
-                                 skeleton, field, field + ".mask");
-  Key key{.id = keyframe.id(), .pose = std::move(target.pose), .mask = std::move(target.mask)};
-  if (keyframe.has_hit()) key.hit = keyframe.hit();
-  key.hands = wire::ToHands(keyframe.hands(), field + ".hands");
-  return key;
-}
-
-KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
-  switch (keyframe.when_case()) {
-    case v1::Keyframe::kFrame:
-      return AtFrame{keyframe.frame()};
-    case v1::Keyframe::kTime:
-      return AtTime{keyframe.time()};
-    case v1::Keyframe::kIntervalAfterPrevious:
-      return AfterPrevious{keyframe.interval_after_previous()};
-    case v1::Keyframe::WHEN_NOT_SET:
-      break;
-  }
-  throw InvalidArgument(field, "none of frame, time, interval_after_previous is there");
-}
-
 ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
                          uint64_t fresh_seed) {
   DanceConfig config;

@@ -14,11 +14,6 @@
 /// Pure functions, thread-safe.
 namespace choreo {
 
-/// A key without its frame. DanceStream::SetKey checks the values.
-Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field);
-
-KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
-
 /// Converts StreamDance's configuration. `fresh_seed` is used where the message has none.
 ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
                          uint64_t fresh_seed);

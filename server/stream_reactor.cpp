@@ -13,6 +13,7 @@
 #include "model/dance/dance_stream.h"
 #include "proto/wire/continuation.h"
 #include "proto/wire/convert.h"
+#include "proto/wire/read_pose.h"
 #include "server/call_session.h"
 #include "server/key_error.h"
 #include "server/music_file.h"
@@ -207,8 +208,8 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     const std::string field = stream.NextKeyframe();
     std::optional<KeyMoment> when;
     try {
-      when = ToMoment(keyframe, field);
-      stream.SetKey(ToKey(keyframe, queue_->model().skeleton, field), *when);
+      when = wire::ToMoment(keyframe, field);
+      stream.SetKey(wire::ToKey(keyframe, queue_->model().skeleton, field), *when);
     } catch (const Error& error) {
       if (!rejects_keys_ || error.code() != ErrorCode::kInvalidArgument)
         throw KeyError(error, keyframe.id());

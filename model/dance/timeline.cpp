@@ -46,12 +46,6 @@ int LongestToKey(int max_transition_frames, int sight_frames) {
                           : max_transition_frames;
 }
 
-bool Key::IsDancedAs(const Key& other) const {
-  return id == other.id && frame == other.frame && pose.root_position == other.pose.root_position &&
-         pose.rotations == other.pose.rotations && mask.root_position == other.mask.root_position &&
-         mask.joints == other.mask.joints && hit == other.hit;
-}
-
 Timeline::Timeline(Options options)
     : options_(options), changed_from_(kNever), danced_to_(options.first_frame) {
   options_.max_transition_frames = std::min(options_.max_transition_frames, kMaxTransitionFrames);

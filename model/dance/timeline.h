@@ -8,42 +8,14 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "model/core/limits.h"
 #include "model/messages/dance_event.h"
-#include "model/motion/motion.h"
+#include "model/messages/key.h"
 
 /// Keys on the model's frame grid, and how they divide a dance into transitions.
 namespace choreo {
-
-/// When a key is due. Times round to the nearest frame; the frame and its time are reported with
-/// the key.
-struct AtFrame {
-  int64_t frame = 0;  ///< absolute, frame 0 at time 0
-};
-struct AtTime {
-  double seconds = 0;  ///< absolute
-};
-/// Relative to the key of the previous keyframe message (to frame 0 for the first).
-struct AfterPrevious {
-  int64_t frames = 0;
-};
-using KeyMoment = std::variant<AtFrame, AtTime, AfterPrevious>;
-
-/// A key pose at a frame. World frame.
-struct Key {
-  std::string id = {};
-  int64_t frame = 0;
-  Pose pose = {};
-  PoseMask mask = {};
-  std::optional<double> hit = {};      ///< TransitionSpec::hit
-  std::optional<HandPose> hands = {};  ///< KeyReached::hands
-
-  /// Whether both are danced alike: hands do not count.
-  bool IsDancedAs(const Key& other) const;
-};
 
 /// One transition to dance: frames [from, to). A key is at frame to - 1. Only frames before `stop`
 /// are danced; `stop` is `to` unless a change cut the transition short.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "model/core/error.h"
 #include "model/core/field.h"
@@ -118,6 +119,30 @@ std::optional<HandPose> ToHands(v1::HandPose hands, const std::string& field) {
         field, std::to_string(hands) + ", must be 0 to " + std::to_string(v1::HandPose_MAX));
   }
   return FromProto(hands);
+}
+
+Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field) {
+  if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
+  Target target = ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
+                           skeleton, field, field + ".mask");
+  Key key{.id = keyframe.id(), .pose = std::move(target.pose), .mask = std::move(target.mask)};
+  if (keyframe.has_hit()) key.hit = keyframe.hit();
+  key.hands = ToHands(keyframe.hands(), field + ".hands");
+  return key;
+}
+
+KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
+  switch (keyframe.when_case()) {
+    case v1::Keyframe::kFrame:
+      return AtFrame{keyframe.frame()};
+    case v1::Keyframe::kTime:
+      return AtTime{keyframe.time()};
+    case v1::Keyframe::kIntervalAfterPrevious:
+      return AfterPrevious{keyframe.interval_after_previous()};
+    case v1::Keyframe::WHEN_NOT_SET:
+      break;
+  }
+  throw InvalidArgument(field, "none of frame, time, interval_after_previous is there");
 }
 
 }  // namespace choreo::wire

@@ -7,12 +7,13 @@
 #include "choreo/v1/choreography.pb.h"
 #include "choreo/v1/motion.pb.h"
 #include "model/core/hand_pose.h"
+#include "model/messages/key.h"
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// The API's poses and hands -> ours, as server and studio get them. Throw Error(kInvalidArgument)
-/// with the path of the field, beginning with `field`. The callers check how large the numbers are.
-/// Pure functions, thread-safe.
+/// The API's poses, keys and hands -> ours, as server and studio get them. Throw
+/// Error(kInvalidArgument) with the path of the field, beginning with `field`. The callers check
+/// how large the numbers are. Pure functions, thread-safe.
 namespace choreo::wire {
 
 /// Numbers per joint in an encoding: 3, 4 or 9.
@@ -31,5 +32,10 @@ Target ToTarget(const v1::Pose& pose, const v1::JointMask* mask, const Skeleton&
 
 /// None if unspecified.
 std::optional<HandPose> ToHands(v1::HandPose hands, const std::string& field);
+
+/// A key without its frame.
+Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field);
+
+KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
 
 }  // namespace choreo::wire
