@@ -19,7 +19,7 @@ namespace choreo {
 /// numbers. The message gives positions counted from `first_sample`.
 void CheckSamples(std::span<const float> interleaved, int channels, int64_t first_sample);
 
-/// How many past rows keep their sound: as many as a dance needs.
+/// Past rows whose sound is kept: as many as a dance looks back.
 inline constexpr int kSoundMemory = kDynamicsMemory + kTypicalFrames;
 
 /// Turns samples into what a dance hears: the sound of each row, and the rows of a model's own

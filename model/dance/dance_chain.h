@@ -18,12 +18,11 @@
 
 namespace choreo {
 
-/// The chain of transitions behind a DanceStream. It has the transitions of the score sampled one
-/// after the other, each as soon as its start is known, and hands out frames once they are granted,
-/// their music has come and the sink takes them. Its lock only orders: workers prepare and sample
-/// transitions without it, and whoever hands out reports without it. Thread-safe. Lock order: the
-/// chain's before the queue's and the audio feed's; the sink is called without a lock. Its jobs
-/// keep it alive.
+/// The chain of transitions behind a DanceStream. It submits the score's transitions one after the
+/// other, each as soon as its start is known. It hands out frames once they are granted, their
+/// music has come and the sink takes them. Workers prepare and sample without its lock, and reports
+/// and the sink's calls are made without it. Thread-safe. Lock order: the chain's before the
+/// queue's and the audio feed's. Its jobs keep it alive.
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
@@ -53,10 +52,10 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
  private:
   class Job;
 
-  // Like Apply, but for changes of the dance's own, and also after its end.
+  // Like Apply, for the dance's own changes; also after its end.
   void React(const std::function<void()>& change) noexcept;
-  // Hands out at most `most` frames and ends of transitions, and calls the sink. Only one thread at
-  // a time does so, on behalf of all others. Returns true if there may be more.
+  // Hands out at most `most` frames and ends of transitions, and calls the sink. One thread at a
+  // time does so for all others. True if there may be more.
   bool HandOut(int most);
   // Reports a frame without the lock; `key` is set if the frame reaches it.
   void Report(const Job& job, int64_t frame, const std::optional<Key>& key);
@@ -64,8 +63,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   double Seconds(int64_t frames) const { return static_cast<double>(frames) / model_.fps; }
   int64_t Ready() const { return audio_ ? audio_->ready() : 0; }
 
-  // The functions below require mutex_. Takes what goes out next: a frame, the end of a transition
-  // or that of the dance. Returns what reports it, without the lock; null if nothing may go out.
+  // The functions below require mutex_.
+  // Takes what goes out next: a frame, the end of a transition, or that of the dance. Returns the
+  // function that reports it, to be called without the lock; null if nothing may go out.
   std::function<void()> TakeNext();
   std::function<void()> FinishTransition();
   void SubmitNext();

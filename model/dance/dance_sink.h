@@ -10,18 +10,20 @@
 
 namespace choreo {
 
-/// Listens to a dance. Calls come one at a time, in order, from a worker thread or from the thread
-/// that sent a message, with no lock of the stream held: they may call the stream (SetPaused,
-/// Cancel), and must not block. The last call is OnSummary or OnError, exactly once.
+/// Listens to a dance. Calls come one at a time, from a worker or from a thread that calls the
+/// stream, which holds no lock meanwhile. They may call the stream (SetPaused, Cancel), and must
+/// not block. The last call is OnSummary or OnError, exactly once.
 class DanceSink {
  public:
   virtual ~DanceSink() = default;
-  /// Output rate; `first_frame` counts output frames from time 0. The spans live for the call.
+  /// Frames at the output rate, at which `first_frame` is counted from time 0, too. The spans live
+  /// for the call.
   virtual void OnFrames(int64_t first_frame, std::span<const Pose> poses,
                         std::span<const Contacts> contacts) = 0;
-  /// Events belong to the frames delivered just before.
+  /// Beats and reached keys follow their frame, warnings about a transition precede its first one,
+  /// and the answer to a message comes at once.
   virtual void OnEvent(const DanceEvent& event) = 0;
-  /// Comes at each transition's end, after its frames and events.
+  /// A transition is over: its frames and events have come. None if not one of its frames came.
   virtual void OnContinuation(const Continuation& continuation) = 0;
   virtual void OnSummary(const QualityReport& report) = 0;
   /// kCancelled after Cancel, else the failure.

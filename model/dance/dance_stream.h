@@ -21,14 +21,15 @@ namespace choreo {
 class AudioFeed;
 class DanceChain;
 
-/// A dance in progress. The dance is a function of the config, the order of SetKey, RemoveKey,
-/// SetControls, GiveBeats, GenerateUntil and KeysComplete (see Timeline), the samples, and the end
-/// of the music. A new stream with the last continuation, the same config and the same messages,
-/// except rejected ones, continues bit for bit; its audio starts at ResumeSample, and frames after
+/// A dance in progress. It is a function of the config, the samples, and the order of the messages:
+/// SetKey, RemoveKey, SetControls, GiveBeats, GivePassages, GenerateUntil, KeysComplete and
+/// EndOfAudio. A new stream with the last continuation, the same config and the same messages,
+/// except rejected ones, continues bit for bit. Its audio starts at ResumeSample, and frames after
 /// that continuation are sent again.
 ///
-/// A message that throws leaves the stream as it was. Messages after the last callback are ignored.
-/// Thread-safe. The destructor cancels. The queue must outlive the last callback and all jobs.
+/// A message that throws leaves the stream as it was. Messages after the sink's last call are
+/// ignored. Thread-safe. The destructor cancels. The queue must outlive the sink's last call and
+/// all jobs.
 class DanceStream {
  public:
   /// `config`: for the queue's model.
@@ -46,15 +47,14 @@ class DanceStream {
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   /// Throws Error(kInvalidArgument) if no sample came at all.
   void EndOfAudio();
-  /// Sets what is known about the whole music. Without beats the dance does not detect any. Call
-  /// before the first sample. DanceConfig has precedence.
+  /// Sets what is known about the whole music; DanceConfig has precedence. If it has no beats, the
+  /// dance detects none. Call before the first sample.
   void SetMusic(const MusicAnalysis& music);
-  /// Warns that the file of the music is damaged or ends early; `notes` as of DecodeMono, `seconds`
-  /// as could be read.
+  /// Warns that the music's file is damaged or ends early. `notes`: DecodeMono's; `seconds`: what
+  /// could be read.
   void NoteMusicDamaged(const std::vector<std::string>& notes, double seconds);
 
-  /// The name that errors give the next message of a kind: "keyframes[i]", where i counts accepted
-  /// ones. Code that parses messages uses it.
+  /// The next message of a kind, as errors name it: "keyframes[i]", where i counts accepted ones.
   std::string NextKeyframe() const;
   std::string NextControls() const;
   std::string NextMusicBeats() const;
@@ -63,16 +63,16 @@ class DanceStream {
   /// Sets a key (see Timeline). A key that comes too late causes a KeyRejected event and changes
   /// nothing. Errors name NextKeyframe().
   void SetKey(const Key& key, const KeyMoment& when);
-  /// Replaces SetKey for a key that cannot be used: a KeyRejected event names the wrong field and
-  /// says why, and all else goes on.
+  /// Rejects a key that cannot be used: a KeyRejected event names the wrong field and says why. It
+  /// counts as a key accepted.
   void RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                  const std::string& field, const std::string& reason);
   void RemoveKey(const std::string& id);
   /// Sets controls (see ControlTrack) from the first frame that is not frozen. Errors name
   /// NextControls(); none may come after KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request);
-  /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats: see
-  /// MusicBeats::AddGiven. Beats in frozen frames are dropped with a Warning. Errors name
+  /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats (see
+  /// MusicBeats::AddGiven). Those in frozen frames are dropped with a Warning. Errors name
   /// NextMusicBeats(); none may come after KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {},
                  std::optional<double> confidence = {});
@@ -91,12 +91,11 @@ class DanceStream {
   /// dance.
   void SetPaused(bool paused);
 
-  /// The sink gets OnError(kCancelled) unless it has had its last call. Idempotent.
+  /// The sink gets OnError(kCancelled), unless its last call has come. Idempotent.
   void Cancel() noexcept;
 
-  /// The lag behind the music, in output frames: the audio window, the resampling and, for a model
-  /// with music input, one transition of the usual length, because the model needs all of a
-  /// transition's music first (a transition to a key may be longer).
+  /// How far frames lag behind the music, in output frames: the audio window, the resampling and,
+  /// for a model that hears, one transition of the usual length (one to a key may be longer).
   static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
 
  private:

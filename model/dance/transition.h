@@ -20,10 +20,10 @@ namespace choreo {
 
 /// One finished frame.
 struct DanceFrame {
-  Pose pose;  ///< world; rounded to floats, as sent, and the next transition starts from it
+  Pose pose;  ///< world; rounded to floats, as it is sent and as the next transition finds it
   Contacts contacts = {};                    ///< the model's, if without footwork
   std::optional<float> log_likelihood = {};  ///< nats; none if the model has no exact likelihood
-  /// Speeds that velocity factors ask for in this frame, by BodyPart, metres a frame.
+  /// The speeds that velocity factors ask for in this frame, by BodyPart, metres a frame.
   std::optional<std::array<float, kBodyParts>> asked_speeds = {};
 };
 
@@ -39,7 +39,7 @@ struct RequiredSpeed {
   double root_m_per_s = 0;
   double joint_rad_per_s = 0;  ///< of the fastest joint
   int joint = 0;
-  /// The stream warns beyond these limits: a sprint, and the fastest limbs of real dances.
+  /// A dance warns beyond these limits: a sprint, and the fastest limbs of real dances.
   static constexpr double kRootLimit = 5.0;
   static constexpr double kJointLimit = 15.0;
   bool TooFast() const { return root_m_per_s > kRootLimit || joint_rad_per_s > kJointLimit; }
@@ -62,8 +62,8 @@ class TransitionRun {
   }
 
   /// Makes all frames. Sampler and this must outlive the slices, and this must not move meanwhile.
-  /// Throws Error(kInternal) for a plan of another length and for a value that is not finite,
-  /// whether the model made it or this class.
+  /// Throws Error(kInternal) for a plan of another length, and for a value that is not finite,
+  /// whoever made it.
   Slices<> Dance(Sampler& sampler);
 
   /// All frames, once they are made.
@@ -105,15 +105,16 @@ class TransitionRun {
   double correction_m_ = 0;
 };
 
-/// Makes all slices; calls `danced` with the number of frames made. Throws like TransitionRun.
+/// Makes a transition at once, then calls `danced` with its number of frames. Throws what
+/// TransitionRun throws.
 TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,
                               const std::function<void(int)>& danced = {});
 
-/// Pads or cuts `poses` to the history of a transition: exactly tau poses, rounded to floats. No
-/// poses mean a dancer who stands.
+/// The history of a transition after these poses: exactly tau of them, rounded to floats. Fewer are
+/// padded with the earliest; none mean a dancer who stands.
 std::vector<Pose> FillHistory(const ModelInfo& model, std::span<const Pose> poses);
 
-/// Rounds every number to float precision, which is what clients receive.
+/// Rounds every number to a float, as clients receive it.
 Pose RoundToFloat(const Pose& pose);
 
 /// Picks from the music's beats (seconds, ascending) those of frames [first_frame, first_frame +

@@ -20,7 +20,7 @@
 #include "model/plan/arrival.h"
 #include "model/plan/footwork_options.h"
 
-/// Describes models and requests for transitions.
+/// What a model is, and what it is asked for.
 namespace choreo {
 
 /// What a model hears of each frame of music besides beats and energy. A transition of a model that
@@ -33,7 +33,7 @@ struct Hearing {
   explicit operator bool() const { return features > 0; }
 };
 
-/// Describes a loaded model. Constant for the life of a sampler.
+/// A loaded model. Constant for the life of a sampler.
 struct ModelInfo {
   std::string name;         ///< "default", "paper-f", ...
   std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
@@ -43,7 +43,8 @@ struct ModelInfo {
   double fps = kModelFps;               ///< rate at which the model runs
   int history_frames = kHistoryFrames;  ///< tau
   int max_transition_frames = kMaxTransitionFrames;
-  /// How far ahead the model sees a key beyond its transition (LaterTarget). 0: not at all.
+  /// Frames from a transition's start within which the model sees a later key (LaterTarget). 0: it
+  /// sees none.
   int sight_frames = 0;
   double default_temperature = 0.3;
   double max_temperature = kMaxTemperature;  ///< higher values change nothing
@@ -74,7 +75,7 @@ struct MusicRows {
   Eigen::MatrixXf rows;     ///< [features, frames], of the transition's own
 };
 
-/// All inputs of a transition. All poses are in one frame: the world's for a TransitionRun, the
+/// All inputs of a transition. Its poses are in one frame: the world's for a TransitionRun, the
 /// canonical one (motion/canonical.h) for a Sampler.
 struct TransitionSpec {
   int frames = 0;             ///< N >= 1; with a target, frame N-1 is the key's
