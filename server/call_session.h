@@ -147,7 +147,7 @@ class CallSession : public Call {
                     .fps = config.output_fps,
                     .model_fps = model.fps,
                     .first_frame = first_frame,
-                    .latency_frames = DanceStream::LatencyFrames(config, model),
+                    .latency_frames = LatencyFrames(config, model),
                     .exact_resume = !config.ResumesInexactly(model),
                     .free_transition_frames = kTypicalFrames,
                     .server_version = CHOREO_VERSION});

@@ -35,7 +35,7 @@ ModelDescription DescribeModel(const ModelInfo& model) {
   DanceConfig config;
   config.output_fps = model.fps;
   config.audio = DanceConfig::Audio{kMinSampleRate, 1, 0};
-  out.latency_frames = DanceStream::LatencyFrames(config, model);
+  out.latency_frames = LatencyFrames(config, model);
   return out;
 }
 

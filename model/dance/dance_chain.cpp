@@ -111,9 +111,9 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
                  ? std::make_unique<AudioFeed>(asked->audio->sample_rate, asked->audio->channels,
                                                asked->audio->first_sample, model_.hearing)
                  : nullptr),
-      report_(model_, asked, audio(), mailbox_),
+      report_(model_, asked, audio_.get(), mailbox_),
       start_time_(PlaybackClock()),
-      score_(model_, asked, audio()),
+      score_(model_, asked, audio_.get()),
       next_frame_(first_frame_) {
   if (!asked->Before().empty()) danced_.history = FillHistory(model_, asked->Before());
   if (asked->continuation) danced_.stage = asked->continuation->stage;
@@ -136,6 +136,35 @@ void DanceChain::Apply(const std::function<DanceEvents(DanceScore&)>& change) {
   }
   while (HandOut(kFramesASlice)) {
   }
+}
+
+void DanceChain::PushAudio(std::span<const float> interleaved, int64_t first_sample) {
+  std::lock_guard lock(pushing_);
+  AudioFeed& audio = Audio("audio");
+  if (!over()) audio.Push(interleaved, first_sample, [this] { Continue(); });
+}
+
+void DanceChain::FinishAudio() {
+  AudioFeed& audio = Audio("end_of_audio");
+  if (audio.finished()) throw Error(ErrorCode::kFailedPrecondition, "end_of_audio", "came before");
+  if (audio.next_sample() == 0) throw InvalidArgument("audio", "ended without a sample");
+  // Sets the end of the music before rows after it can be danced.
+  Apply(&DanceScore::EndOfAudio);
+  audio.Finish();
+  Continue();
+}
+
+void DanceChain::EndOfAudio() {
+  std::lock_guard lock(pushing_);
+  FinishAudio();
+}
+
+void DanceChain::HalfClose() {
+  std::lock_guard lock(pushing_);
+  if (audio_ && !audio_->finished()) FinishAudio();
+  Apply([](DanceScore& score) {
+    return score.timeline().complete() ? DanceEvents() : score.KeysComplete();
+  });
 }
 
 void DanceChain::SetPaused(bool paused) {

@@ -7,7 +7,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 
+#include "model/core/error.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_report.h"
@@ -35,23 +37,33 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// there. If `change` throws, the exception passes through and the chain stays as it was. Does
   /// nothing once the dance is over.
   void Apply(const std::function<DanceEvents(DanceScore&)>& change);
-  /// Continues the dance because there is more music.
-  void Continue() {
-    Apply([](DanceScore&) { return DanceEvents(); });
+  /// What `read` tells of the score.
+  auto Read(const auto& read) const {
+    std::lock_guard lock(mutex_);
+    return read(score_);
   }
 
-  /// Whether the last call to the sink has been made or is under way.
-  bool over() const { return mailbox_.over(); }
-
-  /// Null for a dance without music. Only one thread at a time may push.
-  AudioFeed* audio() { return audio_.get(); }
-
+  // As in DanceStream.
+  void PushAudio(std::span<const float> interleaved, int64_t first_sample);
+  void EndOfAudio();
+  void HalfClose();
   void SetPaused(bool paused);
   void Cancel() noexcept;
 
  private:
   class Job;
 
+  /// Continues the dance because there is more music.
+  void Continue() {
+    Apply([](DanceScore&) { return DanceEvents(); });
+  }
+  /// Whether the last call to the sink has been made or is under way.
+  bool over() const { return mailbox_.over(); }
+  AudioFeed& Audio(const char* field) {
+    if (audio_ == nullptr) throw InvalidArgument(field, "comes without config.audio_format");
+    return *audio_;
+  }
+  void FinishAudio();  // requires pushing_
   // Like Apply, for the dance's own changes; also after its end.
   void React(const std::function<void()>& change) noexcept;
   // Hands out at most `most` frames and ends of transitions, and calls the sink. One thread at a
@@ -77,8 +89,9 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
   Mailbox<DanceSink> mailbox_;
-  const std::unique_ptr<AudioFeed> audio_;
-  DanceReport report_;  // of the thread that hands out
+  std::mutex pushing_;                      // of whoever pushes music; before all other locks
+  const std::unique_ptr<AudioFeed> audio_;  // null for a dance without music
+  DanceReport report_;                      // of the thread that hands out
 
   mutable std::mutex mutex_;  // guards the members below
   double start_time_;         // of the playback; frames are due relative to it

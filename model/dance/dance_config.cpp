@@ -1,6 +1,7 @@
 #include "model/dance/dance_config.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "model/audio/feature_stream.h"
@@ -117,6 +118,17 @@ void GroupRequest::Validate(const ModelInfo& model) const {
 int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelInfo& model) {
   return FeatureStream::FirstSampleFor(std::max<int64_t>(0, first_frame - model.history_frames),
                                        sample_rate);
+}
+
+int LatencyFrames(const DanceStart& config, const ModelInfo& model) {
+  double seconds = 0;
+  if (config.audio) {
+    if (model.hearing) seconds += kTypicalFrames / model.fps;
+    const FeatureStream stream(config.audio->sample_rate, config.audio->channels);
+    seconds += static_cast<double>(stream.latency_samples()) / kModelSampleRate;
+  }
+  if (config.output_fps != model.fps) seconds += 1 / model.fps;
+  return static_cast<int>(std::ceil(seconds * config.output_fps));
 }
 
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,

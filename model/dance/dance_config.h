@@ -104,4 +104,8 @@ int64_t LatestFirstSample(int64_t first_frame, double sample_rate, const ModelIn
 int64_t ResumeSample(const DanceStart& start, int64_t first_frame, const ModelInfo& model,
                      bool beats);
 
+/// How far frames lag behind the music, in output frames: the audio window, the resampling and,
+/// for a model that hears, one transition of the usual length (one to a key may be longer).
+int LatencyFrames(const DanceStart& config, const ModelInfo& model);
+
 }  // namespace choreo

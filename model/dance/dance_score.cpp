@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "model/audio/format.h"
+#include "model/core/error.h"
+#include "model/dance/validation.h"
 #include "model/motion/pose_faults.h"
 
 namespace choreo {
@@ -100,9 +103,14 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
   if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model.fps));
 }
 
-DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when, const std::string& field) {
-  if (const auto rejection = timeline_.Set(key, when, field))
-    return {AnswerLate(*rejection, key.hands)};
+DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when) {
+  const std::string field = NextKeyframe();
+  ValidatePose(model_.skeleton, key.pose, field);
+  ValidateMask(model_.skeleton, key.mask, field + ".mask");
+  ValidateHit(key.hit, field + ".hit");
+  const auto rejection = timeline_.Set(key, when, field);
+  ++accepted_.keyframes;
+  if (rejection) return {AnswerLate(*rejection, key.hands)};
   return KeysBehindMusic(&key.id);
 }
 
@@ -110,17 +118,23 @@ DanceEvents DanceScore::RejectKey(const std::string& id, const std::optional<Key
                                   const std::string& field, const std::string& reason) {
   KeyRejected rejection = timeline_.RejectInvalid(id, when, reason);
   rejection.field = field;
+  ++accepted_.keyframes;
   return {rejection};
 }
 
-DanceEvents DanceScore::RemoveKey(const std::string& id, const std::string& field) {
-  if (const auto rejection = timeline_.Remove(id, field)) return {*rejection};
+DanceEvents DanceScore::RemoveKey(const std::string& id) {
+  const auto rejection = timeline_.Remove(id, At("remove_keyframes", accepted_.removals));
+  ++accepted_.removals;
+  if (rejection) return {*rejection};
   return {};
 }
 
-DanceEvents DanceScore::SetControls(const ControlRequest& request, const std::string& field) {
+DanceEvents DanceScore::SetControls(const ControlRequest& request) {
+  const std::string field = NextControls();
+  ValidateControls(request, model_, field);
   const int64_t from = timeline_.Frontier(field);
   controls_.Set(request, from, field);
+  ++accepted_.controls;
   if (request.velocity_factors) timeline_.NoteChange();
   if (!request.root_path) return {};
   const int64_t last = request.root_path->frames.back();
@@ -132,16 +146,25 @@ DanceEvents DanceScore::SetControls(const ControlRequest& request, const std::st
 
 DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
                                   const std::vector<double>& downbeats,
-                                  std::optional<double> confidence, const std::string& field) {
+                                  std::optional<double> confidence) {
+  const std::string field = NextMusicBeats() + ".times";
+  if (seconds.empty()) throw InvalidArgument(field, "empty");
+  CheckBeats(seconds, field);
+  CheckDownbeats(downbeats, seconds, NextMusicBeats() + ".downbeats");
+  if (confidence) ValidateShare(*confidence, NextMusicBeats() + ".confidence");
   const int64_t from = timeline_.Frontier(field);
   const int64_t late = beats_.AddGiven(seconds, from, field, downbeats, confidence);
+  ++accepted_.beats;
   if (late == 0) return {};
   return {BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from)};
 }
 
-DanceEvents DanceScore::GivePassages(const std::vector<Passage>& passages,
-                                     const std::string& field) {
+DanceEvents DanceScore::GivePassages(const std::vector<Passage>& passages) {
+  const std::string field = NextMusicPassages() + ".passages";
+  if (passages.empty()) throw InvalidArgument(field, "empty");
+  CheckPassages(passages, field);
   recurrence_.Give(passages, timeline_.Frontier(field), field);
+  ++accepted_.passages;
   return {};
 }
 

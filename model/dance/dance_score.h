@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/audio/music_analysis.h"
+#include "model/core/field.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
@@ -14,6 +15,7 @@
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/transition.h"
+#include "model/dance/warning.h"
 
 namespace choreo {
 
@@ -56,22 +58,31 @@ class DanceScore {
   /// Model and music must outlive it. `audio`: null for a dance without music.
   DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio);
 
-  // Messages, as DanceStream describes them: valid by themselves. Each returns what the sink must
-  // know. Errors name `field`; a message that throws changes nothing.
-  DanceEvents SetKey(const Key& key, const KeyMoment& when, const std::string& field);
+  // Messages, as DanceStream describes them. Each returns what the sink must know. One that throws
+  // changes nothing.
+  DanceEvents SetKey(const Key& key, const KeyMoment& when);
   DanceEvents RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                         const std::string& field, const std::string& reason);
-  DanceEvents RemoveKey(const std::string& id, const std::string& field);
-  DanceEvents SetControls(const ControlRequest& request, const std::string& field);
+  DanceEvents RemoveKey(const std::string& id);
+  DanceEvents SetControls(const ControlRequest& request);
   DanceEvents GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats,
-                        std::optional<double> confidence, const std::string& field);
-  DanceEvents GivePassages(const std::vector<Passage>& passages, const std::string& field);
+                        std::optional<double> confidence);
+  DanceEvents GivePassages(const std::vector<Passage>& passages);
   DanceEvents GenerateUntil(int64_t frame);
   DanceEvents KeysComplete();
   /// Sets what is known about the whole music; the config has precedence.
   DanceEvents SetMusic(const MusicAnalysis& music);
+  DanceEvents NoteMusicDamaged(const std::vector<std::string>& notes, double seconds) const {
+    return {MusicDamaged(notes, seconds, model_.fps)};
+  }
   /// The music ends with the samples so far.
   DanceEvents EndOfAudio();
+
+  // The next message of a kind, as DanceStream describes it.
+  std::string NextKeyframe() const { return At("keyframes", accepted_.keyframes); }
+  std::string NextControls() const { return At("controls", accepted_.controls); }
+  std::string NextMusicBeats() const { return At("music_beats", accepted_.beats); }
+  std::string NextMusicPassages() const { return At("music_passages", accepted_.passages); }
 
   const Timeline& timeline() const { return timeline_; }
   const ControlTrack& controls() const { return controls_; }
@@ -109,6 +120,10 @@ class DanceScore {
   uint64_t seed_, music_id_;
   MusicTurn turn_;                          // watches the transition that was taken last
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
+  // Messages so far.
+  struct {
+    int keyframes = 0, removals = 0, controls = 0, beats = 0, passages = 0;
+  } accepted_;
 };
 
 }  // namespace choreo

@@ -1,25 +1,17 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "model/audio/music_analysis.h"
-#include "model/dance/control_track.h"
-#include "model/dance/dance_config.h"
-#include "model/dance/dance_sink.h"
-#include "model/dance/timeline.h"
-#include "model/engine/sample_queue.h"
+#include "model/dance/dance_chain.h"
 
 namespace choreo {
-
-class AudioFeed;
-class DanceChain;
 
 /// A dance in progress. It is a function of the config, the samples, and the order of the messages:
 /// SetKey, RemoveKey, SetControls, GiveBeats, GivePassages, GenerateUntil, KeysComplete and
@@ -33,10 +25,13 @@ class DanceChain;
 class DanceStream {
  public:
   /// `config`: for the queue's model.
-  DanceStream(SampleQueue& queue, const ValidDance& config, std::shared_ptr<DanceSink> sink);
+  DanceStream(SampleQueue& queue, const ValidDance& config, std::shared_ptr<DanceSink> sink)
+      : chain_(std::make_shared<DanceChain>(queue, config, std::move(sink))) {
+    chain_->Begin(config);
+  }
   DanceStream(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink)
       : DanceStream(queue, ValidDance(config, queue.model()), std::move(sink)) {}
-  ~DanceStream();
+  ~DanceStream() { Cancel(); }
   DanceStream(const DanceStream&) = delete;
   DanceStream& operator=(const DanceStream&) = delete;
 
@@ -44,69 +39,76 @@ class DanceStream {
   /// Error(kOutOfRange) for a gap or an overlap, naming the sample expected.
   /// Error(kInvalidArgument) for bad samples, beyond kMaxAudioSeconds, without DanceConfig::audio.
   /// Error(kFailedPrecondition) after EndOfAudio.
-  void PushAudio(std::span<const float> interleaved, int64_t first_sample);
+  void PushAudio(std::span<const float> interleaved, int64_t first_sample) {
+    chain_->PushAudio(interleaved, first_sample);
+  }
   /// Throws Error(kInvalidArgument) if no sample came at all.
-  void EndOfAudio();
+  void EndOfAudio() { chain_->EndOfAudio(); }
   /// Sets what is known about the whole music; DanceConfig has precedence. If it has no beats, the
   /// dance detects none. Call before the first sample.
-  void SetMusic(const MusicAnalysis& music);
+  void SetMusic(const MusicAnalysis& music) {
+    chain_->Apply([&](DanceScore& score) { return score.SetMusic(music); });
+  }
   /// Warns that the music's file is damaged or ends early. `notes`: DecodeMono's; `seconds`: what
   /// could be read.
-  void NoteMusicDamaged(const std::vector<std::string>& notes, double seconds);
+  void NoteMusicDamaged(const std::vector<std::string>& notes, double seconds) {
+    chain_->Apply([&](DanceScore& score) { return score.NoteMusicDamaged(notes, seconds); });
+  }
 
   /// The next message of a kind, as errors name it: "keyframes[i]", where i counts accepted ones.
-  std::string NextKeyframe() const;
-  std::string NextControls() const;
-  std::string NextMusicBeats() const;
-  std::string NextMusicPassages() const;
+  std::string NextKeyframe() const { return chain_->Read(std::mem_fn(&DanceScore::NextKeyframe)); }
+  std::string NextControls() const { return chain_->Read(std::mem_fn(&DanceScore::NextControls)); }
 
   /// Sets a key (see Timeline). A key that comes too late causes a KeyRejected event and changes
   /// nothing. Errors name NextKeyframe().
-  void SetKey(const Key& key, const KeyMoment& when);
+  void SetKey(const Key& key, const KeyMoment& when) {
+    chain_->Apply([&](DanceScore& score) { return score.SetKey(key, when); });
+  }
   /// Rejects a key that cannot be used: a KeyRejected event names the wrong field and says why. It
   /// counts as a key accepted.
   void RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
-                 const std::string& field, const std::string& reason);
-  void RemoveKey(const std::string& id);
+                 const std::string& field, const std::string& reason) {
+    chain_->Apply([&](DanceScore& score) { return score.RejectKey(id, when, field, reason); });
+  }
+  void RemoveKey(const std::string& id) {
+    chain_->Apply([&](DanceScore& score) { return score.RemoveKey(id); });
+  }
   /// Sets controls (see ControlTrack) from the first frame that is not frozen. Errors name
   /// NextControls(); none may come after KeysComplete, which freezes all.
-  void SetControls(const ControlRequest& request);
+  void SetControls(const ControlRequest& request) {
+    chain_->Apply([&](DanceScore& score) { return score.SetControls(request); });
+  }
   /// Gives beats, seconds, at least one, valid by CheckBeats and CheckDownbeats (see
-  /// MusicBeats::AddGiven). Those in frozen frames are dropped with a Warning. Errors name
-  /// NextMusicBeats(); none may come after KeysComplete.
+  /// MusicBeats::AddGiven). Those in frozen frames are dropped with a Warning. None may come after
+  /// KeysComplete.
   void GiveBeats(const std::vector<double>& seconds, const std::vector<double>& downbeats = {},
-                 std::optional<double> confidence = {});
+                 std::optional<double> confidence = {}) {
+    chain_->Apply(
+        [&](DanceScore& score) { return score.GiveBeats(seconds, downbeats, confidence); });
+  }
   /// Takes at least one passage, valid by CheckPassages. From the first on they replace known ones,
-  /// for transitions that begin after the frozen frames. Errors name NextMusicPassages(); none may
-  /// come after KeysComplete.
-  void GivePassages(const std::vector<Passage>& passages);
-  void GenerateUntil(int64_t frame);
+  /// for transitions that begin after the frozen frames. None may come after KeysComplete.
+  void GivePassages(const std::vector<Passage>& passages) {
+    chain_->Apply([&](DanceScore& score) { return score.GivePassages(passages); });
+  }
+  void GenerateUntil(int64_t frame) {
+    chain_->Apply([&](DanceScore& score) { return score.GenerateUntil(frame); });
+  }
   /// Throws Error(kInvalidArgument) if the dance then has no end: no key, no music, no end_frame.
-  void KeysComplete();
+  void KeysComplete() { chain_->Apply(&DanceScore::KeysComplete); }
 
   /// A client's half-close: EndOfAudio and KeysComplete, unless they have come already.
-  void HalfClose();
+  void HalfClose() { chain_->HalfClose(); }
 
   /// Back-pressure: a paused stream hands out no frames, except one under way. Never changes the
   /// dance.
-  void SetPaused(bool paused);
+  void SetPaused(bool paused) { chain_->SetPaused(paused); }
 
   /// The sink gets OnError(kCancelled), unless its last call has come. Idempotent.
-  void Cancel() noexcept;
-
-  /// How far frames lag behind the music, in output frames: the audio window, the resampling and,
-  /// for a model that hears, one transition of the usual length (one to a key may be longer).
-  static int LatencyFrames(const DanceStart& config, const ModelInfo& model);
+  void Cancel() noexcept { chain_->Cancel(); }
 
  private:
-  AudioFeed& Audio(const char* field);
-  void FinishAudio();
-
-  const ModelInfo& model_;
   const std::shared_ptr<DanceChain> chain_;
-  std::mutex messages_;  // one message at a time; locked before the chain's
-  // Accepted so far:
-  std::atomic<int> keyframes_ = 0, removals_ = 0, controls_ = 0, beats_ = 0, passages_ = 0;
 };
 
 }  // namespace choreo

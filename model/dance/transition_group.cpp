@@ -11,7 +11,6 @@
 #include "model/dance/dance_report.h"
 #include "model/dance/dance_score.h"
 #include "model/dance/mailbox.h"
-#include "model/dance/output_rate.h"
 
 namespace choreo {
 

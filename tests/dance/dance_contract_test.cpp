@@ -230,15 +230,15 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnce) {
 TEST_F(DanceContract, LatencyIncludesTheModelsLookAhead) {
   const ModelInfo model = FakeSampler().model();
   DanceConfig config;
-  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 0);
+  EXPECT_EQ(LatencyFrames(config, model), 0);
   config.output_fps = 60;
-  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);
+  EXPECT_EQ(LatencyFrames(config, model), 2);
   config.output_fps = 30;
   config.audio = DanceConfig::Audio{22050, 1, 0};
-  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 2);  // 1024 / 735 frames
+  EXPECT_EQ(LatencyFrames(config, model), 2);  // 1024 / 735 frames
   config.output_fps = 120;
-  EXPECT_EQ(DanceStream::LatencyFrames(config, model), 10);  // (1024 / 735 + 1) * 4
-  EXPECT_EQ(DanceStream::LatencyFrames(config, HearingSampler().model()), 10 + 4 * kTypicalFrames);
+  EXPECT_EQ(LatencyFrames(config, model), 10);  // (1024 / 735 + 1) * 4
+  EXPECT_EQ(LatencyFrames(config, HearingSampler().model()), 10 + 4 * kTypicalFrames);
 }
 
 // One that is not trained for more.

@@ -9,7 +9,7 @@
 // Which transition follows from a dance's messages, without queue, threads and sampler.
 namespace choreo::dance_score_test {
 
-ModelInfo Model() { return FakeSampler().model(); }
+ModelInfo Model() { return ControlledSampler().model(); }
 
 Key KeyAt(const std::string& id, int64_t frame) {
   std::mt19937 random(static_cast<uint32_t>(frame));
@@ -22,7 +22,7 @@ class DanceScoreTest : public ::testing::Test {
     return {model, ValidDance(config, model), audio};
   }
   static void Set(DanceScore* score, const Key& key) {
-    ASSERT_TRUE(score->SetKey(key, AtFrame{key.frame}, "key").empty());
+    ASSERT_TRUE(score->SetKey(key, AtFrame{key.frame}).empty());
   }
 
   const ModelInfo model = Model();
@@ -97,11 +97,11 @@ TEST_F(DanceScoreTest, LaterMessagesChangeNothingOfATransition) {
     return PrepareTransition(model, inputs).run.spec();
   };
   const TransitionSpec before = prepare();
-  score.GiveBeats({14.1, 14.7, 15.3}, {}, {}, "beats");
+  score.GiveBeats({14.1, 14.7, 15.3}, {}, {});
   ControlRequest controls;
   controls.root_path = ControlRequest::RootPath{{401, 500}, {{0, 0}, {1, 1}}, {}};
-  score.SetControls(controls, "controls");
-  score.GivePassages({{14, 16, 2}}, "passages");
+  score.SetControls(controls);
+  score.GivePassages({{14, 16, 2}});
   score.SetMusic({.beats = {1, 2, 3}, .id = 5});
   const TransitionSpec after = prepare();
   EXPECT_FALSE(before.beats.empty());
@@ -119,11 +119,11 @@ TEST_F(DanceScoreTest, AKeyReachedBeforeTheResumeIsReportedAgainOnce) {
                                      .reached = {{.id = "a", .frame = 40, .raw_error_m = 0.5}}};
   DanceScore score = Score(config);
   const Key key = KeyAt("a", 40);
-  const DanceEvents again = score.SetKey(key, AtFrame{40}, "key");
+  const DanceEvents again = score.SetKey(key, AtFrame{40});
   ASSERT_EQ(again.size(), 1U);
   ASSERT_TRUE(std::holds_alternative<KeyReached>(again[0]));
   EXPECT_EQ(std::get<KeyReached>(again[0]).raw_error_m, 0.5);
-  const DanceEvents late = score.SetKey(key, AtFrame{40}, "key");
+  const DanceEvents late = score.SetKey(key, AtFrame{40});
   ASSERT_EQ(late.size(), 1U);
   EXPECT_TRUE(std::holds_alternative<KeyRejected>(late[0]));
 }
