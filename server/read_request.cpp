@@ -108,7 +108,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
                        ? DanceConfig::Audio{kModelSampleRate, 1, 0}
                        : SamplesOf(format);
   }
-  return {std::move(config), model};
+  return Valid(std::move(config), model);
 }
 
 GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,

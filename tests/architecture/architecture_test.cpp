@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -177,37 +179,85 @@ TEST(Architecture, ThePictureHasTheArrows) {
   }
 }
 
-// The files that a line of the page names.
-std::set<std::string> FilesOf(const std::string& line) {
-  const std::regex file("`([a-z_/]+[.]cpp)`");
-  std::set<std::string> files;
-  for (std::sregex_iterator at(line.begin(), line.end(), file), end; at != end; ++at) {
-    files.insert(at->str(1));
-    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(CHOREO_SOURCE_DIR) / at->str(1)))
-        << at->str(1);
-  }
-  return files;
+// A step of a way on the page: a function, and the file that has it.
+struct Step {
+  std::string file, function;
+};
+
+std::vector<Step> StepsOf(const std::string& line) {
+  const std::regex step("`([a-z_/.]+):([A-Za-z]+)`");
+  std::vector<Step> steps;
+  for (std::sregex_iterator at(line.begin(), line.end(), step), end; at != end; ++at)
+    steps.push_back({at->str(1), at->str(2)});
+  return steps;
 }
 
-// The page lists the files that an audio chunk, a key, a style and a seed pass until a frame is
-// sent: those that hand it on, then those that they call. Only the former are limited.
-TEST(Architecture, AtMostTenFilesHandAMessageOnAndThePageCountsAllOfItsWay) {
-  std::ifstream page(std::filesystem::path(CHOREO_SOURCE_DIR) / "docs/architecture.md");
-  const std::string text{std::istreambuf_iterator<char>(page), {}};
+const std::string& TextOf(const std::string& file) {
+  static std::map<std::string, std::string> texts;
+  const auto [text, is_new] = texts.try_emplace(file);
+  if (is_new) {
+    std::ifstream in(std::filesystem::path(CHOREO_SOURCE_DIR) / file);
+    text->second = {std::istreambuf_iterator<char>(in), {}};
+  }
+  return text->second;
+}
+
+// "Push(" or, of a constructor, "FlowWindow window(" or "std::make_shared<DanceChain>(".
+bool Mentions(const std::string& file, const std::string& function) {
+  const std::string& text = TextOf(file);
+  const auto is_word = [&](size_t i) { return std::isalnum(text[i]) != 0 || text[i] == '_'; };
+  for (size_t at = text.find(function); at != std::string::npos; at = text.find(function, at + 1)) {
+    if (at > 0 && is_word(at - 1)) continue;
+    size_t end = at + function.size();
+    if (end < text.size() && text[end] == '>') ++end;
+    if (end < text.size() && text[end] == ' ') ++end;
+    while (text.compare(at + function.size(), 1, " ") == 0 && end < text.size() && is_word(end))
+      ++end;
+    if (end < text.size() && text[end] == '(') return true;
+  }
+  return false;
+}
+
+// Its functions are one call each.
+constexpr const char* kFacade = "model/dance/dance_stream.h";
+
+// Whether `caller` calls the step's function, itself or through the facade. A header that both
+// files see has the function.
+bool Calls(const std::string& caller, const Step& step) {
+  std::set<std::string> seen = Sources().All(caller), known = Sources().All(step.file);
+  seen.insert(caller);
+  known.insert(step.file);
+  return (Mentions(caller, step.function) ||
+          (seen.contains(kFacade) && Mentions(kFacade, step.function))) &&
+         std::ranges::any_of(seen, [&](const std::string& header) {
+           return header.ends_with(".h") && known.contains(header) &&
+                  Mentions(header, step.function);
+         });
+}
+
+// The page follows what is sent, from function to function, until a frame is sent.
+TEST(Architecture, TheWaysOnThePageFollowTheCode) {
+  const std::string& text = TextOf("docs/architecture.md");
   std::vector<std::string> counts;
   for (const std::string sent : {"an audio chunk", "a key", "a style", "a seed"}) {
-    std::set<std::string> way;
+    std::vector<Step> way;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
-      const std::string row = line.substr(0, line.find('|', 1));
-      if (!line.starts_with('|') || (row.find(sent) == std::string::npos && row != "| all "))
-        continue;
-      if (way.empty()) {
-        EXPECT_LE(FilesOf(line).size(), 10U) << line;
-      }
-      way.merge(FilesOf(line));
+      if (line.starts_with("| " + sent + " |") || line.starts_with("| every frame |"))
+        std::ranges::copy(StepsOf(line), std::back_inserter(way));
     }
-    counts.push_back(std::to_string(way.size()));
+    ASSERT_GT(way.size(), 5U) << sent;
+    std::set<std::string> files = {way[0].file};
+    EXPECT_TRUE(Mentions(way[0].file, way[0].function)) << way[0].file;
+    for (size_t i = 1; i < way.size(); ++i) {
+      EXPECT_TRUE(Mentions(way[i].file, way[i].function)) << way[i].file << " has no such function";
+      EXPECT_TRUE(std::any_of(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(i),
+                              [&](const Step& before) { return Calls(before.file, way[i]); }))
+          << sent << ": nothing before calls " << way[i].function << " of " << way[i].file;
+      files.insert(way[i].file);
+    }
+    EXPECT_LE(files.size(), 17U) << sent;  // they may only become shorter
+    counts.push_back(std::to_string(files.size()));
   }
   EXPECT_THAT(text, HasSubstr("the ways have " + counts[0] + ", " + counts[1] + ", " + counts[2] +
                               " and " + counts[3] + " files"));
