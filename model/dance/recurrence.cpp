@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <set>
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "model/core/grid.h"
 #include "model/dance/validation.h"
 
 namespace choreo {
@@ -88,15 +91,37 @@ std::vector<int64_t> Recurrence::Origins(int64_t from, int64_t to) const {
 }
 
 std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps) {
-  std::vector<int64_t> cuts;
+  struct Stretch {
+    int64_t from, to, lag;
+  };
+  std::vector<Stretch> stretches;
+  std::set<int64_t> cuts;
   for (const Passage& passage : passages) {
-    const double length = passage.to - passage.from;
-    for (const double second : {passage.like, passage.like + length, passage.from, passage.to})
-      cuts.push_back(std::llround(second * fps));
+    const int64_t from = std::llround(passage.from * fps), to = std::llround(passage.to * fps);
+    const int64_t lag = from - std::llround(passage.like * fps);
+    stretches.push_back({from, to, lag});
+    cuts.insert({from - lag, to - lag, from, to});
   }
-  std::ranges::sort(cuts);
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());  // for clang 14
-  return cuts;
+  // To the first originals, and from them to all repetitions.
+  for (const auto& [from, to, lag] : std::views::reverse(stretches)) {
+    for (auto cut = cuts.find(to); *cut > from; --cut) cuts.insert(*cut - lag);
+  }
+  for (const auto& [from, to, lag] : stretches) {
+    for (auto cut = cuts.find(from - lag); *cut < to - lag; ++cut) cuts.insert(*cut + lag);
+  }
+  const std::vector<int64_t> bounds(cuts.begin(), cuts.end());
+  const auto fill = [&](int64_t from, int64_t to) {
+    for (auto bound = std::ranges::lower_bound(bounds, from); *bound < to; ++bound) {
+      for (int64_t cut = *bound + kTypicalFrames; cut + kTypicalFrames / 2 <= bound[1];
+           cut += kTypicalFrames)
+        cuts.insert(cut);
+    }
+  };
+  for (const auto& [from, to, lag] : stretches) {
+    fill(from - lag, to - lag);
+    fill(from, to);
+  }
+  return {cuts.begin(), cuts.end()};
 }
 
 }  // namespace choreo

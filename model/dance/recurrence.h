@@ -54,8 +54,10 @@ class Recurrence {
   std::deque<Given> given_;         // not yet in stretches_
 };
 
-/// The frames where passages and their originals begin and end, ascending. A repeated dance becomes
-/// similar sooner if transitions begin there, too.
+/// The frames where transitions without a key should end so that a repeated dance becomes similar,
+/// ascending: where passages and their originals begin and end, and about every kTypicalFrames
+/// between. Passages and originals are cut alike, so transitions that a key or a turn of the music
+/// has shifted are soon those of the original again.
 std::vector<int64_t> CutsOf(std::span<const Passage> passages, double fps);
 
 }  // namespace choreo

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/dance/dances.h"
 #include "tests/support/expect_error.h"
 
@@ -54,9 +56,24 @@ TEST(Recurrence, TakesAsManyAsAStreamMayGive) {
               [&] { recurrence.Give(one, 0, "p"); });
 }
 
-TEST(Recurrence, CutsAreAtPassageAndOriginBounds) {
-  const std::vector<Passage> passages{{10, 20, 0}, {30, 36, 20}};
-  EXPECT_THAT(CutsOf(passages, 30), ElementsAre(0, 300, 600, 780, 900, 1080));
+TEST(Recurrence, CutsAreAtBoundsAndBetweenThemEveryTwoSeconds) {
+  const std::vector<Passage> passages{{5, 9, 0}, {10, 13, 5}};
+  EXPECT_THAT(CutsOf(passages, 30), ElementsAre(0, 60, 90, 120, 150, 210, 240, 270, 300, 360, 390))
+      << "0 to 4 s, and 5 to 9, are cut at 3 s because 10 to 13 repeats that much";
+}
+
+// A turn of the music, or a key, in one of them shifts its transitions: it must come back.
+TEST(Recurrence, ARepetitionHasItsOriginalsCuts) {
+  const std::vector<Passage> passages{{20, 30, 0}, {40, 47, 3}, {50, 70, 20}};
+  const std::vector<int64_t> cuts = CutsOf(passages, 30);
+  for (const Passage& passage : passages) {
+    const auto from = static_cast<int64_t>(passage.from * 30);
+    const auto lag = static_cast<int64_t>((passage.from - passage.like) * 30);
+    for (int64_t frame = from; frame < static_cast<int64_t>(passage.to * 30); ++frame) {
+      if (!std::ranges::binary_search(cuts, frame - lag)) continue;
+      EXPECT_TRUE(std::ranges::binary_search(cuts, frame)) << frame;
+    }
+  }
 }
 
 TEST(Recurrence, PassagesAreRefusedByNameValueAndLimit) {
