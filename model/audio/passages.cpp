@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/audio/beats.h"
+#include "model/audio/repeat_lag.h"
 
 namespace choreo {
 namespace {
@@ -159,9 +160,18 @@ std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const d
     return nearest != beats.end() && std::abs(*nearest - second) < kFarFromBeat_s ? *nearest
                                                                                   : second;
   };
+  const std::vector<Passage> all = listener.Passages();
+  if (all.empty()) return {};
+  const RepeatLag lags(mono);
   std::vector<Passage> passages;
-  for (const Passage& found : listener.Passages()) {
-    Passage passage{on_beat(found.from), on_beat(found.to), on_beat(found.like)};
+  for (const Passage& found : all) {
+    Passage passage{on_beat(found.from), on_beat(found.to)};
+    // Beats of both times may have other phases near a change, so the lag is heard.
+    passage.like = passage.from - lags.Near(found.from - found.like, found.from, found.to);
+    if (passage.like < 0) {
+      passage.from -= passage.like;
+      passage.like = 0;
+    }
     if (!passages.empty() && passage.from < passages.back().to) {
       passage.like += passages.back().to - passage.from;
       passage.from = passages.back().to;
