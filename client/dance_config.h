@@ -91,6 +91,9 @@ struct DanceConfig {
   /// The API's music_passages: where the music repeats, and the dance with it. Empty: the server
   /// finds them in a kFile.
   std::vector<Passage> music_passages = {};
+  /// The API's music_energies: how energetic the whole song is, every half second, -2 to 2. Empty:
+  /// the server hears it in a kFile; for kPcmFloat it hears what precedes each transition.
+  std::vector<float> music_energies = {};
   /// 0 to 1: how much a repeated dance differs; default: kDefaultVariation
   std::optional<double> variation = {};
   /// Acts like RemoteDance::GenerateUntil before all else: keys grant no frames, so can be edited.

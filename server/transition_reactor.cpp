@@ -121,6 +121,7 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
     beats = std::move(music.beats);
     if (request->music_id == 0) request->music_id = music.id;
     if (request->music_passages.empty()) request->music_passages = std::move(music.passages);
+    if (request->music_energies.empty()) request->music_energies = std::move(music.energies);
   }
 
   void Begin(const v1::GenerateTransitionRequest& message, GroupRequest asked) {

@@ -46,6 +46,7 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   music.track = BeatsAsAsked(onsets, start, beats);
   MusicAnalysis analysis = AnalyseMusic(music.mono, music.track.Seconds());
   music.passages = std::move(analysis.passages);
+  music.energies = std::move(analysis.energies);
   music.id = analysis.id;
   KeepSamples(seconds + client::kMusicBeyond_s, &music.audio);
   return music;
@@ -81,6 +82,7 @@ void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* con
   for (std::vector<double>* beats : {&config->music_beats, &config->music_downbeats})
     std::erase_if(*beats, [seconds](double beat) { return beat >= seconds; });
   config->music_id = music.id;
+  config->music_energies = music.energies;
   config->music_passages = music.passages;
   std::erase_if(config->music_passages,
                 [seconds](const Passage& passage) { return passage.from >= seconds; });

@@ -21,6 +21,7 @@ struct Music {
   std::vector<float> onset_strength;  ///< that the beats were found in
   BeatTrack track;
   std::vector<Passage> passages;  ///< repeats
+  std::vector<float> energies;    ///< MusicAnalysis::energies
   uint64_t id = 0;                ///< MusicId
 };
 
@@ -46,7 +47,7 @@ Counts CountsOf(const Music& music);
 /// Times of the beats before `seconds`, as DanceConfig::music_beats.
 std::vector<double> BeatsBefore(const Music& music, double seconds);
 
-/// Sets these beats with their downbeats, the passages before `seconds`, and the music's id. Keeps
+/// Sets these beats with their downbeats, the passages before `seconds`, energies and the id. Keeps
 /// beats that the configuration already has, as far as they are before `seconds`.
 void ConfigureMusic(const Music& music, double seconds, client::DanceConfig* config);
 

@@ -90,6 +90,7 @@ void PrintJson(const authoring::Music& music, const authoring::Counts& counts,
     json["passages"].push_back(
         {{"from_s", passage.from}, {"to_s", passage.to}, {"like_s", passage.like}});
   }
+  json["energies"] = music.energies;
   json["notes"] = music.audio.notes;
   if (keys) {
     json["suggested_keys"] = nlohmann::ordered_json::array();

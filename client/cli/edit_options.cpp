@@ -166,6 +166,7 @@ std::tuple<client::EditOptions, authoring::Counts> HowToDance(const EditOptions&
     edit.music_beats = counts.beats;
     std::erase_if(edit.music_beats, [&](double beat) { return beat >= end_s; });
     edit.music_passages = music->passages;
+    edit.music_energies = music->energies;
     edit.music_id = music->id;
   }
   edit.controls = options.controls.Read(edit.model, connection.server(), counts);

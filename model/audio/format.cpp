@@ -53,6 +53,19 @@ void CheckDownbeats(std::span<const double> downbeats, std::span<const double> b
   }
 }
 
+void CheckEnergies(std::span<const float> energies, const std::string& field) {
+  if (energies.size() > kMaxEnergies) {
+    throw InvalidArgument(field, std::to_string(energies.size()) + " energies, the limit is " +
+                                     std::to_string(kMaxEnergies));
+  }
+  for (size_t i = 0; i < energies.size(); ++i) {
+    if (std::abs(energies[i]) <= kMaxEnergy) continue;
+    throw InvalidArgument(At(field, static_cast<int64_t>(i)), InFull(energies[i]) + " is not in [" +
+                                                                  InFull(-kMaxEnergy) + ", " +
+                                                                  InFull(kMaxEnergy) + "]");
+  }
+}
+
 void CheckLevels(std::span<const float> interleaved, int channels, int64_t first_sample,
                  const std::string& name) {
   for (size_t i = 0; i < interleaved.size(); ++i) {

@@ -18,6 +18,9 @@ inline constexpr int kMaxAudioSeconds = 600;
 /// Beats that a client may send with a song: 20 a second.
 inline constexpr size_t kMaxBeats = size_t{20} * kMaxAudioSeconds;
 inline constexpr size_t kMaxPassages = 6000;  ///< repeats that a client may send: ten a second
+/// Energies that a client may send: two a second, and what they are at most.
+inline constexpr size_t kMaxEnergies = size_t{2} * kMaxAudioSeconds;
+inline constexpr float kMaxEnergy = 2;
 /// Samples in a file, all channels together: ten minutes at 192 kHz in stereo, or at 48 kHz in 8
 /// channels.
 inline constexpr int64_t kMaxFileSamples = 240'000'000;
@@ -32,6 +35,10 @@ void CheckBeats(std::span<const double> beats, const std::string& field);
 /// The same, and unless each downbeat is one of these checked beats.
 void CheckDownbeats(std::span<const double> downbeats, std::span<const double> beats,
                     const std::string& field);
+
+/// Throws Error(kInvalidArgument, FIELD[i]) unless energies are within kMaxEnergy;
+/// Error(kInvalidArgument, FIELD) for more than kMaxEnergies.
+void CheckEnergies(std::span<const float> energies, const std::string& field);
 
 /// The loudest sample: 40 dB above full scale, more than any mix has. Floats that are scaled as
 /// 16-bit integers exceed it.

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "model/audio/beats.h"
+#include "model/audio/feature_stream.h"
+#include "model/audio/music_dynamics.h"
 #include "model/audio/music_id.h"
 #include "model/audio/passages.h"
 
@@ -18,9 +20,15 @@ MusicAnalysis AnalyseMusic(std::span<const float> mono) {
 MusicAnalysis AnalyseMusic(std::span<const float> mono, std::vector<double> beats,
                            std::vector<double> downbeats) {
   std::vector<Passage> passages = FindPassages(mono, beats);
+  FeatureStream stream(kModelSampleRate, 1);
+  stream.Push(mono);
+  stream.Finish();
+  std::vector<RowSound> rows;
+  for (int64_t row = 0; row < stream.audio_rows(); ++row) rows.push_back(stream.Sound(row));
   return {.beats = std::move(beats),
           .downbeats = std::move(downbeats),
           .passages = std::move(passages),
+          .energies = SongEnergies(rows),
           .id = MusicId(mono)};
 }
 

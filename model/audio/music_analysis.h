@@ -14,6 +14,7 @@ struct MusicAnalysis {
   std::vector<double> downbeats = {};   ///< those of the beats that begin a bar
   std::vector<double> confidence = {};  ///< of each beat, as BeatTrack's; empty if not found here
   std::vector<Passage> passages = {};   ///< repeats
+  std::vector<float> energies = {};     ///< SongEnergies (music_dynamics.h)
   uint64_t id = 0;                      ///< MusicId
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "model/audio/row_sound.h"
 
@@ -43,6 +45,17 @@ inline constexpr int kDynamicsMemory = 900;
 /// per frame, oldest first, or as many as there are; 0 for less than a second. Where the music has
 /// just turned, at least the energy of its last `turn_heard` rows. Pure.
 double HearEnergy(std::span<const RowSound> rows, const MusicDynamicsOptions& options = {});
+
+/// Rows in a step of a song's energies.
+inline constexpr int kEnergyRows = 15;
+/// The energy of each kEnergyRows rows of a whole song, relative to all of it: that of the
+/// kTypicalFrames rows around their middle. `rows`: one per frame, from the song's start. Pure.
+std::vector<float> SongEnergies(std::span<const RowSound> rows,
+                              const MusicDynamicsOptions& options = {});
+/// The mean of such energies over rows [from, to), with silence after the last; rows before the
+/// song do not count. 0 if none does.
+double MeanEnergy(std::span<const float> energies, int64_t from, int64_t to,
+                  const MusicDynamicsOptions& options = {});
 
 /// How loud the music is, and how deep.
 struct MusicLevel {

@@ -46,6 +46,7 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
                                                        " passages, the limit is " +
                                                        std::to_string(kMaxPassages));
   }
+  CheckEnergies(music_energies, "config.music_energies");
   ValidateStyle(model, style, "config.style");
   ValidateOutputFps(output_fps, "config.frame_rate");
   if (history.size() > static_cast<size_t>(model.history_frames)) {

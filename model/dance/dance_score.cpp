@@ -15,8 +15,8 @@ namespace {
 const std::vector<Passage> kNoPassages;
 
 // The energy of the music before a frame.
-double HearEnergyAt(const AudioFeed& audio, const DanceManner& manner, int64_t frame) {
-  return manner.Dynamics() * HearEnergy(audio.Sounds(frame, kDynamicsMemory));
+double HearEnergyAt(const AudioFeed& audio, int64_t frame) {
+  return HearEnergy(audio.Sounds(frame, kDynamicsMemory));
 }
 
 // Warns of the key's faults, except those that the pose before it has, as when a pose is held.
@@ -32,9 +32,15 @@ void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std:
 
 }  // namespace
 
+std::optional<EnergyShift> SongEnergy(std::span<const float> energies, const Segment& segment) {
+  if (energies.empty()) return std::nullopt;
+  return EnergyShift{MeanEnergy(energies, segment.from - kTypicalFrames, segment.from),
+                     MeanEnergy(energies, segment.from, segment.to)};
+}
+
 PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs) {
-  const auto& [manner, seed, controls, segment, before, after, beats, noise_like, audio, rows_end] =
-      inputs;
+  const auto& [manner, seed, controls, segment, before, after, beats, noise_like, audio,
+               song_energy, rows_end] = inputs;
   TransitionSpec spec;
   spec.frames = static_cast<int>(segment.to - segment.from);
   spec.first_frame = segment.from;
@@ -63,8 +69,11 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
       music.rows = Eigen::MatrixXf::Zero(model.hearing.features, spec.frames);
       music.rows.leftCols(heard) = audio->History(rows_end, heard);
     }
-    spec.energy = {HearEnergyAt(*audio, manner, segment.from - kTypicalFrames),
-                   HearEnergyAt(*audio, manner, segment.from)};
+    const EnergyShift energy =
+        song_energy ? *song_energy
+                    : EnergyShift{HearEnergyAt(*audio, segment.from - kTypicalFrames),
+                                  HearEnergyAt(*audio, segment.from)};
+    spec.energy = {manner.Dynamics() * energy.before, manner.Dynamics() * energy.now};
   }
   spec.beats = BeatsAround(beats, model.fps, segment.from, spec.frames);
   spec.seed = seed;
@@ -93,6 +102,7 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
       audio_(audio),
       first_frame_(asked->FirstFrame()),
       end_frame_(asked->end_frame),
+      energies_(asked->music_energies),
       has_beats_(!asked->music_beats.empty()),
       manner_(*asked),
       seed_(asked->seed),
@@ -200,6 +210,7 @@ DanceEvents DanceScore::KeysBehindMusic(const std::string* only) const {
 DanceEvents DanceScore::SetMusic(const MusicAnalysis& music) {
   if (music_id_ == 0) music_id_ = music.id;
   if (!has_beats_) beats_.ReplaceAll(music);
+  if (energies_.empty()) energies_ = music.energies;
   if (!recurrence_.empty() || music.passages.empty() || manner_.Variation() >= 1) return {};
   recurrence_ = Recurrence(model_.fps, music.passages);
   timeline_.SetCuts(CutsOf(music.passages, model_.fps));
@@ -254,6 +265,7 @@ std::optional<DanceScore::Next> DanceScore::TakeNext(size_t planned, int64_t rea
                .segment = *segment,
                .noise_like = recurrence_.Origins(segment->from, segment->to),
                .audio = audio_,
+               .song_energy = SongEnergy(energies_, *segment),
                .rows_end = rows_end},
               beats_.PlanFrom(segment->from)};
 }

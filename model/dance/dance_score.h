@@ -32,6 +32,8 @@ struct TransitionInputs {
   std::vector<double> beats = {};        ///< of the music, seconds, ascending
   std::vector<int64_t> noise_like = {};  ///< TransitionSpec::noise_like
   const AudioFeed* audio = nullptr;      ///< null without music
+  /// The energy of the song before the transition and in it; none: heard before it.
+  std::optional<EnergyShift> song_energy = {};
   int64_t rows_end = 0;  ///< rows before it must be ready; the model gets no music from later ones
 };
 
@@ -39,6 +41,10 @@ struct PreparedTransition {
   TransitionRun run;
   std::vector<Warning> warnings;  ///< about its controls and its key
 };
+
+/// The energies of a song (KnownMusic::music_energies) before a transition and in it; none if they
+/// are unknown.
+std::optional<EnergyShift> SongEnergy(std::span<const float> energies, const Segment& segment);
 
 /// Prepares one transition of a dance. Throws what TransitionRun throws.
 PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInputs& inputs);
@@ -115,7 +121,8 @@ class DanceScore {
   const AudioFeed* audio_;
   const int64_t first_frame_;
   const std::optional<int64_t> end_frame_;
-  const bool has_beats_;  // the config has
+  std::vector<float> energies_;  // KnownMusic::music_energies
+  const bool has_beats_;         // the config has
   DanceManner manner_;
   uint64_t seed_, music_id_;
   MusicTurn turn_;                          // watches the transition that was taken last

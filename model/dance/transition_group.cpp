@@ -204,6 +204,7 @@ void TransitionGroup::Impl::Begin() {
        .noise_like =
            Recurrence(model_.fps, request_.music_passages).Origins(segment.from, segment.to),
        .audio = audio_.get(),
+       .song_energy = SongEnergy(request_.music_energies, segment),
        .rows_end = end});
   if (const auto warning = controls_.BehindEnd(end)) warnings.push_back(*warning);
   const auto& path = request_.controls.root_path;

@@ -8,7 +8,8 @@
 #include "model/audio/beats.h"
 #include "model/audio/feature_stream.h"
 #include "model/audio/made_song.h"
-#include "model/audio/passages.h"
+#include "model/audio/music_analysis.h"
+#include "model/audio/music_id.h"
 #include "model/evaluation/beat_table.h"
 #include "model/evaluation/heard_dance.h"
 #include "model/metrics/joint_track.h"
@@ -34,13 +35,18 @@ constexpr size_t kSmooth = 11;  // frames of a moving mean
 
 struct Setting {
   const char* name;
+  bool live = false;  // the music is not known before it sounds
   double dynamics = kDefaultDynamics, variation = kDefaultVariation;
 };
 constexpr Setting kSettings[] = {{"usual"},
+                                 {.name = "live", .live = true},
                                  {.name = "music_dynamics 0", .dynamics = 0},
                                  {.name = "variation 0", .variation = 0},
                                  {.name = "variation 1", .variation = 1}};
-constexpr const Setting& kUsual = kSettings[0];
+constexpr const Setting &kUsual = kSettings[0], &kLive = kSettings[1];
+// Settings that change how music moves a dance, when it does, and whether it repeats.
+const std::vector<const Setting*> kEnergetic{&kUsual, &kLive, &kSettings[2]},
+    kTimely{&kUsual, &kLive}, kVaried{&kUsual, &kSettings[3], &kSettings[4]}, kOnlyUsual{&kUsual};
 
 double MeanOf(std::span<const float> values) {
   double sum = 0;
@@ -108,21 +114,33 @@ class Judge {
   void Fastest();
 
  private:
-  /// A figure at usual settings and at those that change `matters`; a dash for others.
+  /// A figure at usual settings and at those that change what `matters`; a dash for others.
   template <typename Figure>
-  void Row(const std::string& label, int digits, double Setting::*matters, Figure of) {
+  void Row(const std::string& label, int digits, const std::vector<const Setting*>& matters,
+           Figure of) {
     table_.Begin({label});
     for (const Setting& setting : kSettings) {
-      const bool told =
-          &setting == &kUsual || (matters != nullptr && setting.*matters != kUsual.*matters);
+      const bool told = std::ranges::count(matters, &setting) > 0;
       table_.Put(setting.name, digits, told ? of(setting) : NAN);
     }
   }
-  std::vector<Pose> Dance(std::span<const float> mono, int seed, const Setting& setting) {
+  std::vector<Pose> Dance(const std::vector<float>& mono, int seed, const Setting& setting) {
     DanceConfig config;
     config.seed = static_cast<uint64_t>(seed);
     config.music_dynamics = setting.dynamics;
+    config.variation = setting.variation;
+    if (!setting.live) Know(mono, &config);
     return Dance(mono, config, setting);
+  }
+  /// Tells what the song's file tells, as `choreo dance` does.
+  void Know(const std::vector<float>& mono, DanceConfig* config) {
+    const uint64_t id = MusicId(mono);
+    if (!known_.contains(id)) known_[id] = AnalyseMusic(mono);
+    const MusicAnalysis& music = known_[id];
+    config->music_beats = music.beats;
+    config->music_downbeats = music.downbeats;
+    config->music_passages = music.passages;
+    config->music_energies = music.energies;
   }
   std::vector<Pose> Dance(std::span<const float> mono, const DanceConfig& config,
                           const Setting& setting, std::span<const Key> keys = {},
@@ -166,7 +184,8 @@ class Judge {
   const Skeleton& skeleton_;
   const HearingOptions& options_;
   Table& table_;
-  std::map<std::string, Tally> tallies_;  // by setting
+  std::map<std::string, Tally> tallies_;     // by setting
+  std::map<uint64_t, MusicAnalysis> known_;  // by MusicId
 };
 
 void Judge::Parts() {
@@ -174,29 +193,29 @@ void Judge::Parts() {
     double drums = 0, pad = 0, silence = 0;
   };
   std::map<std::string, Speed> speeds;
-  for (const Setting& setting : std::span(kSettings).first(2)) {
+  for (const Setting* setting : kEnergetic) {
     for (int i = 0; i < options_.seeds; ++i) {
       const auto nth = static_cast<uint64_t>(i);
       const std::vector<float> drums = MakePart(nth, false), pad = MakePart(nth, true);
       const std::vector<float> silence(drums.size());
       const std::vector<float> danced =
-          Speeds(Dance(Join({&drums, &pad, &drums, &silence, &drums}), i, setting));
-      Speed& speed = speeds[setting.name];
+          Speeds(Dance(Join({&drums, &pad, &drums, &silence, &drums}), i, *setting));
+      Speed& speed = speeds[setting->name];
       for (const size_t part : {0, 2, 4}) speed.drums += MeanOf(Part(danced, part)) / 3;
       speed.pad += MeanOf(Part(danced, 1));
       speed.silence += MeanOf(Part(danced, 3));
     }
   }
-  Row("drums ÷ pad", 2, &Setting::dynamics, [&](const Setting& setting) {
+  Row("drums ÷ pad", 2, kEnergetic, [&](const Setting& setting) {
     return speeds[setting.name].drums / speeds[setting.name].pad;
   });
-  Row("silence ÷ drums", 2, &Setting::dynamics, [&](const Setting& setting) {
+  Row("silence ÷ drums", 2, kEnergetic, [&](const Setting& setting) {
     return speeds[setting.name].silence / speeds[setting.name].drums;
   });
 }
 
 void Judge::Loudness(const std::string& name, const std::vector<std::vector<float>>& songs) {
-  Row("loudness and speed, " + name, 2, &Setting::dynamics, [&](const Setting& setting) {
+  Row("loudness and speed, " + name, 2, kEnergetic, [&](const Setting& setting) {
     double sum = 0;
     for (const std::vector<float>& song : songs) {
       for (int seed = 0; seed < options_.seeds; ++seed) {
@@ -213,52 +232,49 @@ void Judge::Loudness(const std::string& name, const std::vector<std::vector<floa
 }
 
 void Judge::Drops(const std::string& calm, bool is_pad) {
-  std::vector<double> speeds(kBefore + kSettledTo);  // around the drop, mean of all dances
-  const int dances = kDropsASeed * options_.seeds;
-  for (int i = 0; i < dances; ++i) {
-    // Transitions begin every two seconds; drops fall anywhere in them.
-    const double drop = kBeforeDrop + 2.0 * i / dances;
-    const uint64_t seed = options_.first_seed + 60 + static_cast<uint64_t>(i);
-    const auto part = [&](double seconds, bool only_pad) {
-      return MakeSong({.seed = seed, .seconds = seconds, .only_pad = only_pad}).mono;
+  const auto lateness = [&](const Setting& setting) {
+    std::vector<double> speeds(kBefore + kSettledTo);  // around the drop, mean of all dances
+    const int dances = kDropsASeed * options_.seeds;
+    for (int i = 0; i < dances; ++i) {
+      // Transitions begin every two seconds; drops fall anywhere in them.
+      const double drop = kBeforeDrop + 2.0 * i / dances;
+      const uint64_t seed = options_.first_seed + 60 + static_cast<uint64_t>(i);
+      const auto part = [&](double seconds, bool only_pad) {
+        return MakeSong({.seed = seed, .seconds = seconds, .only_pad = only_pad}).mono;
+      };
+      const std::vector<float> drums = part(drop - kCalm, false), burst = part(kAfterDrop, false);
+      std::vector<float> quiet = part(kCalm, true);
+      if (!is_pad) std::ranges::fill(quiet, 0.0F);
+      const std::vector<float> danced = Speeds(Dance(Join({&drums, &quiet, &burst}), i, setting));
+      const size_t first = static_cast<size_t>(std::lround(drop * kModelFps)) - kBefore;
+      for (size_t frame = 0; frame < speeds.size(); ++frame)
+        speeds[frame] += danced[first + frame] / dances;
+    }
+    const auto mean = [&](size_t from, size_t to) {
+      double sum = 0;
+      for (size_t frame = from; frame < to; ++frame) sum += speeds[frame];
+      return sum / static_cast<double>(to - from);
     };
-    const std::vector<float> drums = part(drop - kCalm, false), burst = part(kAfterDrop, false);
-    std::vector<float> quiet = part(kCalm, true);
-    if (!is_pad) std::ranges::fill(quiet, 0.0F);
-    const std::vector<float> danced = Speeds(Dance(Join({&drums, &quiet, &burst}), i, kUsual));
-    const size_t first = static_cast<size_t>(std::lround(drop * kModelFps)) - kBefore;
-    for (size_t frame = 0; frame < speeds.size(); ++frame)
-      speeds[frame] += danced[first + frame] / dances;
-  }
-  const auto mean = [&](size_t from, size_t to) {
-    double sum = 0;
-    for (size_t frame = from; frame < to; ++frame) sum += speeds[frame];
-    return sum / static_cast<double>(to - from);
+    const double half = (mean(0, kBefore) + mean(kBefore + kSettledFrom, kBefore + kSettledTo)) / 2;
+    size_t frame = kBefore;
+    while (frame + kSmooth / 2 + 1 < speeds.size() &&
+           mean(frame - kSmooth / 2, frame + kSmooth / 2 + 1) < half)
+      ++frame;
+    return static_cast<double>(frame - kBefore) / kModelFps;
   };
-  const double half = (mean(0, kBefore) + mean(kBefore + kSettledFrom, kBefore + kSettledTo)) / 2;
-  size_t frame = kBefore;
-  while (frame + kSmooth / 2 + 1 < speeds.size() &&
-         mean(frame - kSmooth / 2, frame + kSmooth / 2 + 1) < half)
-    ++frame;
-  Row("seconds from a drop after " + calm + " to the burst", 2, nullptr,
-      [&](const Setting&) { return static_cast<double>(frame - kBefore) / kModelFps; });
+  Row("seconds from a drop after " + calm + " to the burst", 2, kTimely, lateness);
 }
 
 void Judge::Form() {
   double songs = 0, seeds = 0;
-  Row("a part again ÷ another part", 2, &Setting::variation, [&](const Setting& setting) {
+  Row("a part again ÷ another part", 2, kVaried, [&](const Setting& setting) {
     double same = 0, other = 0;
     for (int i = 0; i < options_.seeds; ++i) {
       const uint64_t first = 20 + 3 * static_cast<uint64_t>(i);
       const std::vector<float> a = MakePart(first, false), b = MakePart(first + 1, false),
                                c = MakePart(first + 2, false);
       const std::vector<float> song = Join({&a, &b, &a, &c, &a});
-      DanceConfig config;
-      config.seed = static_cast<uint64_t>(i);
-      config.variation = setting.variation;
-      config.music_beats = FindBeats(song).Seconds();
-      config.music_passages = FindPassages(song, config.music_beats);
-      const std::vector<Pose> dance = Dance(song, config, setting);
+      const std::vector<Pose> dance = Dance(song, i, setting);
       const auto apart = [&](size_t one, size_t two) {
         return Apart(skeleton_, Part(dance, one), Part(dance, two));
       };
@@ -271,7 +287,7 @@ void Judge::Form() {
     }
     return same / other;
   });
-  Row("two songs ÷ two seeds", 2, nullptr, [&](const Setting&) { return songs / seeds; });
+  Row("two songs ÷ two seeds", 2, kOnlyUsual, [&](const Setting&) { return songs / seeds; });
 }
 
 double Judge::Hits(const MadeSong& song, const std::vector<Pose>& dance) const {
@@ -296,7 +312,7 @@ void Judge::Hits() {
                                     .tempo = {{0, bpm}}});
     DanceConfig config;
     config.seed = static_cast<uint64_t>(i);
-    config.music_beats = FindBeats(song.mono).Seconds();
+    Know(song.mono, &config);
     const std::vector<Pose> dance = Dance(song.mono, config, kUsual);
     free += Hits(song, dance) / options_.seeds;
     config.seed += static_cast<uint64_t>(options_.seeds);
@@ -307,7 +323,7 @@ void Judge::Hits() {
         Hits(song, Dance(song.mono, config, kUsual, keys, Circle(dance.size()))) / options_.seeds;
   }
   const auto row = [&](const std::string& which, double points) {
-    Row("hits over chance, " + which + " points", 0, nullptr,
+    Row("hits over chance, " + which + " points", 0, kOnlyUsual,
         [&](const Setting&) { return points; });
   };
   row("free", free);
@@ -318,7 +334,7 @@ void Judge::Hits() {
 void Judge::Fastest() {
   const auto row = [&](const std::string& label, int digits, double Tally::*some,
                        double Tally::*all) {
-    Row(label, digits, &Setting::dynamics, [&](const Setting& setting) {
+    Row(label, digits, kEnergetic, [&](const Setting& setting) {
       const Tally& tally = tallies_[setting.name];
       return 100 * tally.*some / tally.*all;
     });

@@ -49,16 +49,21 @@ struct KnownMusic {
   /// Passages that repeat earlier ones (CheckPassages), and the dance with them. Empty: a server
   /// finds them in a file.
   std::vector<Passage> music_passages = {};
+  /// How energetic the whole song is, every half second (SongEnergies in audio/music_dynamics.h),
+  /// at most kMaxEnergy either way: a transition moves with its own music. Empty: a server finds
+  /// them in a file; in samples it hears what precedes each transition.
+  std::vector<float> music_energies = {};
 
   static KnownMusic Of(const auto& request) {
-    return {request.music_beats, request.music_downbeats, request.music_id,
-            request.music_passages};
+    return {request.music_beats, request.music_downbeats, request.music_id, request.music_passages,
+            request.music_energies};
   }
   void SetIn(auto* request) const {
     request->music_beats = music_beats;
     request->music_downbeats = music_downbeats;
     request->music_id = music_id;
     request->music_passages = music_passages;
+    request->music_energies = music_energies;
   }
 };
 

@@ -43,7 +43,8 @@ KnownMusic MusicOf(const v1::DanceConfig& config) {
   return {.music_beats = {config.music_beats().begin(), config.music_beats().end()},
           .music_downbeats = {config.music_downbeats().begin(), config.music_downbeats().end()},
           .music_id = config.music_id(),
-          .music_passages = ToPassages(config.music_passages())};
+          .music_passages = ToPassages(config.music_passages()),
+          .music_energies = {config.music_energies().begin(), config.music_energies().end()}};
 }
 
 std::vector<Passage> ToPassages(const google::protobuf::RepeatedPtrField<v1::MusicPassage>& sent) {

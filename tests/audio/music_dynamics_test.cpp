@@ -96,6 +96,32 @@ TEST(MusicDynamicsTest, SteadyMusicStaysAtTheMiddleAtAnyLoudness) {
   for (size_t i = 0; i < energies.size(); ++i) EXPECT_NEAR(softer[i], energies[i], 0.05) << i;
 }
 
+TEST(MusicDynamicsTest, AKnownSongRisesWithItsDrop) {
+  const auto energies =
+      SongEnergies(RowsOf(Joined({Pad(20), Drums(20), std::vector<float>(10 * kRate)})));
+  ASSERT_EQ(energies.size(), 100U) << "one each half second";
+  const auto mean = [&](int64_t from, int64_t to) { return MeanEnergy(energies, from, to); };
+  EXPECT_GT(mean(600, 660), mean(540, 600) + 0.2) << "in the drop's first two seconds";
+  EXPECT_NEAR(mean(1300, 1400), MusicDynamicsOptions().silent, 0.05);
+}
+
+// A part that returns has the energies that it had, whatever precedes it.
+TEST(MusicDynamicsTest, AKnownPartReturnsAsItWas) {
+  const auto energies = SongEnergies(RowsOf(Joined({Drums(10), Pad(20), Drums(10), Pad(20)})));
+  for (size_t step = 3; step < 17; ++step)
+    EXPECT_NEAR(energies[60 + step], energies[step], 0.02) << step;
+}
+
+TEST(MusicDynamicsTest, MeanEnergyIsSilentAfterTheSongAndKnowsNothingBeforeIt) {
+  const std::vector<float> energies{1, 0.5F};
+  EXPECT_EQ(MeanEnergy(energies, 0, 15), 1);
+  EXPECT_EQ(MeanEnergy(energies, 0, 30), 0.75);
+  EXPECT_EQ(MeanEnergy(energies, -15, 15), 1);
+  EXPECT_EQ(MeanEnergy(energies, -60, 0), 0);
+  EXPECT_NEAR(MeanEnergy(energies, 30, 90), MusicDynamicsOptions().silent, 1e-9);
+  EXPECT_TRUE(SongEnergies({}).empty());
+}
+
 TEST(MusicDynamicsTest, NothingIsKnownBeforeTheFirstSecond) {
   EXPECT_EQ(HearEnergy({}), 0);
   const auto rows = RowsOf(Drums(2));

@@ -64,6 +64,26 @@ TEST_F(DanceScoreTest, ATransitionWaitsForItsMusic) {
   EXPECT_TRUE(score.TakeNext(0, feed.ready()));
 }
 
+TEST_F(DanceScoreTest, ATransitionHasTheEnergyOfItsOwnMusicWhereThatIsKnown) {
+  DanceConfig config;
+  config.audio = DanceConfig::Audio{22050, 1, 0};
+  config.music_dynamics = 0.5;
+  config.music_energies = std::vector<float>(4, -1);
+  config.music_energies.resize(8, 1);  // from second 2 on
+  AudioFeed feed(22050, 1, 0);
+  feed.Push(Song(22050, 3), 0, [] {});
+  DanceScore score = Score(config, &feed);
+  Set(&score, KeyAt("a", 59));
+  Set(&score, KeyAt("b", 119));
+  const auto energy = [&](size_t nth) {
+    const auto next = score.TakeNext(nth, feed.ready());
+    return PrepareTransition(model, next->inputs).run.spec().energy;
+  };
+  EXPECT_EQ(energy(0).now, -0.5);
+  EXPECT_EQ(energy(1).before, -0.5);
+  EXPECT_EQ(energy(1).now, 0.5);
+}
+
 // A change ahead ends the transition under way where it is granted.
 TEST_F(DanceScoreTest, AMessageOvertakesATransition) {
   DanceScore score = Score({});

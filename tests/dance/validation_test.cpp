@@ -91,6 +91,10 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
               c.music_beats = {1, 1};
             }),
             "config.music_beats[1]: 1 s is not after the beat before it, 1 s");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_energies = {0, std::nanf("")}; }),
+            "config.music_energies[1]: nan is not in [-2, 2]");
+  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_energies.resize(1201); }),
+            "config.music_energies: 1201 energies, the limit is 1200");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_beats = {std::nan("")}; }),
             "config.music_beats[0]: nan s is not within 0 to 600");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_beats = {600.5}; }),

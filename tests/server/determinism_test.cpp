@@ -103,6 +103,7 @@ TEST_P(DeterminismTest, AllThatIsHeardMatters) {
   EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->set_music_dynamics(0); }));
   EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->clear_music_passages(); }));
   EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->set_variation(0.5); }));
+  EXPECT_FALSE(all == stream([](v1::DanceConfig* config) { config->add_music_energies(1); }));
 }
 
 // Each message is sent when all frames that it made possible have come; or all of them at once.

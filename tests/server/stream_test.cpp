@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "model/audio/decode.h"
-#include "model/audio/music_id.h"
+#include "model/audio/music_analysis.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::stream_test {
@@ -19,17 +19,18 @@ class StreamTest : public ServerTest {
 
   // A dance with music and two keys; `chunk` bytes of music a message.
   Answer MusicDance(uint64_t seed, size_t chunk, const std::vector<double>& beats = {},
-                    uint64_t music_id = 0) {
+                    const MusicAnalysis& music = {}) {
     DanceClient client(stub());
     v1::DanceConfig config = MusicConfig(seed);
-    config.set_music_id(music_id);
+    config.set_music_id(music.id);
+    config.mutable_music_energies()->Add(music.energies.begin(), music.energies.end());
     for (const double beat : beats) config.add_music_beats(beat);
     client.Send(config);
     client.SendKeyframe(Key("a", 30));
     client.SendKeyframe(Key("b", 70, -0.2, 0.9, 1.5F));
-    const std::string music = Music(3);
-    for (size_t at = 0; at < music.size(); at += chunk) {
-      client.SendAudio(music.substr(at, chunk), static_cast<int64_t>(at / 2));
+    const std::string samples = Music(3);
+    for (size_t at = 0; at < samples.size(); at += chunk) {
+      client.SendAudio(samples.substr(at, chunk), static_cast<int64_t>(at / 2));
     }
     client.SendEndOfAudio();
     client.SendKeyframesComplete();
@@ -176,7 +177,8 @@ TEST_F(StreamTest, OutputRateAndEncoding) {
   }
 }
 
-// A WAV file in pieces, its bytes cut anywhere, dances as its samples do with its beats.
+// A WAV file in pieces, its bytes cut anywhere, dances as its samples do with its beats and
+// energies.
 TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   Start();
   const std::string music = Music(3);
@@ -210,10 +212,14 @@ TEST_F(StreamTest, FilesDanceAsTheirSamples) {
   ASSERT_GE(beats.size(), 3U);
   for (size_t i = 1; i < beats.size(); ++i) EXPECT_NEAR(beats[i] - beats[i - 1], 0.5, 0.06);
   EXPECT_TRUE(answer.summary->report().has_beat_coverage());
-  const uint64_t id = MusicId(DecodeMono(std::as_bytes(std::span(file)), [] {}));
-  EXPECT_TRUE(answer.Join() == MusicDance(13, 1 << 20, beats, id).Join());
-  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, {}, id).Join());
-  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, beats, id + 1).Join())
+  MusicAnalysis heard = AnalyseMusic(DecodeMono(std::as_bytes(std::span(file)), [] {}));
+  EXPECT_TRUE(answer.Join() == MusicDance(13, 1 << 20, beats, heard).Join());
+  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, {}, heard).Join());
+  MusicAnalysis other = heard;
+  other.energies.clear();
+  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, beats, other).Join());
+  ++heard.id;
+  EXPECT_FALSE(answer.Join() == MusicDance(13, 1 << 20, beats, heard).Join())
       << "other music is danced otherwise";
 }
 
