@@ -29,18 +29,6 @@ std::vector<float> Peaks(const DecodedAudio& audio) {
   return peaks;
 }
 
-/// The number of keys that fit between the beats.
-int64_t Room(const std::vector<double>& beats) {
-  int64_t count = 0;
-  double last = -kMinKeyInterval;
-  for (const double beat : beats) {
-    if (beat - last < kMinKeyInterval) continue;
-    last = beat;
-    ++count;
-  }
-  return count;
-}
-
 }  // namespace
 
 Song HearSong(const std::filesystem::path& path, const std::string& name, double most_seconds) {
@@ -72,7 +60,7 @@ Song HearSong(const std::filesystem::path& path, const std::string& name, double
     added->set_like(passage.like);
   }
   const int64_t count =
-      std::min(Room(beats), static_cast<int64_t>(std::ceil(seconds / kSuggestedEvery)));
+      std::min(MostKeys(beats), static_cast<int64_t>(std::ceil(seconds / kSuggestedEvery)));
   if (count > 0) {
     for (const authoring::ProposedKey& key : authoring::ProposeKeys(song.music, {count})) {
       SuggestedKey* added = song.heard.add_suggested();

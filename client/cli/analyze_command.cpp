@@ -223,9 +223,10 @@ void AddAnalyzeCommand(CLI::App& program) {
       command
           ->add_option(
               "--suggest-keys", options->suggest_keys,
-              "Name so many beats on which key poses would sit well, spread over the song, where "
-              "passages begin, eights and bars, and a pose of the library for each: the same where "
-              "a passage returns. With --json they are a file for `choreo dance --keyframes`.")
+              "Name so many beats on which key poses would sit well, spread over the song from its "
+              "second 1 on, where passages begin, eights and bars, and a pose of the library for "
+              "each: the same where a passage returns. With --json they are a file for `choreo "
+              "dance --keyframes`.")
           ->check(WholeNumberFrom(1, 1'000'000));
   command
       ->add_option("--from", options->from,

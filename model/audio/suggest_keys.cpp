@@ -36,24 +36,12 @@ std::vector<double> Strengths(std::span<const int64_t> frames, std::span<const f
   return strengths;
 }
 
-/// The number of keys that fit, each on the first beat far enough from the last key.
-int64_t MostKeys(std::span<const double> times) {
-  int64_t most = 0;
-  double last = kNever;
-  for (const double time : times) {
-    if (time - last < kMinKeyInterval) continue;
-    ++most;
-    last = time;
-  }
-  return most;
-}
-
 void CheckCount(std::span<const double> times, int64_t count, const std::string& name) {
-  if (times.empty()) {
+  const int64_t most = MostKeys(times);
+  if (most == 0) {
     throw InvalidArgument(
         name, std::to_string(count) + " keys, but no beat is heard that they could stand on");
   }
-  const int64_t most = MostKeys(times);
   if (count >= 1 && count <= most) return;
   char text[160];
   std::snprintf(text, sizeof text, "%lld keys, must be 1 to %lld: %zu beats, keys %.1f s apart",
@@ -95,6 +83,17 @@ void CountAgain(const BeatTrack& track, const Passage& passage, size_t begin,
 }
 
 }  // namespace
+
+int64_t MostKeys(std::span<const double> times) {
+  int64_t most = 0;
+  double last = kNever;
+  for (const double time : times) {
+    if (time < kFirstKey || time - last < kMinKeyInterval) continue;
+    ++most;
+    last = time;
+  }
+  return most;
+}
 
 std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage> passages) {
   std::vector<Phrase> phrases(track.frames.size(), Phrase::kBeat);
@@ -144,7 +143,8 @@ std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const fl
 
   // total[i]: the best choice so far whose last key is on beat i.
   std::vector<double> total(beats);
-  for (size_t i = 0; i < beats; ++i) total[i] = worth(i) - off_end(times[i] - times.front());
+  for (size_t i = 0; i < beats; ++i)
+    total[i] = times[i] < kFirstKey ? kNever : worth(i) - off_end(times[i] - times.front());
   std::vector<std::vector<size_t>> previous;  // [key after the first][beat]
   for (int64_t key = 1; key < count; ++key) {
     std::vector<double> best_until(total);  // the largest total up to each beat

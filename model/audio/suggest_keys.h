@@ -14,6 +14,8 @@ namespace choreo {
 
 /// The shortest time between key poses, in seconds: about as long as a change of pose takes.
 inline constexpr double kMinKeyInterval = 1.2;
+/// The second from which on keys are suggested: the dancer can't reach a pose earlier at ease.
+inline constexpr double kFirstKey = 1;
 
 /// What begins at a beat; each value includes those before it. An eight is two bars of four or of
 /// three, counted from the first bar, and restarted at passages and short bars.
@@ -38,12 +40,15 @@ struct SuggestionRequest {
 /// the original. All are kBeat if there are no bars.
 std::vector<Phrase> FindPhrases(const BeatTrack& track, std::span<const Passage> passages);
 
-/// Chooses beats for key poses, ascending, at least kMinKeyInterval apart. Maximises the sum
-/// of strengths and of what begins (1 for a bar, 2 for an eight, 3 for a passage), less the squared
-/// relative deviation of each interval from an even spread between the first and the last beat.
-/// `onset_strength`: the envelope in which the beats were found. Deterministic. Throws
-/// Error(kInvalidArgument), whose field is `named`, if the count is less than 1 or more than fit
-/// between the beats.
+/// The number of keys that fit, each on the first beat far enough from the last key.
+int64_t MostKeys(std::span<const double> beats);
+
+/// Chooses beats for key poses, ascending, from kFirstKey on, at least kMinKeyInterval apart.
+/// Maximises the sum of strengths and of what begins (1 for a bar, 2 for an eight, 3 for a
+/// passage), less the squared relative deviation of each interval from an even spread between the
+/// first and the last beat. `onset_strength`: the envelope in which the beats were found.
+/// Deterministic. Throws Error(kInvalidArgument), whose field is `named`, if the count is less than
+/// 1 or more than fit between the beats.
 std::vector<SuggestedKey> SuggestKeys(const BeatTrack& track, std::span<const float> onset_strength,
                                       std::span<const Passage> passages,
                                       const SuggestionRequest& request);

@@ -75,6 +75,16 @@ TEST(SuggestKeysTest, AreSpreadOverTheSongOnItsStrongBeats) {
   }
 }
 
+// She would have to jump to it.
+TEST(SuggestKeysTest, NoneStandsInTheFirstSecond) {
+  for (const int64_t bar : {1, 3, 4}) {
+    const Song song(120, bar);
+    for (const int64_t count : {24, 30, 40}) EXPECT_GE(song.Suggest(count).front().time_s, 1);
+  }
+  // Two beats are heard, at 0.1 and 0.6 s.
+  ExpectError(ErrorCode::kInvalidArgument, "no beat", [] { Song(2, 1).Suggest(1); });
+}
+
 TEST(SuggestKeysTest, EvenBeatsGiveEvenKeys) {
   // All beats alike: the only difference is the spread. 41 beats span 40, 5 keys: 4, 12, 20, ...
   EXPECT_EQ(BeatsOf(Song(41, 1).Suggest(5)), (std::vector<size_t>{4, 12, 20, 28, 36}));
@@ -92,7 +102,7 @@ double BestByTryingAll(const Song& song, size_t first, int64_t left, double last
     return std::max(score, top);
   }
   for (size_t i = first; i < times.size(); ++i) {
-    if (!chosen->empty() && times[i] - last < kMinKeyInterval) continue;
+    if (times[i] < kFirstKey || (!chosen->empty() && times[i] - last < kMinKeyInterval)) continue;
     const double cost =
         chosen->empty() ? off((times[i] - times[0]) / (even / 2)) : off((times[i] - last) / even);
     const double strength = song.envelope[static_cast<size_t>(song.track.frames[i])] / 4.0;
@@ -179,19 +189,19 @@ TEST(SuggestKeysTest, ClickTrackIsDividedAtItsBeats) {
 }
 
 TEST(SuggestKeysTest, MoreThanFitOrNoneAreRefused) {
-  const Song song(20, 4);  // keys need three beats' room: 0, 3, ... 18
-  EXPECT_EQ(song.Suggest(7).size(), 7U);
+  const Song song(20, 4);  // keys need three beats' room: 2, 5, ... 17
+  EXPECT_EQ(song.Suggest(6).size(), 6U);
   const auto refused = [&](int64_t count, const std::string& part) {
     ExpectError(ErrorCode::kInvalidArgument, part, [&] { song.Suggest(count); });
   };
-  refused(8, "n: 8 keys, must be 1 to 7: 20 beats, keys 1.2 s apart");
-  refused(0, "n: 0 keys, must be 1 to 7");
-  refused(-3, "n: -3 keys, must be 1 to 7");
+  refused(8, "n: 8 keys, must be 1 to 6: 20 beats, keys 1.2 s apart");
+  refused(0, "n: 0 keys, must be 1 to 6");
+  refused(-3, "n: -3 keys, must be 1 to 6");
   ExpectError(ErrorCode::kInvalidArgument, "n: 2 keys, but no beat is heard",
               [] { SuggestKeys(BeatTrack{}, {}, {}, {.count = 2, .named = "n"}); });
-  EXPECT_EQ(BeatsOf(Song(1, 1).Suggest(1)), std::vector<size_t>{0});
+  EXPECT_EQ(BeatsOf(Song(3, 1).Suggest(1)), std::vector<size_t>{2});
   // Finds every choice that fits, even the only one.
-  EXPECT_EQ(BeatsOf(Song(19, 4).Suggest(7)), (std::vector<size_t>{0, 3, 6, 9, 12, 15, 18}));
+  EXPECT_EQ(BeatsOf(Song(18, 4).Suggest(6)), (std::vector<size_t>{2, 5, 8, 11, 14, 17}));
 }
 
 }  // namespace choreo::suggest_keys_test
