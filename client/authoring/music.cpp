@@ -43,7 +43,7 @@ Music ReadMusic(const std::filesystem::path& path, double seconds, double start,
   music.mono = ToModelRate(music.audio);
   const std::vector<Onset> onsets = FindOnsets(music.mono);
   music.onset_strength = OnsetStrength(onsets);
-  music.track = BeatsAsAsked(onsets, start, beats);
+  music.track = BeatsAsAsked(onsets, start, beats, music.mono);
   MusicAnalysis analysis = AnalyseMusic(music.mono, music.track.Seconds());
   music.passages = std::move(analysis.passages);
   music.energies = std::move(analysis.energies);

@@ -116,8 +116,9 @@ bool HasTempo(std::span<const double> beats, double bpm) {
 }
 
 /// Finds beats near the tempo of the options, and warns if nothing in the music has it.
-BeatTrack FindAsAsked(std::span<const Onset> onsets, const BeatHint& hint) {
-  BeatTrack track = TrackBeats(onsets, LimitsOf(hint));
+BeatTrack FindAsAsked(std::span<const Onset> onsets, const BeatHint& hint,
+                      std::span<const float> mono) {
+  BeatTrack track = TrackBeats(onsets, LimitsOf(hint), MusicExtent::kWhole, mono);
   if (!hint.tempo_bpm) return track;
   const BeatTrack heard = TrackBeats(onsets);
   if (heard.tempo_bpm > 0 && !HasTempo(heard.Seconds(), *hint.tempo_bpm)) {
@@ -152,9 +153,10 @@ void RequireSong(const BeatOptions& options, const std::string& song) {
     throw InvalidArgument("beats", "and other options of beats need a song");
 }
 
-BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options) {
-  BeatTrack track =
-      options.FindsThem() ? FindAsAsked(onsets, options.hint) : ReadBeats(*options.beats, start);
+BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
+                       std::span<const float> mono) {
+  BeatTrack track = options.FindsThem() ? FindAsAsked(onsets, options.hint, mono)
+                                        : ReadBeats(*options.beats, start);
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +

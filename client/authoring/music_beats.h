@@ -28,8 +28,9 @@ void RequireSong(const BeatOptions& options, const std::string& song);
 
 /// A song's beats from second `start` on, found or read, depending on the options. Warns on
 /// standard error of a tempo that is not heard in it. Throws Error(kInvalidArgument), whose field
-/// is "beats", "downbeat" or a line of the file.
-BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options);
+/// is "beats", "downbeat" or a line of the file. `mono` as in TrackBeats.
+BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
+                       std::span<const float> mono = {});
 
 /// Changes known beats and their downbeats by the options for half and double time and a downbeat.
 /// Seconds of a dance that begins at second `start` of its song.

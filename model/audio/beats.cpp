@@ -8,6 +8,7 @@
 #include "model/audio/bar_pointer.h"
 #include "model/audio/format.h"
 #include "model/audio/half_beats.h"
+#include "model/audio/harmony.h"
 #include "model/audio/onset_sums.h"
 
 namespace choreo {
@@ -260,7 +261,8 @@ std::vector<std::pair<double, double>> WithoutBeats(std::span<const double> beat
   return without;
 }
 
-BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, MusicExtent extent) {
+BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, MusicExtent extent,
+                     std::span<const float> mono) {
   BeatTrack track;
   std::vector<int> bars;
   const std::vector<bool> sounding = Sounding(onsets);
@@ -272,6 +274,8 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
     };
     if (std::ranges::none_of(part_onsets, begins)) continue;
     Path path = PathOf(part_onsets, extent, limits);
+    if (!mono.empty())
+      CountByHarmony(mono.subspan(static_cast<size_t>(part.begin * kOnsetHop)), &path);
     std::erase_if(path, [&](const BarPointer::Step& step) {
       return IsInPause(sounding, part.begin + step.frame, step.period);
     });
@@ -295,6 +299,8 @@ bool EndInPause(std::span<const Onset> onsets, double period_s) {
                    static_cast<int>(std::lround(period_s * kOnsetRate)));
 }
 
-BeatTrack FindBeats(std::span<const float> mono) { return TrackBeats(FindOnsets(mono)); }
+BeatTrack FindBeats(std::span<const float> mono) {
+  return TrackBeats(FindOnsets(mono), {}, MusicExtent::kWhole, mono);
+}
 
 }  // namespace choreo

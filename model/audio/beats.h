@@ -42,9 +42,10 @@ enum class MusicExtent { kWhole, kPart };
 /// best explain all onsets. Tempo may drift or jump. Silence has no beats, except one a period
 /// after the last sound; after two seconds of silence tracking starts afresh. Beats and half beats
 /// no more distinct than those found in noise are dropped. Without onsets: no
-/// beats, tempo 0.
+/// beats, tempo 0. `mono`: the samples of the onsets, whose harmony corrects where bars begin
+/// (CountByHarmony); without them drums alone tell.
 BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits = {},
-                     MusicExtent extent = MusicExtent::kWhole);
+                     MusicExtent extent = MusicExtent::kWhole, std::span<const float> mono = {});
 
 /// Whether these onsets end in silence, more than `period_s` after the last sound.
 bool EndInPause(std::span<const Onset> onsets, double period_s);

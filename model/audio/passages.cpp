@@ -12,7 +12,6 @@
 namespace choreo {
 namespace {
 
-constexpr double kMinTone_hz = 60, kMaxTone_hz = 4000, kConcertPitch_hz = 440;
 constexpr double kMinBand_hz = 40, kMaxBand_hz = kModelSampleRate / 2.0;
 constexpr double kSilentPower = 1e-7;  // mean square of a window: -70 dB
 constexpr double kFarFromBeat_s = 0.3;
@@ -26,9 +25,7 @@ PassageListener::PassageListener(const PassageOptions& options)
     : options_(options), soonest_(std::lround(options.soonest / kMomentSeconds)) {
   for (int bin = 0; bin <= kWindow / 2; ++bin) {
     const double hz = static_cast<double>(bin) * kModelSampleRate / kWindow;
-    const bool is_tone = hz > kMinTone_hz && hz < kMaxTone_hz;
-    const long tone = is_tone ? std::lround(12 * std::log2(hz / kConcertPitch_hz)) : 0;
-    chroma_of_.push_back(is_tone ? static_cast<int>((tone % 12 + 12) % 12) : -1);
+    chroma_of_.push_back(ChromaOf(hz));
     const double octaves =
         std::log2(std::max(hz, kMinBand_hz) / kMinBand_hz) / std::log2(kMaxBand_hz / kMinBand_hz);
     band_of_.push_back(std::min(kBands - 1, static_cast<int>(kBands * octaves)));

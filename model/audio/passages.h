@@ -8,6 +8,7 @@
 
 #include "model/audio/format.h"
 #include "model/audio/fourier.h"
+#include "model/audio/harmony.h"
 #include "model/core/passage.h"
 
 namespace choreo {
@@ -48,7 +49,7 @@ class PassageListener {
   std::vector<Passage> Passages() const;
 
  private:
-  static constexpr int kChroma = 12, kBands = 24, kNumbers = kChroma + kBands;
+  static constexpr int kBands = 24, kNumbers = kChroma + kBands;
   using Moment = Eigen::Matrix<float, kNumbers, 1>;
 
   Moment Hear(std::span<const float> window);
