@@ -8,7 +8,7 @@ namespace choreo::live {
 namespace {
 
 constexpr double kMemorySeconds = 120;  // an intro's half beats sound like beats within one window
-constexpr double kFirstSeconds = 4, kEverySeconds = 1.5;
+constexpr double kEverySeconds = 1.5;
 
 int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 
@@ -56,7 +56,7 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
     }
     return ahead;
   }
-  if (heard - asked_ < Onsets(asked_ == 0 ? kFirstSeconds : kEverySeconds)) return {};
+  if (heard - asked_ < Onsets(kEverySeconds)) return {};
   asked_ = heard;
   const int64_t old = std::ssize(onsets_) - Onsets(kMemorySeconds);
   if (old > 0) {

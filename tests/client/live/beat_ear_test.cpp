@@ -61,6 +61,13 @@ TEST(BeatEar, PredictsBeats) {
   EXPECT_GE(counted, 3);
 }
 
+TEST(BeatEar, TellsTheFirstBeatsAfterThreeSeconds) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) {
+    const MadeSong song = MakeSong({.seed = seed, .seconds = 8, .tempo = {{0, 160}}});
+    EXPECT_LT(Told(song.mono, 0).front(), 4) << seed;
+  }
+}
+
 TEST(BeatEar, FollowsTheHint) {
   const MadeSong song = MakeSong({.seed = 3, .seconds = 30, .tempo = {{0, 110}}});
   const auto told = [&](const BeatHint& hint) { return Told(song.mono, 12, nullptr, {hint}); };
