@@ -17,7 +17,7 @@ void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
   CLI::Option* beats = command.add_option(
       "--beats", options->beats,
       "FILE of the song's beats, one a line: its second and, if known, its count in the bar (1: a "
-      "downbeat). auto (default): they are found.");
+      "downbeat). auto: they are found. Default: auto; for edits the beats of the dance's report.");
   command
       .add_option("--tempo", options->hint.tempo_bpm,
                   "Rough tempo, beats a minute: beats are looked for within 6 % of it.")

@@ -311,8 +311,9 @@ void AddEditCommand(CLI::App& program) {
   AddBeatOptions(*command, &options->beats);
   command
       ->add_option("--report", options->report,
-                   "Report of the dance, which names its keys, and also its song, model, seed and "
-                   "style, with which new frames are danced unless options say otherwise.")
+                   "Report of the dance, which names its keys, and also its song, model, seed, "
+                   "style, path, velocity, beats, music dynamics and variation, with which new "
+                   "frames are danced unless options say otherwise.")
       ->check(CLI::ExistingFile);
   command->add_option("--new-report", options->new_report,
                       "JSON file to write the keys of the new dance to, for the next edit, and the "
