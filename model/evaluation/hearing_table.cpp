@@ -28,7 +28,10 @@ constexpr double kSongSeconds = 80, kHitSeconds = 60;
 
 // Seconds of a song before its drop, of the calm that precedes it, and after it.
 constexpr double kBeforeDrop = 20, kCalm = 6, kAfterDrop = 12;
-constexpr int kDropsASeed = 4;
+// With three seeds 36 dances: the burst of 12 comes, by chance, after 0.4 to 1.7 s.
+constexpr int kDropsASeed = 12;
+// A made song begins with up to a second of hiss. Drums may sound so many seconds before a beat.
+constexpr double kMadeLead = 1, kEarlyDrums = 0.01;
 // The frames with which a burst is compared: before the drop, and when it has settled.
 constexpr size_t kBefore = 60, kSettledFrom = 120, kSettledTo = 300;
 constexpr size_t kSmooth = 11;  // frames of a moving mean
@@ -79,6 +82,15 @@ std::vector<double> LoudnessOf(std::span<const float> mono) {
     loudness.push_back(Loudness(power / kRows));
   }
   return loudness;
+}
+
+/// A made song of so many seconds that begins with its first beat.
+std::vector<float> FromFirstBeat(uint64_t seed, double seconds) {
+  MadeSong song = MakeSong({.seed = seed, .seconds = seconds + kMadeLead});
+  const auto at = [](double second) { return std::llround(second * kModelSampleRate); };
+  song.mono.erase(song.mono.begin(), song.mono.begin() + at(song.beats.front() - kEarlyDrums));
+  song.mono.resize(static_cast<size_t>(at(seconds)));
+  return std::move(song.mono);
 }
 
 /// Concatenates parts to a song.
@@ -242,7 +254,8 @@ void Judge::Drops(const std::string& calm, bool is_pad) {
       const auto part = [&](double seconds, bool only_pad) {
         return MakeSong({.seed = seed, .seconds = seconds, .only_pad = only_pad}).mono;
       };
-      const std::vector<float> drums = part(drop - kCalm, false), burst = part(kAfterDrop, false);
+      const std::vector<float> drums = part(drop - kCalm, false),
+                               burst = FromFirstBeat(seed, kAfterDrop);
       std::vector<float> quiet = part(kCalm, true);
       if (!is_pad) std::ranges::fill(quiet, 0.0F);
       const std::vector<float> danced = Speeds(Dance(Join({&drums, &quiet, &burst}), i, setting));
