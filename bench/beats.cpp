@@ -122,8 +122,12 @@ void PrintHead() {
               "librosa", "down", "bpm", "off %", "live", "live10", "client", "cli.10", "");
 }
 
-/// Returns F; half of it for an octave error.
-double Judge(const Judged& song) {
+struct Scores {
+  double octaves_half;       // F of the whole song; half of it for an octave error
+  double file, pcm, client;  // F from the first second
+};
+
+Scores Judge(const Judged& song) {
   const BeatTrack track = FindBeats(song.mono);
   const std::vector<double> found = track.Seconds();
   const std::vector<double> live = HearLive(song.mono);
@@ -153,7 +157,25 @@ double Judge(const Judged& song) {
   }
   std::printf("\n");
   std::fflush(stdout);
-  return f;
+  return {f, BeatFMeasure(found, song.beats), BeatFMeasure(live, song.beats),
+          BeatFMeasure(client, song.beats)};
+}
+
+/// What predictions reach of what is found in whole songs.
+void PrintLiveShare(const std::map<int, std::vector<Scores>>& by_tempo) {
+  std::printf("\nsteady songs: mean F in files, as PCM and with `choreo live`, and their shares\n");
+  for (const auto& [bpm, songs] : by_tempo) {
+    Scores sum{};
+    for (const Scores& song : songs) {
+      sum.file += song.file;
+      sum.pcm += song.pcm;
+      sum.client += song.client;
+    }
+    const auto count = static_cast<double>(songs.size());
+    std::printf("%3d bpm  file %.2f  PCM %.2f  client %.2f  PCM ÷ file %.2f  client ÷ file %.2f\n",
+                bpm, sum.file / count, sum.pcm / count, sum.client / count, sum.pcm / sum.file,
+                sum.client / sum.file);
+  }
 }
 
 void JudgeFiles(const std::vector<std::string>& songs, const std::string& librosa) {
@@ -178,16 +200,20 @@ void JudgeFiles(const std::vector<std::string>& songs, const std::string& libros
 /// One of each kind and tempo.
 void JudgeMade(uint64_t seed) {
   std::map<std::string, std::vector<double>> by_kind;
+  std::map<int, std::vector<Scores>> by_tempo;
   const auto judge = [&](const std::string& kind, const std::string& name, SongPlan plan,
                          std::vector<SongPlan::Span> spans = {}) {
     plan.seed = seed++;
     MadeSong made = MakeSong(plan);
-    by_kind[kind].push_back(Judge({.name = kind + " " + name + " " + made.groove,
-                                   .mono = std::move(made.mono),
-                                   .beats = std::move(made.beats),
-                                   .downbeats = std::move(made.downbeats),
-                                   .spans = std::move(spans),
-                                   .silent = plan.silent}));
+    const Scores scores = Judge({.name = kind + " " + name + " " + made.groove,
+                                 .mono = std::move(made.mono),
+                                 .beats = std::move(made.beats),
+                                 .downbeats = std::move(made.downbeats),
+                                 .spans = std::move(spans),
+                                 .silent = plan.silent});
+    by_kind[kind].push_back(scores.octaves_half);
+    if (plan.tempo.size() == 1 && plan.without_drums.empty() && plan.silent.empty())
+      by_tempo[static_cast<int>(plan.tempo.front().bpm)].push_back(scores);
   };
   for (double bpm = 50; bpm <= 200; bpm += 10) {
     const std::string name = std::to_string(static_cast<int>(bpm));
@@ -218,6 +244,7 @@ void JudgeMade(uint64_t seed) {
                 sum / static_cast<double>(values.size()), *std::ranges::min_element(values),
                 values.size());
   }
+  PrintLiveShare(by_tempo);
 }
 
 }  // namespace
