@@ -13,6 +13,7 @@ const auto kEvery = std::lround(1 / PassageListener::kMomentSeconds);
 
 std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
   mono_.insert(mono_.end(), mono.begin(), mono.end());
+  lags_.Hear(mono);
   std::optional<Passage> told;
   static_assert(PassageListener::kHop >= PassageListener::kWindow);
   while (mono_.size() >= PassageListener::kHop) {
@@ -24,9 +25,10 @@ std::optional<Passage> PassageEar::Hear(std::span<const float> mono) {
     const double from = static_cast<double>(now) * PassageListener::kMomentSeconds;
     if (from >= kMaxAudioSeconds) break;
     // An ended passage has no length: it revokes what was announced.
-    const int64_t behind = lag ? *lag : *told_lag_;
+    const double behind =
+        static_cast<double>(lag ? *lag : *told_lag_) * PassageListener::kMomentSeconds;
     told = Passage{from, lag ? std::min<double>(from + kAheadSeconds, kMaxAudioSeconds) : from,
-                   from - static_cast<double>(behind) * PassageListener::kMomentSeconds};
+                   std::max(0.0, from - lags_.Near(behind, from - kAheadSeconds, from))};
     told_lag_ = lag;
     told_at_ = now;
   }

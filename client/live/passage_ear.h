@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/audio/passages.h"
+#include "model/audio/repeat_lag.h"
 
 namespace choreo::live {
 
@@ -20,6 +21,7 @@ class PassageEar {
 
  private:
   PassageListener listener_;
+  RepeatLag lags_;
   std::vector<float> mono_;  // from the listener's next moment on
   std::optional<int64_t> told_lag_;
   int64_t told_at_ = 0;  // in moments

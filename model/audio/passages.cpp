@@ -159,7 +159,8 @@ std::vector<Passage> FindPassages(std::span<const float> mono, std::span<const d
   };
   const std::vector<Passage> all = listener.Passages();
   if (all.empty()) return {};
-  const RepeatLag lags(mono);
+  RepeatLag lags;
+  lags.Hear(mono);
   std::vector<Passage> passages;
   for (const Passage& found : all) {
     Passage passage{on_beat(found.from), on_beat(found.to)};

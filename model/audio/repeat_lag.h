@@ -3,6 +3,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <vector>
+
+#include "model/audio/fourier.h"
 
 namespace choreo {
 
@@ -10,8 +13,8 @@ namespace choreo {
 /// their onsets coincide. Not thread-safe.
 class RepeatLag {
  public:
-  /// `mono`: the whole song at 22 050 Hz.
-  explicit RepeatLag(std::span<const float> mono);
+  /// Takes the next mono samples at 22 050 Hz.
+  void Hear(std::span<const float> mono);
 
   /// The lag nearest to `lag`, within kSearch_s, at which [from, to) is most like what precedes it
   /// by the lag. `lag` itself where nothing begins. Seconds.
@@ -20,8 +23,16 @@ class RepeatLag {
   static constexpr double kSearch_s = 0.5;
 
  private:
-  static constexpr int kBands = 12;
-  Eigen::Matrix<float, kBands, Eigen::Dynamic> rises_;  // of each band's level, by hop
+  static constexpr int kBands = 12, kWindow = 1024;
+  using Bands = Eigen::Matrix<float, kBands, 1>;
+
+  Bands LevelsOf(std::span<const float> window);
+
+  std::vector<float> mono_;  // from the next window on
+  FourierPower fourier_{kWindow};
+  std::vector<double> windowed_ = std::vector<double>(kWindow);
+  Bands before_;              // the levels of the last window
+  std::vector<Bands> rises_;  // of each band's level, by hop
 };
 
 }  // namespace choreo

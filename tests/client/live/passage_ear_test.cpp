@@ -38,7 +38,7 @@ TEST(PassageEar, PredictsRepeatedMusic) {
   for (const Passage& passage : told) {
     EXPECT_LT(passage.like, passage.from);
     EXPECT_GE(passage.to, passage.from);
-    as_before += std::abs(passage.from - passage.like - 2 * kPart) < 0.3;
+    as_before += std::abs(passage.from - passage.like - 2 * kPart) < 0.02;
   }
   EXPECT_GE(as_before, 10U) << "once a second, but for the first";
   EXPECT_GT(told.back().from, 2.8 * kPart);
