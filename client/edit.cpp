@@ -235,8 +235,13 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
                          const std::string& to_id, const std::optional<double>& to_hit) {
   const bool leads_on = to < work.frames();
   if (leads_on)
-    stops.push_back(
-        {to, work.pose(to), {}, to_id.empty() ? "the dance at " + NameOfFrame(to) : to_id, to_hit});
+    stops.push_back({to,
+                     work.pose(to),
+                     {},
+                     to_id.empty()
+                         ? "the dance at " + Rounded(static_cast<double>(to) / work.fps()) + " s"
+                         : to_id,
+                     to_hit});
   stops = Spanned(from, stops, work.longest());
   Part part{from + 1, {}, {}};
   TransitionCandidate danced;

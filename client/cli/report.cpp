@@ -144,7 +144,7 @@ nlohmann::ordered_json WarningsJson(std::vector<client::Warning> warnings) {
 
 std::string Told(const client::Warning& warning, const ToldTimes& times) {
   return "warning: " + times.Of(warning.frame) + " (frame " + std::to_string(warning.frame) +
-         "): " + times.In(warning.message);
+         "): " + warning.message;
 }
 
 void ShowWarnings(const std::vector<client::Warning>& warnings, const ToldTimes& times) {

@@ -15,8 +15,6 @@ struct ToldTimes {
 
   /// "4.2 s", or "9c, 4.2 s".
   std::string Of(int64_t frame) const;
-  /// A message in which moments and durations in frames are told so: "at frame 126" as "at 4.2 s".
-  std::string In(const std::string& message) const;
 };
 
 }  // namespace choreo::cli

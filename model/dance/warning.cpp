@@ -4,15 +4,23 @@
 #include <cmath>
 #include <utility>
 
+#include "model/core/grid.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
 
 namespace choreo {
+namespace {
+
+/// People count seconds; programs have the event's frame.
+std::string Seconds(int64_t frames) {
+  return Rounded(static_cast<double>(frames) / kModelFps) + " s";
+}
+
+}  // namespace
 
 Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_t first_frame,
                          int64_t frames, const RequiredSpeed& speed) {
-  std::string message =
-      "the way to key \"" + id + "\" in " + std::to_string(frames) + " frames asks for ";
+  std::string message = "the way to key \"" + id + "\" in " + Seconds(frames) + " asks for ";
   if (speed.root_m_per_s > RequiredSpeed::kRootLimit) {
     message += RoundedBeyond(speed.root_m_per_s, RequiredSpeed::kRootLimit) +
                " m/s of the root; people reach " + Rounded(RequiredSpeed::kRootLimit);
@@ -53,23 +61,23 @@ Warning KeyOffPath(const std::string& id, int64_t frame, double metres) {
 
 Warning ControlsTooLate(int64_t last_frame, int64_t earliest) {
   return {last_frame,
-          "the root path ends at frame " + std::to_string(last_frame) + ", and frames before " +
-              std::to_string(earliest) + " are frozen: nothing comes of it",
+          "the root path ends at " + Seconds(last_frame) + ", and all before " + Seconds(earliest) +
+              " is frozen: nothing comes of it",
           Warning::Code::kControlsTooLate};
 }
 
 Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest) {
   return {frame,
-          std::to_string(count) + " beats from frame " + std::to_string(frame) +
-              " on came too late, frames before " + std::to_string(earliest) +
-              " are frozen: nothing comes of them",
+          std::to_string(count) + " beats from " + Seconds(frame) +
+              " on came too late, all before " + Seconds(earliest) +
+              " is frozen: nothing comes of them",
           Warning::Code::kBeatsTooLate};
 }
 
 Warning PathBehindEnd(int64_t first_frame, int64_t end) {
   return {first_frame,
-          "the root path begins at frame " + std::to_string(first_frame) +
-              ", after the last one at frame " + std::to_string(end - 1) + ": nothing comes of it",
+          "the root path begins at " + Seconds(first_frame) + ", after the last frame at " +
+              Seconds(end - 1) + ": nothing comes of it",
           Warning::Code::kPathBehindEnd};
 }
 
@@ -88,8 +96,8 @@ Warning KeyImpossible(const std::string& id, int64_t frame, const std::string& f
 
 Warning PathAway(int64_t frame, double metres) {
   return {frame,
-          "the root path is " + Rounded(metres) + " m from the dancer at frame " +
-              std::to_string(frame) + ": the root is led there first",
+          "the root path is " + Rounded(metres) + " m from the dancer at " + Seconds(frame) +
+              ": the root is led there first",
           Warning::Code::kPathAway};
 }
 
@@ -115,7 +123,7 @@ Warning ChannelsCancel(int64_t last_frame) {
 
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds) {
   return {frame,
-          "key \"" + id + "\" at frame " + std::to_string(frame) + " lies " + Rounded(seconds) +
+          "key \"" + id + "\" at " + Seconds(frame) + " lies " + Rounded(seconds) +
               " s behind the end of the music: the dance goes on to it in silence",
           Warning::Code::kKeyBehindMusic, id};
 }

@@ -94,9 +94,9 @@ TEST_F(ControlTrackTest, WarnsOfADistantPathStart) {
   EXPECT_EQ(warnings[0].code, Warning::Code::kPathAway);
   EXPECT_EQ(warnings[0].frame, 30);
   EXPECT_EQ(warnings[0].message,
-            "the root path is 4.34 m from the dancer at frame 30: the root is led there first");
+            "the root path is 4.34 m from the dancer at 1 s: the root is led there first");
   EXPECT_TRUE(For(60, 60).warnings.empty()) << "told once, where it takes over";
-  EXPECT_THAT(For(30, 60).warnings[0].message, HasSubstr("is 4.99 m from the dancer at frame 30"))
+  EXPECT_THAT(For(30, 60).warnings[0].message, HasSubstr("is 4.99 m from the dancer at 1 s"))
       << "and from where she stands";
 }
 
@@ -208,7 +208,7 @@ TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->code, Warning::Code::kPathBehindEnd);
   EXPECT_EQ(warning->message,
-            "the root path begins at frame 100, after the last one at frame 99: nothing comes of it");
+            "the root path begins at 3.33 s, after the last frame at 3.3 s: nothing comes of it");
   track_.Set(PathRequest({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
   EXPECT_FALSE(track_.BehindEnd(100));
 }

@@ -256,7 +256,7 @@ TEST_F(ControlledDanceTest, WarnsOfAPathThatComesTooLate) {
   });
   ASSERT_EQ(dance.warnings.size(), 1u);
   EXPECT_EQ(dance.warnings[0].code, Warning::Code::kControlsTooLate);
-  EXPECT_THAT(dance.warnings[0].message, HasSubstr("ends at frame 90, and frames before 100"));
+  EXPECT_THAT(dance.warnings[0].message, HasSubstr("ends at 3 s, and all before 3.33 s"));
 }
 
 TEST_F(ControlledDanceTest, BadControlsLeaveTheDanceAsItIs) {
