@@ -5,7 +5,6 @@
 
 #include "client/authoring/choreography.h"
 #include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
 #include "client/authoring/photo_pose.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
@@ -125,17 +124,6 @@ Response MakePhotoPose(const StudioContext& context, const File& landmarks) {
   pose->set_id(std::filesystem::path(landmarks.name()).stem().string());
   *pose->mutable_pose() = client::ToProto(
       authoring::ParseLandmarkPose(landmarks.data(), landmarks.name(), context.model().skeleton));
-  return response;
-}
-
-Response ReadKeys(const StudioContext& context, const KeyFile& keys) {
-  const File& file = keys.file();
-  const authoring::Counts counts = CountsIn(keys);
-  Response response;
-  response.mutable_keyframes();
-  for (const client::KeyPose& key :
-       authoring::ParseKeyFile(file.data(), file.name(), context.model().skeleton, nullptr, counts))
-    *response.mutable_keyframes()->add_keyframes() = client::ToProto(key);
   return response;
 }
 

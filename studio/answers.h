@@ -17,6 +17,5 @@ Response ComposeKeys(const StudioContext& context, const Song* music, const Comp
 Response WriteClip(const StudioContext& context, const Export& request);
 Response ReadClip(const StudioContext& context, const File& file);
 Response MakePhotoPose(const StudioContext& context, const File& landmarks);
-Response ReadKeys(const StudioContext& context, const KeyFile& keys);
 
 }  // namespace choreo::studio

@@ -12,6 +12,7 @@
 #include "studio/answers.h"
 #include "studio/company.h"
 #include "studio/from_page.h"
+#include "studio/project_document.h"
 #include "studio/to_page.h"
 
 namespace choreo::studio {
@@ -233,8 +234,10 @@ void PageSession::Do(const Request& request) {
       return Answer(call, ReadClip(context_, request.open()));
     case Request::kLandmarks:
       return Answer(call, MakePhotoPose(context_, request.landmarks()));
-    case Request::kKeys:
-      return Answer(call, ReadKeys(context_, request.keys()));
+    case Request::kRead:
+      return Answer(call, ReadProject(context_, request.read()));
+    case Request::kWrite:
+      return Answer(call, WriteProject(context_, request.write()));
     case Request::kCompany:
       return Answer(call, FormCompany(context_, request.company()));
     default:

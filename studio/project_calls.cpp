@@ -16,6 +16,7 @@
 #include "model/core/rounded.h"
 #include "model/formats/bvh.h"
 #include "model/formats/motion_file.h"
+#include "studio/project_document.h"
 #include "studio/scratch_folder.h"
 
 namespace choreo::studio {
@@ -23,7 +24,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kName = "project";  // the name of input in errors
 constexpr int kAtOnce = 2;
 constexpr int kMaxAsked = 4;  // requests running or waiting
 
@@ -40,7 +40,7 @@ std::string FromBase64(const std::string& text, const std::string& field) {
 
 /// Takes a project's song, if any, out of `file`.
 std::optional<Song> TakeSong(json* file, const std::string& name, double most_seconds) {
-  const std::string field = std::string(kName) + ":song_data";
+  const std::string field = std::string(kUnnamed) + ":song_data";
   if (!file->contains("song_data")) {
     if (name.empty()) return std::nullopt;
     throw InvalidArgument(field, "is missing beside song: the file's bytes in base64");
@@ -48,7 +48,7 @@ std::optional<Song> TakeSong(json* file, const std::string& name, double most_se
   const json data = std::exchange((*file)["song_data"], nullptr);
   if (!data.is_string()) throw InvalidArgument(field, "is no text");
   if (name.empty())
-    throw InvalidArgument(std::string(kName) + ":song", "is missing beside song_data");
+    throw InvalidArgument(std::string(kUnnamed) + ":song", "is missing beside song_data");
   const ScratchFolder folder;
   const std::filesystem::path path = folder.path() / ("song" + SmallExtension(name));
   std::ofstream(path, std::ios::binary) << FromBase64(data.get_ref<const std::string&>(), field);
@@ -144,20 +144,22 @@ void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
 
 ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) const {
   const client::ModelDescription& model = context_.model();
-  json file = authoring::ParseJson(text, kName);
-  const authoring::Project project = authoring::ParseProject(file, kName);
+  json file = authoring::ParseJson(text, kUnnamed);
+  const authoring::Project project = authoring::ParseProject(file, kUnnamed);
   const std::optional<Song> song = TakeSong(&file, project.song, context_.most_seconds());
   const authoring::Counts counts = !project.beats.empty()
                                        ? authoring::CountsFrom(project.beats, project.ones)
                                    : song ? authoring::CountsOf(song->music)
                                           : authoring::Counts();
   authoring::DanceKeys keys;
-  keys.poses = authoring::ParseKeyFile(file.dump(), kName, model.skeleton, &keys.places, counts);
+  if (project.has_keys)
+    keys.poses =
+        authoring::ParseKeyFile(file.dump(), kUnnamed, model.skeleton, &keys.places, counts);
   if (!song && !project.seconds)
-    throw InvalidArgument(std::string(kName) + ":seconds", "is missing, and there is no song");
+    throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
   // An answer must fit into memory.
   if (project.seconds && *project.seconds > context_.most_seconds()) {
-    throw InvalidArgument(std::string(kName) + ":seconds",
+    throw InvalidArgument(std::string(kUnnamed) + ":seconds",
                           Rounded(*project.seconds) + " is beyond " +
                               Rounded(context_.most_seconds()) + ", the most that is danced");
   }
@@ -181,13 +183,14 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
     if (model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
   }
   keys = authoring::ByTime(std::move(keys), model.fps);
+  authoring::RefuseHeldInAir(keys, model.fps, model.skeleton);
   client::DanceResult dance;
   try {
     dance = context_.client().Dance(config, keys.poses, audio, [this](const client::Message&) {
       if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
     });
   } catch (const Error& error) {
-    if (error.field() == "config.style") throw error.Of(std::string(kName) + ":style");
+    if (error.field() == "config.style") throw error.Of(std::string(kUnnamed) + ":style");
     throw authoring::InTermsOf(keys, project.controls.InTermsOf(error));
   }
   for (client::Warning& fault : authoring::KeyFaults(keys, model.fps, model.skeleton))

@@ -39,7 +39,7 @@ bool IsCount(const json& value) {
 }
 
 /// Takes [[0.52, 1], [1.02, 2], ...]: seconds and counts, which go on over several bars.
-void TakeBeats(const json& list, int bar, const std::string& field, Project* project) {
+void TakeBeats(const json& list, const std::string& field, Project* project) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
   std::vector<double>& out = project->beats;
   for (const json& beat : list) {
@@ -49,8 +49,8 @@ void TakeBeats(const json& list, int bar, const std::string& field, Project* pro
                                     std::to_string(kMaxBeatsInBar) + ", as in [12.5, 1]");
     }
     out.push_back(JsonNumber(beat[0], at));
-    const int count = beat[1].get<int>();
-    if ((count - 1) % bar == 0) project->downbeats.push_back(out.back());
+    const int count = project->counts.emplace_back(beat[1].get<int>());
+    if ((count - 1) % project->bar == 0) project->downbeats.push_back(out.back());
     if (count == 1) project->ones.push_back(out.back());
   }
   CheckBeats(out, field);
@@ -80,23 +80,44 @@ PartFactors FactorsIn(const json& lively, const std::string& field) {
 }
 
 /// Markers are for people.
-void CheckMarkers(const json& list, const std::string& field) {
+std::vector<Marker> MarkersIn(const json& list, const std::string& field) {
   if (!list.is_array()) throw InvalidArgument(field, Shown(list) + " is no list");
-  double before = -1;
+  std::vector<Marker> markers;
   for (size_t i = 0; i < list.size(); ++i) {
     const std::string at = field + "[" + std::to_string(i) + "]";
     CheckMembers(list[i], at, {"time", "name"}, "a marker has time and name");
     for (const char* member : {"time", "name"})
       if (!list[i].contains(member)) throw InvalidArgument(at + "." + member, "is missing");
-    if (Text(list[i], at, "name").empty()) throw InvalidArgument(at + ".name", "is empty");
+    const std::string marked = Text(list[i], at, "name");
+    if (marked.empty()) throw InvalidArgument(at + ".name", "is empty");
     const double time = JsonNumber(list[i]["time"], at + ".time");
+    const double before = markers.empty() ? -1 : markers.back().time_s;
     if (!(time > before && time <= kMaxDanceSeconds)) {
       throw InvalidArgument(at + ".time", Shown(list[i]["time"]) +
                                               " is not above the one before it and up to " +
                                               InFull(kMaxDanceSeconds));
     }
-    before = time;
+    markers.push_back({time, marked});
   }
+  return markers;
+}
+
+std::string Readable(const nlohmann::ordered_json& value, const std::string& indent) {
+  using nlohmann::ordered_json;
+  const bool is_flat =
+      std::ranges::none_of(value, [](const ordered_json& part) { return part.is_structured(); });
+  const bool is_line = !indent.empty() && is_flat && (value.is_array() || value.size() < 4);
+  if (!value.is_structured()) return value.dump();
+  const std::string next = is_line ? "" : "\n" + indent + " ";
+  std::string parts;
+  for (const auto& [member, part] : value.items()) {
+    if (!parts.empty()) parts += is_line ? ", " : ",";
+    parts += next;
+    if (value.is_object()) parts += ordered_json(member).dump() + ": ";
+    parts += Readable(part, indent + " ");
+  }
+  if (!is_line) parts += "\n" + indent;
+  return value.is_object() ? "{" + parts + "}" : "[" + parts + "]";
 }
 
 }  // namespace
@@ -143,8 +164,8 @@ Project ParseProject(const json& file, const std::string& name) {
     throw InvalidArgument(name + ":bar", Shown(file["bar"]) + " is no whole number from 1 to " +
                                              std::to_string(kMaxBeatsInBar));
   }
-  if (file.contains("beats"))
-    TakeBeats(file["beats"], file.value("bar", kDefaultBar), name + ":beats", &project);
+  project.bar = file.value("bar", kDefaultBar);
+  if (file.contains("beats")) TakeBeats(file["beats"], name + ":beats", &project);
   if (file.contains("lively")) {
     project.controls.velocity_name = name + ":lively";
     project.controls.lively = FactorsIn(file["lively"], project.controls.velocity_name);
@@ -155,7 +176,7 @@ Project ParseProject(const json& file, const std::string& name) {
     project.controls.project_path = file["path"];
     project.controls.project_path_name = name + ":path";
   }
-  if (file.contains("markers")) CheckMarkers(file["markers"], name + ":markers");
+  if (file.contains("markers")) project.markers = MarkersIn(file["markers"], name + ":markers");
   project.has_dancers = file.contains("dancers");
   return project;
 }
@@ -165,6 +186,10 @@ Project ReadProject(const std::filesystem::path& path) {
       ParseProject(ParseJson(ReadText(path, "project"), path.string()), path.string());
   if (!project.song.empty()) project.song = (path.parent_path() / project.song).string();
   return project;
+}
+
+std::string ProjectText(const nlohmann::ordered_json& project) {
+  return Readable(project, "") + "\n";
 }
 
 }  // namespace choreo::authoring

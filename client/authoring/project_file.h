@@ -12,6 +12,12 @@
 
 namespace choreo::authoring {
 
+/// A named moment of a dance.
+struct Marker {
+  double time_s = 0;
+  std::string name;
+};
+
 /// A studio project without its keys, which are read like a key file's (key_file.h).
 struct Project : DanceManner {
   std::string song = {};  ///< the file's name; empty: it has none
@@ -20,6 +26,9 @@ struct Project : DanceManner {
   /// The song's, seconds; none: those that are found. Downbeats are beats, too.
   std::vector<double> beats = {}, downbeats = {};
   std::vector<double> ones = {};  ///< downbeats that begin an eight
+  int bar = 0;                    ///< beats in it
+  std::vector<int> counts = {};   ///< of each beat
+  std::vector<Marker> markers = {};
   WrittenControls controls = {};  ///< no velocities where all are 1
   bool has_keys = false;          ///< which ReadDanceKeys reads
   bool has_dancers = false;       ///< several dancers, for ReadDancers (dancers.h)
@@ -35,5 +44,9 @@ Project ParseProject(const nlohmann::json& file, const std::string& name);
 /// The same from a file; its song's path is relative to it. Throws Error(kNotFound) if the project
 /// cannot be opened. Does not check that the song exists.
 Project ReadProject(const std::filesystem::path& path);
+
+/// A project's text as people read it: short lists and objects, such as vectors and markers, have
+/// a line each.
+std::string ProjectText(const nlohmann::ordered_json& project);
 
 }  // namespace choreo::authoring

@@ -77,25 +77,6 @@ void Mark(const std::string& id, double time_s, ordered_json* markers) {
   markers->insert(next, std::move(marker));
 }
 
-/// Writes as the studio does: short lists and objects, such as vectors and markers, have a line
-/// each.
-std::string Readable(const ordered_json& value, const std::string& indent = "") {
-  const bool is_flat =
-      std::ranges::none_of(value, [](const ordered_json& part) { return part.is_structured(); });
-  const bool is_line = !indent.empty() && is_flat && (value.is_array() || value.size() < 4);
-  if (!value.is_structured()) return value.dump();
-  const std::string next = is_line ? "" : "\n" + indent + " ";
-  std::string parts;
-  for (const auto& [member, part] : value.items()) {
-    if (!parts.empty()) parts += is_line ? ", " : ",";
-    parts += next;
-    if (value.is_object()) parts += ordered_json(member).dump() + ": ";
-    parts += Readable(part, indent + " ");
-  }
-  if (!is_line) parts += "\n" + indent;
-  return value.is_object() ? "{" + parts + "}" : "[" + parts + "]";
-}
-
 }  // namespace
 
 bool IsProject(const EditOptions& options) { return SmallExtension(options.dance) == ".json"; }
@@ -118,7 +99,7 @@ void EditMarkers(const EditOptions& options) {
   } else {
     project[kMarkers] = std::move(markers);
   }
-  WriteFile(options.out, Readable(project) + "\n");
+  WriteFile(options.out, authoring::ProjectText(project));
   std::cout << options.out << std::endl;
 }
 

@@ -1,13 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "client/authoring/dance_keys.h"
 #include "client/authoring/key_file.h"
 #include "client/authoring/photo_pose.h"
+#include "client/authoring/project_file.h"
 #include "client/authoring/proposed_keys.h"
 #include "client/convert.h"
 #include "model/audio/made_song.h"
+#include "proto/wire/controls.h"
 #include "tests/studio/fixture.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/music_files.h"
@@ -52,28 +56,33 @@ TEST_F(StudioTest, DancersHaveKeysOfTheirOwn) {
   const Opened studio(server_.address());
   Page page(studio.port());
   Request request;
-  Company* company = request.mutable_company();
-  company->mutable_dancers()->set_name("p.json");
-  company->mutable_dancers()->set_data(
-      R"({"dancers": [{"id": "ada", "place": [0, 0], "keyframes": "none"},
-          {"id": "ben", "place": [1, 0], "keyframes": "keys/ben.json"},
+  ProjectFile* read = request.mutable_read();
+  read->mutable_file()->set_name("p.json");
+  read->mutable_file()->set_data(
+      R"({"studio": 1, "keyframes": [],
+          "dancers": [{"id": "ada", "place": [0, 0], "keyframes": "none", "seed": 7},
+          {"id": "ben", "place": [1, 0], "keyframes": "keys/ben.json", "after": "2 counts"},
           {"id": "cy", "place": [2, 0], "keyframes": [{"id": "dab", "time": 1, "pose": "dab"}]},
-          {"id": "dee", "place": [3, 0]}]})");
+          {"place": [3, 0], "mirrored": true, "facing": 90}]})");
   EXPECT_THAT(page.Ask(request).failure().message(),
               HasSubstr("ben.json: has keys of ben: open it together with the project"));
-  File* keys = company->add_key_files();
+  File* keys = read->add_key_files();
   keys->set_name("ben.json");
   keys->set_data(R"({"keyframes": [{"id": "kick", "time": 2, "pose": "kick", "hands": "fist"}]})");
   const Response answer = page.Ask(request);
-  ASSERT_TRUE(answer.has_formation()) << answer.failure().message();
-  const auto& dancers = answer.formation().dancers();
+  ASSERT_TRUE(answer.has_project()) << answer.failure().message();
+  const auto& dancers = answer.project().dancers();
   EXPECT_TRUE(dancers[0].has_keys() && dancers[0].keys().empty());
+  EXPECT_EQ(dancers[0].seed(), 7U);
   ASSERT_EQ(dancers[1].keys_size(), 1);
-  EXPECT_EQ(dancers[1].keys(0).id(), "kick");
-  EXPECT_EQ(dancers[1].keys(0).hands(), v1::HAND_POSE_FIST);
+  EXPECT_EQ(dancers[1].keys(0).key().id(), "kick");
+  EXPECT_EQ(dancers[1].keys(0).key().hands(), v1::HAND_POSE_FIST);
+  EXPECT_EQ(std::tuple(dancers[1].after(), dancers[1].in_counts()), std::tuple(2.0, true));
   ASSERT_EQ(dancers[2].keys_size(), 1);
-  EXPECT_EQ(dancers[2].keys(0).time(), 1);
-  EXPECT_FALSE(dancers[3].has_keys());
+  EXPECT_EQ(dancers[2].keys(0).key().frame(), 30);
+  EXPECT_EQ(std::tuple(dancers[3].id(), dancers[3].x(), dancers[3].facing()),
+            std::tuple("dancer4", 3.0, 90.0));
+  EXPECT_TRUE(dancers[3].mirrored() && !dancers[3].has_seed() && !dancers[3].has_keys());
   keys->set_data(R"({"keyframes": [{"time": 2, "pose": "kik"}]})");
   EXPECT_THAT(page.Ask(request).failure().message(),
               testing::StartsWith("ben.json:keyframes[0].pose: "));
@@ -85,20 +94,16 @@ TEST_F(StudioTest, ArrangesSeveralDancers) {
   Page page(studio.port());
   Request request;
   Company* company = request.mutable_company();
-  company->mutable_dancers()->set_name("p.json");
-  company->mutable_dancers()->set_data(
-      R"({"apart": 0.5, "dancers": [{"id": "ada", "place": [0, 0], "seed": 7},
-          {"place": [0.1, 0], "mirrored": true, "facing": 90, "after": "2 counts"}]})");
-  // Without dances they are read.
-  Response answer = page.Ask(request);
-  ASSERT_TRUE(answer.has_formation()) << answer.failure().message();
-  ASSERT_EQ(answer.formation().dancers_size(), 2);
-  EXPECT_EQ(answer.formation().dancers(0).seed(), 7U);
-  const StageDancer& second = answer.formation().dancers(1);
-  EXPECT_EQ(second.id(), "dancer2");
-  EXPECT_EQ(std::tuple(second.x(), second.facing(), second.mirrored(), second.after()),
-            std::tuple(0.1, 90.0, true, 2.0));
-  EXPECT_TRUE(second.in_counts() && !second.has_seed() && !second.has_keys());
+  Project* project = company->mutable_project();
+  project->set_apart(0.5);
+  project->add_dancers()->set_id("ada");
+  StageDancer* second = project->add_dancers();
+  second->set_id("ben");
+  second->set_x(0.1);
+  second->set_mirrored(true);
+  second->set_facing(90);
+  second->set_after(2);
+  second->set_in_counts(true);
 
   page.Say(2, DanceRequest(90, 1));
   page.Say(2, Complete());
@@ -107,13 +112,13 @@ TEST_F(StudioTest, ArrangesSeveralDancers) {
   company->mutable_dance_of()->Resize(2, 0);
   for (const double beat : {0.5, 1.0, 1.5, 2.0}) company->add_beats(beat);
   company->set_name("all.npz");
-  answer = page.Ask(request);
+  Response answer = page.Ask(request);
   ASSERT_TRUE(answer.has_formation()) << answer.failure().message();
   EXPECT_GT(answer.formation().widened(), 1);
   EXPECT_NEAR(answer.formation().least(), 0.5, 0.002);
   ASSERT_EQ(answer.formation().files_size(), 2);
   EXPECT_EQ(answer.formation().files(0).name(), "all.ada.npz");
-  EXPECT_EQ(answer.formation().files(1).name(), "all.dancer2.npz");
+  EXPECT_EQ(answer.formation().files(1).name(), "all.ben.npz");
   company->set_name("all.glb");
   answer = page.Ask(request);
   ASSERT_EQ(answer.formation().files_size(), 1) << answer.failure().message();
@@ -121,11 +126,11 @@ TEST_F(StudioTest, ArrangesSeveralDancers) {
 
   company->clear_beats();
   EXPECT_THAT(page.Ask(request).failure().message(),
-              HasSubstr("p.json:dancers[1].after: 2c: counts need music"));
+              HasSubstr("project:dancers[1].after: 2c: counts need music"));
   company->mutable_dance_of()->Set(1, 3);
   EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("3 is none of the dances"));
-  company->mutable_dancers()->set_data(R"({"dancers": [{"place": [0, 0], "turn": 1}]})");
-  EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("p.json:dancers[0].turn"));
+  second->set_x(2000);
+  EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("project:dancers[1].place[0]"));
 }
 
 // A song whose first part follows its second.
@@ -216,22 +221,13 @@ TEST_F(StudioTest, FitsTheBodyToAPhotosLandmarks) {
       authoring::ParseLandmarkPose(landmarks, "beach.jpg", studio.context().model().skeleton);
   EXPECT_EQ(seen.pose().pose().SerializeAsString(), client::ToProto(pose).SerializeAsString());
 
-  // Times in counts are those of the page's beats.
-  Request counted;
-  counted.mutable_keys()->mutable_file()->set_name("mine.json");
-  counted.mutable_keys()->mutable_file()->set_data(
-      R"({"keyframes": [{"time": "3c", "pose": "kick"}]})");
-  EXPECT_THAT(page.Ask(counted).failure().message(), HasSubstr("time: 3c: counts need music"));
-  for (const double beat : {0.5, 1.0, 1.5, 2.0}) counted.mutable_keys()->add_beats(beat);
-  counted.mutable_keys()->add_ones(1);
-  EXPECT_EQ(page.Ask(counted).keyframes().keyframes(0).time(), 2);
   for (const char* bad : {"", "[]", "{", "[1]", "\xff"}) {
     request.mutable_landmarks()->set_data(bad);
     EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("beach.jpg")) << bad;
   }
 }
 
-TEST_F(StudioTest, DescribesJointAxesAndReadsKeyFiles) {
+TEST_F(StudioTest, DescribesJointAxes) {
   const Opened studio(server_.address());
   Page page(studio.port());
   const Skeleton& skeleton = studio.context().model().skeleton;
@@ -243,24 +239,161 @@ TEST_F(StudioTest, DescribesJointAxesAndReadsKeyFiles) {
   EXPECT_EQ(elbow.high(), 165);
   EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).part(), v1::BODY_PART_TRUNK);
   EXPECT_EQ(page.welcome().turns(skeleton.Find("head")).hinge_size(), 0);
+}
 
+TEST_F(StudioTest, ReadsKeyFiles) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  const Skeleton& skeleton = studio.context().model().skeleton;
   const std::string text =
       R"({"keyframes": [{"time": 2, "joints": {"left_elbow": 60}}, {"time": 1, "pose": "kick", "hold": 0.1}]})";
   Request request;
-  request.mutable_keys()->mutable_file()->set_name("mine.json");
-  request.mutable_keys()->mutable_file()->set_data(text);
+  ProjectFile* read = request.mutable_read();
+  read->mutable_file()->set_name("mine.json");
+  read->mutable_file()->set_data(text);
   const Response answer = page.Ask(request);
-  ASSERT_TRUE(answer.has_keyframes()) << answer.failure().message();
+  ASSERT_TRUE(answer.has_project()) << answer.failure().message();
   const std::vector<client::KeyPose> keys = authoring::ParseKeyFile(text, "mine.json", skeleton);
-  ASSERT_EQ(answer.keyframes().keyframes_size(), 3);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(answer.keyframes().keyframes(i).SerializeAsString(),
-              client::ToProto(keys[static_cast<size_t>(i)]).SerializeAsString());
+  ASSERT_EQ(answer.project().keys_size(), 2);  // in order of time
+  const ProjectKey& kick = answer.project().keys(0);
+  EXPECT_EQ(std::tuple(kick.key().id(), kick.key().frame(), kick.hold()),
+            std::tuple("key2", 30, 3));
+  EXPECT_EQ(kick.key().pose().SerializeAsString(),
+            client::ToProto(keys[1]).pose().SerializeAsString());
+  EXPECT_EQ(answer.project().keys(1).key().mask().joints_size(), 1);
+
+  // Times in counts are those of the page's beats.
+  read->mutable_file()->set_data(R"({"keyframes": [{"time": "3c", "pose": "kick"}]})");
+  EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("time: 3c: counts need music"));
+  for (const double beat : {0.5, 1.0, 1.5, 2.0}) read->add_beats(beat);
+  read->add_ones(1);
+  EXPECT_EQ(page.Ask(request).project().keys(0).key().frame(), 60);
+  const auto refusal = [&](const std::string& keyframes) {
+    read->mutable_file()->set_data(keyframes);
+    return page.Ask(request).failure().message();
+  };
+  for (const char* bad : {"", "[]", "{", R"({"keyframes": [{}]})", "\xff"})
+    EXPECT_THAT(refusal(bad), HasSubstr("mine.json")) << bad;
+  EXPECT_THAT(refusal(R"({"keyframes": [{"time": 4000, "pose": "kick"}]})"),
+              HasSubstr("mine.json:keyframes[0].time: 4000 s is beyond 3600 s"));
+  EXPECT_THAT(
+      refusal(R"({"keyframes": [{"time": 1, "pose": "kick"}, {"time": 1, "pose": "dab"}]})"),
+      HasSubstr("keyframes[1].time: key \"key2\" stands closer than 2 frames to \"key1\""));
+  EXPECT_THAT(
+      refusal(R"({"keyframes": [{"time": 1, "pose": "star_jump", "place": [0, 0], "hold": 2}]})"),
+      HasSubstr("keyframes[0].hold: key \"key1\": the body is"));
+}
+
+/// A key with floats of many digits.
+ProjectKey OddKey(const LibraryPose& pose, int64_t frame) {
+  ProjectKey key;
+  key.mutable_key()->set_id(pose.id());
+  key.mutable_key()->set_frame(frame);
+  *key.mutable_key()->mutable_pose() = pose.pose();
+  v1::Pose* odd = key.mutable_key()->mutable_pose();
+  odd->mutable_root_position()->set_x(std::sqrt(2) / 3);
+  for (int i = 0; i < odd->rotations_size(); ++i)
+    odd->set_rotations(i, odd->rotations(i) + 0.1F * std::sin(static_cast<float>(1 + i)));
+  return key;
+}
+
+Project OddProject(const Welcome& welcome) {
+  Project project;
+  project.set_seconds(std::sqrt(10));
+  project.set_seed(7);
+  project.set_music_dynamics(1 / 3.0);
+  project.set_variation(0);
+  project.mutable_beats()->set_bar(3);
+  for (const double count : {6, 1, 2}) {
+    project.mutable_beats()->add_times(std::sqrt(1 + count));
+    project.mutable_beats()->add_counts(static_cast<uint32_t>(count));
   }
-  EXPECT_EQ(answer.keyframes().keyframes(0).mask().joints_size(), 1);
-  for (const char* bad : {"", "[]", "{", R"({"keyframes": [{}]})", "\xff"}) {
-    request.mutable_keys()->mutable_file()->set_data(bad);
-    EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("mine.json")) << bad;
+  std::ranges::sort(*project.mutable_beats()->mutable_times());
+  for (const double factor : {1.0, 0.1, 1 / 3.0, 2.0, 10.0}) project.add_velocity_factors(factor);
+  for (const int64_t frame : {0, 47}) {
+    project.mutable_path()->add_frames(frame);
+    project.mutable_path()->add_points(static_cast<float>(frame) / 7);
+    project.mutable_path()->add_points(-0.0F);
+  }
+  Marker* marker = project.add_markers();
+  marker->set_frame(11);
+  marker->set_name("the \"drop\", 1");
+  *project.add_keys() = OddKey(welcome.poses(1), 31);
+  project.mutable_keys(0)->set_hold(13);
+  project.mutable_keys(0)->mutable_key()->set_hit(2.5);
+  project.mutable_keys(0)->mutable_key()->set_hands(v1::HAND_POSE_FIST);
+  *project.add_keys() = OddKey(welcome.poses(2), 71);
+  for (const uint32_t joint : {0, 5})
+    project.mutable_keys(1)->mutable_key()->mutable_mask()->add_joints(joint);
+  project.set_apart(0.3);
+  for (const double x : {0.0, -1.4}) {
+    StageDancer* dancer = project.add_dancers();
+    dancer->set_id(x == 0 ? "ada" : "ben");
+    dancer->set_x(x);
+    if (x == 0) continue;
+    dancer->set_after(-x);
+    dancer->set_in_counts(true);
+    dancer->set_has_keys(true);
+    *dancer->add_keys() = OddKey(welcome.poses(2), 50);
+  }
+  return project;
+}
+
+// Whatever a project says comes back to the last bit.
+TEST_F(StudioTest, AProjectIsReadAsItWasWritten) {
+  const TestServer walker(std::make_unique<ControlledSampler>());
+  const Opened studio(walker.address());
+  Page page(studio.port());
+  Request write;
+  *write.mutable_write() = OddProject(page.welcome());
+  const Response file = page.Ask(write);
+  ASSERT_TRUE(file.has_file()) << file.failure().message();
+  for (const char* line :
+       {"\n  {\"time\": 0.36667, \"name\": \"the \\\"drop\\\", 1\"}\n",
+        "\"bar\": 3,\n \"beats\": [\n", "\"left arm\": 0.1,", "\"hands\": \"fist\"",
+        "\"after\": \"1.4 counts\"", "\"place\": [-1.4, 0]", "\"seed\": 7"})
+    EXPECT_THAT(file.file().data(), HasSubstr(line));
+  Request read;
+  *read.mutable_read()->mutable_file() = file.file();
+  const Response again = page.Ask(read);
+  ASSERT_TRUE(again.has_project()) << again.failure().message();
+  EXPECT_EQ(again.project().DebugString(), write.write().DebugString());
+
+  // The page's numbers are doubles.
+  read.mutable_read()->mutable_file()->set_data(
+      R"({"studio": 1, "seed": 9007199254740993, "keyframes": []})");
+  EXPECT_THAT(page.Ask(read).failure().message(), HasSubstr("project:seed: 9007199254740993"));
+
+  // What the page has not checked is refused before it becomes a file.
+  Project* project = write.mutable_write();
+  project->mutable_beats()->set_counts(1, 17);
+  EXPECT_THAT(page.Ask(write).failure().message(), HasSubstr("project:beats[1]: "));
+  project->clear_beats();
+  project->set_music_dynamics(1.5);
+  EXPECT_THAT(page.Ask(write).failure().message(), HasSubstr("project:music_dynamics: 1.5"));
+}
+
+// As the command line reads it, whose keys go to the server as these messages.
+TEST_F(StudioTest, TheCommandLineReadsTheFloatsThatThePageDances) {
+  const TestServer walker(std::make_unique<ControlledSampler>());
+  const Opened studio(walker.address());
+  Page page(studio.port());
+  Request write;
+  *write.mutable_write() = OddProject(page.welcome());
+  const Response file = page.Ask(write);
+  ASSERT_TRUE(file.has_file()) << file.failure().message();
+  WriteFile(folder_ / "p.json", file.file().data());
+  const client::ModelDescription& model = studio.context().model();
+  const authoring::Project read = authoring::ReadProject(folder_ / "p.json");
+  const auto controls = read.controls.Read(model, studio.context().server());
+  EXPECT_EQ(wire::ToProto({.root_path = controls.root_path}).root_path().DebugString(),
+            write.write().path().DebugString());
+  const auto keys = authoring::ReadDanceKeys({folder_ / "p.json"}, {95, model.fps}, model.skeleton);
+  ASSERT_EQ(keys.poses.size(), 4U);  // two of them hold the first one
+  for (const auto& [nth, said] : {std::pair(0, 0), {3, 1}}) {
+    v1::Keyframe key = client::ToProto(keys.poses[static_cast<size_t>(nth)]);
+    key.set_frame(authoring::FrameOf(keys.poses[static_cast<size_t>(nth)], model.fps));
+    EXPECT_EQ(key.DebugString(), write.write().keys(said).key().DebugString());
   }
 }
 

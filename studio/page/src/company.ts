@@ -3,22 +3,17 @@ import { computed, effect, signal } from '@preact/signals';
 import { beats } from './beats';
 import type { Clip, Formation } from './generated/studio/studio_pb';
 import { later } from './counts';
-import type { Counts } from './counts';
-import { readKey } from './dancer';
 import { change, note } from './history';
 import { limits } from './limits';
-import { dancer, skeleton, wire } from './link';
+import { dancer, wire } from './link';
 import type { Motion } from './motion';
-import { dancersJson, inOrder } from './project_file';
+import { dancersMessage } from './project_file';
 import type { Partner, Project, Spot } from './project';
 import { busy, complain, live, moment, project, selectedKey } from './state';
 import type { Moment, Song } from './state';
 
 const beside = 1.4; // metres between a new dancer and the last one
 const behind = 0.4; // metres that a new dancer stands further back
-
-/// A file that is sent.
-export type Asked = { name: string; data: Uint8Array };
 
 /// A dance with another seed, other keys or style than the project's, and what it was made from.
 type Other = { project: Project; song: Song | null; motion: Motion };
@@ -60,7 +55,7 @@ async function dancesOf(now: Moment, signal: AbortSignal) {
 }
 
 const requestOf = (all: Project, more: { dances: Clip[]; danceOf: number[]; name?: string }) => ({
-  dancers: { name: 'project', data: new TextEncoder().encode(JSON.stringify(dancersJson(all))) },
+  project: dancersMessage(all),
   beats: beats.value.list.map(({ time }) => time),
   ...more,
 });
@@ -125,17 +120,6 @@ function secondsLater({ after, inCounts }: Partner): number {
   const times = beats.value.list.map(({ time }) => time);
   if (!inCounts || times.length < 2) return after;
   return later(times[0], after, times) - times[0];
-}
-
-/// The dancers of a project file; `keyFiles`: those that it names.
-export async function readCompany(name: string, data: Uint8Array, keyFiles: Asked[], counts: Counts): Promise<{ dancers: Partner[]; apart: number }> {
-  const answer = await wire.ask({ case: 'company', value: { dancers: { name, data }, keyFiles, ...counts } });
-  if (answer.case !== 'formation') throw new Error(`${name} has no dancers.`);
-  const dancers = answer.value.dancers.map(({ id, x, z, facing, mirrored, after, inCounts, seed, style, hasKeys, keys }): Partner => ({
-    id, x, z, facing, mirrored, after, inCounts: inCounts || after === 0, seed: seed === undefined ? null : Number(seed), style,
-    keys: hasKeys ? inOrder(keys.map((key) => readKey(key, dancer.fps, skeleton.height)), `${name}: ${id}`, dancer.fps) : null,
-  }));
-  return { dancers, apart: answer.value.apart };
 }
 
 /// All dancers as files of one format, as the command line writes them.

@@ -10,7 +10,7 @@ import { isDownbeat } from './counts';
 import type { Beats } from './counts';
 import { Motion } from './motion';
 import { handPoses, withHeld } from './project';
-import type { Key, Project } from './project';
+import type { Key, Project, Step } from './project';
 import type { Wire } from './wire';
 
 type Init<S extends Parameters<typeof create>[0]> = MessageInitShape<S>;
@@ -56,6 +56,8 @@ export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: num
     hands: hands ? handPoses[hands - 1] : null,
   };
 }
+
+export const pathMessage = (path: Step[]) => ({ frames: path.map(({ frame }) => BigInt(frame)), points: path.flatMap(({ x, z }) => [x, z]) });
 
 /// How all of a dance is danced.
 export const how = ({ seed, style, dynamics, variation }: Project) => ({ seed: BigInt(seed), style, musicDynamics: dynamics, variation });
@@ -194,7 +196,7 @@ export class Dancer {
     const isUsual = lively.every((factor) => factor === 1);
     if (isUsual && path.length === 0) return undefined;
     return {
-      ...(path.length ? { rootPath: { frames: path.map(({ frame }) => BigInt(frame)), points: path.flatMap(({ x, z }) => [x, z]) } } : {}),
+      ...(path.length ? { rootPath: pathMessage(path) } : {}),
       ...(isUsual ? {} : {
         velocityFactors: {
           factors: lively,

@@ -39,7 +39,8 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
 function Distance() {
   const formed = studio.formation.value;
   if (!formed || formed.said.least === undefined) return null;
-  const { widened, least, one, other, at, dancers } = formed.said;
+  const { widened, least, one, other, at } = formed.said;
+  const { dancers } = formed.of.project;
   return (
     <p class="small" role="status">
       {dancers[one].id} and {dancers[other].id} come nearest, to {least.toFixed(2)} m at {at.toFixed(1)} s.

@@ -3,19 +3,20 @@ import { beats } from './beats';
 import { countsOf } from './counts';
 import { film, fps, height, width } from './film';
 import type { Kind, Painter } from './film';
-import { readCompany, writeCompany } from './company';
-import type { Asked } from './company';
+import { writeCompany } from './company';
 import { danceFrom, made, push } from './history';
 import { compose } from './keys';
-import { readKey } from './dancer';
 import { dancer, skeleton, wire } from './link';
 import { Motion } from './motion';
 import { emptyProject } from './project';
-import { fromJson, inOrder, toJson } from './project_file';
+import { projectMessage, readProject } from './project_file';
 import { dropSketch, photoExtensions, readPhoto } from './photos';
 import { audio, hear, playSilence, songExtensions, tellOfSong } from './songs';
 import { begin, filming, kept, live, message, moment, opened, project, song, takes, tell, welcome, work } from './state';
 import { timeLeft } from './time_left';
+
+/// A file that is sent.
+type Asked = { name: string; data: Uint8Array };
 
 const motionExtensions = ['npz', 'npy', 'pkl', 'bvh', 'glb', 'gltf', 'vrma'];
 /// File types for the file chooser.
@@ -72,14 +73,14 @@ async function openOther(file: File, keyFiles: File[]) {
 
 async function openProject(name: string, bytes: Uint8Array, keyFiles: Asked[]) {
   const said: string[] = [];
-  const model = { fps: dancer.fps, styles: welcome.value!.model!.styles };
-  const text = new TextDecoder().decode(bytes);
-  const read = fromJson(text, name, model, (words) => said.push(words));
-  const counts = countsOf(read.beats ?? beats.value);
-  const answer = await wire.ask({ case: 'keys', value: { file: { name, data: bytes }, ...counts } });
-  if (answer.case !== 'keyframes') return;
-  if (text.includes('"dancers"')) Object.assign(read, await readCompany(name, bytes, keyFiles, counts));
-  read.keys = inOrder(answer.value.keyframes.map((key) => readKey(key, dancer.fps, skeleton.height)), name, dancer.fps);
+  const answer = await wire.ask({ case: 'read', value: { file: { name, data: bytes }, keyFiles, ...countsOf(beats.value) } });
+  if (answer.case !== 'project') return;
+  const read = readProject(answer.value, dancer.fps, skeleton.height);
+  const { styles } = welcome.value!.model!;
+  if (read.style && !styles.includes(read.style)) {
+    said.push(`The model has no style "${read.style}", only ${styles.join(', ') || 'none'}.`);
+    read.style = '';
+  }
   if (song.value) read.seconds = song.value.heard.seconds;
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
   const inside = read.keys.filter(({ frame }) => frame < dancer.frames(read));
@@ -115,10 +116,13 @@ function download(name: string, data: BlobPart, type = 'application/octet-stream
 
 const stem = () => (project.value?.song || 'dance').replace(/\.[^.]*$/, '');
 
-export function saveProject() {
-  download(`${stem()}.json`, toJson(project.value, dancer.fps, skeleton.names), 'application/json');
-  kept.value = project.value;
-}
+export const saveProject = () => work(async () => {
+  const { value } = project;
+  const answer = await wire.ask({ case: 'write', value: projectMessage(value, dancer.fps) });
+  if (answer.case !== 'file') return;
+  download(`${stem()}.json`, answer.value.data as BlobPart, 'application/json');
+  kept.value = value;
+});
 
 let filmed: AbortController | null = null;
 export const leaveFilm = () => filmed?.abort();

@@ -10,10 +10,11 @@ import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { limits } from './limits';
+import { projectMessage } from './project_file';
 import { emptyProject, freeId, holdOf, isInHold, sorted, spoken, wishes } from './project';
 import type { Hands, Key } from './project';
 import { audio } from './songs';
-import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell } from './state';
+import { complain, danced, live, message, moment, motion, project, selectedKey, sketch, song, tell, work } from './state';
 import type { Moment } from './state';
 
 const reach = 15; // frames within which a key that finds its place taken looks for another
@@ -103,14 +104,16 @@ export function moveKey(id: string, to: number) {
   if (near) tell(`${spoken(key.id)} stands ${(Math.abs(near.frame - frame) / dancer.fps).toFixed(2)} s from ${spoken(near.id)}: too near to be danced well.`);
 }
 
-/// Keeps its pose for so many frames, in steps of those that hold it.
-export function holdKey(id: string, frames: number) {
+/// Keeps its pose for so many frames, in steps of those that hold it. The program refuses what cannot be held.
+export const holdKey = (id: string, frames: number) => work(async () => {
   const key = keyOf(id);
   if (!key || live.value) return;
-  const { fps } = dancer;
-  const held = { ...key, hold: holdOf(Math.min(frames + (limits.holdStepS * fps) / 2, limits.holdS * fps), fps) };
-  edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? held : other)) }, [key.frame]);
-}
+  const [{ fps }, before] = [dancer, project.value];
+  const hold = holdOf(Math.min(frames + (limits.holdStepS * fps) / 2, limits.holdS * fps), fps);
+  const next = { ...before, keys: before.keys.map((other) => (other === key ? { ...key, hold } : other)) };
+  if (hold > key.hold) await wire.ask({ case: 'write', value: projectMessage(next, fps) });
+  if (project.value === before) edit(next, [key.frame]);
+});
 
 /// How hard it is hit; null: it is danced through.
 export function hitKey(id: string, hit: number | null) {

@@ -83,8 +83,8 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   apart: limits.usualApartM,
 });
 
-/// A number as project files have it.
-export const round = (value: number) => Math.round(value * 1e5) / 1e5;
+/// A time as project files have it.
+const round = (value: number) => Math.round(value * 1e5) / 1e5;
 
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
 
@@ -105,13 +105,14 @@ export const trimmed = (keys: Key[], frames: number, fps: number) =>
     const way = isInHold(key, next) ? Math.round(limits.wayFromHoldS * fps) : limits.keyDistance;
     const end = frames - 1 - key.frame;
     const most = Math.min(key.hold, next - way - key.frame, end);
-    return { ...key, hold: most === end && holdOf(most, fps) > 0 ? most : holdOf(most, fps) };
+    const isWhole = most === key.hold || (most === end && holdOf(most, fps) > 0);
+    return { ...key, hold: isWhole ? most : holdOf(most, fps) };
   });
 
 /// The keys, each followed by the repeated keys that hold its pose, as the program reads them (client/authoring/key_file.cpp).
 export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
   return trimmed(keys, frames, fps).flatMap((key) => {
-    const steps = Math.floor(key.hold / (limits.holdStepS * fps) + 1e-9);
+    const steps = key.hold > 0 ? Math.max(1, Math.floor(key.hold / (limits.holdStepS * fps) + 1e-9)) : 0;
     const hit = key.hit ?? (steps > 0 ? limits.usualHit : null); // who holds a pose comes to rest in it
     return [{ ...key, hold: 0, hit }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, heldAt(key, i + 1, steps, fps)))];
   });
@@ -120,17 +121,6 @@ export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
 const heldAt = ({ frame, hold }: Key, nth: number, steps: number, fps: number) =>
   Math.round((round(frame / fps) + (round(hold / fps) * nth) / steps) * fps);
 const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0, hit: null });
-
-/// The inverse: repeated keys become holds.
-export function withHolds(keys: Key[]): Key[] {
-  const list: Key[] = [];
-  for (const key of keys) {
-    const before = list.at(-1);
-    if (before && key.id.startsWith(`${before.id} held `)) before.hold = key.frame - before.frame;
-    else list.push({ ...key });
-  }
-  return list;
-}
 
 /// An id or a joint's name, for people.
 export const spoken = (name: string) => name.replaceAll('_', ' ');

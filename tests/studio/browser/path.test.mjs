@@ -172,10 +172,10 @@ await inStudio(async ({ page, until, settle, rest, message, frames, give, downlo
   await check('paths in files that cannot be are refused in words', async () => {
     const key = { id: 'a', time: 1, rotations: Array(24).fill([0, 0, 0]) };
     for (const [path, words] of [
-      [7, /path has no list "points"/],
-      [{ points: [] }, /path\.points: 0 points/],
-      [{ points: [{ frame: 3, x: 0, z: 0 }, { frame: 3, x: 1, z: 0 }] }, /path\.points\[1\] does not come after/],
-      [{ points: [{ frame: 3, x: 'far', z: 0 }, { frame: 9, x: 1, z: 0 }] }, /path\.points\[0\]\.x: "far" is not a number/],
+      [7, /path\.json:path: 7 is no object/],
+      [{ points: [] }, /path\.json:path:points: is empty/],
+      [{ points: [{ frame: 3, x: 0, z: 0 }, { frame: 3, x: 1, z: 0 }] }, /path:points\[1\]\.frame: is frame 3, as that of the point before it/],
+      [{ points: [{ frame: 3, x: 'far', z: 0 }, { frame: 9, x: 1, z: 0 }] }, /path:points\[0\]\.x: "far" is not a number/],
     ]) {
       await page.evaluate(() => (window.choreo.message.value = null));
       await give(['path.json', JSON.stringify({ studio: 1, path, keyframes: [key] })]);

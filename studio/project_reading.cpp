@@ -1,0 +1,184 @@
+#include "studio/project_document.h"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "client/authoring/dance_keys.h"
+#include "client/authoring/dancers.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
+#include "client/authoring/project_file.h"
+#include "client/convert.h"
+#include "model/core/field.h"
+#include "model/core/limits.h"
+#include "model/motion/pose_limits.h"
+#include "proto/wire/controls.h"
+#include "studio/from_page.h"
+#include "studio/scratch_folder.h"
+
+namespace choreo::studio {
+namespace {
+
+using google::protobuf::RepeatedPtrField;
+
+/// Throws unless the keys fit any dance.
+void CheckKeys(const authoring::DanceKeys& keys, double fps, const Skeleton& skeleton) {
+  int64_t before = -kMinKeyDistance;
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    const int64_t frame = authoring::FrameOf(keys.poses[i], fps);
+    const std::string when = authoring::FieldOf(keys.places[i], ".time");
+    authoring::CheckInADance(static_cast<double>(frame) / fps, when);
+    CheckPoseLimits(keys.poses[i].pose, kMaxRotation, "2π", keys.places[i]);
+    if (frame - before < kMinKeyDistance) {
+      throw InvalidArgument(when, "key \"" + keys.poses[i].id + "\" stands closer than " +
+                                      std::to_string(kMinKeyDistance) + " frames to \"" +
+                                      keys.poses[i - 1].id + "\"");
+    }
+    before = frame;
+  }
+  authoring::RefuseHeldInAir(keys, fps, skeleton);
+}
+
+void TellKeys(authoring::DanceKeys keys, const StudioContext& context,
+              RepeatedPtrField<ProjectKey>* said) {
+  const double fps = context.model().fps;
+  keys = authoring::ByTime(std::move(keys), fps);
+  CheckKeys(keys, fps, context.model().skeleton);
+  for (size_t i = 0; i < keys.poses.size(); ++i) {
+    const int64_t frame = authoring::FrameOf(keys.poses[i], fps);
+    if (authoring::IsHeld(keys.places[i])) {
+      ProjectKey& held = said->at(said->size() - 1);
+      held.set_hold(frame - held.key().frame());
+      continue;
+    }
+    ProjectKey* key = said->Add();
+    *key->mutable_key() = client::ToProto(keys.poses[i]);
+    key->mutable_key()->set_frame(frame);
+  }
+}
+
+/// Keeps files for reading in a folder of ours, by name: the page knows no paths.
+void Keep(const RepeatedPtrField<File>& files, const ScratchFolder& folder) {
+  for (const File& file : files) {
+    const std::filesystem::path name = std::filesystem::path(file.name()).filename();
+    std::ofstream(folder.path() / name, std::ios::binary) << file.data();
+  }
+}
+
+/// A dancer's own keys, of these files or in the dancer's own text.
+void TellOwnKeys(const authoring::Dancer& dancer, const ScratchFolder& folder,
+                 const StudioContext& context, const authoring::Counts& counts, StageDancer* said) {
+  said->set_has_keys(!dancer.keyframes.empty());
+  for (const std::string& source : authoring::KeySources(dancer.keyframes)) {
+    const bool is_text = source.starts_with('{');
+    const std::string kept =
+        is_text ? source : (folder.path() / std::filesystem::path(source).filename()).string();
+    if (!is_text && !std::filesystem::exists(authoring::FileOf(kept))) {
+      throw Error(ErrorCode::kNotFound, std::filesystem::path(source).filename().string(),
+                  "has keys of " + dancer.id + ": open it together with the project");
+    }
+    try {
+      authoring::DanceKeys keys;
+      keys.poses = authoring::ReadKeys(kept, context.model().skeleton, &keys.places, counts);
+      TellKeys(std::move(keys), context, said->mutable_keys());
+    } catch (const Error& error) {
+      std::string message = error.what();
+      const std::string path = folder.path().string() + "/";
+      if (message.starts_with(path)) message.erase(0, path.size());
+      throw Error(error.code(), "", message);
+    }
+  }
+}
+
+/// A seed that the page can count to: its numbers are doubles.
+uint64_t ForPage(uint64_t seed, const std::string& field) {
+  constexpr uint64_t kMost = (uint64_t{1} << 53) - 1;
+  if (seed <= kMost) return seed;
+  throw InvalidArgument(field, std::to_string(seed) + " is beyond " + std::to_string(kMost) +
+                                   ", the largest that the studio knows");
+}
+
+void TellDancers(const ProjectFile& request, const StudioContext& context,
+                 const authoring::Counts& counts, Project* said) {
+  const ScratchFolder folder;
+  Keep(request.key_files(), folder);
+  const authoring::Dancers stage =
+      authoring::ParseDancers(request.file().data(), request.file().name(), "");
+  said->set_apart(stage.apart);
+  for (const authoring::Dancer& dancer : stage.dancers) {
+    const std::string field = At(request.file().name() + ":dancers", said->dancers_size());
+    StageDancer* told = said->add_dancers();
+    told->set_id(dancer.id);
+    told->set_x(dancer.place.x());
+    told->set_z(dancer.place.y());
+    told->set_facing(dancer.facing);
+    told->set_mirrored(dancer.mirrored);
+    told->set_after(dancer.after ? dancer.after->amount : 0);
+    told->set_in_counts(dancer.after && dancer.after->counts);
+    if (dancer.seed) told->set_seed(ForPage(*dancer.seed, field + ".seed"));
+    told->set_style(dancer.style);
+    TellOwnKeys(dancer, folder, context, counts, told);
+  }
+}
+
+/// All but keys and dancers.
+void Tell(const authoring::Project& read, const std::string& name, const StudioContext& context,
+          const authoring::Counts& counts, Project* said) {
+  said->set_song(read.song);
+  if (read.seconds) said->set_seconds(*read.seconds);
+  if (read.seed) said->set_seed(ForPage(*read.seed, name + ":seed"));
+  said->set_style(read.style);
+  if (read.music_dynamics) said->set_music_dynamics(*read.music_dynamics);
+  if (read.variation) said->set_variation(*read.variation);
+  if (!read.beats.empty()) {
+    said->mutable_beats()->set_bar(static_cast<uint32_t>(read.bar));
+    said->mutable_beats()->mutable_times()->Add(read.beats.begin(), read.beats.end());
+    said->mutable_beats()->mutable_counts()->Add(read.counts.begin(), read.counts.end());
+  }
+  if (read.controls.lively != authoring::PartFactors()) {
+    for (const std::optional<double>& factor : read.controls.lively)
+      said->add_velocity_factors(factor.value_or(1));
+  }
+  const ControlRequest controls = read.controls.Read(context.model(), context.server(), counts);
+  if (const auto& path = controls.root_path) {
+    if (!path->heights.empty()) {
+      throw InvalidArgument(read.controls.PathName() + ":points[0].y",
+                            "is a height: the studio's paths lie on the floor");
+    }
+    *said->mutable_path() = wire::ToProto({.root_path = path}).root_path();
+  }
+  for (const authoring::Marker& marker : read.markers) {
+    Marker* told = said->add_markers();
+    told->set_frame(std::llround(marker.time_s * context.model().fps));
+    told->set_name(marker.name);
+  }
+}
+
+}  // namespace
+
+Response ReadProject(const StudioContext& context, const ProjectFile& request) {
+  const std::string& name = request.file().name();
+  const nlohmann::json file = authoring::ParseJson(request.file().data(), name);
+  const bool is_project = file.is_object() && file.contains("studio");
+  authoring::Counts counts = CountsIn(request);
+  Response response;
+  Project* said = response.mutable_project();
+  authoring::Project read;
+  if (is_project) {
+    read = authoring::ParseProject(file, name);
+    if (!read.beats.empty()) counts = authoring::CountsFrom(read.beats, read.ones);
+    Tell(read, name, context, counts, said);
+  }
+  if (read.has_keys || !is_project) {
+    authoring::DanceKeys keys;
+    keys.poses = authoring::ParseKeyFile(request.file().data(), name, context.model().skeleton,
+                                         &keys.places, counts);
+    TellKeys(std::move(keys), context, said->mutable_keys());
+  }
+  if (read.has_dancers) TellDancers(request, context, counts, said);
+  return response;
+}
+
+}  // namespace choreo::studio

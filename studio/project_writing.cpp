@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "client/authoring/dance_keys.h"
+#include "client/authoring/project_file.h"
+#include "client/convert.h"
+#include "model/motion/velocity_factors.h"
+#include "studio/project_document.h"
+
+namespace choreo::studio {
+namespace {
+
+using google::protobuf::RepeatedPtrField;
+using nlohmann::ordered_json;
+
+/// A number as people write it: 2, not 2.0.
+ordered_json Number(double value) {
+  const bool is_whole = std::abs(value) < 1e9 && std::round(value) == value;
+  const bool is_minus_zero = value == 0 && std::signbit(value);
+  return is_whole && !is_minus_zero ? ordered_json(std::llround(value)) : ordered_json(value);
+}
+
+/// The fewest digits that are this float again.
+ordered_json Number(float value) {
+  char text[32];
+  const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+  double digits = 0;
+  std::from_chars(std::begin(text), end, digits);
+  return Number(static_cast<float>(digits) == value ? digits : double{value});
+}
+
+/// A time as people read it, of which its frame comes again.
+ordered_json Seconds(int64_t frame, double fps) {
+  return Number(std::round(static_cast<double>(frame) / fps * 1e5) / 1e5);
+}
+
+ordered_json KeysOf(const RepeatedPtrField<ProjectKey>& keys, const StudioContext& context) {
+  const double fps = context.model().fps;
+  ordered_json list = ordered_json::array();
+  for (const ProjectKey& said : keys) {
+    const v1::Keyframe& key = said.key();
+    ordered_json& written = list.emplace_back();
+    written = {{"id", key.id()}, {"time", Seconds(key.frame(), fps)}};
+    if (said.hold() != 0) written["hold"] = Seconds(said.hold(), fps);
+    if (key.has_hit()) written["hit"] = Number(key.hit());
+    if (const auto hands = wire::FromProto(key.hands()))
+      written["hands"] = kHandPoseNames[static_cast<size_t>(*hands)];
+    for (const uint32_t joint : key.mask().joints())
+      written["joints"].push_back(context.model().skeleton.joint_names.at(joint));
+    if (key.pose().has_root_position()) {
+      const v1::Vector3& root = key.pose().root_position();
+      written["root_position"] =
+          ordered_json::array({Number(root.x()), Number(root.y()), Number(root.z())});
+    }
+    ordered_json& rotations = written["rotations"] = ordered_json::array();
+    for (int i = 0; i < key.pose().rotations_size(); ++i) {
+      if (i % 3 == 0) rotations.emplace_back();
+      rotations.back().push_back(Number(key.pose().rotations(i)));
+    }
+  }
+  return list;
+}
+
+ordered_json DancersOf(const Project& project) {
+  ordered_json dancers = ordered_json::array();
+  for (const StageDancer& said : project.dancers()) {
+    ordered_json& dancer = dancers.emplace_back();
+    dancer = {{"id", said.id()},
+              {"place", ordered_json::array({Number(said.x()), Number(said.z())})}};
+    if (said.facing() != 0) dancer["facing"] = Number(said.facing());
+    if (said.mirrored()) dancer["mirrored"] = true;
+    if (said.after() != 0) {
+      const ordered_json after = Number(said.after());
+      dancer["after"] = said.in_counts() ? ordered_json(after.dump() + " counts") : after;
+    }
+    if (said.has_seed()) dancer["seed"] = said.seed();
+    if (!said.style().empty()) dancer["style"] = said.style();
+  }
+  return dancers;
+}
+
+ordered_json FileOf(const Project& project, const StudioContext& context) {
+  const double fps = context.model().fps;
+  ordered_json file = {{"studio", 1}, {"song", project.song()}};
+  if (project.has_seconds()) file["seconds"] = Number(project.seconds());
+  if (project.has_seed()) file["seed"] = project.seed();
+  file["style"] = project.style();
+  if (project.has_music_dynamics()) file["music_dynamics"] = Number(project.music_dynamics());
+  if (project.has_variation()) file["variation"] = Number(project.variation());
+  if (project.has_beats()) {
+    file["bar"] = project.beats().bar();
+    ordered_json& beats = file["beats"] = ordered_json::array();
+    for (int i = 0; i < project.beats().times_size(); ++i)
+      beats.push_back(
+          ordered_json::array({Number(project.beats().times(i)), project.beats().counts(i)}));
+  }
+  for (int i = 0; i < project.velocity_factors_size(); ++i) {
+    std::string part(kBodyPartNames.at(static_cast<size_t>(i)));
+    std::ranges::replace(part, '_', ' ');
+    file["lively"][part] = Number(project.velocity_factors(i));
+  }
+  const v1::RootPath& path = project.path();
+  for (int i = 0; i < path.frames_size(); ++i) {
+    file["path"]["points"].push_back({{"frame", path.frames(i)},
+                                      {"x", Number(path.points(2 * i))},
+                                      {"z", Number(path.points(2 * i + 1))}});
+  }
+  for (const Marker& marker : project.markers())
+    file["markers"].push_back({{"time", Seconds(marker.frame(), fps)}, {"name", marker.name()}});
+  if (project.dancers_size() > 0) {
+    ordered_json& dancers = file["dancers"] = DancersOf(project);
+    for (int i = 0; i < project.dancers_size(); ++i) {
+      const StageDancer& said = project.dancers(i);
+      if (!said.has_keys()) continue;
+      ordered_json& own = dancers[static_cast<size_t>(i)]["keyframes"];
+      own = said.keys().empty() ? ordered_json(authoring::kNoKeys) : KeysOf(said.keys(), context);
+    }
+    file["apart"] = Number(project.apart());
+  }
+  file["keyframes"] = KeysOf(project.keys(), context);
+  return file;
+}
+
+}  // namespace
+
+Response WriteProject(const StudioContext& context, const Project& project) {
+  ProjectFile written;
+  written.mutable_file()->set_name(kUnnamed);
+  written.mutable_file()->set_data(authoring::ProjectText(FileOf(project, context)));
+  ReadProject(context, written);
+  Response response;
+  *response.mutable_file() = std::move(*written.mutable_file());
+  return response;
+}
+
+std::string DancersText(const Project& project) {
+  const ordered_json file = {{"dancers", DancersOf(project)}, {"apart", Number(project.apart())}};
+  return file.dump();
+}
+
+}  // namespace choreo::studio
