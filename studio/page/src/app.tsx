@@ -155,6 +155,7 @@ function useKeyboard() {
       const types = at.matches('input, select') && !(withControl && at.matches('[type=range], [type=checkbox]'));
       if (event.defaultPrevented || types) return;
       const key = event.key.toLowerCase();
+      if (event.repeat && 'tm'.includes(key)) return; // a key that is held is one tap, and one marker
       if (event.key === ' ' && playsOn(at)) studio.togglePlay();
       else if (key === 't' && !withControl && (studio.shownSong.value || studio.live.value) && studio.project.value) studio.tap();
       else if (key === 'm' && !withControl) studio.addMarker();

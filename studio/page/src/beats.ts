@@ -39,13 +39,22 @@ export const form = computed(() => sections(shownSong.value?.heard.passages ?? [
 
 const length = () => shownSong.value!.heard.seconds;
 
+/// Dances to other beats, unless they are slower or faster than half and double time of any tempo that may be asked for. Says whether it does.
+function changeBeats(next: Beats): boolean {
+  const [found, least, most] = [tempo(next), limits.slowestTempo / 2, 2 * limits.fastestTempo];
+  const isDanced = found >= least && found <= most;
+  if (isDanced) change({ beats: next });
+  else tell(`${Math.round(found)} beats a minute, must be ${least} to ${most}.`);
+  return isDanced;
+}
+
 export function halveBeats() {
   if (live.value) hintLive({ pace: live.value.hint.pace === 'double' ? null : 'half' });
-  else change({ beats: halved(beats.value) });
+  else changeBeats(halved(beats.value));
 }
 export function doubleBeats() {
   if (live.value) hintLive({ pace: live.value.hint.pace === 'half' ? null : 'double' });
-  else change({ beats: doubled(beats.value) });
+  else changeBeats(doubled(beats.value));
 }
 /// Moves beats by this many steps.
 export function nudgeBeats(steps: number) {
@@ -84,8 +93,7 @@ function applyTaps() {
   if (told.length === 0 || !shownSong.value || !project.value) return;
   const found = tapped(heardBeats.value, beats.value, told, length());
   if (!found) return tell(tooFew);
-  change({ beats: found });
-  tell(`${Math.round(tempo(found))} beats a minute, of ${told.length} taps.`);
+  if (changeBeats(found)) tell(`${Math.round(tempo(found))} beats a minute, of ${told.length} taps.`);
 }
 audio.addEventListener('pause', applyTaps);
 

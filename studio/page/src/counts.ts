@@ -1,6 +1,6 @@
 // Counting a song: its beats, its bars, and dancers' eights.
 
-/// `count`: in its eight, from 1 on; 0 if not counted. `sure`: how sure the program is, 0 to 1, of a beat that it found.
+/// `count`: in its eight, from 1 on; 0 if not counted. `sure`: the confidence of a beat that was found (docs/beats.md).
 export type Beat = { time: number; count: number; sure?: number };
 /// `bar`: beats in a bar.
 export type Beats = { bar: number; list: Beat[] };
@@ -99,14 +99,16 @@ export function doubled(beats: Beats): Beats {
   return countedFrom(times, nearest(times, beats.list[firstOne(beats)]?.time ?? 0), beats.bar);
 }
 
-/// Moves all beats; keeps those within the song's seconds.
-export const nudged = ({ bar, list }: Beats, by: number, seconds: number): Beats => ({
-  bar,
-  list: list.map(({ time, count }) => ({ time: kept(time + by), count })).filter(({ time }) => time >= 0 && time <= seconds),
-});
+/// Moves all beats; keeps those within the song's seconds. Those before the first that is counted are counted back from it.
+export const nudged = ({ bar, list }: Beats, by: number, seconds: number): Beats => {
+  const first = Math.max(0, list.findIndex(({ count }) => count > 0));
+  const back = (i: number) => ((((list[first].count || 1) - 1 + i - first) % eight(bar)) + eight(bar)) % eight(bar) + 1;
+  const moved = list.map(({ time, count }, i) => ({ time: kept(time + by), count: count || back(i) }));
+  return { bar, list: moved.filter(({ time }) => time >= 0 && time <= seconds) };
+};
 
-/// The mean certainty of beats that were found, in percent; null for others.
-export function certainty({ list }: Beats): number | null {
+/// The mean confidence of beats that were found, in percent; null for others.
+export function confidence({ list }: Beats): number | null {
   const sure = list.flatMap((beat) => beat.sure ?? []);
   return sure.length ? Math.round((100 * sure.reduce((sum, one) => sum + one, 0)) / sure.length) : null;
 }

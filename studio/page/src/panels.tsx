@@ -1,6 +1,6 @@
 // The panels beside the stage: selected key, takes, beats, music, style, liveliness.
 import { signal } from '@preact/signals';
-import { certainty, tempo } from './counts';
+import { confidence, tempo } from './counts';
 import { DancersPanel } from './dancers_panel';
 import { KeepTake } from './keep_take';
 import { MarkersPanel } from './markers_panel';
@@ -113,11 +113,13 @@ function BeatsPanel() {
   const { live } = studio;
   if (!value || !(studio.shownSong.value || live.value)) return null;
   const isNone = beats.value.list.length === 0;
-  const sure = certainty(beats.value);
+  const sure = confidence(beats.value);
   const pace = live.value?.hint.pace;
   return (
     <section aria-label="Beats">
-      <h2>Beats <small>{isNone ? 'none heard' : `${tempo(beats.value).toFixed(1)} a minute${sure === null ? '' : `, ${sure} % sure`}`}</small></h2>
+      <h2>Beats <small title={sure === null ? undefined : 'How much more sound begins on them than elsewhere; not how likely they are right'}>
+        {isNone ? 'none heard' : `${tempo(beats.value).toFixed(1)} a minute${sure === null ? '' : `, they stand out by ${sure} %`}`}
+      </small></h2>
       <div class="row">
         <button title="Tap along while it plays (T)" aria-pressed={taps.value.length > 0} onClick={studio.tap}>
           {taps.value.length > 0 ? `Tap ${taps.value.length}` : 'Tap'}

@@ -62,7 +62,7 @@ function Ruler() {
     const isCounted = beat.count > 0 && (room >= digit || (isOne && room * eight(bar) >= digit));
     return (
       <i class={`beat${isDownbeat(beat, bar) ? ' down' : ''}${isOne ? ' one' : ''}`} key={beat.time} style={{ left: `${x(beat.time)}px`, '--sure': beat.sure ?? 1 }}
-        title={beat.sure === undefined ? undefined : `A beat, ${Math.round(100 * beat.sure)} % sure`}>
+        title={beat.sure === undefined ? undefined : `A beat: around it they stand out by ${Math.round(100 * beat.sure)} %`}>
         {isCounted && beat.count}
       </i>
     );

@@ -29,9 +29,9 @@ await inStudio(async ({ page, until, settle, message, frames, give, download }) 
     for (let i = 0; i < 6; ++i) await press('Show less of the song');
   });
 
-  await check('how sure each beat is', async () => {
-    assert.match(await tempo(), /^120\.\d a minute, \d\d % sure$/);
-    assert.match(await page.locator('.beat').nth(4).getAttribute('title'), /^A beat, \d\d % sure$/);
+  await check('how much beats stand out', async () => {
+    assert.match(await tempo(), /^120\.\d a minute, they stand out by \d\d %$/);
+    assert.match(await page.locator('.beat').nth(4).getAttribute('title'), /^A beat: around it they stand out by \d\d %$/);
   });
 
   await check('the part that comes back has the letter and colour of the first one', async () => {
@@ -65,6 +65,10 @@ await inStudio(async ({ page, until, settle, message, frames, give, download }) 
     await press('Double');
     await press('Double');
     await settle();
+    assert.equal(await tempo(), '240.0 a minute');
+    // No faster than double time of the fastest tempo.
+    await press('Double');
+    assert.equal((await message()).text, '480 beats a minute, must be 25 to 400.');
     assert.equal(await tempo(), '240.0 a minute');
     for (let i = 0; i < 3; ++i) await page.keyboard.press('Control+z');
     await settle();

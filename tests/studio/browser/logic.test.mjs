@@ -188,6 +188,7 @@ test('beats are halved, doubled and nudged, and one of them is a 1', () => {
   assert.equal(doubled(counted([1, 1.5, 2, 9, 9.5, 10], [], 4)).list.length, 10, 'none in a pause');
   const late = nudged(beats, 0.01, 4.5);
   assert.deepEqual([late.list[0], late.list.length], [{ time: 1.01, count: 8 }, 7]);
+  assert.equal(counts(nudged(counted(every(0.5, 6, 1), [0, 0, 1, 2, 3, 4], 4), 0.01, 9)), '781234', 'each has a count');
   assert.equal(counts(withOne(beats, 2.1)), '78123456');
   assert.deepEqual(beatsMessage(withOne(beats, 2.1)).musicDownbeats, [beats.list[2].time, beats.list[6].time]);
   assert.deepEqual(beatsMessage(null), {});
