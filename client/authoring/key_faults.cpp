@@ -83,9 +83,7 @@ void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton
     while (end < keys.poses.size() && IsHeld(keys.places[end])) ++end;
     if (end == i + 1) continue;
     const int64_t frames = FrameOf(keys.poses[end - 1], fps) - FrameOf(keys.poses[i], fps);
-    const bool is_option = keys.places[i].starts_with("--");  // --end always holds
-    RefuseHeldInAir(keys.poses[i], static_cast<double>(frames) / fps,
-                    keys.places[i + (is_option ? 0 : 1)], skeleton);
+    RefuseHeldInAir(keys.poses[i], static_cast<double>(frames) / fps, keys.places[i + 1], skeleton);
   }
 }
 

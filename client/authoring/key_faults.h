@@ -20,7 +20,7 @@ void RefuseBends(const DanceKeys& keys, const Skeleton& skeleton);
 /// a jump of its height lasts.
 void RefuseHeldInAir(const client::KeyPose& key, double seconds, const std::string& field,
                      const Skeleton& skeleton);
-/// The same for all keys that others hold; fields are "keys.json:keyframes[2].hold" and "--end".
+/// The same for all keys that others hold; fields are "keys.json:keyframes[2].hold".
 void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
 /// The warnings of KeyFaults for keys without a file, in order of time.

@@ -108,6 +108,9 @@ void AddEnding(const DanceOptions& options, const std::optional<authoring::Music
   authoring::DanceLength seen = length;
   seen.frames -=
       authoring::FramesLater(options.after, beats, length.fps, length.frames, options.after_name);
+  const double held_s =
+      static_cast<double>(seen.frames - 1) / seen.fps - authoring::Ending(pose, beats, seen).time_s;
+  authoring::RefuseHeldInAir(pose.key, held_s, "--end", model.skeleton);
   const std::vector<std::string> gone = authoring::EndIn(pose, beats, controls, seen, keys);
   if (options.keys.empty()) return;  // nobody set those
   for (const std::string& id : gone)

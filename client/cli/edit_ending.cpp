@@ -18,7 +18,7 @@ void EditSession::End(const std::string& source) {
   const double begin_s = edit.key.time_s;
   if (!named.has_place)
     edit.key.pose = GroundFrame{.origin = Here(*edit.key.frame).origin}.ToWorld(named.key.pose);
-  authoring::RefuseHeldInAir(edit.key, last_s - begin_s, "--end", edit_.model.skeleton);
+  authoring::RefuseHeldInAir(named.key, last_s - begin_s, "--end", edit_.model.skeleton);
   edit.held = authoring::Holding(&edit.key, last_s - begin_s, "--end");
   for (client::KeyPose& held : edit.held) held.frame = Frame(held.time_s);
   // A hold that reaches into the way ends before it.

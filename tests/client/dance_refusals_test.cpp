@@ -34,18 +34,19 @@ TEST_F(CommandTest, WarnsOfKeysThatNoBodyCouldDance) {
 TEST_F(CommandTest, NoPoseIsHeldInTheAir) {
   std::ofstream(folder_ / "keys.json") << R"({"keyframes": [
     {"id": "a", "time": 1, "pose": "tuck_jump", "place": [0, 0], "hold": 1}]})";
-  const auto refused = [&](const std::string& arguments, const std::string& field) {
+  const auto refused = [&](const std::string& arguments, const std::string& field,
+                           const std::string& key) {
     const Outcome outcome = Choreo(arguments + Server() + " -o " + At("e.npz"));
     EXPECT_EQ(outcome.code, 1) << outcome.said;
-    EXPECT_THAT(outcome.said, HasSubstr(field + ": key \""));
+    EXPECT_THAT(outcome.said, HasSubstr(field + ": key \"" + key + "\""));
     EXPECT_THAT(outcome.said, HasSubstr(" m in the air, where a jump keeps it for 0."));
     EXPECT_THAT(outcome.said, HasSubstr("; hold the landing instead\n"));
   };
-  refused("dance --seconds 8 --end star_jump", "--end");
-  refused("dance --seconds 8 -k " + At("keys.json"), "keys.json:keyframes[0].hold");
+  refused("dance --seconds 8 --end star_jump", "--end", "star_jump");
+  refused("dance --seconds 8 -k " + At("keys.json"), "keys.json:keyframes[0].hold", "a");
   ASSERT_EQ(Choreo("dance --seconds 8 -o " + At("d.npz") + Server()).code, 0);
-  refused("edit " + At("d.npz") + " --end star_jump", "--end");
-  refused("edit " + At("d.npz") + " --key tuck_jump --at 3 --hold 1", "--hold");
+  refused("edit " + At("d.npz") + " --end star_jump", "--end", "star_jump");
+  refused("edit " + At("d.npz") + " --key tuck_jump --at 3 --hold 1", "--hold", "tuck_jump");
   const std::string brief = " --key tuck_jump --at 3 --hold 0.2 -o ";
   EXPECT_EQ(Choreo("edit " + At("d.npz") + brief + At("e.npz") + Server()).code, 0);
   const std::string landing = " --key bow --at 3 --hold 1 -o ";
