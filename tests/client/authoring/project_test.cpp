@@ -4,7 +4,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "client/authoring/project_file.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
 #include "tests/support/music_files.h"
@@ -85,13 +84,6 @@ TEST_F(ProjectTest, AHitChangesTheWayToItsKey) {
   project_["keyframes"][0]["hit"] = 3;
   ASSERT_EQ(Dance("--project " + At("p.json"), "b.bvh").code, 0);
   EXPECT_NE(Bytes("a.bvh"), Bytes("b.bvh"));
-}
-
-TEST_F(ProjectTest, ItsFactorsKeepAllTheirDigits) {
-  project_["lively"] = {{"left arm", 1.23456789}};
-  const auto part = static_cast<size_t>(BodyPart::kLeftArm);
-  EXPECT_EQ(authoring::ParseProject(json::parse(project_.dump()), "p.json").controls.lively[part],
-            1.23456789);
 }
 
 TEST_F(ProjectTest, TheCommandLineWins) {
