@@ -137,8 +137,8 @@ void Tell(const authoring::Project& read, const std::string& name, const StudioC
     said->mutable_beats()->mutable_times()->Add(read.beats.begin(), read.beats.end());
     said->mutable_beats()->mutable_counts()->Add(read.counts.begin(), read.counts.end());
   }
-  if (read.controls.lively != authoring::PartFactors()) {
-    for (const std::optional<double>& factor : read.controls.lively)
+  if (read.controls.factors != authoring::PartFactors()) {
+    for (const std::optional<double>& factor : read.controls.factors)
       said->add_velocity_factors(factor.value_or(1));
   }
   const ControlRequest controls = read.controls.Read(context.model(), context.server(), counts);

@@ -57,11 +57,11 @@ void TakeBeats(const json& list, const std::string& field, Project* project) {
 }
 
 /// None where all parts have the usual factor.
-PartFactors FactorsIn(const json& lively, const std::string& field) {
-  if (!lively.is_object()) throw InvalidArgument(field, Shown(lively) + " is no object");
+PartFactors FactorsIn(const json& parts, const std::string& field) {
+  if (!parts.is_object()) throw InvalidArgument(field, Shown(parts) + " is no object");
   PartFactors out;
   bool as_usual = true;
-  for (const auto& [member, value] : lively.items()) {
+  for (const auto& [member, value] : parts.items()) {
     std::string part = member;
     std::ranges::replace(part, ' ', '_');
     const auto named = std::ranges::find(kBodyPartNames, part);
@@ -168,7 +168,7 @@ Project ParseProject(const json& file, const std::string& name) {
   if (file.contains("beats")) TakeBeats(file["beats"], name + ":beats", &project);
   if (file.contains("lively")) {
     project.controls.velocity_name = name + ":lively";
-    project.controls.lively = FactorsIn(file["lively"], project.controls.velocity_name);
+    project.controls.factors = FactorsIn(file["lively"], project.controls.velocity_name);
   }
   if (file.contains("path")) {
     if (!file["path"].is_object())

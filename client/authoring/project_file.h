@@ -35,10 +35,10 @@ struct Project : DanceManner {
 };
 
 /// Reads a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,
-/// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `lively` (a
-/// factor per part of the body), `path`, `markers` (each with `time` and `name`; no frame depends
-/// on them), `dancers` and `apart` (both ignored here), and `keyframes`. `name` is the file's.
-/// Throws Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
+/// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `lively`
+/// (the velocity factors of parts of the body), `path`, `markers` (each with `time` and `name`; no
+/// frame depends on them), `dancers` and `apart` (both ignored here), and `keyframes`. `name` is
+/// the file's. Throws Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
 Project ParseProject(const nlohmann::json& file, const std::string& name);
 
 /// The same from a file; its song's path is relative to it. Throws Error(kNotFound) if the project

@@ -65,7 +65,7 @@ void WrittenControls::Follow(const WrittenControls& project) {
   project_path = project.project_path;
   project_path_name = project.project_path_name;
   if (velocities.empty()) velocity_name = project.velocity_name;
-  lively = project.lively;
+  factors = project.factors;
 }
 
 ControlRequest WrittenControls::Read(const client::ModelDescription& model,
@@ -78,9 +78,9 @@ ControlRequest WrittenControls::Read(const client::ModelDescription& model,
                              ? ReadPath(project_path, project_path_name, model.fps, counts)
                              : ParsePathFile(ReadText(path, "path file"), path, model.fps, counts);
   }
-  if (!velocities.empty() || lively != PartFactors()) {
+  if (!velocities.empty() || factors != PartFactors()) {
     RequireControl(kVelocityFactors, velocity_name, model, server);
-    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps, counts, lively);
+    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps, counts, factors);
   } else if (!reference.empty()) {
     throw InvalidArgument("velocity_factors.reference", "there is no velocity that it could be of");
   }

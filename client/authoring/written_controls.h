@@ -26,7 +26,7 @@ struct WrittenControls {
   std::string path;
   nlohmann::json project_path;          ///< what a path file has, inside a project; `path` wins
   std::string project_path_name;        ///< its name in errors
-  PartFactors lively = {};              ///< a project's; `velocities` win
+  PartFactors factors = {};             ///< a project's; `velocities` win
   std::vector<std::string> velocities;  ///< as ReadVelocities (velocities.h) takes them
   std::string velocity_name = "velocity_factors";  ///< how errors call them
   std::string reference;

@@ -44,7 +44,7 @@ void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls) 
                   "this control (`choreo info`).")
       ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
   AddRepeated(command, "--velocity", controls->velocities,
-              "How lively a part of the body is: trunk, left_arm, right_arm, left_leg, right_leg, "
+              "How fast a part of the body moves: trunk, left_arm, right_arm, left_leg, right_leg, "
               "arms, legs or all; left_arm=1.5 is a multiplier, 0 to " +
                   Rounded(kMaxVelocityFactor) +
                   ", of the reference, "

@@ -152,9 +152,10 @@ void AddDanceCommand(CLI::App& program) {
       "make way. A library pose faces the audience.");
   AddAllowBends(*command, options->allow_bends);
   command
-      ->add_option("--project", options->project,
-                   "A project that `choreo studio` saved: its keys, path, seed, style, liveliness, "
-                   "dancers, music and the song beside it, as far as nothing else is said here.")
+      ->add_option(
+          "--project", options->project,
+          "A project that `choreo studio` saved: its keys, path, seed, style, velocity "
+          "factors, dancers, music and the song beside it, as far as nothing else is said here.")
       ->check(CLI::ExistingFile)
       ->excludes("--keyframes");
   command

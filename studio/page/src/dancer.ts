@@ -192,14 +192,14 @@ export class Dancer {
   }
 
   controls(project: Project): Init<typeof GenerateTransitionRequestSchema>['controls'] {
-    const { lively, path } = project;
-    const isUsual = lively.every((factor) => factor === 1);
+    const { velocities, path } = project;
+    const isUsual = velocities.every((factor) => factor === 1);
     if (isUsual && path.length === 0) return undefined;
     return {
       ...(path.length ? { rootPath: pathMessage(path) } : {}),
       ...(isUsual ? {} : {
         velocityFactors: {
-          factors: lively,
+          factors: velocities,
           parts: [BodyPart.TRUNK, BodyPart.LEFT_ARM, BodyPart.RIGHT_ARM, BodyPart.LEFT_LEG, BodyPart.RIGHT_LEG],
         },
       }),

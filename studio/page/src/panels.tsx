@@ -1,4 +1,4 @@
-// The panels beside the stage: selected key, takes, beats, music, style, liveliness.
+// The panels beside the stage: selected key, takes, beats, music, style, velocity.
 import { signal } from '@preact/signals';
 import { confidence, tempo } from './counts';
 import { DancersPanel } from './dancers_panel';
@@ -139,16 +139,16 @@ function BeatsPanel() {
   );
 }
 
-function LivelyPanel() {
-  if (!studio.canBeLively()) return null;
+function VelocityPanel() {
+  if (!studio.takesVelocities()) return null;
   const { value } = studio.project;
   const set = (part: number, factor: number) =>
-    studio.change({ lively: value.lively.map((old, i) => (i === part ? factor : old)) });
+    studio.change({ velocities: value.velocities.map((old, i) => (i === part ? factor : old)) });
   return (
-    <section aria-label="Liveliness">
-      <h2>Liveliness</h2>
+    <section aria-label="Velocity">
+      <h2>Velocity</h2>
       {parts.map((part, i) => (
-        <Slider key={part} name={part} low={0.2} high={2} value={value?.lively[i] ?? 1} set={(factor) => set(i, factor)} />
+        <Slider key={part} name={part} low={0.2} high={2} value={value?.velocities[i] ?? 1} set={(factor) => set(i, factor)} />
       ))}
     </section>
   );
@@ -220,7 +220,7 @@ export function Panels({ stage }: { stage: Stage | null }) {
       <BeatsPanel />
       <MusicPanel />
       <StylePanel />
-      <LivelyPanel />
+      <VelocityPanel />
       <section aria-label="View">
         <h2>View</h2>
         <label class="check">

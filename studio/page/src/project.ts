@@ -50,8 +50,8 @@ export type Project = {
   variation: number;
   /// The song's beats, if they differ from the program's.
   beats: Beats | null;
-  /// The liveliness of each of `parts`; 1 is usual.
-  lively: number[];
+  /// The velocity factor of each of `parts`; 1 is usual.
+  velocities: number[];
   /// The floor path; empty: free.
   path: Step[];
   /// In order of frames.
@@ -65,7 +65,7 @@ export type Project = {
 };
 
 /// The settings that are independent of music and keys.
-export const wishes = ({ style, dynamics, variation, lively, path }: Project) => ({ style, dynamics, variation, lively, path });
+export const wishes = ({ style, dynamics, variation, velocities, path }: Project) => ({ style, dynamics, variation, velocities, path });
 
 export const emptyProject = (song: string, seconds: number): Project => ({
   song,
@@ -75,7 +75,7 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   dynamics: limits.usualMusicDynamics,
   variation: limits.usualVariation,
   beats: null,
-  lively: parts.map(() => 1),
+  velocities: parts.map(() => 1),
   path: [],
   keys: [],
   markers: [],

@@ -13,9 +13,9 @@ export const dancersMessage = ({ dancers, apart }: Project, said?: (keys: Key[])
 
 export function projectMessage(project: Project, fps: number): MessageInitShape<typeof ProjectSchema> {
   const said = (keys: Key[]) => trimmed(keys, Math.round(project.seconds * fps), fps).map((key) => ({ key: keyMessage(key), hold: BigInt(key.hold) }));
-  const { song, seconds, seed, style, dynamics, variation, beats, lively, path, markers, keys } = project;
+  const { song, seconds, seed, style, dynamics, variation, beats, velocities, path, markers, keys } = project;
   return {
-    song, seconds, seed: BigInt(seed), style, musicDynamics: dynamics, variation, velocityFactors: lively,
+    song, seconds, seed: BigInt(seed), style, musicDynamics: dynamics, variation, velocityFactors: velocities,
     ...(beats ? { beats: { bar: beats.bar, times: beats.list.map(({ time }) => time), counts: beats.list.map(({ count }) => count) } } : {}),
     ...(path.length ? { path: pathMessage(path) } : {}),
     markers: markers.map(({ frame, name }) => ({ frame: BigInt(frame), name })),
@@ -38,7 +38,7 @@ export function readProject(said: Message, fps: number, height: number): Project
     dynamics: said.musicDynamics ?? usual.dynamics,
     variation: said.variation ?? usual.variation,
     beats: said.beats ? { bar: said.beats.bar, list: said.beats.times.map((time, i) => ({ time, count: said.beats!.counts[i] })) } : null,
-    lively: said.velocityFactors.length ? said.velocityFactors : usual.lively,
+    velocities: said.velocityFactors.length ? said.velocityFactors : usual.velocities,
     path: said.path ? said.path.frames.map((frame, i) => ({ frame: Number(frame), x: said.path!.points[2 * i], z: said.path!.points[2 * i + 1] })) : [],
     markers: said.markers.map(({ frame, name }) => ({ frame: Number(frame), name })),
     keys: keysOf(said.keys),

@@ -66,5 +66,5 @@ export const canHear = () => !!welcome.value?.model && !welcome.value.model.take
 /// Whether the model supports floor paths.
 export const canBeLed = () => welcome.value?.model?.controls.includes(Control.ROOT_PATH) ?? false;
 
-/// Whether the model supports liveliness per part.
-export const canBeLively = () => welcome.value?.model?.controls.includes(Control.VELOCITY_FACTORS) ?? false;
+/// Whether the model supports velocity factors.
+export const takesVelocities = () => welcome.value?.model?.controls.includes(Control.VELOCITY_FACTORS) ?? false;
