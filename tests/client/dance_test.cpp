@@ -16,6 +16,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
+#include "tests/support/eventually.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::client::dance_test {
@@ -196,9 +197,7 @@ TEST(DanceTest, CanBeAbandoned) {
     dance->CompleteKeys();
     dance->Next();
   }
-  for (int i = 0; i < 500 && server.calls() > 0; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_EQ(server.calls(), 0);
+  EXPECT_TRUE(Eventually([&] { return server.calls() == 0; }));
 }
 
 /// Dances through FourKeys, two of which are sent when `between` was called after the continuation

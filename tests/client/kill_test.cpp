@@ -19,6 +19,7 @@
 #include "client/choreo_client.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
+#include "tests/support/eventually.h"
 #include "tests/support/sanitizers.h"
 
 /// Processes that are killed in the middle of a dance.
@@ -277,16 +278,11 @@ TEST(KillTest, KilledClientFreesItsPlaces) {
   pointers.push_back(nullptr);
   pid_t process = 0;
   ASSERT_EQ(posix_spawn(&process, CHOREO_PROGRAM, nullptr, nullptr, pointers.data(), environ), 0);
-  const auto until = [](const std::function<bool()>& condition) {
-    for (int i = 0; i < 5000 && !condition(); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    return condition();
-  };
-  const bool served = until([&] { return server.transitions() > 0; });
+  const bool served = Eventually([&] { return server.transitions() > 0; });
   ::kill(process, SIGKILL);
   ::waitpid(process, nullptr, 0);
   EXPECT_TRUE(served);
-  EXPECT_TRUE(until([&] { return server.calls() == 0 && server.transitions() == 0; }));
+  EXPECT_TRUE(Eventually([&] { return server.calls() == 0 && server.transitions() == 0; }));
   EXPECT_EQ(Client({.addresses = {server.address()}}).Dance({.frames = 30}, {}, {}).report.frames,
             30);
 }

@@ -4,14 +4,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <iostream>
 #include <optional>
-#include <thread>
 
 #include "model/core/error.h"
 #include "server/listener.h"
 #include "tests/server/silent_connections.h"
+#include "tests/support/eventually.h"
 
 namespace choreo::descriptors_test {
 
@@ -33,14 +32,6 @@ class DescriptorLimit {
  private:
   rlimit before_{};
 };
-
-bool Eventually(const std::function<bool()>& condition) {
-  for (int i = 0; i < 1000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
 
 // More connections than the server may have descriptors: those beyond are sent away, and once the
 // others are gone it serves as before.

@@ -140,7 +140,7 @@ TEST_P(DeterminismTest, SameBitsAloneAndAmong31Others) {
   ASSERT_TRUE(stream.status.ok()) << stream.status.error_message();
   ASSERT_TRUE(transition.status.ok()) << transition.status.error_message();
 
-  probe->closed = true;  // until all are there
+  probe->Close();  // until all are there
   std::vector<Answer> answers(kCalls);
   std::vector<std::thread> threads;
   for (int i = 0; i < kCalls; ++i) {
@@ -151,7 +151,7 @@ TEST_P(DeterminismTest, SameBitsAloneAndAmong31Others) {
     });
   }
   ExpectEventually([this] { return server->transitions() == kCalls; }, "32 transitions");
-  probe->closed = false;
+  probe->Open();
   for (auto& thread : threads) thread.join();
   for (int i = 0; i < kCalls; ++i) {
     const Answer& answer = answers[static_cast<size_t>(i)];

@@ -13,6 +13,7 @@
 
 #include "google/rpc/status.pb.h"
 #include "model/motion/kinematics.h"
+#include "tests/support/eventually.h"
 
 namespace choreo {
 
@@ -39,7 +40,7 @@ ProbedSampler::ProbedSampler(std::string name, std::shared_ptr<EngineProbe> prob
 }
 
 void ProbedSampler::OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {
-  while (probe_->closed) std::this_thread::sleep_for(milliseconds(1));
+  probe_->Pass();
   ++probe_->frames;
 }
 
@@ -183,7 +184,7 @@ const Answer& DanceClient::Finish() {
   return answer_;
 }
 
-ServerTest::~ServerTest() { probe->closed = false; }
+ServerTest::~ServerTest() { probe->Open(); }
 
 void ServerTest::Start(int workers, std::function<void(ServerConfig&)> change,
                        const std::vector<std::string>& names) {
@@ -309,14 +310,7 @@ void ServerTest::ExpectIdle() {
 
 void ExpectEventually(const std::function<bool()>& condition, const std::string& what,
                       std::chrono::seconds limit) {
-  const auto end = std::chrono::steady_clock::now() + limit;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      ADD_FAILURE() << "never came about: " << what;
-      return;
-    }
-    std::this_thread::sleep_for(milliseconds(2));
-  }
+  EXPECT_TRUE(Eventually(condition, limit)) << "never came about: " << what;
 }
 
 Details DetailsOf(const grpc::Status& status) {

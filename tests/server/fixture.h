@@ -23,7 +23,16 @@ namespace choreo {
 /// What a test sees and does of a model that the server owns.
 struct EngineProbe {
   std::atomic<int64_t> frames = 0;
-  std::atomic<bool> closed = false;  ///< while true, no frame is made
+  /// While it is closed, no frame is made.
+  void Close() { closed_ = true; }
+  void Open() {
+    closed_ = false;
+    closed_.notify_all();
+  }
+  void Pass() const { closed_.wait(true); }
+
+ private:
+  std::atomic<bool> closed_ = false;
 };
 
 /// A FakeSampler that records its calls, and can be held.

@@ -1,5 +1,4 @@
 #include <atomic>
-#include <functional>
 #include <iostream>
 #include <latch>
 #include <mutex>
@@ -23,7 +22,7 @@ struct Victim {
   int port;
   std::shared_ptr<grpc::Channel> channel;
   v1::Choreography::Stub* stub;
-  std::function<bool()> over;
+  const std::atomic<bool>& over;
 };
 
 /// How it is greedy.
@@ -45,7 +44,7 @@ v1::DanceConfig ConfigOf(int frames) {
 // Dances that are never over, one more whenever one is refused.
 void TakeCalls(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> dances;
-  while (!victim.over()) {
+  while (!victim.over) {
     auto dance = std::make_unique<DanceClient>(*victim.stub);
     dance->Send(ConfigOf(1000));
     dance->SendGenerateUntil(1);
@@ -56,7 +55,7 @@ void TakeCalls(const Victim& victim) {
 // Calls that say nothing.
 void TakeTurns(const Victim& victim) {
   std::vector<std::unique_ptr<DanceClient>> calls;
-  for (; !victim.over(); calls.resize(std::min<size_t>(calls.size(), 200))) {
+  for (; !victim.over; calls.resize(std::min<size_t>(calls.size(), 200))) {
     calls.push_back(std::make_unique<DanceClient>(*victim.stub));
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -71,7 +70,7 @@ void TakeSlots(const Victim& victim) {
       *request.mutable_config() = ConfigOf(0);
       request.set_frames(1800);
       request.set_candidates(32);
-      while (!victim.over()) {
+      while (!victim.over) {
         grpc::ClientContext context;
         context.set_deadline(std::chrono::system_clock::now() + std::chrono::milliseconds(500));
         const auto reader = victim.stub->GenerateTransition(&context, request);
@@ -92,14 +91,14 @@ void TakeFrames(const Victim& victim) {
     dances.back()->Send(ConfigOf(18'000));
     dances.back()->SendKeyframesComplete();
   }
-  while (!victim.over()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  victim.over.wait(false);
 }
 
 // Music files that never come whole.
 void TakeMemory(const Victim& victim) {
   const std::string piece(4 << 20, 'x');
   std::vector<std::unique_ptr<DanceClient>> dances;
-  while (!victim.over()) {
+  while (!victim.over) {
     auto dance = std::make_unique<DanceClient>(*victim.stub);
     v1::DanceConfig config = ConfigOf(100);
     config.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_FILE);
@@ -116,12 +115,12 @@ void TakeObjects(const Victim& victim) {
   std::string poses;
   while (poses.size() + 64 < static_cast<size_t>(kMaxMessageBytes)) poses += pose;
   const std::string request = WireField(1, WireField(v1::DanceConfig::kHistoryFieldNumber, poses));
-  while (!victim.over()) RawCall(victim.channel, "StreamDance", request);
+  while (!victim.over) RawCall(victim.channel, "StreamDance", request);
 }
 
 void TakeConnections(const Victim& victim) {
   const SilentConnections silent("127.0.0.1:" + std::to_string(victim.port), 400);
-  while (!victim.over()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  victim.over.wait(false);
 }
 
 class GreedyTest : public ServerTest, public testing::WithParamInterface<Greed> {};
@@ -132,7 +131,7 @@ TEST_P(GreedyTest, NineOthersDanceToTheEnd) {
   std::mutex mutex;
   std::vector<double> lateness;  // lock: mutex
   std::atomic<bool> over = false;
-  const Victim victim{server->port(), channel, &stub(), [&over] { return over.load(); }};
+  const Victim victim{server->port(), channel, &stub(), over};
   std::latch dancing(kDancers);
   std::thread greedy([&] {
     dancing.wait();
@@ -154,6 +153,7 @@ TEST_P(GreedyTest, NineOthersDanceToTheEnd) {
     }
   }
   over = true;
+  over.notify_all();
   greedy.join();
   std::cout << "beside one who takes " << GetParam().name << " nine dance on: frames p50 "
             << Milliseconds(lateness, 0.5) << " ms and p99 " << Milliseconds(lateness, 0.99)

@@ -68,7 +68,7 @@ TEST_F(LifecycleTest, ExpiredDanceFreesItsPlace) {
 
 TEST_F(LifecycleTest, CancelledTransitionsFreeTheirRoom) {
   Start(/*workers=*/2);
-  probe->closed = true;
+  probe->Close();
   v1::GenerateTransitionRequest request;
   *request.mutable_config() = Config();
   request.set_frames(1000);
@@ -78,7 +78,7 @@ TEST_F(LifecycleTest, CancelledTransitionsFreeTheirRoom) {
   ExpectEventually([this] { return server->transitions() == 8; }, "8 transitions");
   context.TryCancel();
   EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
-  probe->closed = false;
+  probe->Open();
   ExpectIdle();
   ExpectServes();
 }
@@ -187,7 +187,7 @@ TEST_F(LifecycleTest, ServerDoesNotReadFromASlowReader) {
 
 TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
   Start();
-  probe->closed = true;
+  probe->Close();
   DanceClient brief(stub());
   brief.Send(Config());
   brief.SendKeyframe(Key("a", 60));
@@ -207,7 +207,7 @@ TEST_F(LifecycleTest, DrainLetsShortDancesFinishAndEndsTheOthers) {
       "new calls are refused");
   EXPECT_EQ(refused.error_code(), grpc::StatusCode::UNAVAILABLE);
   EXPECT_NE(refused.error_message().find("going away"), std::string::npos);
-  probe->closed = false;
+  probe->Open();
   const Answer& answer = brief.Finish();
   EXPECT_TRUE(answer.status.ok()) << answer.status.error_message();
   EXPECT_EQ(answer.Join().count, 61);

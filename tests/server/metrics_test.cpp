@@ -104,7 +104,7 @@ TEST_F(MetricsTest, ShowWorkInProgress) {
     config.metrics = "0";
     config.max_streams = 4;
   });
-  probe->closed = true;
+  probe->Close();
   DanceClient client(stub()), other(stub());
   for (DanceClient* one : {&client, &other}) {
     one->Send(Config());
@@ -117,7 +117,7 @@ TEST_F(MetricsTest, ShowWorkInProgress) {
   ExpectEventually([&] { return Figure("choreo_transitions_waiting" + of_fake) == 1; },
                    "the other waits for it");
   other.Cancel();
-  probe->closed = false;
+  probe->Open();
   ExpectEventually([&] { return Figure("choreo_streams") == 1; }, "the other has left");
   EXPECT_EQ(Figure("choreo_utilisation"), 0.25);
   client.Cancel();
@@ -273,14 +273,14 @@ TEST_F(MetricsTest, UtilisationIsOneWhereverCallsAreRefused) {
     EXPECT_EQ(Figure("choreo_utilisation"), 1) << "the caller gets no third call";
   }
   ExpectEventually([&] { return Figure("choreo_utilisation") == 0; }, "all have left");
-  probe->closed = true;
+  probe->Close();
   v1::GenerateTransitionRequest request;
   *request.mutable_config() = Config();
   request.set_frames(5);
   request.set_candidates(2);
   std::thread caller([&] { EXPECT_TRUE(Generate(request).status.ok()); });
   ExpectEventually([&] { return Figure("choreo_utilisation") == 1; }, "candidates fill it");
-  probe->closed = false;
+  probe->Open();
   caller.join();
 }
 

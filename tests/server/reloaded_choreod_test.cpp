@@ -6,11 +6,11 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
 #include "tests/server/interrupted_dance.h"
+#include "tests/support/eventually.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -48,10 +48,7 @@ class ReloadedChoreodTest : public testing::Test {
   }
   // Loading takes seconds, and longer where others compute.
   static void WaitUntil(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    while (!condition() && std::chrono::steady_clock::now() < end) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+    Eventually(condition, std::chrono::minutes(2));
   }
   void Await(const std::vector<std::string>& served) const {
     WaitUntil([&] { return Served() == served; });

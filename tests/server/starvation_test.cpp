@@ -167,7 +167,7 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
   ASSERT_TRUE(live.ReadFrames(31));
   ExpectEventually([this] { return server->transitions() == 0; }, "it is made");
 
-  probe->closed = true;
+  probe->Close();
   std::vector<std::jthread> burst;
   std::atomic<int> refused = 0, served = 0;
   for (int i = 0; i < 8; ++i) {
@@ -187,7 +187,7 @@ TEST_F(StarvationTest, ABurstEndsNoLiveDance) {
   }
   ExpectEventually([&] { return refused == 4; }, "the others are told at once");
   live.SendGenerateUntil(61);
-  probe->closed = false;
+  probe->Open();
   EXPECT_TRUE(live.ReadFrames(61));
   EXPECT_TRUE(live.Finish().status.ok()) << live.answer().status.error_message();
   burst.clear();
