@@ -39,6 +39,10 @@ int FallFrames(double height, double speed, double fps) {
   return std::max(1, static_cast<int>(std::ceil(seconds * fps)));
 }
 
+bool Carried(const FootTrack& foot, size_t frame) {
+  return !foot.carried.empty() && foot.carried[frame];
+}
+
 // Finds the best stances of one foot when the other stands as in `other`.
 class FootPlanner {
  public:
@@ -60,7 +64,7 @@ class FootPlanner {
       places_.Set(i,
                   {toes.x(), toes.z(), toes.x() * toes.x() + toes.z() * toes.z(), height * height});
       const double here = foot.unbalanced[i], there = beside.unbalanced[i];
-      const double flight = grounded[i] ? kTooLong : options.flight_cost;
+      const double flight = Carried(foot, i) ? 0 : grounded[i] ? kTooLong : options.flight_cost;
       support_.Set(
           i, {other[i] ? std::min(here, there) : here, other[i] ? there : flight, lift * lift, 0});
     }
@@ -160,10 +164,14 @@ Standing StandingIn(const std::vector<Stance>& stances, size_t frames) {
 }
 
 // Marks the frames of flights longer than the limit; returns whether there are any.
-bool MarkLongFlights(const std::array<Standing, 2>& standing, double longest, Standing* grounded) {
+bool MarkLongFlights(const std::array<FootTrack, 2>& feet, const std::array<Standing, 2>& standing,
+                     double longest, Standing* grounded) {
+  const auto flies = [&](size_t i) {
+    return !standing[0][i] && !standing[1][i] && !Carried(feet[0], i);
+  };
   bool any = false;
   for (size_t from = 0, to = 0; from < grounded->size(); from = to + 1) {
-    for (to = from; to < grounded->size() && !standing[0][to] && !standing[1][to];) ++to;
+    for (to = from; to < grounded->size() && flies(to);) ++to;
     if (static_cast<double>(to - from) <= longest) continue;
     any = true;
     for (size_t i = from; i < to; ++i) (*grounded)[i] = true;
@@ -200,7 +208,7 @@ std::array<std::vector<Stance>, 2> PlanContacts(const std::array<FootTrack, 2>& 
           FootPlanner(feet[side], feet[other], standing[other], grounded, fps, options).Plan();
       standing[side] = StandingIn(stances[side], frames);
     }
-    if (!MarkLongFlights(standing, options.longest_flight * fps, &grounded)) break;
+    if (!MarkLongFlights(feet, standing, options.longest_flight * fps, &grounded)) break;
   }
   return stances;
 }

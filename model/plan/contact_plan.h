@@ -32,6 +32,9 @@ struct FootTrack {
                                    ///< is on the floor
   std::vector<double> unbalanced;  ///< per frame: how far the zero moment point is outside
                                    ///< this foot, square metres
+  /// Per frame: whether the floor carries the body without feet: it sits, lies, kneels, or stands
+  /// on its hands. It then needs no foot on the floor. Empty: never.
+  std::vector<bool> carried = {};
   double fall_before = 0;  ///< how far it falls from the frame before the first, at least, ...
   double rise_before = 0;  ///< ... where it rises at this speed, m/s
   double fall_after = 0;   ///< how far it falls after a key in the last frame, at least
@@ -41,8 +44,8 @@ struct FootTrack {
 /// Decides when each foot stands and where, for the whole plan: the stances that move toes least
 /// from the plan (squares, along the floor and down to it) and balance the body best; each step has
 /// a cost, too (FootworkOptions). One foot supports the body while the other is in the air, except
-/// in flights. Optimises each foot given the other (dynamic programming over frames), in turn.
-/// Deterministic. A plan of F frames takes F * kMaxStance steps.
+/// in flights and where something else carries it. Optimises each foot given the other (dynamic
+/// programming over frames), in turn. Deterministic. A plan of F frames takes F * kMaxStance steps.
 std::array<std::vector<Stance>, 2> PlanContacts(const std::array<FootTrack, 2>& feet, double fps,
                                                 const FootworkOptions& options);
 

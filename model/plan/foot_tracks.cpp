@@ -6,6 +6,7 @@
 #include "model/core/gaussian_mean.h"
 #include "model/motion/body_mass.h"
 #include "model/motion/contacts.h"
+#include "model/motion/floor_clearance.h"
 #include "model/motion/support.h"
 
 namespace choreo {
@@ -81,12 +82,24 @@ void LimitFalls(const FootworkContext& context, const Pose& end, double rise,
 
 }  // namespace
 
-FeetAtRest::FeetAtRest(const Skeleton& skeleton) : legs(Leg::Of(skeleton)) {
+FeetAtRest::FeetAtRest(const Skeleton& skeleton)
+    : legs(Leg::Of(skeleton)), clearance(FloorClearance(skeleton)) {
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   for (size_t side = 0; side < 2; ++side) {
     toes_rest[side] = rest(1, legs[side].toes);
     ankle_rest[side] = rest(1, legs[side].ankle);
   }
+}
+
+std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRest& feet,
+                                        const Eigen::Matrix3Xd& joints) {
+  std::vector<Eigen::Vector2d> carriers;
+  for (int joint = 0; joint < skeleton.joints(); ++joint) {
+    const bool foot = std::ranges::find(skeleton.feet, joint) != skeleton.feet.end();
+    if (!foot && joints(1, joint) < feet.clearance[joint] + kSoleHeight)
+      carriers.emplace_back(joints(0, joint), joints(2, joint));
+  }
+  return carriers;
 }
 
 std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
@@ -111,12 +124,19 @@ std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
 std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtRest& feet,
                                    const std::vector<Pose>& plan,
                                    const std::vector<JointPlacement>& placements,
+                                   const std::vector<std::vector<Eigen::Vector2d>>& carriers,
                                    const std::vector<Eigen::Vector3d>& centres) {
   const auto track = [&](size_t side) {
     return Track(context, feet.legs[side], feet.toes_rest[side], feet.ankle_rest[side], placements,
                  centres);
   };
   std::array<FootTrack, 2> tracks = {track(0), track(1)};
+  for (FootTrack& foot : tracks) {
+    for (size_t i = 0; i < carriers.size(); ++i) {
+      foot.carried.push_back(!carriers[i].empty());
+      if (foot.carried.back()) foot.unbalanced[i] = 0;
+    }
+  }
   LimitFalls(context, plan.back(), (centres[1] - centres[0]).y() * context.fps, &tracks);
   return tracks;
 }

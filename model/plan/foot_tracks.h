@@ -18,16 +18,23 @@ struct FeetAtRest {
 
   std::array<Leg, 2> legs;
   std::array<double, 2> toes_rest, ankle_rest;
+  Eigen::RowVectorXd clearance;  ///< FloorClearance
 };
+
+/// The points (x, z) where the floor carries a body, whose joints are at `joints`, beside its feet.
+std::vector<Eigen::Vector2d> CarriersOf(const Skeleton& skeleton, const FeetAtRest& feet,
+                                        const Eigen::Matrix3Xd& joints);
 
 /// The smoothed centre of mass, beginning with the frame before the plan's first.
 std::vector<Eigen::Vector3d> CentresOfMass(const FootworkContext& context,
                                            const std::vector<Pose>& plan);
 
-/// Both feet of the plan, whose joints are at `placements` and whose CentresOfMass are `centres`.
+/// Both feet of the plan, whose joints are at `placements`, whose CarriersOf are `carriers`, and
+/// whose CentresOfMass are `centres`.
 std::array<FootTrack, 2> TrackFeet(const FootworkContext& context, const FeetAtRest& feet,
                                    const std::vector<Pose>& plan,
                                    const std::vector<JointPlacement>& placements,
+                                   const std::vector<std::vector<Eigen::Vector2d>>& carriers,
                                    const std::vector<Eigen::Vector3d>& centres);
 
 }  // namespace choreo

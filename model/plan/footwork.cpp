@@ -30,13 +30,18 @@ class PlanStander {
         feet_(context.skeleton),
         plan_(*plan),
         frames_(static_cast<int>(plan->size())) {
-    for (const Pose& pose : plan_) planned_.push_back(ForwardKinematics(skeleton_, pose));
+    for (const Pose& pose : plan_) {
+      planned_.push_back(ForwardKinematics(skeleton_, pose));
+      carriers_.push_back(CarriersOf(skeleton_, feet_, planned_.back().positions));
+    }
   }
 
   Footwork Run() {
+    RaisePlan();
     const std::vector<Pose> proposed = plan_;
     centres_ = CentresOfMass(context_, plan_);
-    const std::array<FootTrack, 2> feet = TrackFeet(context_, feet_, plan_, planned_, centres_);
+    const std::array<FootTrack, 2> feet =
+        TrackFeet(context_, feet_, plan_, planned_, carriers_, centres_);
     stances_ = PlanContacts(feet, context_.fps, context_.options);
     if (context_.has_path) StepUnder();
     for (size_t side = 0; side < 2; ++side) {
@@ -76,9 +81,9 @@ class PlanStander {
   }
   bool IsKey(int frame) const { return context_.keyed && frame == frames_ - 1; }
 
-  // The way from the feet that stand in a frame to the centre of mass, without the sole.
+  // The way from what carries the body in a frame to the centre of mass, without the sole.
   Eigen::Vector2d Beyond(int frame) const {
-    std::vector<Eigen::Vector2d> hull;
+    std::vector<Eigen::Vector2d> hull = carriers_[static_cast<size_t>(frame)];
     for (size_t side = 0; side < 2; ++side) {
       const Stance* stance = StanceAt(stances_[side], frame);
       if (stance == nullptr) continue;
@@ -167,6 +172,7 @@ class PlanStander {
       const auto i = static_cast<size_t>(frame);
       SupportFrame& support = supports[i];
       support.centre = centres_[i + 1] - offset_.col(frame);
+      support.support = carriers_[i];
       const Eigen::Matrix3Xd& at = planned_[i].positions;
       for (size_t side = 0; side < 2; ++side) {
         if (!Stands(side, frame)) continue;
@@ -202,6 +208,38 @@ class PlanStander {
     }
   }
 
+  // By how much to raise frames, smoothly, so that each is raised by as much as it has `sunk`,
+  // except near the ends, which stay.
+  std::vector<double> Raises(const std::vector<double>& sunk) const {
+    std::vector<double> raises(sunk.size());
+    for (int frame = 0; frame < frames_; ++frame) {
+      double most = 0;
+      for (int at = 0; at < frames_; ++at)
+        most = std::max(most, (1 - Settled(std::abs(at - frame))) * sunk[static_cast<size_t>(at)]);
+      const int from_end = context_.keyed ? frames_ - 1 - frame : frames_;
+      raises[static_cast<size_t>(frame)] = Settled(std::min(frame + 1, from_end)) * most;
+    }
+    return raises;
+  }
+
+  // A body that leaves the floor, or comes to it, would swing its legs through it: raises the plan
+  // there. Elsewhere legs that are under the floor bend.
+  void RaisePlan() {
+    if (context_.held) return;
+    std::vector<double> sunk(plan_.size());
+    for (size_t i = 0; i < plan_.size(); ++i) {
+      if (carriers_[i].empty() || IsKey(static_cast<int>(i))) continue;
+      sunk[i] = std::max(0.0, (feet_.clearance - planned_[i].positions.row(1)).maxCoeff());
+    }
+    if (std::ranges::max(sunk) <= 0) return;
+    const std::vector<double> raises = Raises(sunk);
+    for (size_t i = 0; i < plan_.size(); ++i) {
+      plan_[i].root_position.y() += raises[i];
+      planned_[i].positions.row(1).array() += raises[i];
+      carriers_[i] = CarriersOf(skeleton_, feet_, planned_[i].positions);
+    }
+  }
+
   // Raises the pelvis around frames in which another joint than the feet's is under the floor, as
   // knees are on the way to and from the floor. True if there are any.
   bool RaiseFromFloor() {
@@ -215,13 +253,9 @@ class PlanStander {
       sunk[i] = lowest - heights.minCoeff();
     }
     if (std::ranges::max(sunk) <= 0) return false;
-    for (int frame = 0; frame < frames_; ++frame) {
-      double most = 0;
-      for (int at = 0; at < frames_; ++at)
-        most = std::max(most, (1 - Settled(std::abs(at - frame))) * sunk[static_cast<size_t>(at)]);
-      const int from_end = context_.keyed ? frames_ - 1 - frame : frames_;
-      offset_(1, frame) += Settled(std::min(frame + 1, from_end)) * most;
-    }
+    const std::vector<double> raises = Raises(sunk);
+    for (int frame = 0; frame < frames_; ++frame)
+      offset_(1, frame) += raises[static_cast<size_t>(frame)];
     return true;
   }
 
@@ -247,7 +281,8 @@ class PlanStander {
   const FeetAtRest feet_;
   std::vector<Pose>& plan_;
   const int frames_;
-  std::vector<JointPlacement> planned_;  // the plan as proposed
+  std::vector<JointPlacement> planned_;                 // the plan as proposed
+  std::vector<std::vector<Eigen::Vector2d>> carriers_;  // by frame
   std::vector<Eigen::Vector3d> centres_;
   std::array<std::vector<Stance>, 2> stances_;
   std::array<std::vector<Eigen::Vector3d>, 2> toes_;

@@ -18,9 +18,8 @@ struct SupportFrame {
     double length;
   };
   std::vector<Leg> legs;
-  std::vector<Eigen::Vector2d>
-      support;             ///< (x, z) of toes and ankles on the floor; empty: a flight
-  Eigen::Vector3d centre;  ///< of mass, smoothed
+  std::vector<Eigen::Vector2d> support;  ///< (x, z) of joints on the floor; empty: a flight
+  Eigen::Vector3d centre;                ///< of mass, smoothed
 };
 
 /// Limits on how the pelvis may move, with the whole body.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "model/core/random.h"
+#include "model/motion/body_limits.h"
 #include "model/motion/body_mass.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
@@ -146,6 +147,50 @@ TEST(StandOnFeet, NoKneeGoesThroughTheFloor) {
     EXPECT_GT(lowest(pose), -0.02);
     EXPECT_LT(std::abs(pose.root_position.y() - before), 0.06);
     before = pose.root_position.y();
+  }
+}
+
+// Sits on the floor, each leg stretched out and raised by so many radians.
+Pose Sitting(double left, double right) {
+  Pose pose = RestPose(Body());
+  const auto legs = Leg::Of(Body());
+  pose.rotations.col(legs[0].hip).x() = -M_PI / 2 - left;
+  pose.rotations.col(legs[1].hip).x() = -M_PI / 2 - right;
+  pose.root_position.y() = 0.1;
+  return pose;
+}
+
+// A leg that swings from front to back, as on the way to splits, went through the floor, and its
+// knee flew off at 20 m/s.
+TEST(StandOnFeet, ASittingBodyRisesToSwingALeg) {
+  constexpr int kSwing = 45;  // frames
+  const std::vector<Pose> history(10, Sitting(0, 0));
+  std::vector<Pose> plan;
+  for (int i = 1; i <= kSwing; ++i) plan.push_back(Sitting(-M_PI * i / kSwing, 0));
+  const auto lowest = [](const Pose& pose) {
+    return JointPositions(Body(), pose).row(1).minCoeff();
+  };
+  ASSERT_LT(lowest(plan[kSwing / 2]), -0.5);
+  FootworkContext context = Context();
+  context.history = history;
+  context.keyed = true;
+  StandOnFeet(context, &plan);
+  for (const Pose& pose : plan) EXPECT_GT(lowest(pose), -0.1);
+  EXPECT_LT(FindFastestStep(Body(), history.back(), plan, kFps).m_per_s, kFastestJoint);
+}
+
+// Both feet came down to the floor, as if they had to carry the body.
+TEST(StandOnFeet, ASittingBodyMayRaiseItsFeet) {
+  const std::vector<Pose> history(10, Sitting(0.5, 0.5));
+  std::vector<Pose> plan(kFrames, history.back());
+  const double raised = LowestFoot(plan.front());
+  ASSERT_GT(raised, 0.3);
+  FootworkContext context = Context();
+  context.history = history;
+  const Footwork footwork = StandOnFeet(context, &plan);
+  for (size_t i = 0; i < plan.size(); ++i) {
+    EXPECT_NEAR(LowestFoot(plan[i]), raised, 0.05);
+    EXPECT_EQ(footwork.contacts[i], (Contacts{0, 0, 0, 0}));
   }
 }
 
