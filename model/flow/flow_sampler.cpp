@@ -5,10 +5,12 @@
 #include <numbers>
 #include <utility>
 
+#include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/random.h"
 #include "model/flow/window_energy.h"
 #include "model/flow/window_features.h"
+#include "model/motion/body_limits.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
@@ -208,6 +210,11 @@ WindowRequest PartOf(const WindowRequest& request, int from, int frames,
   return part;
 }
 
+// The speed of the fastest joint in units of the fastest that dancers reach.
+double SpeedExcess(const Skeleton& skeleton, const Pose& before, const std::vector<Pose>& poses) {
+  return FindFastestStep(skeleton, before, poses, kModelFps).m_per_s / kFastestJoint;
+}
+
 }  // namespace
 
 void FlowNoise::Fill(int frame, std::span<float> out) const {
@@ -244,11 +251,11 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
     const int frames = request.frames * (window + 1) / windows - from;
     const GroundFrame ground = GroundFrame::Of(danced.back());
     const WindowRequest asked = PartOf(request, from, frames, danced, ground);
-    const bool may_stray = !(asked.key && asked.to_key == asked.frames) && noise.temperature > 0 &&
+    const bool may_stray = !(asked.key && asked.to_key == asked.frames) &&
                            !request.controls[kRootPath].IsRequested(kPathHeight);
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     std::vector<Pose> nearest;
-    double least = 0;  // its deviation
+    double least = 0;  // how far it is beyond what dancers do: at most 1 if it is not
     for (int take = 0; take <= kMaxRetakes; ++take) {
       FlowNoise own = noise;
       own.first_frame += from;
@@ -259,12 +266,17 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
         part.turn = FreeTurn(model.prior, part,
                              std::min(own.temperature, 1.0) * NumberFor(kFreeTurn, model, own));
       std::vector<Pose> poses = co_await SampleWindow(model, network, part, own);
-      const double deviation = may_stray ? usual.Deviation(ground.ToWorld(poses.back())) : 0;
-      if (take == 0 || deviation < least) {
-        nearest = std::move(poses);
-        least = deviation;
+      double beyond = 0;
+      if (noise.temperature > 0) {
+        beyond = SpeedExcess(model.skeleton, asked.history.back(), poses);
+        if (may_stray)
+          beyond = std::max(beyond, usual.Deviation(ground.ToWorld(poses.back())) / most);
       }
-      if (!(deviation > most)) break;
+      if (take == 0 || beyond < least) {
+        nearest = std::move(poses);
+        least = beyond;
+      }
+      if (!(beyond > 1)) break;
     }
     for (const Pose& pose : nearest) {
       danced.push_back(ground.ToWorld(pose));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "model/flow/window_energy.h"
+#include "model/motion/body_limits.h"
 #include "model/motion/rotation.h"
 #include "tests/flow/flow_scene.h"
 
@@ -376,6 +377,42 @@ TEST(FlowSampler, FreeWindowsThatEndWhereNobodyDancesAreSampledAgain) {
   const Sinking network(parts.config.steps);
   EXPECT_LT(usual.Deviation(sample(network)), 7);
   EXPECT_EQ(network.evaluations, 2 * parts.config.steps);
+}
+
+// Throws an arm about in its first window, and in no other.
+class Flailing : public Silent {
+ public:
+  explicit Flailing(int steps) : steps_(steps) {}
+  Eigen::MatrixXf Evaluate(const Eigen::MatrixXf& z, const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::MatrixXf&, const Eigen::MatrixXf&,
+                           const Eigen::VectorXf&) const override {
+    Eigen::MatrixXf f = Eigen::MatrixXf::Zero(z.rows(), z.cols());
+    if (evaluations++ < steps_) f.middleRows<3>(3 + 3 * 16).setConstant(20);
+    return f;
+  }
+
+ private:
+  int steps_;
+};
+
+// To a pose that no recording has, one sample of four threw hands about at 16 m/s.
+TEST(FlowSampler, WindowsFasterThanPeopleAreSampledAgain) {
+  const Scene scene = MakeScene(30);
+  FlowModelParts parts = Parts();
+  parts.prior = MotionPrior(8 * parts.prior.covariance());
+  const auto speed = [&](const FlowNetwork& network, double temperature) {
+    const auto poses =
+        Transition(parts, network, scene.request, {.seed = 5, .temperature = temperature});
+    return FindFastestStep(parts.skeleton, scene.request.history.back(), poses, 30).m_per_s;
+  };
+  ASSERT_LT(speed(Silent(), 1), kFastestJoint);
+  // All windows flail: there is no better one.
+  const Flailing always(1000);
+  ASSERT_GT(speed(always, 1), kFastestJoint);
+  EXPECT_EQ(always.evaluations, 5 * parts.config.steps);
+  const Flailing once(parts.config.steps);
+  EXPECT_LT(speed(once, 1), kFastestJoint);
+  EXPECT_EQ(once.evaluations, 2 * parts.config.steps);
 }
 
 TEST(FlowSampler, TurningTheSceneTurnsTheDance) {
