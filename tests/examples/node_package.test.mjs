@@ -132,6 +132,41 @@ const counted: number | undefined = hear((await client.streamDance(requests).nex
   await compile('dance.ts', program + wrong, '--noUncheckedIndexedAccess');
 });
 
+test('a character dances from the package, in a browser, too', async (t) => {
+  if (skip) return t.skip(skip);
+  const text = `
+import { bonesOf, Character, gltfBones, Player, type Bone } from 'choreo-client/character';
+import { ChoreoClient, type StreamDanceResponse } from 'choreo-client';
+declare const scene: { children: { name: string; children: never[] }[]; frame: number };
+const { bones, objects } = bonesOf(scene);
+const made: Bone[] = gltfBones({ nodes: [] });
+let character: Character;
+let player: Player;
+let dance: ReturnType<Character['dance']>;
+export function hear(answer: StreamDanceResponse): void {
+  if (answer.header?.skeleton) {
+    character = new Character(bones.concat(made), answer.header.skeleton, { map: { left_foot: null } });
+    dance = character.dance(answer.header);
+    player = new Player(answer.header, { keep: 1 });
+  }
+  if (answer.frames) player.add(dance.add(answer.frames));
+  const { state, pose } = player.at(1);
+  if (state === 'playing' && pose) character.show(pose, objects);
+  // @ts-expect-error: no such option
+  new Character(bones, answer.header!.skeleton!, { bones: {} });
+}
+new ChoreoClient('one:1').close();
+`;
+  await compile('character.ts', text);
+  for (const name of await readdir(join(root, 'client/node/character'))) {
+    const imported = [...(await readFile(join(root, 'client/node/character', name), 'utf8')).matchAll(/from '([^']*)'/g)].map(([, from]) => from);
+    assert.deepEqual(imported.filter((from) => !from.startsWith('./')), [], `${name} needs nothing else`);
+  }
+  await writeFile(join(app, 'character.js'), "import { Player } from 'choreo-client/character';\nconsole.log(new Player({ frame_rate: 30 }).at(0).state);\n");
+  const { said } = await run(process.execPath, ['character.js'], app);
+  assert.equal(said, 'waiting\n');
+});
+
 test('asking what an answer or an event holds narrows its type', async (t) => {
   if (skip) return t.skip(skip);
   const narrowed = `

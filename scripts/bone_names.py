@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+"""Writes client/node/character/bone_names.js, the rigs' names of bones, from model/fit/human_rigs.h.
+
+    scripts/bone_names.py            writes
+    scripts/bone_names.py --check    changes nothing; fails if the file is outdated
+"""
+import json
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TABLE = ROOT / "model/fit/human_rigs.h"
+NAMES = ROOT / "model/fit/human_bones.h"
+OUT = ROOT / "client/node/character/bone_names.js"
+HEAD = f"""// The rigs' names of bones, written by scripts/bone_names.py from {TABLE.relative_to(ROOT)}, which explains them; do not edit.
+
+"""
+
+
+def initializer(text, name):
+    """What C++ initializes an array with, as lists of lists of texts."""
+    [braces] = re.findall(rf"{re.escape(name)}\[\] = (\{{.*?\}});\n", text, re.S)
+    braces = re.sub(r'"\s+"', "", braces)  # texts that follow each other are one
+    lists = braces.replace("{", "[").replace("}", "]")
+    return json.loads(re.sub(r",(\s*\])", r"\1", lists))
+
+
+def written():
+    text = TABLE.read_text()
+    for constant, value in re.findall(r'string_view (k\w+) = ("[^"]*")', NAMES.read_text()):
+        text = text.replace(constant, value)
+    rigs = [
+        {"name": name, "sides": sides, **dict(zip(("pelvis", "spine", "neck", "head"), trunk)), "limbs": limbs}
+        for name, sides, trunk, limbs in initializer(text, "kRigs")
+    ]
+    rows = "".join(f"  {json.dumps(rig, ensure_ascii=False)},\n" for rig in rigs)
+    return f"{HEAD}export const limbBones = {json.dumps(initializer(text, 'kLimbBones'))};\n\nexport const rigs = [\n{rows}];\n"
+
+
+def main():
+    if sys.argv[1:] == ["--check"]:
+        sys.exit(0 if OUT.exists() and OUT.read_text() == written() else f"{OUT.relative_to(ROOT)} is outdated: run scripts/bone_names.py")
+    OUT.write_text(written())
+
+
+main()
