@@ -51,6 +51,9 @@ echo "== The studio in a browser"
 scripts/install_packages.sh browser
 tests/studio/browser/run.sh "$build"
 
+echo "== A character on a page"
+tests/examples/web/run.sh "$build"
+
 echo "== Blender: our BVH files, and the add-on"
 scripts/install_packages.sh blender || echo "verify.sh: no Blender comes from here" >&2
 CHOREO_SKIP_CODE=0 tests/formats/blender/run.sh "$build"

@@ -1,0 +1,110 @@
+// examples/web in a browser: a character dances, changes, and outlives its server. $CHOREOD is a program, $PICTURES a folder with characters.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { writeFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { withServer } from '../servers.mjs';
+
+const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
+const serve = fileURLToPath(new URL('../../../examples/web/serve.js', import.meta.url));
+const pictures = process.env.PICTURES;
+const patience = 120000; // software rendering on a busy machine
+
+/** The page of a back end, in a browser, until `use(page)` is done; nothing may go wrong on it. */
+async function withPage(servers, seconds, use) {
+  const flags = [...servers.flatMap((server) => ['--server', server]), '--port', '0', '--seconds', `${seconds}`];
+  const backend = spawn(process.execPath, [serve, ...flags], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required'],
+  });
+  try {
+    const [address] = await once(createInterface({ input: backend.stdout }), 'line');
+    const page = await browser.newPage({ viewport: { width: 400, height: 300 } });
+    page.setDefaultTimeout(patience);
+    const wrong = [];
+    page.on('pageerror', (error) => wrong.push(error.message));
+    await page.goto(address);
+    const says = (words) => page.waitForFunction((text) => document.querySelector('#log').textContent.includes(text), words, { timeout: patience });
+    await use({ page, says, end: () => backend.kill('SIGKILL') });
+    assert.deepEqual(wrong, []);
+  } finally {
+    await browser.close();
+    backend.kill('SIGINT');
+  }
+}
+
+/** Waits until the stage shows something else than before. */
+async function moves(page) {
+  const stage = page.locator('#stage');
+  const before = await stage.screenshot();
+  for (let tries = 0; tries < 40; ++tries) if (!before.equals(await stage.screenshot())) return;
+  assert.fail('nothing moves');
+}
+
+test('a doll and then a character dance, are asked for poses, and outlive a server', () =>
+  withServer([], (one) =>
+    withServer([], (other) =>
+      withPage([one.address, other.address], 600, async ({ page, says }) => {
+        await page.click('#dance');
+        await page.locator('[data-turns]:enabled').first().waitFor();
+        await moves(page);
+        await page.setInputFiles('#file', join(pictures, 'mixamo.glb'));
+        await says('mixamo.glb dances.');
+        await moves(page);
+        await page.getByText('Arms up').click();
+        await says('asked for at');
+        one.kill();
+        await says('goes on at');
+        await moves(page);
+        await page.screenshot({ path: join(pictures, 'page.png') });
+      }),
+    ),
+  ));
+
+test('what is no character says so, and the one before dances on', () =>
+  withServer([], ({ address }) =>
+    withPage([address], 600, async ({ page, says }) => {
+      await writeFile(join(pictures, 'junk.glb'), 'no glTF');
+      await page.setInputFiles('#file', join(pictures, 'junk.glb'));
+      await says('junk.glb: ');
+      await page.setInputFiles('#file', join(pictures, 'nameless.glb'));
+      await says('nameless.glb will dance.');
+      await page.click('#dance');
+      await says('This character cannot dance: bones: none of them is the pelvis');
+      await moves(page);
+      await page.setInputFiles('#file', join(pictures, 'nameless.glb'));
+      await says('nameless.glb: bones: none of them is the pelvis');
+      await page.setInputFiles('#file', join(pictures, 'child.glb'));
+      await says('child.glb dances.');
+      await moves(page);
+    }),
+  ));
+
+test('a back end that is gone is told', () =>
+  withServer([], ({ address }) =>
+    withPage([address], 600, async ({ page, says, end }) => {
+      await page.click('#dance');
+      await page.locator('[data-turns]:enabled').first().waitFor();
+      end();
+      await says('The connection is lost.');
+      await page.getByText('Bow').click();
+      await says('Failed to fetch');
+    }),
+  ));
+
+test('one dance after the other', () =>
+  withServer([], ({ address }) =>
+    withPage([address], 3, async ({ page, says }) => {
+      for (let dances = 0; dances < 2; ++dances) {
+        await page.locator('#dance:enabled').click();
+        await says('The dance is made.');
+        await page.evaluate(() => (document.querySelector('#log').textContent = ''));
+      }
+    }),
+  ));
