@@ -65,7 +65,7 @@ for await (const answer of client.streamDance(requests)) {
   if (answer.event?.keyframe_reached) console.log(answer.event.keyframe_reached.id);
 }
 console.log(frames);
-await client.streamDance([{ keyframe: { id: '' } }]).next().catch((error) => console.log(error.code, error.violations[0]?.field));
+await client.streamDance([{ remove_keyframe: { id: '' } }]).next().catch((error) => console.log(error.code, error.violations[0]?.field));
 client.close();
 `;
 
@@ -88,7 +88,7 @@ async function compile(name, text, ...more) {
 
 test('CommonJS knows it, too', async (t) => {
   if (skip) return t.skip(skip);
-  const text = `import { ChoreoClient, type Keyframe } from 'choreo-client';\nnew ChoreoClient('one:1').close();\nexport const key: Keyframe = { id: 'a', time: 2 };\n`;
+  const text = `import { ChoreoClient, type Keyframe } from 'choreo-client';\nnew ChoreoClient('one:1').close();\nexport const key: Keyframe = { id: 'a', time: 2, pose: { rotations: [] } };\n`;
   await compile('common.ts', text, '--module', 'commonjs', '--moduleResolution', 'node10');
   if (!process.features.require_module) return; // before Node.js 20.19 and 22.12
   await writeFile(join(app, 'common.cjs'), "const { ChoreoClient } = require('choreo-client');\nnew ChoreoClient('one:1').close();\n");
@@ -107,13 +107,13 @@ test('its types know the messages', async (t) => {
   if (skip) return t.skip(skip);
   const wrong = `
 // @ts-expect-error: no such field
-requests.push({ keyframe: { id: 'b', frames: 40 } });
+requests.push({ keyframe: { id: 'b', frames: 40, pose: { rotations: [] } } });
 for await (const answer of client.streamDance(requests)) {
   // @ts-expect-error: 64 bits are text
   frames = answer.frames!.first_frame;
 }
 // @ts-expect-error: text is no time
-requests.push({ keyframe: { id: 'b', time: '6' } });
+requests.push({ keyframe: { id: 'b', time: '6', pose: { rotations: [] } } });
 // @ts-expect-error: it is tokenFile
 new ChoreoClient([], { token_file: 'x' });
 // @ts-expect-error: text is no music
@@ -122,7 +122,7 @@ requests.push({ audio: { data: new Float32Array(9) } }, { audio: { data: new Arr
 import type { Continuation, DanceConfig, Event, Frames, Header, Keyframe, RotationEncoding, StreamDanceResponse } from 'choreo-client';
 const encoding: RotationEncoding = 'ROTATION_ENCODING_QUATERNION';
 const config: DanceConfig = { encoding };
-const key: Keyframe = { id: 'a', time: 2 };
+const key: Keyframe = { id: 'a', time: 2, pose: { rotations: [] } };
 requests.push({ config }, { keyframe: key });
 function hear({ header, frames, event, continuation }: StreamDanceResponse): [Header?, Frames?, Event?, Continuation?] {
   return [header ?? undefined, frames ?? undefined, event ?? undefined, continuation ?? undefined];
@@ -130,6 +130,80 @@ function hear({ header, frames, event, continuation }: StreamDanceResponse): [He
 const counted: number | undefined = hear((await client.streamDance(requests).next()).value!)[1]?.count;
 `;
   await compile('dance.ts', program + wrong, '--noUncheckedIndexedAccess');
+});
+
+test('requests that lack, misname or mistype something are refused by the compiler, from generators, too', async (t) => {
+  if (skip) return t.skip(skip);
+  const requests = `
+import { ChoreoClient, libraryPose, pose, readKeys, type Continuation, type Keyframe, type StreamDanceRequest, type StreamDanceResponse } from 'choreo-client';
+const client = new ChoreoClient('one:1');
+const model = (await client.info()).models[0]!;
+const armsUp = pose(model.skeleton, { head: [0, 0, 0] });
+const time: number = 2;
+async function* right(kept?: Continuation) {
+  yield { config: { seed: 1n, frames: 60, continuation: kept } };
+  yield { audio: { data: new Float32Array(9), first_sample: 0 } };
+  yield { keyframe: { id: 'a', time, pose: armsUp } };
+  yield { keyframe: { id: 'a', frame: '40', pose: armsUp, mask: { joints: [1, 2] }, hit: 1 } };
+  yield { remove_keyframe: { id: 'a' } };
+  yield { generate_until: { frame: 40 } };
+  yield { end_of_audio: {} };
+  yield { keyframes_complete: {} };
+}
+let kept: Continuation | undefined;
+for await (const answer of client.streamDance(right(kept))) if (answer.response === 'continuation') kept = answer.continuation;
+const list: StreamDanceRequest[] = [{ config: {} }, ...readKeys({}, model.skeleton), { keyframe: { id: 'b', interval_after_previous: 9, pose: libraryPose('dab', model.skeleton) } }];
+client.streamDance(list);
+client.streamDance([{ config: { seed: '1' } }, ...readKeys({}, model.skeleton)]);
+client.streamDance([{ config: kept ? { continuation: kept } : {} }]);
+declare const queue: AsyncIterable<StreamDanceRequest>;
+client.streamDance(queue, { onResume: ({ frame }) => frame });
+client.generateTransition({ config: {}, frames: 30, target: armsUp });
+declare const event: StreamDanceResponse;
+if (event.header) client.streamDance([{ config: { seed: event.header.seed } }]);
+async function* forwarded(inner: AsyncIterable<StreamDanceRequest>) { yield { config: {} }; yield* inner; }
+client.streamDance(forwarded(queue));
+
+async function* misspelt() { yield { config: { sead: 1 } }; }
+async function* misspelt2() { yield { config: {} }; yield { keyframe: { id: 'a', time: 2, pose: armsUp, mask: { joint: [1] } } }; }
+async function* text() { yield { keyframe: { id: 'a', time: '2', pose: armsUp } }; }
+async function* poseless() { yield { keyframe: { id: 'a', time: 2 } }; }
+async function* timeless() { yield { keyframe: { id: 'a', pose: armsUp } }; }
+async function* both() { yield { keyframe: { id: 'a', time: 2, frame: 60, pose: armsUp } }; }
+async function* unknown() { yield { config: {} }; yield { keyFrame: { id: 'a', time: 2, pose: armsUp } }; }
+// @ts-expect-error: no such field
+client.streamDance(misspelt());
+// @ts-expect-error: nor in a mask
+client.streamDance(misspelt2());
+// @ts-expect-error: text is no time
+client.streamDance(text());
+// @ts-expect-error: a key has a pose
+client.streamDance(poseless());
+// @ts-expect-error: and a time
+client.streamDance(timeless());
+// @ts-expect-error: one
+client.streamDance(both());
+// @ts-expect-error: no such request
+client.streamDance(unknown());
+// @ts-expect-error: as above
+list.push({ keyframe: { id: 'a', time: 2 } });
+// @ts-expect-error: as above
+list.push({ config: {}, end_of_audio: {} });
+// @ts-expect-error: nothing
+list.push({});
+// @ts-expect-error: as above
+list.push({ remove_keyframe: {} });
+// @ts-expect-error: as above
+list.push({ config: { allow_inexact_resume: 'no' } });
+const misnamed = { config: {}, frames: 30, tarjet: armsUp };
+// @ts-expect-error: as above
+client.generateTransition(misnamed);
+// @ts-expect-error: as above
+client.generateTransition({ config: {} });
+// @ts-expect-error: as above
+const posed: Keyframe = { id: 'a', time: 2 };
+`;
+  await compile('requests.ts', requests, '--noUncheckedIndexedAccess');
 });
 
 test('a character dances from the package, in a browser, too', async (t) => {

@@ -32,7 +32,7 @@ execFileSync(process.execPath, [
 // Declarations hold no values, which the tool writes for enums all the same. What may be sent is other than the tool knows: src/check.js.
 const messages = join(types, 'choreo/v1');
 for (const name of readdirSync(messages)) {
-  const text = readFileSync(join(messages, name), 'utf8');
+  const text = readFileSync(join(messages, name), 'utf8').replace(/^\/\/ Original file: .*\n\n/, '');
   const declared = text.replace(/^export const (\w+) = \{\n([^}]*)\} as const;/gm, (_, type, values) => {
     return `export declare const ${type}: {\n${values.replace(/^( +)(\w+: '\w+'),$/gm, '$1readonly $2;')}};`;
   });
@@ -41,8 +41,8 @@ for (const name of readdirSync(messages)) {
     .replaceAll('(number | string)', 'number')
     .replace("'rotations'?: number[]", "'rotations'?: number[] | Float32Array | Float64Array")
     .replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
-  const narrowing = withUnions(sendable, api.lookup('choreo.v1').nested[name.replace('.d.ts', '')]);
-  writeFileSync(join(messages, name), narrowing.replace(/^\/\/ Original file: .*\n\n/, ''));
+  const type = api.lookup('choreo.v1').nested[name.replace('.d.ts', '')];
+  writeFileSync(join(messages, name), withUnions(sendable, type));
 }
 
 // All of them under their own names: those that are sent as they may be sent, the others as they come.

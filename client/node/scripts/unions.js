@@ -1,27 +1,39 @@
-// The tool declares all alternatives of a oneof as optional members, side by side, so that asking which one came tells the compiler nothing.
+// The tool declares all alternatives of a oneof as optional members, side by side, and everything that is sent as optional: asking which one came
+// tells the compiler nothing, and a request that lacks what it needs passes it.
 
-const member = /(?: {2}\/\*\*\n(?: {3}\*.*\n)*? {3}\*\/\n)? {2}'(\w+)'\??: (.*);\n/g;
+const member = /(?: {2}\/\*\*\n(?<said>(?: {3}\*.*\n)*?) {3}\*\/\n)? {2}'(?<field>\w+)'\??: (?<kind>.*);\n/g;
+const needed = /\bRequired[.;]/;
 
-/** The declaration `text` of the message `type`, where what comes of its oneofs is a union that narrows by the oneof's name or by what is there. */
+/** The declarations `text` of the message `type`, where oneofs are unions: that narrow by the oneof's name or by what is there, or that hold one. */
 export function withUnions(text, type) {
   const oneofs = (type.oneofsArray ?? []).filter(({ name }) => !name.startsWith('_')); // others stand for single optional fields
-  return oneofs.length === 0 ? text : text.replace(/^export interface (\w+__Output) \{\n([^]*?)^\}/m, (_, name, body) => union(name, body, oneofs));
+  return text.replace(/^export interface (\w+) \{\n([^]*?)^\}/gm, (_, name, body) => {
+    const members = [...body.matchAll(member)].map(({ 0: whole, groups }) => ({ whole, ...groups }));
+    return declared(name, members, oneofs);
+  });
 }
 
-function union(name, body, oneofs) {
-  const members = [...body.matchAll(member)].map(([whole, field, kind]) => ({ whole, field, kind }));
+function declared(name, members, oneofs) {
+  const comes = name.endsWith('__Output');
   const isCommon = ({ field }) => !oneofs.some((oneof) => oneof.name === field || oneof.oneof.includes(field));
-  const common = members.filter(isCommon).map(({ whole }) => whole);
-  return `export type ${name} = {\n${common.join('')}}${oneofs.map((oneof) => choice(oneof, members)).join('')};`;
+  const common = members.filter(isCommon).map((one) => (comes ? one.whole : asNeeded(one)));
+  if (oneofs.length === 0) return `export interface ${name} {\n${common.join('')}}`;
+  return `export type ${name} = {\n${common.join('')}}${oneofs.map((oneof) => choice(oneof, members, comes)).join('')};`;
 }
 
-/** One of a oneof's fields, or, of a newer server, none that is known. */
-function choice({ name, oneof }, members) {
-  const alternatives = [undefined, ...oneof].map((chosen) => {
-    const others = oneof.filter((field) => field !== chosen).map((field) => `  '${field}'?: undefined;\n`);
-    const { whole, kind } = members.find(({ field }) => field === chosen) ?? {};
-    const own = whole?.replace(`'${chosen}'?: ${kind}`, `'${chosen}': ${kind.replace(' | null', '')}`) ?? '';
-    return `  | {\n  '${name}'${chosen ? `: '${chosen}'` : '?: undefined'};\n${own}${others.join('')}}`;
+const asNeeded = ({ whole, field, kind, said }) => {
+  return needed.test(said ?? '') ? whole.replace(`'${field}'?: ${kind}`, `'${field}': ${kind.replace(' | null', '')}`) : whole;
+};
+
+/** One of a oneof's fields; or none: of a newer server, or where the API needs none. */
+function choice({ name, oneof }, members, comes) {
+  const mayLack = !comes && !needed.test(members.find(({ field }) => field === name).said ?? '');
+  const alternatives = [...(comes ? [undefined] : []), ...oneof].map((chosen) => {
+    const others = oneof.filter((field) => field !== chosen).map((field) => `  '${field}'?: ${comes ? 'undefined' : 'null'};\n`);
+    const { whole = '', kind } = members.find(({ field }) => field === chosen) ?? {};
+    const own = mayLack ? whole : whole.replace(`'${chosen}'?: ${kind}`, `'${chosen}': ${kind?.replace(' | null', '')}`);
+    const which = chosen ? `'${name}'${comes ? '' : '?'}: '${chosen}'` : `'${name}'?: undefined`;
+    return `  | {\n  ${which};\n${own}${others.join('')}}`;
   });
   return ` & (\n${alternatives.join('\n')}\n)`;
 }

@@ -10,6 +10,15 @@ export * from '../types/messages.js';
 export type ModelInfo = Omit<ModelInfo__Output, 'skeleton'> & { skeleton: Skeleton };
 export type ServerInfo = Omit<GetServerInfoResponse__Output, 'models'> & { models: ModelInfo[] };
 
+type Plain = string | number | bigint | boolean | symbol | null | undefined | ArrayBuffer | ArrayBufferView | readonly unknown[] | { low: number; high: number };
+type Known<S> = S extends unknown ? keyof S : never;
+type Of<S, K extends PropertyKey> = S extends unknown ? (K extends keyof S ? NonNullable<S[K]> : never) : never;
+/**
+ * A message of type `S` with the fields of `T`, of which those that `S` does not know are `never`: the compiler looks for them in literals alone,
+ * and not in what a generator yields.
+ */
+export type Exactly<T, S> = T extends Plain ? T : { [K in keyof T]: K extends Known<S> ? Exactly<T[K], Of<S, K>> : never };
+
 /** How to reach the servers, and how patiently. */
 export interface ClientOptions {
   tls?: boolean;
@@ -96,13 +105,16 @@ export class ChoreoClient {
    * key or its removal, with config.reject_invalid_keys, it is a keyframe_rejected, and the dance goes on. (The summary's shares are those
    * of the frames since the last resume.)
    */
-  streamDance(
-    requests: Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>,
+  streamDance<T extends StreamDanceRequest>(
+    requests: Iterable<T & Exactly<T, StreamDanceRequest>> | AsyncIterable<T & Exactly<T, StreamDanceRequest>>,
     options?: CallOptions & { onResume?: (resumed: Resumed) => void },
   ): AsyncGenerator<StreamDanceResponse, void, undefined>;
 
   /** One transition, in one or several candidates. When its server is lost, another one makes it again; nothing is told twice. */
-  generateTransition(request: GenerateTransitionRequest, options?: CallOptions): AsyncGenerator<GenerateTransitionResponse, void, undefined>;
+  generateTransition<T extends GenerateTransitionRequest>(
+    request: T & Exactly<T, GenerateTransitionRequest>,
+    options?: CallOptions,
+  ): AsyncGenerator<GenerateTransitionResponse, void, undefined>;
 }
 
 /**
