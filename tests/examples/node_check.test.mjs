@@ -1,7 +1,9 @@
 // client/node: requests and options that are not known are refused by field, value and what is allowed. $CHOREO_SERVER names a choreod.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
 import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
+import { withServer } from './servers.mjs';
 
 const skeleton = { name: 'two', joint_names: ['pelvis', 'left_shoulder'], pelvis_height: 1 };
 
@@ -120,6 +122,30 @@ test('options of calls that cannot be used are named before the call', () =>
       for (const call of calls) await call({ deadline, signal: new AbortController().signal });
     }
     for (const call of calls) await assert.rejects(call({ deadline: new Date(0) }), { code: 'DEADLINE_EXCEEDED' });
+  }));
+
+test('what is refused here begins no call', () =>
+  withServer([], async ({ address, log }) => {
+    const client = new ChoreoClient(address);
+    const wrong = { config: { sead: 1 } };
+    async function* late(...requests) {
+      for (const request of requests) yield sleep(5, request);
+    }
+    for (const requests of [[wrong], [config, { keyframe: { id: 5 } }], [wrong].values(), late(wrong)]) {
+      await assert.rejects(collect(client.streamDance(requests)), { code: 'INVALID_ARGUMENT' });
+    }
+    // Nobody waits longer for a request than for a call.
+    const never = () => late(new Promise(() => {}));
+    await assert.rejects(collect(client.streamDance(never(), { deadline: Date.now() + 50 })), { code: 'DEADLINE_EXCEEDED' });
+    await assert.rejects(collect(client.streamDance(never(), { signal: AbortSignal.timeout(50) })), { code: 'CANCELLED' });
+    assert.equal(frames(await collect(client.streamDance(late(config)))), 30);
+    while (!log().includes('OK in')) await sleep(5);
+    assert.equal(log().match(/StreamDance .*INVALID/g), null, log());
+    assert.equal(log().match(/StreamDance .*: OK/g).length, 1, log());
+    client.close();
+    const nobody = new ChoreoClient('127.0.0.1:1');
+    await assert.rejects(collect(nobody.streamDance([wrong])), { code: 'INVALID_ARGUMENT' });
+    nobody.close();
   }));
 
 test('whole numbers come as numbers, text and bigints', () =>

@@ -3,7 +3,7 @@ import grpc from '@grpc/grpc-js';
 import { answersOf } from './answers.js';
 import { asSent } from './as_sent.js';
 import { checkCall } from './call_options.js';
-import { ChoreoError, unavailable } from './error.js';
+import { cancelled, ChoreoError, unavailable } from './error.js';
 import { firstOutputFrame, requireSameFingerprint } from './header.js';
 import { Journal } from './journal.js';
 import { DeliveryFilter } from './delivery_filter.js';
@@ -15,6 +15,8 @@ export async function* dance(replicas, requests, given) {
   const journal = new Journal(requests);
   const progress = new Progress(journal, onResume);
   try {
+    // What is known beforehand is checked before anybody is asked.
+    if (Array.isArray(requests)) for (let at = 0; at < requests.length; ++at) await journal.at(at);
     yield* replicas.persist(attempt, options);
   } finally {
     journal.close();
@@ -22,6 +24,7 @@ export async function* dance(replicas, requests, given) {
 
   async function* attempt(server, patience, signal) {
     progress.restart();
+    await firstRequest(journal, signal, Number(deadline ?? Infinity));
     const metadata = replicas.metadata();
     if (progress.streamId) metadata.set('choreo-resumed-from', progress.streamId);
     const call = server.stub.StreamDance(metadata, { deadline });
@@ -42,6 +45,23 @@ export async function* dance(replicas, requests, given) {
     }
     if (!progress.complete) throw because(progress, unavailable('the server ended the dance before its summary'));
   }
+}
+
+/** Waits until there is a request to begin a call with. Throws for one that is refused, and for a caller who waits no longer. */
+async function firstRequest(journal, signal, deadline) {
+  let leave;
+  const end = new Promise((resolve) => {
+    const timer = setTimeout(resolve, Math.min(deadline - Date.now(), 2 ** 31 - 1));
+    signal.addEventListener('abort', resolve);
+    leave = () => (clearTimeout(timer), signal.removeEventListener('abort', resolve));
+    if (signal.aborted) resolve();
+  });
+  await Promise.race([journal.at(0).catch(() => {}), end]);
+  leave();
+  if (journal.failure) throw journal.failure;
+  if (signal.aborted) throw cancelled();
+  if (Date.now() < deadline) return;
+  throw new ChoreoError({ code: grpc.status.DEADLINE_EXCEEDED, details: 'the deadline passed before the first request' });
 }
 
 function because(progress, error) {
