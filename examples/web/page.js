@@ -6,7 +6,8 @@ const before = 0.7; // seconds of poses that must be there before the music goes
 const ahead = 2; // seconds from a click to its pose, and at least
 const beyond = 1.2; // so many after what has come, which is frozen: music that waits falls behind
 const $ = (selector) => document.querySelector(selector);
-const say = (text) => ($('#log').textContent = text);
+/** The last words first. */
+const say = (text) => ($('#log').textContent = `${text}\n${$('#log').textContent}`.split('\n').slice(0, 4).join('\n'));
 
 let header; // of the dance
 let scene; // the character's; without one there is a doll
