@@ -148,17 +148,16 @@ class Backend {
       dance.told.push(`id: ${dance.id}/${dance.told.length}\nevent: ${event}\ndata: ${JSON.stringify(data)}\n\n`);
       dance.news.emit('told');
     };
+    const onRejected = ({ id, field, reason }) => tell('key', { id, refused: field ? `${field}: ${reason}` : reason });
     const onResume = ({ address, frame }) => tell('moved', { address, frame });
     try {
       dance.model = (await this.#client.info({ signal })).models[0];
       dance.frames = Math.round(this.#options.seconds * dance.model.model_frame_rate);
-      for await (const answer of this.#client.streamDance(this.#requests(dance, seed), { signal, onResume })) {
+      for await (const answer of this.#client.streamDance(this.#requests(dance, seed), { signal, onResume, onRejected })) {
         const { header, frames: block, event, summary } = answer;
         if (header) tell('dance', { id: dance.id, frame_rate: header.frame_rate, skeleton: header.skeleton });
         if (block) tell('frames', { first: Number(block.first_frame), places: short(block.root_positions), turns: short(block.rotations) });
         if (event?.keyframe_reached) tell('key', { id: event.keyframe_reached.id, time: event.time });
-        const { id, field, reason } = event?.keyframe_rejected ?? {};
-        if (reason) tell('key', { id, refused: field ? `${field}: ${reason}` : reason });
         if (event?.warning) tell('warning', { id: event.warning.keyframe_id, message: event.warning.message });
         if (summary) tell('over', { frames: Number(summary.report.frames) });
       }

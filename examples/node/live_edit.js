@@ -47,13 +47,14 @@ async function* requests(options, model) {
   yield { keyframes_complete: {} };
 }
 
+const onRejected = ({ id, reason }) => console.log(`${id}: ${reason}`);
+
 await run(flags, async (client, options, signal) => {
   const model = (await client.info()).models[0];
   let frames = 0;
-  for await (const { frames: block, event } of client.streamDance(requests(options, model), { signal, onResume })) {
+  for await (const { frames: block, event } of client.streamDance(requests(options, model), { signal, onResume, onRejected })) {
     frames += block?.count ?? 0;
     if (event?.keyframe_reached) console.log(`${event.keyframe_reached.id}: reached`);
-    if (event?.keyframe_rejected) console.log(`${event.keyframe_rejected.id}: ${event.keyframe_rejected.reason}`);
   }
   console.log(`${frames} frames`);
 });

@@ -43,6 +43,10 @@ def requests(options, model):
     yield {"keyframes_complete": choreography.KeyframesComplete()}
 
 
+def tell_rejected(rejected):
+    print(f"{rejected.id}: {rejected.reason}")
+
+
 def main():
     parser = arguments(__doc__)
     parser.add_argument("--seconds", type=positive, default=8)
@@ -55,7 +59,7 @@ def main():
     client = connect(options)
     model = client.info().models[0]
     dance = {"root_positions": [], "rotations": []}
-    with client.stream_dance(requests(options, model), on_resume=tell_resume) as answers:
+    with client.stream_dance(requests(options, model), on_resume=tell_resume, on_rejected=tell_rejected) as answers:
         for answer in answers:
             if answer.HasField("frames"):  # a back end would send these on to the browser
                 dance["root_positions"] += answer.frames.root_positions
@@ -64,8 +68,6 @@ def main():
                 dance["frame_rate"] = answer.header.frame_rate
             elif answer.event.HasField("keyframe_reached"):
                 print(f"{answer.event.keyframe_reached.id}: reached")
-            elif answer.event.HasField("keyframe_rejected"):
-                print(f"{answer.event.keyframe_rejected.id}: {answer.event.keyframe_rejected.reason}")
     print(f"{len(dance['root_positions']) // 3} frames")
     if options.out:
         with open(options.out, "w", encoding="utf-8") as out:

@@ -1,6 +1,7 @@
 // client/node reads key files as `choreo` does: read_keys.json has the keys of examples/, which KeyFileTest.PackagesReadTheSameKeys compares with
 // those of C++. $CHOREO_SERVER names a choreod.
 import assert from 'node:assert/strict';
+import { once } from 'node:events';
 import { readdirSync, readFileSync } from 'node:fs';
 import { before, test } from 'node:test';
 import { ChoreoClient, libraryPose, poses, readKeys } from '../../client/node/src/index.js';
@@ -129,4 +130,29 @@ test('what cannot be read is named', () => {
       return error.message.includes(said);
     });
   }
+});
+
+test('a key that comes too late is not missed', async () => {
+  const another = new ChoreoClient(process.env.CHOREO_SERVER);
+  const key = (id, time) => ({ keyframe: { id, time, pose: libraryPose('dab', skeleton) } });
+  const requests = [{ config: { frames: 90 } }, key('second', 2), key('first', 1)];
+  const watch = async (options) => {
+    const rejected = [];
+    for await (const { event } of another.streamDance(requests, options)) if (event?.keyframe_rejected) rejected.push(event.keyframe_rejected);
+    return rejected;
+  };
+  const warned = once(process, 'warning');
+  const [{ code }] = await watch();
+  const [warning] = await warned;
+  assert.deepEqual([warning.name, warning.code], ['KeyRejectedWarning', code]);
+  assert.match(warning.message, /^key "first" is not danced as it was sent: frames before \d+ are frozen/);
+  const heard = [];
+  const never = (other) => assert.fail(other);
+  process.on('warning', never);
+  const events = await watch({ onRejected: (one) => heard.push(one) });
+  await new Promise(setImmediate);
+  process.off('warning', never);
+  assert.deepEqual(heard, events);
+  assert.equal(heard[0].id, 'first');
+  another.close();
 });

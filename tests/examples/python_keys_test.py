@@ -7,7 +7,7 @@ import pathlib
 import unittest
 import warnings
 
-from choreo_client import ChoreoError, Client, choreography, library_pose, poses, read_keys
+from choreo_client import ChoreoError, Client, KeyRejectedWarning, choreography, library_pose, poses, read_keys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 KNOWN = json.loads((ROOT / "tests/examples/read_keys.json").read_text())
@@ -127,3 +127,18 @@ class KeysTest(unittest.TestCase):
                 read_keys({"keyframes": [key]}, self.skeleton)
             self.assertEqual(raised.exception.violations[0].field, f"keyframes[0]{field}")
             self.assertIn(said, str(raised.exception))
+
+    def test_a_key_that_comes_too_late_is_not_missed(self):
+        keys = [{"keyframe": {"id": name, "time": time, "pose": library_pose("dab", self.skeleton)}} for name, time in (("second", 2), ("first", 1))]
+        requests = [{"config": {"frames": 90}}, *keys]
+        with Client(os.environ["CHOREO_SERVER"]) as client:
+            with self.assertWarnsRegex(KeyRejectedWarning, r'^key "first" is not danced as it was sent: frames before \d+ are frozen'):
+                list(client.stream_dance(requests))
+            heard = []
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                answers = list(client.stream_dance(requests, on_rejected=heard.append))
+                with self.assertRaises(KeyRejectedWarning):
+                    list(client.stream_dance(requests))
+        self.assertEqual(heard, [answer.event.keyframe_rejected for answer in answers if answer.event.HasField("keyframe_rejected")])
+        self.assertEqual([key.id for key in heard], ["first"])

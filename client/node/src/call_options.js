@@ -5,6 +5,12 @@ import { hint, quoted } from './words.js';
 const mostAhead = 1e8 * 3600e3; // milliseconds: gRPC says deadlines as hours of 8 digits
 const firstOfOurs = Date.UTC(2000); // an earlier number was meant as milliseconds from now
 
+function aFunction(name) {
+  return (value) => {
+    if (typeof value !== 'function') throw invalid(name, `${quoted(value)} is no function`);
+  };
+}
+
 const checks = {
   signal: (value) => {
     if (typeof value.addEventListener !== 'function' || typeof value.aborted !== 'boolean') throw invalid('signal', `${quoted(value)} is no AbortSignal`);
@@ -21,9 +27,8 @@ const checks = {
   cards: (value) => {
     if (typeof value !== 'boolean') throw invalid('cards', `${quoted(value)} is neither true nor false`);
   },
-  onResume: (value) => {
-    if (typeof value !== 'function') throw invalid('onResume', `${quoted(value)} is no function`);
-  },
+  onResume: aFunction('onResume'),
+  onRejected: aFunction('onRejected'),
 };
 
 /** Those of `given` that are set. Throws ChoreoError, naming the option, for those that are none of `names`, or cannot be used. */

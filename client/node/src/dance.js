@@ -10,10 +10,10 @@ import { DeliveryFilter } from './delivery_filter.js';
 
 /** The answers of StreamDance to `requests`. */
 export async function* dance(replicas, requests, given) {
-  const options = checkCall(given, ['signal', 'deadline', 'onResume']);
-  const { deadline, onResume } = options;
+  const options = checkCall(given, ['signal', 'deadline', 'onResume', 'onRejected']);
+  const { deadline, onResume, onRejected = warn } = options;
   const journal = new Journal(requests);
-  const progress = new Progress(journal, onResume);
+  const progress = new Progress(journal, onResume, onRejected);
   try {
     // What is known beforehand is checked before anybody is asked.
     if (Array.isArray(requests)) for (let at = 0; at < requests.length; ++at) await journal.at(at);
@@ -88,6 +88,12 @@ async function say(call, journal, progress, sent) {
   }
 }
 
+/** Who does not ask for them still learns of keys that are not danced; those that are no keys, who asked for that. */
+function warn({ id, reason, code }) {
+  if (code === 'REJECTION_CODE_INVALID') return;
+  process.emitWarning(`key "${id}" is not danced as it was sent: ${reason}`, { type: 'KeyRejectedWarning', code });
+}
+
 /** What has come of a dance, and how another server goes on with it. */
 class Progress {
   complete = false;
@@ -97,15 +103,17 @@ class Progress {
   lostBecause;
   #journal;
   #onResume;
+  #onRejected;
   #header;
   #continuation;
   #fingerprint; // of the server that danced last
   #mayDiffer = false;
   #filter;
 
-  constructor(journal, onResume) {
+  constructor(journal, onResume, onRejected) {
     this.#journal = journal;
     this.#onResume = onResume;
+    this.#onRejected = onRejected;
   }
 
   /** The first request of an attempt. */
@@ -144,7 +152,9 @@ class Progress {
       }
       case 'event': {
         const event = this.#journal.refusedKeys.event(this.#asSent(answer.event));
-        return this.#filter.event(event) ? { ...answer, event } : undefined;
+        if (!this.#filter.event(event)) return undefined;
+        if (event.keyframe_rejected) this.#onRejected(event.keyframe_rejected);
+        return { ...answer, event };
       }
       case 'continuation':
         this.#continuation = answer.continuation;

@@ -1,7 +1,7 @@
 import type { GetServerInfoResponse__Output } from '../types/choreo/v1/GetServerInfoResponse.js';
 import type { ModelInfo__Output } from '../types/choreo/v1/ModelInfo.js';
 import type { GenerateTransitionRequest, GenerateTransitionResponse } from '../types/messages.js';
-import type { Keyframe, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
+import type { Keyframe, KeyframeRejected, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
 // Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
 // what comes has all of them, yet of alternatives one: after `if (answer.response === 'frames')`, or `if (answer.frames)`, the compiler knows
@@ -104,10 +104,13 @@ export class ChoreoClient {
    * changed once they are said: they may be said again. One that the API does not know ends the dance, naming the field's path; of a
    * key or its removal, with config.reject_invalid_keys, it is a keyframe_rejected, and the dance goes on. (The summary's shares are those
    * of the frames since the last resume.)
+   *
+   * A key that comes too late, after later ones have settled its frames, is not danced. `onRejected` hears of it, beside the event; without it
+   * the process is warned, by a KeyRejectedWarning.
    */
   streamDance<T extends StreamDanceRequest>(
     requests: Iterable<T & Exactly<T, StreamDanceRequest>> | AsyncIterable<T & Exactly<T, StreamDanceRequest>>,
-    options?: CallOptions & { onResume?: (resumed: Resumed) => void },
+    options?: CallOptions & { onResume?: (resumed: Resumed) => void; onRejected?: (rejected: KeyframeRejected) => void },
   ): AsyncGenerator<StreamDanceResponse, void, undefined>;
 
   /** One transition, in one or several candidates. When its server is lost, another one makes it again; nothing is told twice. */

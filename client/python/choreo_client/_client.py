@@ -51,7 +51,7 @@ class Answers(typing.Generic[Answer]):
 class Client:
     """A client of one server or of several replicas. Connections are made when needed. A call whose server is lost, is full or refuses a model
     or fingerprint is tried at the next address. Thread-safe, but to be made after a fork. Calls block. Every failure is a ChoreoError, but for
-    what `requests` and `on_resume` raise, which comes as it is, and names that are no options: a TypeError.
+    what `requests`, `on_resume` and `on_rejected` raise, which comes as it is, and names that are no options: a TypeError.
 
     `addresses`: HOST:PORT, unix:PATH or a list of them, which are replicas: when one fails the next is asked. Calls take turns at the
     addresses of one name (dns:///NAME:PORT), or of one list (ipv4:A:PORT,B:PORT), and pass those whose health says that they do not serve,
@@ -90,6 +90,7 @@ class Client:
         requests: typing.Union[Requests, AsyncRequests],
         on_resume: typing.Optional[typing.Callable[[Resumed], object]] = None,
         timeout: typing.Optional[float] = None,
+        on_rejected: typing.Optional[typing.Callable[[choreography.KeyframeRejected], object]] = None,
     ) -> Answers[choreography.StreamDanceResponse]:
         """Dances. Sends the `requests`, an iterable of StreamDanceRequests or of their fields ({"keyframe": ...}), on another thread as fast as
         the server takes them, and gives the answers meanwhile: Answers with StreamDanceResponses. An asynchronous iterable is awaited in the
@@ -98,10 +99,13 @@ class Client:
         When its server is lost, the dance goes on at the next one from the last continuation: answers are those of an undisturbed dance, bit
         for bit. `on_resume` alone hears of it: Resumed. Requests must not be changed once they are said: they may be said again. One that the
         API does not know ends the dance, naming the field's path; of a key or its removal, with config.reject_invalid_keys, it is a
-        keyframe_rejected, and the dance goes on. (The summary's shares are those of the frames since the last resume.)"""
+        keyframe_rejected, and the dance goes on. (The summary's shares are those of the frames since the last resume.)
+
+        A key that comes too late, after later ones have settled its frames, is not danced. `on_rejected` hears of it, beside the event; without
+        it there is a KeyRejectedWarning."""
         until = Cancellation(timeout)
         source = FromLoop(requests) if hasattr(requests, "__aiter__") else requests
-        return Answers(dance(self._replicas, source, on_resume, until), until, source)
+        return Answers(dance(self._replicas, source, on_resume, on_rejected, until), until, source)
 
     def generate_transition(
         self, request: typing.Union[choreography.GenerateTransitionRequest, Fields], timeout: typing.Optional[float] = None

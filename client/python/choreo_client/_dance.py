@@ -2,6 +2,7 @@
 
 import dataclasses
 import threading
+import warnings
 
 import grpc
 
@@ -24,10 +25,20 @@ class Resumed:
     because: ChoreoError  # why the other server was left
 
 
-def dance(replicas, requests, on_resume, until):
+class KeyRejectedWarning(UserWarning):
+    """A key is not danced as it was sent."""
+
+
+def _warn(rejected):
+    """Who does not ask for them still learns of keys that are not danced; those that are no keys, who asked for that."""
+    if rejected.code != choreography.REJECTION_CODE_INVALID:
+        warnings.warn(f'key "{rejected.id}" is not danced as it was sent: {rejected.reason}', KeyRejectedWarning, stacklevel=2)
+
+
+def dance(replicas, requests, on_resume, on_rejected, until):
     """The answers of StreamDance to `requests`."""
     journal = Journal(requests)
-    progress = _Progress(journal, on_resume)
+    progress = _Progress(journal, on_resume, on_rejected or _warn)
 
     def attempt(server, patience):
         progress.restart()
@@ -92,8 +103,8 @@ class _Saying:
 class _Progress:
     """What has come of a dance, and how another server goes on with it."""
 
-    def __init__(self, journal, on_resume):
-        self._journal, self._on_resume = journal, on_resume
+    def __init__(self, journal, on_resume, on_rejected):
+        self._journal, self._on_resume, self._on_rejected = journal, on_resume, on_rejected
         self._header = self._continuation = self._filter = None
         self._fingerprint = None  # of the server that danced last
         self._stream_id = None  # of the first call, in its server's log
@@ -143,7 +154,10 @@ class _Progress:
         if kind == "event":
             self._name_as_sent(answer.event.keyframe_rejected)
             self._journal.refused_keys.take_event(answer.event)
-            return self._filter.take_event(answer.event)
+            is_news = self._filter.take_event(answer.event)
+            if is_news and answer.event.HasField("keyframe_rejected"):
+                self._on_rejected(answer.event.keyframe_rejected)
+            return is_news
         if kind == "continuation":
             self._continuation = answer.continuation
             self._journal.forget_music_before(self._continuation.audio_from_sample, sent)
