@@ -64,7 +64,8 @@ class Backend {
   }
 
   async answer(request, response) {
-    const url = new URL(request.url, 'http://localhost');
+    const url = URL.canParse(request.url, 'http://localhost') && new URL(request.url, 'http://localhost');
+    if (!url) throw new Refusal(400, `${request.url} is no address`);
     const asked = `${request.method} ${url.pathname}`;
     const dance = /^POST \/dance\/([^/]+)\/keys$/.exec(asked)?.[1];
     const file = request.method === 'GET' && this.#fileAt(url.pathname);
@@ -106,7 +107,8 @@ class Backend {
   async #watch(seed, heard, response) {
     const [id, last] = heard?.split('/') ?? [];
     if (heard && !this.#dances.has(id)) return response.writeHead(204).end(); // nothing is left to tell: the browser asks no more
-    if (!/^\d{1,19}$/.test(seed)) throw new Refusal(400, `seed: ${seed} is no whole number of 1 to 19 digits`);
+    if (heard && !(Number(last) < this.#dances.get(id).told.length && /^\d+$/.test(last))) throw new Refusal(400, `${heard} is no event`);
+    if (!/^\d{1,20}$/.test(seed) || BigInt(seed) >= 2n ** 64n) throw new Refusal(400, `seed: ${seed} is no whole number below 2^64`);
     const dance = heard ? this.#dances.get(id) : this.#begin(seed);
     const gone = new AbortController();
     response.once('close', () => gone.abort());

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
@@ -178,6 +179,32 @@ test('a page whose connection is lost hears the rest, and no second dance', () =
     assert.deepEqual([frames, heard], [180, ['dance', 'over']]);
     const gone = await fetch(`${address}/dance?seed=7`, { headers: { 'Last-Event-ID': 'nobody/3' } });
     assert.equal(gone.status, 204);
+  }));
+
+/** What a raw request is answered with: a status. */
+function statusOf(address, text) {
+  const { hostname, port } = new URL(address);
+  return new Promise((resolve, reject) => {
+    const socket = connect(port, hostname, () => socket.write(`${text}\r\nHost: x\r\nConnection: close\r\n\r\n`));
+    socket.on('data', (data) => resolve(Number(/^HTTP\/1.1 (\d+)/.exec(data)[1])) ?? socket.destroy());
+    socket.on('error', reject);
+  });
+}
+
+test('what no browser would ask is refused, and the dance goes on', () =>
+  withBackend([other], async (address) => {
+    const { frames } = await watch(address, async (second, id) => {
+      if (second > 0.5) return;
+      for (const last of ['x', '-5', '1.5', '1e9', '99999', '']) {
+        assert.equal((await fetch(`${address}/dance`, { headers: { 'Last-Event-ID': `${id}/${last}` } })).status, 400, last);
+      }
+    });
+    assert.equal(frames, 180);
+    assert.equal(await statusOf(address, 'GET // HTTP/1.1'), 400);
+    for (const seed of [2n ** 64n, -1, '1e3', '']) assert.equal((await fetch(`${address}/dance?seed=${seed}`)).status, 400, `${seed}`);
+    const largest = new AbortController();
+    assert.equal((await fetch(`${address}/dance?seed=${2n ** 64n - 1n}`, { signal: largest.signal })).status, 200);
+    largest.abort();
   }));
 
 test('a page that is closed ends its dance on the server', () =>
