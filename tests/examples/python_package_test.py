@@ -52,6 +52,10 @@ class PackageTest(unittest.TestCase):
         shutil.copytree(ROOT / "client/poses", cls.folder / "checkout/client/poses")
         run(sys.executable, "setup.py", "-q", "sdist", "-d", cls.folder, cwd=source)
         cls.wheel = cls.build(source, "wheels")
+        git = ("git", "-C", cls.folder / "checkout", "-c", "user.name=t", "-c", "user.email=t@localhost")
+        for words in (("init", "-q"), ("add", "."), ("commit", "-q", "-m", "All")):
+            run(*git, *words)
+        cls.of_git = cls.build(f"git+file://{cls.folder}/checkout#subdirectory=client/python", "of_git")
         shutil.rmtree(cls.folder / "checkout")
 
     @classmethod
@@ -81,6 +85,10 @@ class PackageTest(unittest.TestCase):
         again = self.build(archive, "again")
         with zipfile.ZipFile(self.wheel) as one, zipfile.ZipFile(again) as other:
             self.assertIn("choreo_client/protos.binpb", one.namelist())
+            self.assertEqual(sorted(one.namelist()), sorted(other.namelist()))
+
+    def test_a_git_url_makes_the_same_wheel(self):
+        with zipfile.ZipFile(self.wheel) as one, zipfile.ZipFile(self.of_git) as other:
             self.assertEqual(sorted(one.namelist()), sorted(other.namelist()))
 
     def test_the_package_has_the_version_of_the_server(self):
