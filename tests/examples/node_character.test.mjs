@@ -8,7 +8,7 @@ import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { rigs } from '../../client/node/character/bone_names.js';
 import { bonesByNames } from '../../client/node/character/human_bones.js';
-import { bonesOf, Character, gltfBones } from '../../client/node/character/index.js';
+import { bonesOf, Character, gltfBones, smplPoses } from '../../client/node/character/index.js';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 let scratch;
@@ -247,4 +247,14 @@ test('what is no body says why', async () => {
   assert.throws(() => stream.add({ ...part(0, 9), rotations: [1, 2] }), /^TypeError: frames: 2 rotations are not of 9 frames of 24 joints$/);
   stream.add(part(0, 9));
   assert.throws(() => stream.add(part(8, 12)), /^TypeError: frames.first_frame: 8, the next one is 9$/);
+});
+
+test("SMPL's own joints may be shown, too", () => {
+  const poses = smplPoses(part(30, 50), body);
+  assert.deepEqual(poses.map(({ frame }) => frame), Array.from({ length: 20 }, (_, i) => 30 + i));
+  const sent = part(30, 50);
+  poses.forEach(({ turns, places }, at) => {
+    assert.deepEqual(places, sent.root_positions.slice(3 * at, 3 * at + 3));
+    for (let i = 0; i < 96; i += 4) assert.ok(angle(turns.slice(i, i + 4), sent.rotations.slice(96 * at + i, 96 * at + i + 4)) < 1e-6);
+  });
 });

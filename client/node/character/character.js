@@ -22,6 +22,11 @@ function* posesIn({ first_frame, count, root_positions, rotations }, joints) {
   }
 }
 
+/** The frames of a message as poses of SMPL's own joints. */
+export function smplPoses(frames, { joint_names }) {
+  return Array.from(posesIn(frames, joint_names.length), ({ frame, root, local }) => ({ frame, turns: local.flatMap(toQuaternion), places: root }));
+}
+
 export class Character {
   bones;
   turning;

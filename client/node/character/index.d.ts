@@ -87,6 +87,9 @@ export class Character {
   show(pose: Pick<CharacterPose, 'turns' | 'places'> | undefined, objects: ArrayLike<unknown>): void;
 }
 
+/** A message's frames as poses of SMPL's own joints: a quaternion for each, and the root's place. For a Player, without a character. */
+export function smplPoses(frames: SmplFrames, skeleton: Pick<Smpl, 'joint_names'>): CharacterPose[];
+
 export interface PlayerOptions {
   /** Seconds of the past to keep, for a clock that goes back; default 2. */
   keep?: number;

@@ -1,3 +1,3 @@
-export { Character } from './character.js';
+export { Character, smplPoses } from './character.js';
 export { Player } from './player.js';
 export { bonesOf, gltfBones } from './rig.js';
