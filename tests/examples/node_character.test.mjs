@@ -120,6 +120,52 @@ for (const name of ['mixamo', 'child', 'long']) {
   });
 }
 
+/** The file of a character with fingers, which the others lack. */
+async function giveFingers(from, to) {
+  const bytes = await readFile(join(scratch, from));
+  const length = bytes.readUInt32LE(12);
+  const json = JSON.parse(bytes.toString('utf8', 20, 20 + length));
+  const grow = (above, name, translation, rotation = [0.1, 0.2, -0.1, 0.9695]) => {
+    (json.nodes[above].children ??= []).push(json.nodes.length);
+    return json.nodes.push({ name: `mixamorig:${name}`, translation, rotation }) - 1;
+  };
+  for (const side of ['Left', 'Right']) {
+    const find = (name) => json.nodes.findIndex((node) => node.name === `mixamorig:${side}Hand${name}`);
+    const [x, y, z] = json.nodes[find('Middle1')].translation; // from the wrist
+    const [ahead, across] = [[x, y, z], [-y, x, 0.3 * z].map((one) => (side === 'Left' ? one : -one))];
+    const along = (a, b) => ahead.map((one, i) => a * one + b * across[i]);
+    for (const [finger, knuckle] of [['Thumb', along(0.4, 0.6)], ['Index', along(1, 0.3)], ['Ring', along(1, -0.3)], ['Pinky', along(0.9, -0.6)]]) {
+      let above = grow(find(''), `${side}Hand${finger}1`, knuckle, [0, 0, 0, 1]);
+      for (const joint of [2, 3, 4]) above = grow(above, `${side}Hand${finger}${joint}`, along(0.3, 0.03 * joint));
+    }
+    grow(grow(find('Middle1'), `${side}HandMiddle2`, along(0.35, 0)), `${side}HandMiddle3`, along(0.3, 0.1));
+  }
+  const text = Buffer.from(JSON.stringify(json));
+  const chunk = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
+  const out = Buffer.concat([bytes.subarray(0, 20), chunk, bytes.subarray(20 + length)]);
+  out.writeUInt32LE(out.length, 8);
+  out.writeUInt32LE(chunk.length, 12);
+  await writeFile(join(scratch, to), out);
+}
+
+test('hands take their poses as choreo has them', async () => {
+  await giveFingers('mixamo.glb', 'fingers.glb');
+  const { json } = await readGlb(join(scratch, 'fingers.glb'));
+  for (const hands of [undefined, 'relaxed', 'open', 'fist', 'point', 'rest']) {
+    choreo('convert', 'dance.npz', 'out.glb', '--character', 'fingers.glb', ...(hands ? ['--hands', hands] : []));
+    const { tracks } = await readGlb(join(scratch, 'out.glb'));
+    const character = new Character(gltfBones(json), body, { hands });
+    assert.deepEqual(character.turning.map((node) => `${node} rotation`).sort(), [...tracks.keys()].filter((key) => key.endsWith('rotation')).sort());
+    const { turns } = danceOn(character)[7];
+    const fingers = character.turning.slice(22);
+    assert.equal(fingers.length >= 20, hands !== 'rest');
+    fingers.forEach((node, i) => {
+      assert.ok(angle(turns.slice(4 * (22 + i), 4 * (23 + i)), tracks.get(`${node} rotation`).slice(0, 4)) < 1e-4, `${hands} ${json.nodes[node].name}`);
+    });
+  }
+  assert.throws(() => new Character(gltfBones(json), body, { hands: 'claw' }), { message: 'hands: claw is none of rest, relaxed, open, fist, point' });
+});
+
 test('what is in place, and what a map names, is as choreo has it', async () => {
   choreo('convert', 'dance.npz', 'still.glb', '--character', 'mixamo.glb', '--hands', 'rest', '--root-motion', 'in-place');
   const { tracks } = await readGlb(join(scratch, 'still.glb'));

@@ -1,4 +1,4 @@
-// The rigs' names of bones, written by scripts/bone_names.py from model/fit/human_rigs.h, which explains them; do not edit.
+// The rigs' names of bones, written by scripts/bone_names.py from model/fit/human_rigs.h and others, which explain them; do not edit.
 
 export const limbBones = ["hip", "knee", "ankle", "foot", "collar", "shoulder", "elbow", "wrist", "hand", "eye"];
 
@@ -39,3 +39,9 @@ export const rigs = [
   {"name": "Cascadeur", "sides": ["l", "r"], "pelvis": "pelvis", "spine": "stomach|chest", "neck": "neck", "head": "head", "limbs": ["thigh_*", "calf_*", "foot_*", "toe_*", "clavicle_*", "arm_*", "forearm_*", "hand_*", "", ""]},
   {"name": "SMPL", "sides": ["left", "right"], "pelvis": "pelvis|Pelvis", "spine": "spine1|spine2|spine3", "neck": "neck", "head": "head", "limbs": ["*_hip", "*_knee", "*_ankle", "*_foot|*_toes|*_toe", "*_collar", "*_shoulder", "*_elbow", "*_wrist", "*_hand", "*_eye"]},
 ];
+
+export const fingerNames = [["thumb", "親指", "親指"], ["index", "人指", "人差指"], ["mid", "中指", "中指"], ["ring", "薬指", "薬指"], ["pinky", "little", "小指"]];
+
+export const handPoses = ["rest", "relaxed", "open", "fist", "point"];
+
+export const handBends = [[], [[8, 12, 15], [18, 25, 15], [24, 30, 18], [28, 34, 20], [32, 36, 22]], [[0, 0, 0], [0, 3, 2], [0, 3, 2], [0, 3, 2], [0, 3, 2]], [[25, 35, 45], [82, 98, 60], [84, 100, 62], [86, 100, 62], [88, 98, 60]], [[25, 35, 45], [2, 4, 2], [84, 100, 62], [86, 100, 62], [88, 98, 60]]];

@@ -1,6 +1,7 @@
 // Dances on a character of one's own, as `choreo convert --character` puts them there.
 import { makeBody } from './body.js';
 import { findBones } from './find_bones.js';
+import { curlFingers } from './fingers.js';
 import { bonesByNames } from './human_bones.js';
 import { fromQuaternion, fromVector, identity, inverse, minus, nearestRotation, stretched, times, toQuaternion, turned } from './linear.js';
 import { orderOf, transform, within } from './rig.js';
@@ -40,8 +41,9 @@ export class Character {
   #smpl;
   #transfer;
   #inPlace;
+  #fingers; // turns, which stay
 
-  constructor(rig, skeleton, { map, inPlace = false } = {}) {
+  constructor(rig, skeleton, { map, inPlace = false, hands = 'relaxed' } = {}) {
     this.#rig = rig;
     this.#inPlace = inPlace;
     const order = orderOf(rig);
@@ -65,6 +67,9 @@ export class Character {
       const size = Math.cbrt(Math.abs(volume(this.#rest[node].shape)));
       if (!(size > flattest)) throw new TypeError(`bones[${node}].scale: is zero`);
     }
+    const fingers = curlFingers(rig, this.#rest, this.bones, hands);
+    this.turning.push(...fingers.keys());
+    this.#fingers = [...fingers.values()].flat();
   }
 
   dance({ frame_rate: frameRate }) {
@@ -100,8 +105,8 @@ export class Character {
   }
 
   /** The turns and places of the bones' nodes. */
-  #pose({ root: danced, local }) {
-    const root = this.#inPlace ? [0, danced[1], 0] : danced;
+  #pose({ root: place, local }) {
+    const root = this.#inPlace ? [0, place[1], 0] : place;
     const { positions, rotations } = this.#body.skeleton.place(root, local);
     const world = [];
     const turns = new Map();
@@ -122,7 +127,8 @@ export class Character {
       }
       world[node] = within(above, transform(placed));
     }
-    return { turns: this.turning.flatMap((node) => turns.get(node)), places: this.moving.flatMap((node) => places.get(node)) };
+    const danced = [...this.turning.slice(0, turns.size).flatMap((node) => turns.get(node)), ...this.#fingers];
+    return { turns: danced, places: this.moving.flatMap((node) => places.get(node)) };
   }
 
   /** Whether a joint is the pelvis, or its node does not hang from the bone above. */

@@ -65,14 +65,17 @@ export interface CharacterPose {
   places: number[];
 }
 
+export type Hands = 'rest' | 'relaxed' | 'open' | 'fist' | 'point';
+
 /** A character's bones. The dance stays in the frame of the bones' roots: Y up, metres at SMPL's size, ahead is +Z. */
 export class Character {
   /**
    * `bones`: as they rest: upright, arms hanging, held out or in between. They are found by `map`, {bone: name, number or null}, where it says so,
    * then by `humanoid`, then by their names: those of Mixamo, VRM, Unity, Unreal, Rigify and many more (docs/character.md). `skeleton`: of the
-   * dance's header. `inPlace`: it stays above the origin. Throws TypeError for bones that are no body.
+   * dance's header. `inPlace`: it stays above the origin. `hands`: what fingers do, relaxed by default; 'rest': as they rest.
+   * Throws TypeError for bones that are no body.
    */
-  constructor(bones: Bone[], skeleton: Smpl, options?: { map?: Record<string, string | number | null>; inPlace?: boolean });
+  constructor(bones: Bone[], skeleton: Smpl, options?: { map?: Record<string, string | number | null>; inPlace?: boolean; hands?: Hands });
   /** The number of each bone that was found, as in {pelvis: 3, left_hip: 4}. */
   readonly bones: Readonly<Record<string, number>>;
   /** The nodes whose turns a pose has, and those whose places: the pelvis and bones that do not hang from the bone above. */
