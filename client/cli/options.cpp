@@ -188,6 +188,9 @@ Error AsTyped(const Error& error) {
       {"video.height", "--size"},
       {"video.width", "--size"},
   };
+  const std::string reason = error.Of("").what();
+  if (reason.ends_with("choose a part of it"))
+    return Error(error.code(), error.field(), reason + " (--song-start, --seconds)");
   const auto option = kOptions.find(error.field());
   return option == kOptions.end() ? error : error.Of(option->second);
 }

@@ -104,8 +104,7 @@ class LimitedReader {
     if (kept_ > int64_t{kMaxAudioSeconds} * sample_rate()) {
       throw InvalidArgument(
           name_, std::to_string(kept_ / sample_rate()) + " s or more of audio, at most " +
-                     std::to_string(kMaxAudioSeconds) +
-                     " s are accepted: choose a part of it (--song-start, --seconds)");
+                     std::to_string(kMaxAudioSeconds) + " s are accepted: choose a part of it");
     }
     if (kept_ * channels() > kMaxFileSamples) {
       throw InvalidArgument(name_, std::to_string(kept_ * channels()) + " samples or more (" +

@@ -284,6 +284,25 @@ TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
   }
 }
 
+// Who calls the API knows none of our commands' options: they are for client/cli to name.
+TEST(Architecture, WhatServersSayNamesNoOptions) {
+  const std::regex option("\"[^\"]*--[a-z]");
+  // Their options are data for the commands (ControlRow::option), or of choreod's own start.
+  const std::set<std::string> known = {"model/motion/controls.h", "model/engine/engine_choice.h"};
+  const std::set<std::string> heard = {"model/core",   "model/audio", "model/motion",
+                                       "model/body",   "model/flow",  "model/plan",
+                                       "model/engine", "model/dance", "model/messages"};
+  int read = 0;
+  for (const std::string& file : Sources().files()) {
+    if (!heard.contains(file.substr(0, file.find('/', 6))) || known.contains(file)) continue;
+    ++read;
+    std::ifstream in(std::filesystem::path(CHOREO_SOURCE_DIR) / file);
+    for (std::string line; std::getline(in, line);)
+      EXPECT_FALSE(std::regex_search(line, option)) << file << ": " << line;
+  }
+  EXPECT_GT(read, 100);
+}
+
 // Programs that use the installed client find all that its headers include.
 TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
   std::ifstream rules(std::filesystem::path(CHOREO_SOURCE_DIR) / "cmake/ChoreoInstall.cmake");

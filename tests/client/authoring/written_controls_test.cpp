@@ -50,6 +50,12 @@ TEST(WrittenControls, ErrorsNameWhereAControlWasWritten) {
             "server do: \"free\"");
 }
 
+TEST(WrittenControls, ReasonsOfTheApiGetTheOptions) {
+  const Error error(ErrorCode::kInvalidArgument, "song.wav", "700 s or more: choose a part of it");
+  EXPECT_STREQ(cli::AsTyped(error).what(),
+               "song.wav: 700 s or more: choose a part of it (--song-start, --seconds)");
+}
+
 TEST(WrittenControls, AProjectsAreReadAsTheyStand) {
   nlohmann::json file = kProject;
   file["lively"] = {{"left arm", 1.23456789}, {"trunk", 1}};
