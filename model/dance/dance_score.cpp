@@ -195,6 +195,10 @@ DanceEvents DanceScore::EndOfAudio() {
   if (audio_->silent()) events.push_back(MusicSilent(end - 1, audio_->seconds()));
   if (audio_->cancels()) events.push_back(ChannelsCancel(end - 1));
   for (DanceEvent& behind : KeysBehindMusic()) events.push_back(std::move(behind));
+  // Clients round a song's length to frames, up or down.
+  if (end_frame_ && *end_frame_ > end + 1) {
+    events.push_back(DanceBehindMusic(end, static_cast<double>(*end_frame_ - end) / model_.fps));
+  }
   return events;
 }
 

@@ -128,6 +128,13 @@ Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds) {
           Warning::Code::kKeyBehindMusic, id};
 }
 
+Warning DanceBehindMusic(int64_t music_end, double seconds) {
+  return {
+      music_end,
+      "the dance is longer than the music: it goes on for " + Rounded(seconds) + " s in silence",
+      Warning::Code::kDanceBehindMusic};
+}
+
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses) {
   return {last_frame,
           "parts are not as fast as their velocity factors ask, cm a frame on average: " + misses,

@@ -35,6 +35,8 @@ Warning MusicSilent(int64_t last_frame, double seconds);
 Warning ChannelsCancel(int64_t last_frame);
 /// `seconds`: between the end of the music and the key.
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds);
+/// `seconds`: of the dance after the music, which ends at `music_end`.
+Warning DanceBehindMusic(int64_t music_end, double seconds);
 /// `misses`: "left_leg 1.69 instead of 0.70", for at least one part, centimetres a frame.
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses);
 

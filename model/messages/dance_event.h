@@ -86,6 +86,7 @@ struct Warning {
     kMusicDamaged,        ///< the music's file is damaged or ends early; `frame` is its last
     kMusicSilent,         ///< nothing is heard in the whole music, whose last frame is `frame`
     kKeyBehindMusic,      ///< the key at `frame` lies behind the music's end
+    kDanceBehindMusic,    ///< more frames are asked for than the music has, which ends at `frame`
   };
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit

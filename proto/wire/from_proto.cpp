@@ -186,7 +186,7 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
     }
     case v1::Event::kWarning:
       return Warning{frame, event.warning().message(),
-                     ToCode(event.warning().code(), Warning::Code::kKeyBehindMusic),
+                     ToCode(event.warning().code(), Warning::Code::kDanceBehindMusic),
                      event.warning().keyframe_id()};
     case v1::Event::EVENT_NOT_SET:
       break;

@@ -9,8 +9,8 @@ namespace {
 
 static_assert(static_cast<int>(KeyRejected::Code::kInvalid) == v1::REJECTION_CODE_INVALID &&
                   static_cast<int>(Beat::Source::kHeard) == v1::BEAT_SOURCE_HEARD &&
-                  static_cast<int>(Warning::Code::kKeyBehindMusic) ==
-                      v1::WARNING_CODE_KEY_BEHIND_MUSIC,
+                  static_cast<int>(Warning::Code::kDanceBehindMusic) ==
+                      v1::WARNING_CODE_DANCE_BEHIND_MUSIC,
               "codes are numbered alike");
 
 void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {

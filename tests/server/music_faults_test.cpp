@@ -100,6 +100,24 @@ TEST_F(MusicFaultsTest, AKeyBehindTheMusicIsReachedWithAWarning) {
   EXPECT_EQ(Warnings(Dance(asked).events).find("behind the end"), std::string::npos);
 }
 
+TEST_F(MusicFaultsTest, FramesBeyondTheMusicAreDancedWithAWarning) {
+  Start();
+  v1::StreamDanceRequest end;
+  end.mutable_end_of_audio();
+  Requests requests = {MusicConfigRequest(), Floats(22'050, 0.1F), end};
+  requests[0].mutable_config()->set_frames(90);
+  const Answer answer = Dance(requests);
+  ASSERT_TRUE(answer.status.ok()) << answer.status.error_message();
+  const v1::Event event = TheWarning(answer.events, v1::WARNING_CODE_DANCE_BEHIND_MUSIC);
+  EXPECT_EQ(event.frame(), 30);
+  EXPECT_TRUE(Says(event, "it goes on for 2 s in silence")) << event.warning().message();
+  EXPECT_EQ(answer.Join().count, 90);
+  for (const int frames : {29, 30, 31}) {
+    requests[0].mutable_config()->set_frames(frames);
+    EXPECT_EQ(Warnings(Dance(requests).events), "") << frames;
+  }
+}
+
 TEST_F(MusicFaultsTest, FloatsThatAreScaledAsIntegersAreRefused) {
   Start();
   const Answer answer = Dance({MusicConfigRequest(), Floats(100, 8000)});
