@@ -110,9 +110,17 @@ class Figures {
               MetricType::Counter);
     out.Add(static_cast<double>(HeaderFloods()));
     out.Begin("empty_frame_floods_total",
-              "Connections that were ended because of too many frames without content.",
+              "Connections that were ended because of too many frames of little content, or calls.",
               MetricType::Counter);
     out.Add(static_cast<double>(EmptyFrameFloods()));
+    out.Begin("connections_total", "Connections that came, refused ones too.", MetricType::Counter);
+    out.Add(static_cast<double>(serving_.tally.connections));
+    out.Begin("refused_connections_total",
+              "Connections that were closed at once, by what their address did.",
+              MetricType::Counter);
+    for (size_t i = 0; i < kConnectionRefusals.size(); ++i)
+      out.Add(static_cast<double>(serving_.tally.refused_connections[i]),
+              {{"reason", kConnectionRefusals[i]}});
     const CallRegistry& calls = serving_.calls;
     out.Begin("draining", "1 once the server is shutting down, 0 before.", MetricType::Gauge);
     out.Add(calls.admitting() ? 0 : 1);

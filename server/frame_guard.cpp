@@ -28,6 +28,7 @@ struct Guarded {
   uint64_t cookie = 0;  ///< the socket's: a descriptor may be in use again
   std::string peer;
   bool encrypted = false;
+  std::shared_ptr<HeldOff> held_off;
   FrameMeter meter = {};
 };
 
@@ -73,17 +74,21 @@ void Tell(FrameMeter::Flood flood, const std::string& peer) {
   if (now < next_report) return;
   next_report = now + kBetweenFloodReports;
   const std::string what =
-      headers
-          ? std::to_string(FrameMeter::kMostHeaderBytes >> 10) + " KiB of headers for one call"
-          : std::to_string(FrameMeter::kMostEmptyFrames) + " frames without content in a second";
+      headers ? std::to_string(FrameMeter::kMostHeaderBytes >> 10) + " KiB of headers for one call"
+              : std::to_string(FrameMeter::kMostEmptyFrames) +
+                    " frames in a second, of little content or none";
   spdlog::warn("{} has sent more than {}; its connection is closed, of {} so far", peer, what,
                so_far);
 }
 
-bool Take(FrameMeter& meter, const void* bytes, size_t count, const std::string& peer) {
+/// `connection`: null if it is not known any more.
+bool Take(FrameMeter& meter, const void* bytes, size_t count, const Guarded* connection) {
+  if (meter.flooded()) return false;  // gRPC tries again before it closes the connection
   const FrameMeter::Flood flood = meter.Take({static_cast<const uint8_t*>(bytes), count});
   if (flood == FrameMeter::Flood::kNone) return true;
-  Tell(flood, peer);
+  if (connection != nullptr && connection->held_off)
+    connection->held_off->Add(AddressOf(connection->peer));
+  Tell(flood, connection != nullptr ? connection->peer : "somebody");
   return false;
 }
 
@@ -91,7 +96,7 @@ bool Take(FrameMeter& meter, const void* bytes, size_t count, const std::string&
 bool TakeMessage(Guarded& connection, const msghdr& message, size_t count) {
   for (size_t i = 0; i < message.msg_iovlen && count > 0; ++i) {
     const size_t part = std::min(count, message.msg_iov[i].iov_len);
-    if (!Take(connection.meter, message.msg_iov[i].iov_base, part, connection.peer)) return false;
+    if (!Take(connection.meter, message.msg_iov[i].iov_base, part, &connection)) return false;
     count -= part;
   }
   return true;
@@ -116,9 +121,11 @@ Function* Next(const char* name) {
 
 }  // namespace
 
-void GuardFrames(int connection, bool encrypted) {
-  auto guarded = std::make_shared<Guarded>(
-      Guarded{.cookie = CookieOf(connection), .peer = PeerOf(connection), .encrypted = encrypted});
+void GuardFrames(int connection, bool encrypted, std::shared_ptr<HeldOff> held_off) {
+  auto guarded = std::make_shared<Guarded>(Guarded{.cookie = CookieOf(connection),
+                                                   .peer = PeerOf(connection),
+                                                   .encrypted = encrypted,
+                                                   .held_off = std::move(held_off)});
   Guardeds& all = All();
   const std::lock_guard lock(all.mutex);
   all.by_descriptor[connection] = std::move(guarded);
@@ -151,8 +158,8 @@ __attribute__((visibility("default"))) int SSL_read(SSL* ssl, void* bytes, int s
   const int count = next(ssl, bytes, size);
   if (count <= 0 || SSL_is_server(ssl) == 0) return count;
   const auto connection = choreo::last_read.lock();
-  const std::string peer = connection ? connection->peer : "somebody";
-  if (choreo::Take(choreo::MeterOf(ssl), bytes, static_cast<size_t>(count), peer)) return count;
+  if (choreo::Take(choreo::MeterOf(ssl), bytes, static_cast<size_t>(count), connection.get()))
+    return count;
   return -1;  // SSL_get_error calls it a failure of the transport
 }
 }

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+
+#include "server/held_off.h"
 
 namespace choreo {
 
@@ -9,8 +12,9 @@ namespace choreo {
 /// this, and it tells nobody. So this stands between gRPC and the system: it defines recvmsg and
 /// SSL_read, from which gRPC has all bytes, and has them fail.
 
-/// Watches a new connection. Call it before gRPC has it. Thread-safe.
-void GuardFrames(int connection, bool encrypted);
+/// Watches a new connection. Call it before gRPC has it. `held_off`: told the address of one that
+/// floods; may be null. Thread-safe.
+void GuardFrames(int connection, bool encrypted, std::shared_ptr<HeldOff> held_off = nullptr);
 /// Connections that were ended in this process, by reason. Thread-safe.
 uint64_t HeaderFloods();
 uint64_t EmptyFrameFloods();

@@ -12,7 +12,7 @@ constexpr int kData = 0, kHeaders = 1, kContinuation = 9;
 FrameMeter::Flood FrameMeter::Take(std::span<const uint8_t> bytes, Clock::time_point now) {
   if (now >= second_ends_) {
     second_ends_ = now + std::chrono::seconds(1);
-    empty_frames_ = 0;
+    lacking_ = 0;
   }
   while (!bytes.empty()) {
     const size_t skipped = std::min(skipped_, bytes.size());
@@ -25,19 +25,24 @@ FrameMeter::Flood FrameMeter::Take(std::span<const uint8_t> bytes, Clock::time_p
     head_bytes_ = 0;
     skipped_ = size_t{head_[0]} << 16 | size_t{head_[1]} << 8 | head_[2];
     const Flood flood = TakeFrame(head_[3], skipped_);
-    if (flood != Flood::kNone) return flood;
+    flooded_ = flood != Flood::kNone;
+    if (flooded_) return flood;
   }
   return Flood::kNone;
 }
 
 FrameMeter::Flood FrameMeter::TakeFrame(int type, size_t length) {
-  if (type == kHeaders || type == kContinuation) {
-    if (type == kHeaders) headers_ = 0;
-    headers_ += kFrameHead + length;
-    return headers_ > kMostHeaderBytes ? Flood::kHeaders : Flood::kNone;
-  }
-  if (type == kData && length > 0) return Flood::kNone;
-  return ++empty_frames_ > kMostEmptyFrames ? Flood::kEmptyFrames : Flood::kNone;
+  if (type == kData) return Lack(kFullFrame - std::min(length, kFullFrame));
+  if (type != kHeaders && type != kContinuation) return Lack(kFullFrame);
+  if (type == kHeaders) headers_ = 0;
+  headers_ += kFrameHead + length;
+  if (headers_ > kMostHeaderBytes) return Flood::kHeaders;
+  return type == kHeaders ? Lack(kFramesOfCall * kFullFrame) : Flood::kNone;
+}
+
+FrameMeter::Flood FrameMeter::Lack(size_t bytes) {
+  lacking_ += bytes;
+  return lacking_ > kMostEmptyFrames * kFullFrame ? Flood::kEmptyFrames : Flood::kNone;
 }
 
 }  // namespace choreo

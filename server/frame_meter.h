@@ -12,8 +12,11 @@ namespace choreo {
 /// through:
 /// - the headers of a call, a HEADERS frame and its CONTINUATIONs (RFC 9113, 6.10), grow too long.
 ///   gRPC refuses calls with more than 8 KiB of headers, but not before it has them all.
-/// - frames that carry nothing come too fast: all but headers and data that is not empty. gRPC
-///   works on each of them, and no call or window bounds them.
+/// - frames that carry little come too fast: gRPC works on each of them, and no call or window
+/// bounds
+///   them. Data that lacks half of kFullFrame counts as half a frame. A call counts as
+///   kFramesOfCall: who does not confirm the server's settings is bound by no limit of calls, and
+///   each takes 18 KB until a thread has looked at it.
 class FrameMeter {
  public:
   using Clock = std::chrono::steady_clock;
@@ -21,23 +24,29 @@ class FrameMeter {
 
   /// Takes the next bytes, which came `now`. Take no more after a flood.
   Flood Take(std::span<const uint8_t> bytes, Clock::time_point now = Clock::now());
+  bool flooded() const { return flooded_; }
 
   static constexpr size_t kMostHeaderBytes = 64 << 10;  ///< with the heads of their frames
   /// In one second. A server's 50 dances for a core, each with a few windows and pings a second,
   /// need some hundreds.
   static constexpr int kMostEmptyFrames = 10'000;
+  static constexpr int kFramesOfCall = 5;
+  /// Data from which a frame is worth gRPC's work.
+  static constexpr size_t kFullFrame = 1 << 10;
 
  private:
   static constexpr size_t kPreface = 24, kFrameHead = 9;
 
   Flood TakeFrame(int type, size_t length);
+  Flood Lack(size_t bytes);
 
   size_t skipped_ = kPreface;  // bytes until the next frame's head
   std::array<uint8_t, kFrameHead> head_{};
   size_t head_bytes_ = 0;
   size_t headers_ = 0;
+  bool flooded_ = false;
   Clock::time_point second_ends_;
-  int empty_frames_ = 0;  // in this second
+  size_t lacking_ = 0;  // bytes of content, in this second
 };
 
 }  // namespace choreo

@@ -27,6 +27,16 @@ inline constexpr std::array kRefusals = {
     "max_file_music", "unread_infos",        "token",    "draining",
 };
 
+/// Why a new connection is closed before gRPC has it: what its address did.
+enum class ConnectionRefusal {
+  kFlood,   ///< sent a flood of frames
+  kResets,  ///< reset more calls than can be ended
+  kRate,    ///< connects too fast
+};
+
+/// Names in /metrics, in the order of the enum.
+inline constexpr std::array kConnectionRefusals = {"flood", "resets", "rate"};
+
 /// An error that refuses a call.
 class Refused : public Error {
  public:

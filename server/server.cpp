@@ -20,10 +20,11 @@
 #include "model/core/error.h"
 #include "model/core/limits.h"
 #include "model/core/threads.h"
+#include "server/accept_guard.h"
 #include "server/certificate_files.h"
 #include "server/connection_limits.h"
-#include "server/handshakes.h"
 #include "server/frame_guard.h"
+#include "server/handshakes.h"
 #include "server/listener.h"
 #include "server/log.h"
 #include "server/metrics.h"
@@ -160,6 +161,7 @@ struct Server::Impl {
         service(serving),
         resets(kWaitingCalls * CallsOfConnection(config),
                [this](const std::string& peer) { handshakes.Began(peer); }),
+        newcomers(resets, serving.tally),
         listener(config.listen) {
     if (!config.tls_certificate.empty()) {
       certificate.emplace(config);
@@ -204,11 +206,11 @@ struct Server::Impl {
     }
     if (!config.metrics.empty()) metrics.emplace(config.MetricsAddress(), serving);
     listener.Start([this](int listening, int connection) {
-      if (resets.IsFull(connection)) {
+      if (!newcomers.Takes(connection)) {
         close(connection);
         return;
       }
-      GuardFrames(connection, certificate.has_value());
+      GuardFrames(connection, certificate.has_value(), newcomers.held_off());
       if (certificate) handshakes.Accepted(connection);
       grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
       parameters.listener_fd = listening;
@@ -270,6 +272,7 @@ struct Server::Impl {
   ChoreographyService service;
   HandshakeWatch handshakes;
   ResetGuard resets;
+  AcceptGuard newcomers;  // for the listener's thread
   std::optional<CertificateFiles> certificate;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
   std::unique_ptr<grpc::Server> server;

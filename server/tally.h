@@ -68,6 +68,8 @@ class Tally {
   std::atomic<uint64_t> frames = 0;        ///< received by ended calls
   std::atomic<uint64_t> dance_frames = 0;  ///< sent by all dances
   std::atomic<uint64_t> dances_resumed = 0;
+  std::atomic<uint64_t> connections = 0;  ///< that came, refused ones too
+  std::array<std::atomic<uint64_t>, kConnectionRefusals.size()> refused_connections = {};
   Histogram first_frame_s{Histogram::Seconds()};
   /// Distance of the model's own frames from their keys, metres, before arrival corrected it.
   Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};

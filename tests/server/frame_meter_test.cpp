@@ -76,11 +76,34 @@ TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
   }
 }
 
-TEST(FrameMeterTest, CallsAndTheirMessagesMayBeMany) {
-  std::string calls = kPreface;
-  for (int i = 0; i <= FrameMeter::kMostEmptyFrames; ++i)
-    calls += Http2::Call(1, "StreamDance") + Http2::Frame(Http2::kData, 0, 1, "x");
-  EXPECT_TRUE(Passes(calls));
+// Twice as many frames of half a KiB as of nothing, and as many as you like of a whole one.
+TEST(FrameMeterTest, DataIsCountedByWhatItLacks) {
+  const auto flood_after = [](size_t length) {
+    const std::string frame = Http2::Frame(Http2::kData, 0, 1, std::string(length, 'a'));
+    FrameMeter meter;
+    Take(&meter, kPreface);
+    int frames = 0;
+    while (frames < 4 * FrameMeter::kMostEmptyFrames && Take(&meter, frame) == Flood::kNone)
+      ++frames;
+    return frames;
+  };
+  EXPECT_EQ(flood_after(FrameMeter::kFullFrame / 2), 2 * FrameMeter::kMostEmptyFrames);
+  EXPECT_EQ(flood_after(FrameMeter::kFullFrame), 4 * FrameMeter::kMostEmptyFrames);
+}
+
+TEST(FrameMeterTest, CallsAreCountedBySeconds) {
+  constexpr int kMost = FrameMeter::kMostEmptyFrames / FrameMeter::kFramesOfCall;
+  std::string most;
+  for (int i = 0; i < kMost; ++i) {
+    most += Http2::Call(1, "StreamDance") +
+            Http2::Frame(Http2::kData, 0, 1, std::string(FrameMeter::kFullFrame, 'a'));
+  }
+  FrameMeter meter;
+  FrameMeter::Clock::time_point now{};
+  EXPECT_EQ(Take(&meter, kPreface, now), Flood::kNone);
+  for (int second = 0; second < 3; ++second, now += std::chrono::seconds(1))
+    EXPECT_EQ(Take(&meter, most, now), Flood::kNone);
+  EXPECT_EQ(Take(&meter, most + Http2::Call(1, "StreamDance"), now), Flood::kEmptyFrames);
 }
 
 }  // namespace choreo::frame_meter_test

@@ -220,23 +220,30 @@ TEST_F(HostileTest, HeadersWithoutAnEndAreCutOff) {
   EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
 }
 
-// Frames that belong to no call: no window holds them back, and gRPC works on each.
+// Frames that belong to no call or to one that is over: no window holds them back, and gRPC works
+// on each. Who has flooded is held off.
 TEST_F(HostileTest, FramesWithoutContentAreCutOff) {
   Start(1);
   const auto behaved = StubOfAnotherAddress(server->port());
   constexpr int kPriority = 2, kWindow = 8;
+  const std::pair<const char*, std::string> floods[] = {
+      {"127.0.0.3", Http2::Frame(kPriority, 0, 1, std::string("\0\0\0\0\x10", 5))},
+      {"127.0.0.4", Http2::Frame(kWindow, 0, 0, std::string("\0\0\0\1", 4))},
+      {"127.0.0.5", Http2::Frame(Http2::kData, 0, 1, "x")},
+  };
   const auto before = EmptyFrameFloods();
-  for (const auto& frame : {Http2::Frame(kPriority, 0, 1, std::string("\0\0\0\0\x10", 5)),
-                            Http2::Frame(kWindow, 0, 0, std::string("\0\0\0\1", 4))}) {
+  for (const auto& [from, frame] : floods) {
     std::string frames;
     while (frames.size() < (64 << 10)) frames += frame;
     constexpr size_t kMost = 64 << 20;
-    Http2 client(server->port());
+    Http2 client(server->port(), from);
+    client.Send(Http2::Call(1, "Nothing"));
     size_t sent = 0;
     while (sent < kMost && client.Send(frames)) sent += frames.size();
     EXPECT_LT(sent, kMost);
+    EXPECT_TRUE(Http2(server->port(), from).Ends(1));
   }
-  EXPECT_EQ(EmptyFrameFloods(), before + 2);
+  EXPECT_EQ(EmptyFrameFloods(), before + std::size(floods));
   EXPECT_TRUE(DanceInRealTime(*behaved, Config(), 1).answer.status.ok());
 }
 

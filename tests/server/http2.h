@@ -15,9 +15,12 @@ namespace choreo {
 /// A connection that sends arbitrary bytes.
 class Http2 {
  public:
-  explicit Http2(int port) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
+  /// `from`: its own address, one of this machine's.
+  explicit Http2(int port, const char* from = "127.0.0.1") : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
+    inet_pton(AF_INET, from, &address.sin_addr);
+    EXPECT_EQ(bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     address.sin_port = htons(static_cast<uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);

@@ -1,0 +1,62 @@
+#include "server/accept_guard.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "server/caller.h"
+
+namespace choreo {
+namespace {
+
+constexpr std::chrono::seconds kBetweenRefusalReports{1}, kBetweenSweeps{10};
+
+const char* Reason(ConnectionRefusal refusal) {
+  switch (refusal) {
+    case ConnectionRefusal::kFlood:
+      return "has flooded the server with frames";
+    case ConnectionRefusal::kResets:
+      return "has begun more calls than can be ended";
+    case ConnectionRefusal::kRate:
+      break;
+  }
+  return "connects too often";
+}
+
+}  // namespace
+
+bool AcceptGuard::Takes(int connection) {
+  const std::string address = AddressOf(PeerOf(connection));
+  const auto now = Clock::now();
+  ++tally_.connections;
+  ConnectionRefusal refusal = ConnectionRefusal::kRate;
+  if (held_off_->Has(address)) {
+    refusal = ConnectionRefusal::kFlood;
+  } else if (resets_.IsFull(connection)) {
+    refusal = ConnectionRefusal::kResets;
+  } else if (TakesFrom(address, now)) {
+    return true;
+  }
+  const uint64_t so_far = ++tally_.refused_connections[static_cast<size_t>(refusal)];
+  if (now >= next_report_) {
+    next_report_ = now + kBetweenRefusalReports;
+    spdlog::warn("{} {}; its new connection is closed, of {} so far", address, Reason(refusal),
+                 so_far);
+  }
+  return false;
+}
+
+bool AcceptGuard::TakesFrom(const std::string& address, Clock::time_point now) {
+  if (now >= next_sweep_) {
+    next_sweep_ = now + kBetweenSweeps;
+    std::erase_if(paid_back_, [now](const auto& one) { return one.second <= now; });
+  }
+  constexpr auto kPrice = std::chrono::nanoseconds(std::chrono::seconds(1)) / kPerSecond;
+  Clock::time_point& paid_back = paid_back_[address];
+  const auto after = std::max(paid_back, now) + kPrice;
+  if (after - now > kAtOnce * kPrice) return false;
+  paid_back = after;
+  return true;
+}
+
+}  // namespace choreo

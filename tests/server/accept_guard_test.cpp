@@ -1,0 +1,70 @@
+#include "server/accept_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "server/held_off.h"
+#include "server/reset_guard.h"
+#include "server/tally.h"
+
+namespace choreo::accept_guard_test {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class AcceptGuardTest : public testing::Test {
+ protected:
+  // How many of so many connections at once are taken.
+  int Takes(int count, const std::string& address = "ipv4:192.0.2.1") {
+    int taken = 0;
+    for (int i = 0; i < count; ++i) taken += guard_.TakesFrom(address, now_) ? 1 : 0;
+    return taken;
+  }
+
+  AcceptGuard::Clock::time_point now_ = AcceptGuard::Clock::now();
+
+ private:
+  const ResetGuard resets_{1};
+  Tally tally_;
+  AcceptGuard guard_{resets_, tally_};
+};
+
+TEST_F(AcceptGuardTest, ManyMayComeAtOnceAndThenByRate) {
+  EXPECT_EQ(Takes(10 * AcceptGuard::kAtOnce), AcceptGuard::kAtOnce);
+  for (int second = 0; second < 3; ++second) {
+    now_ += seconds(1);
+    EXPECT_EQ(Takes(10 * AcceptGuard::kPerSecond), AcceptGuard::kPerSecond);
+  }
+}
+
+TEST_F(AcceptGuardTest, AddressesAreBoundedEachByItself) {
+  EXPECT_EQ(Takes(10 * AcceptGuard::kAtOnce), AcceptGuard::kAtOnce);
+  EXPECT_EQ(Takes(10, "ipv4:192.0.2.2"), 10);
+  EXPECT_EQ(Takes(10), 0);
+}
+
+TEST_F(AcceptGuardTest, WhoWaitsMayComeAtOnceAgain) {
+  Takes(AcceptGuard::kAtOnce);
+  now_ += seconds(AcceptGuard::kAtOnce / AcceptGuard::kPerSecond);
+  EXPECT_EQ(Takes(10 * AcceptGuard::kAtOnce), AcceptGuard::kAtOnce);
+}
+
+TEST_F(AcceptGuardTest, HonestRatesAreNeverRefused) {
+  for (int i = 0; i < 10 * AcceptGuard::kAtOnce; ++i) {
+    EXPECT_EQ(Takes(1), 1);
+    now_ += milliseconds(1000 / AcceptGuard::kPerSecond + 1);
+  }
+}
+
+TEST(HeldOffTest, ForgetsAfterAWhile) {
+  HeldOff held;
+  const auto now = HeldOff::Clock::now();
+  held.Add("ipv4:192.0.2.1", now);
+  EXPECT_TRUE(held.Has("ipv4:192.0.2.1", now + HeldOff::kTime - milliseconds(1)));
+  EXPECT_FALSE(held.Has("ipv4:192.0.2.2", now));
+  EXPECT_FALSE(held.Has("ipv4:192.0.2.1", now + HeldOff::kTime));
+}
+
+}  // namespace choreo::accept_guard_test
