@@ -24,6 +24,7 @@
 #include "server/certificate_files.h"
 #include "server/connection_limits.h"
 #include "server/frame_guard.h"
+#include "server/free_memory.h"
 #include "server/handshakes.h"
 #include "server/listener.h"
 #include "server/log.h"
@@ -54,6 +55,8 @@ constexpr milliseconds kShutdownTime{1'000};
 constexpr milliseconds kWatchInterval{100};
 /// The interval at which tokens and certificate are read: a removed token works that long at most.
 constexpr milliseconds kFileInterval{500};
+/// The interval at which free memory is looked for.
+constexpr milliseconds kMemoryInterval{10'000};
 /// The least default number of calls: waiting ones cost little.
 constexpr int kLeastStreams = 64;
 /// An engine is broken after this many failures in a row.
@@ -204,6 +207,7 @@ struct Server::Impl {
     if (serving.tokens.needed() || certificate) {
       file_watch.emplace(kFileInterval, [this] { RereadFiles(); });
     }
+    memory_watch.emplace(kMemoryInterval, [memory = FreeMemory()]() mutable { memory.Look(); });
     if (!config.metrics.empty()) metrics.emplace(config.MetricsAddress(), serving);
     listener.Start([this](int listening, int connection) {
       if (!newcomers.Takes(connection)) {
@@ -282,7 +286,7 @@ struct Server::Impl {
   std::map<std::string, bool> health;  // last status reported, by name. Lock: health_mutex
   // Declared last, so that their threads end before the members that they use.
   std::optional<PeriodicThread> watch;
-  std::optional<PeriodicThread> file_watch;
+  std::optional<PeriodicThread> file_watch, memory_watch;
   std::optional<MetricsEndpoint> metrics;
 };
 
