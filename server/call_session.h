@@ -34,7 +34,9 @@ class CallSession : public Call {
 
   CallSession(Serving& serving, Wire* wire, std::string method, Caller caller)
       : serving_(serving),
-        outbox_(wire, serving.outbox_bytes, [this](bool paused) { SetPaused(paused); }),
+        outbox_(
+            wire, serving.outbox_bytes, [this](bool paused) { SetPaused(paused); },
+            [this](const Response& answer, Clock::time_point queued) { OnSent(answer, queued); }),
         method_(std::move(method)),
         caller_(std::move(caller)) {}
 
@@ -116,6 +118,9 @@ class CallSession : public Call {
     }
     dance->Cancel();
   }
+
+  /// An answer that was queued then has gone out. One call at a time.
+  virtual void OnSent(const Response& /*answer*/, Clock::time_point /*queued*/) {}
 
   /// Runs `action`; ends the call if it throws.
   template <class Action>

@@ -147,6 +147,11 @@ class Figures {
     out.Begin("first_frame_seconds", "From a call's begin to its first frame.",
               MetricType::Histogram);
     out.Add(serving_.tally.first_frame_s.snapshot());
+    out.Begin("sending_lateness_seconds",
+              "How late dances' frames went out to a client that plays them, beyond how late they "
+              "were made.",
+              MetricType::Histogram);
+    out.Add(serving_.tally.sending_lateness_s.snapshot());
     out.Begin("key_error_metres", "How far the model's own frames were off their keys.",
               MetricType::Histogram);
     out.Add(serving_.tally.key_error_m.snapshot());

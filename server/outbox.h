@@ -65,9 +65,16 @@ class Outbox {
     Outbox& outbox_;
   };
 
-  /// `set_paused` is called without the lock, one call at a time.
-  Outbox(Wire* wire, size_t max_bytes, std::function<void(bool)> set_paused)
-      : wire_(wire), max_bytes_(max_bytes), set_paused_(std::move(set_paused)) {}
+  using Clock = std::chrono::steady_clock;
+
+  /// `set_paused` and `on_sent` are called without the lock, one call at a time: `on_sent` with
+  /// each answer that has gone out, and when the first part of it was queued.
+  Outbox(Wire* wire, size_t max_bytes, std::function<void(bool)> set_paused,
+         std::function<void(const Response&, Clock::time_point)> on_sent = {})
+      : wire_(wire),
+        max_bytes_(max_bytes),
+        set_paused_(std::move(set_paused)),
+        on_sent_(std::move(on_sent)) {}
 
   /// Queues an answer. Ignored unless open.
   void Send(Response message) {
@@ -76,7 +83,7 @@ class Outbox {
       if (state_ != State::kOpen) return;
       const size_t bytes = message.ByteSizeLong();
       bytes_ += bytes;
-      if (!Join(message, bytes)) queue_.push_back({std::move(message), bytes});
+      if (!Join(message, bytes)) queue_.push_back({std::move(message), bytes, Clock::now()});
       Advance();
     }
     UpdatePressure();
@@ -121,14 +128,17 @@ class Outbox {
 
   /// The reactor's OnWriteDone.
   void OnWriteDone(bool ok) {
+    Item done;
     {
       const std::lock_guard lock(mutex_);
       writing_ = false;
       written_at_ = Clock::now();
-      bytes_ -= queue_.front().bytes;
+      done = std::move(queue_.front());
+      bytes_ -= done.bytes;
       queue_.pop_front();
     }
     if (ok) {
+      if (on_sent_) on_sent_(done.message, done.queued);
       {
         const std::lock_guard lock(mutex_);
         Advance();
@@ -160,11 +170,10 @@ class Outbox {
  private:
   static constexpr int kMaxJoinedFrames = 60;
 
-  using Clock = std::chrono::steady_clock;
-
   struct Item {
     Response message;
     size_t bytes = 0;
+    Clock::time_point queued = {};
   };
 
   // Appends frames to the last waiting message if they follow its frames.
@@ -223,6 +232,7 @@ class Outbox {
   Wire* const wire_;
   const size_t max_bytes_;
   const std::function<void(bool)> set_paused_;
+  const std::function<void(const Response&, Clock::time_point)> on_sent_;
 
   mutable std::mutex mutex_;  // guards the members below
   State state_ = State::kOpen;

@@ -17,6 +17,7 @@
 #include "server/call_session.h"
 #include "server/key_error.h"
 #include "server/music_file.h"
+#include "server/player.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
@@ -112,6 +113,12 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void OnError(const Error& error) override { EndIn(error); }
 
  private:
+  void OnSent(const DanceResponse& answer, Clock::time_point queued) override {
+    if (!answer.has_frames()) return;
+    serving_.tally.sending_lateness_s.Add(
+        player_->Take(answer.frames().first_frame(), queued, Clock::now()));
+  }
+
   void Take(const DanceRequest& request) {
     if (request.request_case() == DanceRequest::REQUEST_NOT_SET) {
       throw InvalidArgument("request", "empty; one of its fields must be there");
@@ -157,6 +164,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     queue_ = found;
     encoding_ = message.encoding();
     seed_ = config->seed;
+    player_.emplace(config->output_fps);
     music_beats_ = config->music_beats;
     rejects_keys_ = message.reject_invalid_keys();
     if (message.has_audio_format()) audio_ = message.audio_format();
@@ -232,6 +240,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   Models::Use queue_;  // keeps the model, even if the server stops serving it
   v1::RotationEncoding encoding_ = v1::ROTATION_ENCODING_UNSPECIFIED;
   uint64_t seed_ = 0;
+  std::optional<Player> player_;
   std::optional<v1::AudioFormat> audio_;
   std::vector<double> music_beats_;
   bool rejects_keys_ = false;  // that cannot be used, instead of ending the call

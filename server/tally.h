@@ -71,6 +71,7 @@ class Tally {
   std::atomic<uint64_t> connections = 0;  ///< that came, refused ones too
   std::array<std::atomic<uint64_t>, kConnectionRefusals.size()> refused_connections = {};
   Histogram first_frame_s{Histogram::Seconds()};
+  Histogram sending_lateness_s{Histogram::Seconds()};  ///< of dances' frames (Player)
   /// Distance of the model's own frames from their keys, metres, before arrival corrected it.
   Histogram key_error_m{{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1}};
   Histogram support{

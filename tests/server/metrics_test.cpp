@@ -88,6 +88,7 @@ TEST_F(MetricsTest, CountFinishedWork) {
   EXPECT_EQ(Figure("choreo_key_error_metres_count"), 1);
   EXPECT_EQ(Figure("choreo_support_ratio_count"), 1);
   EXPECT_EQ(Figure("choreo_first_frame_seconds_count"), 1);
+  EXPECT_GE(Figure("choreo_sending_lateness_seconds_count"), 1);
   EXPECT_EQ(Figure("choreo_transitions_total" + of_fake), 1);
   EXPECT_EQ(Figure("choreo_transition_seconds_count" + of_fake), 1);
   EXPECT_GT(Figure("choreo_slice_seconds_count" + of_fake), 21);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
@@ -79,6 +81,33 @@ TEST_F(OutboxTest, QueuedFramesAreJoined) {
   }
   EXPECT_EQ(parts,
             (std::vector<std::pair<int64_t, int>>{{0, 1}, {1, 60}, {61, 10}, {0, 1}, {5, 1}}));
+}
+
+// Joined frames count from the first of them on.
+TEST_F(OutboxTest, TellsWhatHasGoneOutAndSinceWhenItWaited) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::pair<int64_t, Clock::time_point>> sent;
+  Outbox<Response> telling(
+      &wire, kMaxBytes, [](bool) {},
+      [&](const Response& answer, Clock::time_point queued) {
+        sent.emplace_back(answer.frames().first_frame(), queued);
+      });
+  const auto begin = Clock::now();
+  telling.Send(Frames(0, 1));
+  telling.Send(Frames(1, 1));
+  const auto between = Clock::now();
+  telling.Send(Frames(2, 1));
+  EXPECT_TRUE(sent.empty());
+  telling.OnWriteDone(true);
+  telling.OnWriteDone(true);
+  telling.Send(Frames(3, 1));
+  telling.OnWriteDone(false);
+  ASSERT_EQ(sent.size(), 2U) << "what was lost has not gone out";
+  for (const int64_t i : {0, 1}) {
+    EXPECT_EQ(sent[static_cast<size_t>(i)].first, i);
+    EXPECT_GE(sent[static_cast<size_t>(i)].second, begin);
+    EXPECT_LE(sent[static_cast<size_t>(i)].second, between);
+  }
 }
 
 TEST_F(OutboxTest, ASlowClientPausesTheDance) {
