@@ -49,9 +49,8 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
       ->capture_default_str();
   app.add_option(
          "--max-streams", config.max_streams,
-         "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED). 0: as "
-         "many as --max-load lets the cores carry, by what a dance is measured to take, but at "
-         "most 50 a core, or 64.")
+         "Calls in progress at once. Those beyond are refused (RESOURCE_EXHAUSTED). 0: 50 a core, "
+         "and at least 64; --max-load refuses what the cores cannot carry.")
       ->envname("CHOREO_MAX_STREAMS")
       ->capture_default_str();
   app.add_option("--workers", config.workers,

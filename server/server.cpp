@@ -133,9 +133,9 @@ SampleQueue::Options QueueingOf(const ServerConfig& config) {
   return {.max_bulk = config.max_waiting};
 }
 
-// Sets as many streams as the machine carries, if the configuration leaves it open. What is
-// measured at start depends on who else is busy then, so it never counts for more than the usual
-// number.
+// Sets the usual number of streams, if the configuration leaves it open. What is measured at start
+// depends on who else is busy then and stays for ever, so it is only told: FrameBudget refuses what
+// the machine does not carry, and learns by dancing.
 ServerConfig WithStreams(ServerConfig config,
                          const std::vector<std::unique_ptr<SampleQueue>>& queues) {
   if (config.max_streams > 0) return config;
@@ -146,8 +146,7 @@ ServerConfig WithStreams(ServerConfig config,
     const double carried = config.max_load / (load + ServingCost().LoadOf(fps));
     spdlog::info("model \"{}\": as busy as this machine is now, it carries {:.0f} dances at once",
                  queue->model().name, carried);
-    config.max_streams = std::max<int>(config.max_streams,
-                                       std::min<double>(carried, UsableCores() * kStreamsPerCore));
+    config.max_streams = std::max(config.max_streams, UsableCores() * kStreamsPerCore);
   }
   spdlog::info("at most {} calls at once; --max-streams fixes the number", config.max_streams);
   return config;
