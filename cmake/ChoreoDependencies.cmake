@@ -29,6 +29,8 @@ if(CHOREO_SERVICE)
   pkg_check_modules(alsa REQUIRED IMPORTED_TARGET alsa)
   pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
   find_package(spdlog REQUIRED)
+  # Its headers alone, without its library.
+  pkg_check_modules(tomlplusplus REQUIRED tomlplusplus)
   find_package(Protobuf REQUIRED)
   find_package(gRPC REQUIRED)
   find_package(OpenSSL 3 REQUIRED)

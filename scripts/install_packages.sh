@@ -11,7 +11,7 @@ build=(
   cmake ninja-build g++ pkg-config ccache git
   libtorch-dev libopenblas0-pthread
   libgrpc++-dev protobuf-compiler protobuf-compiler-grpc libprotobuf-dev libssl-dev
-  libeigen3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+  libeigen3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libtomlplusplus-dev
   libboost-dev prometheus-cpp-dev libasound2-dev liblo-dev
   libsndfile1-dev libflac-dev libvorbis-dev libopusfile-dev libmpg123-dev libzip-dev libxxhash-dev libcairo2-dev libtinygltf-dev
   libgtest-dev libgmock-dev libbenchmark-dev libdnnl-dev

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <memory>
 #include <regex>
 #include <string_view>
 
@@ -19,6 +20,7 @@
 #include "model/engine/engine_choice.h"
 #include "model/engine/transition_spec.h"
 #include "server/config_errors.h"
+#include "server/config_file.h"
 #include "server/config_flags.h"
 #include "server/listener.h"
 #include "server/log.h"
@@ -144,6 +146,18 @@ bool WantsJson(int argc, const char* const* argv) {
   return variable != nullptr && std::string_view(variable) == "json";
 }
 
+// "FILE:LINE: " if `error`, "--NAME: ...", is about a setting that the file has and the command
+// line has not.
+std::string PlaceInFile(const std::string& error, const TomlFile& file, int argc,
+                        const char* const* argv) {
+  const std::string flag = error.substr(0, error.find(':'));
+  if (!flag.starts_with("--")) return "";
+  const bool is_overridden = std::any_of(argv, argv + argc, [&](const std::string& word) {
+    return word == flag || word.starts_with(flag + '=');
+  });
+  return is_overridden ? "" : file.PlaceOf(flag.substr(2));
+}
+
 }  // namespace
 
 std::string ServerConfig::MetricsAddress() const {
@@ -186,13 +200,17 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
     const bool json = config.log_format == "json" || WantsJson(argc, argv);
     std::cerr << (json ? JsonLine(level, what) : "choreod: " + what) << '\n';
   };
-  const auto complain = [&say](const std::string& what) { say("critical", what); };
   CLI::App app{
       "choreod makes people dance: it serves the gRPC API choreo.v1.Choreography, with health "
       "checking and reflection.\nEvery setting can also come from the environment or a file.",
       "choreod"};
   app.set_version_flag("--version", CHOREO_VERSION);
   AddFlags(app, config);
+  const auto file = std::make_shared<TomlFile>(app);
+  app.config_formatter(file);
+  const auto complain = [&](const std::string& what) {
+    say("critical", PlaceInFile(what, *file, argc, argv) + what);
+  };
   try {
     app.parse(argc, argv);
     for (const std::string& variable : CheckVariables(app))
@@ -204,7 +222,7 @@ CommandLine ParseCommandLine(int argc, const char* const* argv) {
     app.exit(error);
     return {.config = std::nullopt, .exit_code = 0};
   } catch (const CLI::ParseError& error) {
-    complain(InOurWords(app, error));
+    complain(InOurWords(app, *file, error));
   } catch (const Error& error) {
     complain(error.what());
   }

@@ -78,7 +78,7 @@ struct CommandLine {
   int exit_code = 0;
 };
 
-/// A flag overrides the file of --config (TOML or INI), which overrides the flag's environment
+/// A flag overrides the file of --config (TOML), which overrides the flag's environment
 /// variable (CHOREO_LISTEN, ...).
 CommandLine ParseCommandLine(int argc, const char* const* argv);
 

@@ -114,7 +114,7 @@ void CheckNumbers(const ServerConfig& config) {
   }
 }
 
-std::string InOurWords(const CLI::App& app, const CLI::ParseError& error) {
+std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::ParseError& error) {
   const std::string said = error.what();
   if (dynamic_cast<const CLI::ConversionError*>(&error)) return Unconverted(said);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return Miscounted(said);
@@ -122,9 +122,7 @@ std::string InOurWords(const CLI::App& app, const CLI::ParseError& error) {
     return "--config: no file " + said.substr(0, said.find(" was not readable"));
   if (dynamic_cast<const CLI::ConfigError*>(&error)) {  // "INI was not able to parse KEY"
     const std::string key = said.substr(said.rfind(' ') + 1);
-    // CLI11 adds "SECTION.++" for a section; choreod has none.
-    return Unknown(app, app.get_config_ptr()->as<std::string>() + ": ",
-                   key.substr(0, key.find('.')));
+    return Unknown(app, file.PlaceOf(key), key);
   }
   const std::vector<std::string> extra = app.remaining();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extra.empty())

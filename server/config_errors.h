@@ -4,6 +4,7 @@
 #include <string>
 
 #include "server/config.h"
+#include "server/config_file.h"
 
 namespace choreo {
 
@@ -12,6 +13,6 @@ void CheckNumbers(const ServerConfig& config);
 
 /// What CLI11 says against a command line or a file, as our own errors say it: the setting, its
 /// value, and what is allowed.
-std::string InOurWords(const CLI::App& app, const CLI::ParseError& error);
+std::string InOurWords(const CLI::App& app, const TomlFile& file, const CLI::ParseError& error);
 
 }  // namespace choreo

@@ -97,7 +97,7 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
   const char* file = std::getenv("CHOREO_CONFIG");
   const bool is_named = file != nullptr && *file != '\0';
   app.set_config("--config", is_named ? file : "",
-                 "Read settings from this TOML or INI file, as in: workers = 2", is_named)
+                 "Read settings from this TOML file, as in: workers = 2", is_named)
       ->envname("CHOREO_CONFIG");
   app.allow_config_extras(CLI::config_extras_mode::error);
 }

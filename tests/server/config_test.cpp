@@ -77,7 +77,7 @@ TEST(ServerConfigTest, FlagsGoBeforeFileBeforeEnvironment) {
 }
 
 TEST(ServerConfigTest, RefusesAFileWithAnUnknownSetting) {
-  for (const std::string text : {"workers = 3\nworkerz = 4\n", "[workerz]\nworkers = 4\n"}) {
+  for (const std::string text : {"workers = 3\nworkerz = 4\n", "\n[workerz]\nworkers = 4\n"}) {
     const std::string path = testing::TempDir() + "choreod_config_extra_test.toml";
     std::ofstream(path) << text;
     testing::internal::CaptureStderr();
@@ -85,9 +85,48 @@ TEST(ServerConfigTest, RefusesAFileWithAnUnknownSetting) {
     const std::string message = testing::internal::GetCapturedStderr();
     EXPECT_FALSE(line.config);
     EXPECT_EQ(line.exit_code, 2);
-    EXPECT_NE(message.find(path), std::string::npos) << message;
+    EXPECT_NE(message.find(path + ":2: "), std::string::npos) << message;
     EXPECT_NE(message.find("workerz"), std::string::npos) << message;
   }
+}
+
+TEST(ServerConfigTest, ReadsTomlAsItIs) {
+  const std::string path = testing::TempDir() + "choreod_config_toml_test.toml";
+  std::ofstream(path)
+      << "# A comment\nlisten = '127.0.0.1:0' # and another\nmodel = [\n  \"free\",\n"
+         "  \"paper-f\", # the last\n]\nmax-network-mib = 1_024\n"
+         "drain-seconds = 1e1\nreflection = false\nmax-load = 0.5\n";
+  const CommandLine line = Parse({"--config", path.c_str()});
+  ASSERT_TRUE(line.config);
+  EXPECT_EQ(line.config->listen, "127.0.0.1:0");
+  EXPECT_EQ(line.config->names, (std::vector<std::string>{"free", "paper-f"}));
+  EXPECT_EQ(line.config->max_network_mib, 1024);
+  EXPECT_EQ(line.config->drain_seconds, 10);
+  EXPECT_FALSE(line.config->reflection);
+  EXPECT_EQ(line.config->max_load, 0.5);
+}
+
+// File and line, whatever is wrong with it; but a flag is not in the file.
+TEST(ServerConfigTest, SaysWhereInTheFileAnErrorIs) {
+  const std::string path = testing::TempDir() + "choreod_config_line_test.toml";
+  const auto said = [&](const std::string& text, std::vector<const char*> more = {}) {
+    std::ofstream(path) << "\n" << text;
+    more.insert(more.end(), {"--config", path.c_str()});
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Parse(more).exit_code, 2) << text;
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string at = "choreod: " + path + ":2: ";
+  EXPECT_EQ(said("workers = \"many\"\n"),
+            at + "--workers: \"many\" is no whole number in [0, 1024]\n");
+  EXPECT_EQ(said("workers = -1\n"), at + "--workers: -1 is not in [0, 1024]\n");
+  EXPECT_EQ(said("workers = -1\n", {"--workers=-2"}),
+            "choreod: --workers: -2 is not in [0, 1024]\n");
+  for (const char* broken :
+       {"listen = \"127.0.0.1:0\n", "listen = \"a\"b\"\n", "workers 2\n", "insecure = yes\n",
+        "listen = 127.0.0.1:0\n", "workers = 2000-01-01\n", "workers = {a = 1}\n"})
+    EXPECT_TRUE(said(broken).starts_with(at)) << said(broken);
+  EXPECT_TRUE(said("workers = 2\nworkers = 3\n").starts_with("choreod: " + path + ":3: "));
 }
 
 TEST(ServerConfigTest, NamesAMissingFile) {
@@ -178,9 +217,9 @@ TEST(ServerConfigTest, RefusesAnEmptyFileName) {
   EXPECT_FALSE(Parse({}).config);
   ::unsetenv("CHOREO_TOKENS");
   const std::string message = testing::internal::GetCapturedStderr();
-  EXPECT_EQ(message,
-            "choreod: --tokens: is empty; leave it out where none is wanted\n"
-            "choreod: --tokens: is empty; leave it out where none is wanted\n");
+  EXPECT_EQ(message, "choreod: " + path +
+                         ":1: --tokens: is empty; leave it out where none is wanted\n"
+                         "choreod: --tokens: is empty; leave it out where none is wanted\n");
 }
 
 TEST(ServerConfigTest, ListsValidChoices) {
@@ -215,7 +254,7 @@ TEST(ServerConfigTest, ErrorsAreOfOneShape) {
   EXPECT_EQ(said({"--worker", "1"}),
             "choreod: no setting is called \"--worker\"; did you mean --workers?\n");
   EXPECT_EQ(said({"--config", path.c_str()}),
-            "choreod: " + path + ": no setting is called \"max-loud\"; did you mean max-load?\n");
+            "choreod: " + path + ":1: no setting is called \"max-loud\"; did you mean max-load?\n");
   EXPECT_EQ(said({"--config", "/nonexistent.toml"}),
             "choreod: --config: no file /nonexistent.toml\n");
   EXPECT_EQ(said({"--log-format", "xml"}),

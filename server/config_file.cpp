@@ -1,0 +1,64 @@
+#include "server/config_file.h"
+
+#include <toml++/toml.h>
+
+#include <sstream>
+
+#include "model/core/error.h"
+
+namespace choreo {
+namespace {
+
+/// As on the command line; empty if it has no such form.
+std::string TextOf(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto whole = node.value_exact<int64_t>()) return std::to_string(*whole);
+  if (const auto is_on = node.value_exact<bool>()) return *is_on ? "true" : "false";
+  std::ostringstream text;
+  if (const auto number = node.value_exact<double>()) text << *number;
+  return text.str();
+}
+
+}  // namespace
+
+std::vector<CLI::ConfigItem> TomlFile::from_config(std::istream& input) const {
+  toml::table table;
+  try {
+    table = toml::parse(input);
+  } catch (const toml::parse_error& error) {
+    throw InvalidArgument(At(error.source().begin.line), std::string(error.description()));
+  }
+  std::vector<CLI::ConfigItem> settings;
+  for (const auto& [key, node] : table) {
+    CLI::ConfigItem item;
+    item.name = key.str();
+    const size_t line = key.source().begin.line;
+    lines_[item.name] = line;
+    const auto add = [&](const toml::node& value) {
+      if (value.is_table() || value.is_array() || value.is_date() || value.is_time() ||
+          value.is_date_time())
+        throw InvalidArgument(At(line), '"' + item.name +
+                                            "\" is neither a text, a number, true nor false, nor "
+                                            "a list of them; there are no sections");
+      item.inputs.push_back(TextOf(value));
+    };
+    if (const toml::array* list = node.as_array()) {
+      for (const toml::node& value : *list) add(value);
+    } else {
+      add(node);
+    }
+    if (!item.inputs.empty()) settings.push_back(std::move(item));
+  }
+  return settings;
+}
+
+std::string TomlFile::PlaceOf(const std::string& setting) const {
+  const auto line = lines_.find(setting);
+  return line == lines_.end() ? "" : At(line->second) + ": ";
+}
+
+std::string TomlFile::At(size_t line) const {
+  return app_.get_config_ptr()->as<std::string>() + ':' + std::to_string(line);
+}
+
+}  // namespace choreo
