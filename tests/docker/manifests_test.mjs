@@ -126,6 +126,17 @@ test('the monitor finds where the pods show their metrics', () => {
   assert.deepEqual(allowed.sort(), container.ports.map(({name}) => name).sort());
 });
 
+test('without the operator the alerts come from a job of the same name', () => {
+  const {rule_files: rules, scrape_configs: [job, ...others]} = yaml.load(read('prometheus.yaml'));
+  assert.deepEqual(rules, ['alerts.yaml']);
+  assert.deepEqual(others, []);
+  assert.equal(job.job_name, ofKind('Service').metadata.name);
+  // Prometheus' default, which choreod serves.
+  assert.ok(!('metrics_path' in job) && metricSource.includes('"/metrics"'));
+  const port = container.ports.find(({name}) => name === 'metrics').containerPort;
+  job.static_configs.forEach(({targets}) => targets.forEach((target) => assert.ok(target.endsWith(`:${port}`))));
+});
+
 test('each pod is scraped once', () => {
   const {annotations = {}} = ofKind('Deployment').spec.template.metadata;
   assert.ok(ofKind('ServiceMonitor') && !Object.keys(annotations).some((name) => name.startsWith('prometheus.io/')));
@@ -160,6 +171,7 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
     names.forEach((name) => asked.add(name));
     [...expr.matchAll(/job="([a-z]+)"/g)].forEach(([, job]) => assert.equal(job, ofKind('Service').metadata.name, alert));
     const refusals = readSource('server/refusal.h');
+    [...expr.matchAll(/connections_total\{reason="([a-z]+)"/g)].forEach(([, reason]) => assert.ok(refusals.includes(`"${reason}"`), reason));
     [...expr.matchAll(/reason!~"([a-z_|]+)"/g)].flatMap(([, reasons]) => reasons.split('|'))
         .forEach((reason) => assert.ok(refusals.includes(`"${reason}"`), reason));
     [...expr.matchAll(/status="([A-Z_]+)"/g)].forEach(([, status]) => assert.ok(statuses.includes(`"${status}"`), status));
@@ -173,7 +185,7 @@ test('alerts are PromQL on metrics and statuses that there are', () => {
 test('what is wrong with one replica names it', () => {
   const named = alerts.filter(({annotations}) => annotations.summary.includes('$labels.instance'));
   named.forEach(({alert, expr}) => assert.ok(!/\b(sum|min|max|avg) by/.test(expr) || /by \([^)]*instance, pod/.test(expr), alert));
-  for (const name of ['ChoreoReplicaIsDown', 'ChoreoEngineIsBroken', 'ChoreoFails', 'ChoreoIsLate', 'ChoreoIsShortOfMemory', 'ChoreoRestarts'])
+  for (const name of ['ChoreoReplicaIsDown', 'ChoreoEngineIsBroken', 'ChoreoFails', 'ChoreoIsLate', 'ChoreoIsShortOfMemory', 'ChoreoRestarts', 'ChoreoRefusesConnections'])
     assert.ok(named.some(({alert}) => alert === name), name);
 });
 
