@@ -30,9 +30,10 @@ class FrameMeter {
   /// In one second. A server's 50 dances for a core, each with a few windows and pings a second,
   /// need some hundreds.
   static constexpr int kMostEmptyFrames = 10'000;
-  static constexpr int kFramesOfCall = 5;
-  /// Data from which a frame is worth gRPC's work.
-  static constexpr size_t kFullFrame = 1 << 10;
+  static constexpr int kFramesOfCall = 2;
+  /// Bytes of data from which a frame has content. Less than a key or 2 ms of music has, since who
+  /// sends a song may send all of it at once.
+  static constexpr size_t kFullFrame = 64;
 
  private:
   static constexpr size_t kPreface = 24, kFrameHead = 9;

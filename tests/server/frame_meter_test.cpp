@@ -76,7 +76,7 @@ TEST(FrameMeterTest, FramesWithoutContentAreCountedBySeconds) {
   }
 }
 
-// Twice as many frames of half a KiB as of nothing, and as many as you like of a whole one.
+// Twice as many half full frames as empty ones, and as many full ones as you like.
 TEST(FrameMeterTest, DataIsCountedByWhatItLacks) {
   const auto flood_after = [](size_t length) {
     const std::string frame = Http2::Frame(Http2::kData, 0, 1, std::string(length, 'a'));
