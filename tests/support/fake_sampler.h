@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/audio/mfcc.h"
 #include "model/core/error.h"
 #include "model/core/random.h"
 #include "model/engine/sampler.h"
@@ -150,9 +151,8 @@ inline Slices<Plan> FakeSampler::Begin(const ValidSpec& spec) {
 class HearingSampler : public FakeSampler {
  public:
   HearingSampler() {
-    model_.hearing = {2, [](std::span<const double> bands, std::span<float> features) {
-                        features[0] = static_cast<float>(bands.front());
-                        features[1] = static_cast<float>(bands.back());
+    model_.hearing = {kMfccCount, [](std::span<const double> bands, std::span<float> features) {
+                        MfccOfMelDb(bands.first<kMelBands>(), features.first<kMfccCount>());
                       }};
   }
 };
