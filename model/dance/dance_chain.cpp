@@ -269,7 +269,7 @@ std::function<void()> DanceChain::FinishTransition() {
 void DanceChain::Report(const Job& job, int64_t frame, const std::optional<Key>& key) {
   const int64_t from = job.segment().from;
   if (frame == from) {
-    report_.Begin(from, job.warnings(), job.beats());
+    report_.Begin(job.segment(), job.warnings(), job.beats());
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(from - model_.history_frames);
   }

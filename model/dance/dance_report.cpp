@@ -54,18 +54,22 @@ DanceReport::DanceReport(const ModelInfo& model, const ValidDance& asked, const 
       beats_(model.fps, audio, asked->continuation ? asked->continuation->last_beat : std::nullopt),
       meter_(model.skeleton, model.fps, asked->FirstFrame(),
              asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
+      watch_(model.skeleton, model.fps,
+             asked->continuation ? std::optional(asked->continuation->poses.back()) : std::nullopt),
       output_(model.fps, asked->output_fps, asked->FirstFrame(),
               asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
                                   : std::nullopt) {}
 
-void DanceReport::Begin(int64_t from, const std::vector<Warning>& warnings,
+void DanceReport::Begin(const Segment& segment, const std::vector<Warning>& warnings,
                         const std::vector<Beat>& beats) {
   for (const Warning& warning : warnings) Post(warning);
-  beats_.Start(beats, from);
+  beats_.Start(beats, segment.from);
+  watch_.Begin(segment.key ? segment.key->id : "", segment.to - segment.from);
 }
 
 void DanceReport::Add(int64_t number, const DanceFrame& frame) {
   meter_.Add(frame);
+  watch_.Add(number, frame.pose);
   OutputFrames frames = output_.Push(frame);
   if (!frames.poses.empty()) {
     mailbox_.Post([frames = std::move(frames)](DanceSink& sink) {
@@ -83,6 +87,7 @@ void DanceReport::Reach(const Key& key, KeyReached reached) {
 }
 
 void DanceReport::End(int64_t frame, const DancedState& danced) {
+  for (const Warning& warning : watch_.Take()) Post(warning);
   Continuation continuation =
       ContinuationAt(frame, danced, model_, asked_, asked_.music_beats.empty());
   continuation.last_beat = beats_.last();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/dance/audio_feed.h"
+#include "model/dance/body_watch.h"
 #include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
 #include "model/dance/dance_score.h"
@@ -62,8 +63,9 @@ class DanceReport {
   DanceReport(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio,
               Mailbox<DanceSink>& mailbox);
 
-  /// Starts the transition that begins at `from`.
-  void Begin(int64_t from, const std::vector<Warning>& warnings, const std::vector<Beat>& beats);
+  /// Starts a transition.
+  void Begin(const Segment& segment, const std::vector<Warning>& warnings,
+             const std::vector<Beat>& beats);
   /// The next frame, whose number is `number`.
   void Add(int64_t number, const DanceFrame& frame);
   /// That frame reaches this key.
@@ -81,6 +83,7 @@ class DanceReport {
   Mailbox<DanceSink>& mailbox_;
   BeatReport beats_;
   QualityMeter meter_;
+  BodyWatch watch_;
   OutputRate output_;
 };
 

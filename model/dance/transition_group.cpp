@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/body_watch.h"
 #include "model/dance/dance_report.h"
 #include "model/dance/dance_score.h"
 #include "model/dance/mailbox.h"
@@ -21,10 +22,12 @@ void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by) {
   std::ranges::sort(candidates, {}, [by](const CandidateReport& report) {
     const QualityReport& quality = report.quality;
     const double unlikely = -quality.log_likelihood.value_or(0);
-    if (by == RankBy::kLikelihood) return std::tuple(0.0, 0.0, 0.0, unlikely, report.candidate);
+    if (by == RankBy::kLikelihood)
+      return std::tuple(0.0, 0.0, 0.0, 0.0, unlikely, report.candidate);
     const double steered = quality.keys.empty() ? 0 : quality.keys.front().correction_m;
     const double unsupported = 1 - quality.support.value_or(1);
-    return std::tuple(std::floor(steered / kSteeredStep), std::floor(unsupported / kSupportStep),
+    return std::tuple(report.strain, std::floor(steered / kSteeredStep),
+                      std::floor(unsupported / kSupportStep),
                       std::floor(quality.skate_ratio / kSkateStep), unlikely, report.candidate);
   });
 }
@@ -69,8 +72,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
       : group_(std::move(group)),
         run_(std::move(run)),
         meter_(group_->model_.skeleton, group_->model_.fps, group_->first_frame_),
+        watch_(group_->model_.skeleton, group_->model_.fps, run_.StateAfter(0).history.back()),
         output_(group_->model_.fps, group_->request_.output_fps, group_->first_frame_,
-                run_.StateAfter(0).history.back()) {}
+                run_.StateAfter(0).history.back()) {
+    watch_.Begin(group_->request_.target ? group_->request_.target_id : "", frames());
+  }
 
   bool Continue(Sampler& sampler) override {
     if (!slices_) slices_.emplace(Work(sampler));
@@ -120,6 +126,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
       return false;
     const DanceFrame& frame = run_.frames()[static_cast<size_t>(handed_out_++)];
     meter_.Add(frame);
+    watch_.Add(run_.spec().first_frame + handed_out_ - 1, frame.pose);
     const bool is_last = handed_out_ == frames();
     if (is_last && run_.arrival()) {
       KeyReached reached = *run_.arrival();
@@ -134,14 +141,28 @@ class TransitionGroup::Impl::Job : public SampleJob {
     }
     if (!is_last) return true;
     const GroupRequest& request = group_->request_;
+    const double strain = Judge();
     group_->Done({Number(), meter_.Report(request.music_beats),
                   ContinuationAt(run_.spec().first_frame + frames(),
                                  run_.StateAfter(run_.frames().size()), group_->model_, request,
-                                 /*hears_beats=*/false)});
+                                 /*hears_beats=*/false),
+                  strain});
     return true;
   }
 
   int Number() const { return static_cast<int>(run_.spec().candidate); }
+
+  // Warns of what no body can do in this candidate; returns CandidateReport::strain.
+  double Judge() {
+    double strain = 0;
+    for (Warning& warning : watch_.Take()) {
+      strain = std::max(strain, warning.figure / warning.limit);
+      if (group_->request_.candidates > 1)
+        warning.message = "candidate " + std::to_string(Number()) + ": " + warning.message;
+      group_->Warn(warning);
+    }
+    return strain;
+  }
 
   const std::shared_ptr<Impl> group_;
   const double deadline_ = PlaybackClock();
@@ -152,6 +173,7 @@ class TransitionGroup::Impl::Job : public SampleJob {
   std::mutex mutex_;  // guards the members below
   int handed_out_ = 0;
   QualityMeter meter_;
+  BodyWatch watch_;
   OutputRate output_;
 };
 

@@ -17,6 +17,9 @@ struct CandidateReport {
   int candidate = 0;
   QualityReport quality;  ///< its keys: one if there was a target
   Continuation continuation;
+  /// How far it goes beyond what bodies can do (BodyWatch): the largest figure over its limit; 0 if
+  /// it does not.
+  double strain = 0;
 };
 
 /// Listens to a group. Calls come one at a time, from worker threads, with no lock held; they must
@@ -33,11 +36,11 @@ class GroupSink {
   virtual void OnError(const Error& error) = 0;
 };
 
-/// Sorts candidates, best first. kQuality compares the steering (KeyReached::correction_m, which
-/// includes a miss of the key; 0 without a target) in steps of 1 cm, then the share of frames
-/// without support in steps of 5 %, then the skate ratio in steps of 1 %, then the likelihood if
-/// the model has one, then the candidate's number. kLikelihood compares the likelihood (which
-/// favours calm motion), then the number.
+/// Sorts candidates, best first. kQuality compares the strain, then the steering
+/// (KeyReached::correction_m, which includes a miss of the key; 0 without a target) in steps of 1
+/// cm, then the share of frames without support in steps of 5 %, then the skate ratio in steps of 1
+/// %, then the likelihood if the model has one, then the candidate's number. kLikelihood compares
+/// the likelihood (which favours calm motion), then the number.
 void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy::kQuality);
 
 /// GenerateTransition: has the candidates of one transition sampled as bulk work, and hands out

@@ -7,6 +7,7 @@
 #include "model/core/grid.h"
 #include "model/core/joined.h"
 #include "model/core/rounded.h"
+#include "model/motion/body_limits.h"
 
 namespace choreo {
 namespace {
@@ -29,7 +30,13 @@ Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_
                skeleton.joint_names[static_cast<size_t>(speed.joint)] + "; people reach " +
                Rounded(RequiredSpeed::kJointLimit);
   }
-  return {first_frame + frames - 1, std::move(message), Warning::Code::kIntervalTooShort, id};
+  const bool root = speed.root_m_per_s > RequiredSpeed::kRootLimit;
+  return {first_frame + frames - 1,
+          std::move(message),
+          Warning::Code::kIntervalTooShort,
+          id,
+          root ? speed.root_m_per_s : speed.joint_rad_per_s,
+          root ? RequiredSpeed::kRootLimit : RequiredSpeed::kJointLimit};
 }
 
 Warning InexactResume(const Continuation& continuation, const ModelInfo& model) {
@@ -133,6 +140,28 @@ Warning DanceBehindMusic(int64_t music_end, double seconds) {
       music_end,
       "the dance is longer than the music: it goes on for " + Rounded(seconds) + " s in silence",
       Warning::Code::kDanceBehindMusic};
+}
+
+Warning JointTooFast(const Skeleton& skeleton, int64_t frame, int joint, double m_per_s,
+                     const std::string& id, double seconds) {
+  std::string message = skeleton.joint_names[static_cast<size_t>(joint)] + " moves at " +
+                        RoundedBeyond(m_per_s, kFastestJoint) + " m/s; people reach " +
+                        Rounded(kFastestJoint);
+  if (!id.empty()) {
+    message = "on the way to key \"" + id + "\" in " + Rounded(seconds) + " s " + message + "; " +
+              Rounded(seconds * m_per_s / kFastestJoint) + " s would do";
+  }
+  return {frame, std::move(message), Warning::Code::kJointTooFast, id, m_per_s, kFastestJoint};
+}
+
+Warning FlightTooLong(int64_t frame, double seconds, const std::string& id) {
+  return {frame,
+          "nothing touches the floor for " + RoundedBeyond(seconds, kLongestFlight) +
+              " s; people reach " + Rounded(kLongestFlight),
+          Warning::Code::kFlightTooLong,
+          id,
+          seconds,
+          kLongestFlight};
 }
 
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses) {

@@ -37,6 +37,11 @@ Warning ChannelsCancel(int64_t last_frame);
 Warning KeyBehindMusic(const std::string& id, int64_t frame, double seconds);
 /// `seconds`: of the dance after the music, which ends at `music_end`.
 Warning DanceBehindMusic(int64_t music_end, double seconds);
+/// On the way of `seconds` to the key `id`, if it is not empty.
+Warning JointTooFast(const Skeleton& skeleton, int64_t frame, int joint, double m_per_s,
+                     const std::string& id, double seconds);
+/// `frame`: the first of the flight.
+Warning FlightTooLong(int64_t frame, double seconds, const std::string& id);
 /// `misses`: "left_leg 1.69 instead of 0.70", for at least one part, centimetres a frame.
 Warning VelocityNotMet(int64_t last_frame, const std::string& misses);
 

@@ -87,11 +87,15 @@ struct Warning {
     kMusicSilent,         ///< nothing is heard in the whole music, whose last frame is `frame`
     kKeyBehindMusic,      ///< the key at `frame` lies behind the music's end
     kDanceBehindMusic,    ///< more frames are asked for than the music has, which ends at `frame`
+    kJointTooFast,        ///< a joint moves faster than people can, fastest at `frame`
+    kFlightTooLong,       ///< from `frame` on nothing touches the floor for longer than people jump
   };
   int64_t frame = 0;
   std::string message = {};  ///< names the value and the limit
   Code code = Code::kUnknown;
-  std::string key_id = {};  ///< of the key at `frame`; empty if it is about none
+  /// Of the key at `frame`, or of the one that the dance is on its way to; empty if about none.
+  std::string key_id = {};
+  double figure = 0, limit = 0;  ///< what `message` compares; 0 if it compares none
 };
 
 /// A Beat comes with the frame that it is in.

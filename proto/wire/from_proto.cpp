@@ -185,9 +185,12 @@ std::optional<DanceEvent> FromProto(const v1::Event& event) {
                   beat.confidence(), beat.downbeat()};
     }
     case v1::Event::kWarning:
-      return Warning{frame, event.warning().message(),
-                     ToCode(event.warning().code(), Warning::Code::kDanceBehindMusic),
-                     event.warning().keyframe_id()};
+      return Warning{frame,
+                     event.warning().message(),
+                     ToCode(event.warning().code(), Warning::Code::kFlightTooLong),
+                     event.warning().keyframe_id(),
+                     event.warning().figure(),
+                     event.warning().limit()};
     case v1::Event::EVENT_NOT_SET:
       break;
   }

@@ -9,8 +9,8 @@ namespace {
 
 static_assert(static_cast<int>(KeyRejected::Code::kInvalid) == v1::REJECTION_CODE_INVALID &&
                   static_cast<int>(Beat::Source::kHeard) == v1::BEAT_SOURCE_HEARD &&
-                  static_cast<int>(Warning::Code::kDanceBehindMusic) ==
-                      v1::WARNING_CODE_DANCE_BEHIND_MUSIC,
+                  static_cast<int>(Warning::Code::kFlightTooLong) ==
+                      v1::WARNING_CODE_FLIGHT_TOO_LONG,
               "codes are numbered alike");
 
 void FillErrors(const KeyReached& key, v1::KeyframeErrors* out) {
@@ -40,6 +40,8 @@ void Fill(const Warning& warning, v1::Event* out) {
   out->mutable_warning()->set_code(static_cast<v1::WarningCode>(warning.code));
   out->mutable_warning()->set_message(warning.message);
   out->mutable_warning()->set_keyframe_id(warning.key_id);
+  out->mutable_warning()->set_figure(warning.figure);
+  out->mutable_warning()->set_limit(warning.limit);
 }
 
 void Fill(const Beat& beat, v1::Event* out) {

@@ -287,11 +287,20 @@ TEST(DanceStream, WarnsOfIntervalsTooShortForTheChange) {
   dance.keys.push_back({"twist", 14, far, {}});
   const Recording recording = Perform(*queue, dance);
   ASSERT_TRUE(recording.summary);
-  ASSERT_EQ(recording.warnings.size(), 2u);
-  EXPECT_EQ(recording.warnings[0].code, Warning::Code::kIntervalTooShort);
-  EXPECT_EQ(recording.warnings[0].frame, 10);
-  EXPECT_THAT(recording.warnings[0].message, ::testing::HasSubstr("15 m/s"));
-  EXPECT_THAT(recording.warnings[1].message, ::testing::HasSubstr("rad/s"));
+  std::vector<Warning> asked, danced;
+  for (const Warning& warning : recording.warnings)
+    (warning.code == Warning::Code::kIntervalTooShort ? asked : danced).push_back(warning);
+  ASSERT_EQ(asked.size(), 2u);
+  EXPECT_EQ(asked[0].frame, 10);
+  EXPECT_THAT(asked[0].message, ::testing::HasSubstr("15 m/s"));
+  EXPECT_NEAR(asked[0].figure, 15, 0.1);
+  EXPECT_EQ(asked[0].limit, RequiredSpeed::kRootLimit);
+  EXPECT_THAT(asked[1].message, ::testing::HasSubstr("rad/s"));
+  // And of what was danced for them.
+  ASSERT_EQ(danced.size(), 2u);
+  for (const Warning& warning : danced) EXPECT_EQ(warning.code, Warning::Code::kJointTooFast);
+  EXPECT_EQ(danced[0].key_id, "far");
+  EXPECT_EQ(danced[1].key_id, "twist");
 }
 
 TEST(DanceStream, RefusedMessagesChangeNothing) {

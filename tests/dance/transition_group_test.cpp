@@ -127,6 +127,20 @@ TEST(TransitionGroup, RanksBySteeringThenSkateThenLikelihood) {
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2}));
 }
 
+TEST(TransitionGroup, RanksWhatBodiesCanDoFirst) {
+  std::vector<CandidateReport> list(3);
+  for (int candidate = 0; candidate < 3; ++candidate) {
+    list[static_cast<size_t>(candidate)].candidate = candidate;
+    list[static_cast<size_t>(candidate)].quality.skate_ratio = 0.1 * candidate;
+  }
+  list[0].strain = 1.5;
+  list[1].strain = 1.2;
+  RankCandidates(list);
+  EXPECT_EQ(list[0].candidate, 2);
+  EXPECT_EQ(list[1].candidate, 1);
+  EXPECT_EQ(list[2].candidate, 0);
+}
+
 TEST(TransitionGroup, RanksByLikelihoodAloneOnRequest) {
   const auto report = [](int candidate, double steered, std::optional<double> likelihood) {
     CandidateReport made;

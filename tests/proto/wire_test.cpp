@@ -135,7 +135,7 @@ TEST(Wire, EventsRoundTrip) {
            KeyWithHands(),
            KeyRejected{"a", 30, 33, "wrong", KeyRejected::Code::kInvalid, "keyframe.pose"},
            Beat{30, 1.25, Beat::Source::kHeard, 0.5, true},
-           Warning{30, "fast", Warning::Code::kKeyImpossible, "a"}}) {
+           Warning{30, "fast", Warning::Code::kJointTooFast, "a", 12, 11}}) {
     const v1::Event message = wire::ToProto(event, 30);
     EXPECT_EQ(message.time(), event.index() == 3 ? 1.25 : 1);
     ExpectFull(message);
@@ -169,7 +169,7 @@ TEST(Wire, CodesOfLaterVersionsAreUnknown) {
   event.mutable_warning()->set_code(static_cast<v1::WarningCode>(v1::WarningCode_MAX + 1));
   EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kUnknown);
   event.mutable_warning()->set_code(v1::WarningCode_MAX);
-  EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kDanceBehindMusic);
+  EXPECT_EQ(std::get<Warning>(*wire::FromProto(event)).code, Warning::Code::kFlightTooLong);
   event.mutable_keyframe_rejected()->set_code(v1::RejectionCode_MAX);
   EXPECT_EQ(std::get<KeyRejected>(*wire::FromProto(event)).code, KeyRejected::Code::kInvalid);
   event.mutable_beat()->set_source(v1::BeatSource_MAX);
