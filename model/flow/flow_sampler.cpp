@@ -210,11 +210,6 @@ WindowRequest PartOf(const WindowRequest& request, int from, int frames,
   return part;
 }
 
-// The speed of the fastest joint in units of the fastest that dancers reach.
-double SpeedExcess(const Skeleton& skeleton, const Pose& before, const std::vector<Pose>& poses) {
-  return FindFastestStep(skeleton, before, poses, kModelFps).m_per_s / kFastestJoint;
-}
-
 }  // namespace
 
 void FlowNoise::Fill(int frame, std::span<float> out) const {
@@ -268,7 +263,7 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
       std::vector<Pose> poses = co_await SampleWindow(model, network, part, own);
       double beyond = 0;
       if (noise.temperature > 0) {
-        beyond = SpeedExcess(model.skeleton, asked.history.back(), poses);
+        beyond = SpeedExcess(model.skeleton, asked.history.back(), poses, kModelFps);
         if (may_stray)
           beyond = std::max(beyond, usual.Deviation(ground.ToWorld(poses.back())) / most);
       }

@@ -1,5 +1,6 @@
 #include "model/motion/body_limits.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "model/motion/kinematics.h"
@@ -18,6 +19,22 @@ FastStep FindFastestStep(const Skeleton& skeleton, const Pose& before, std::span
     last = std::move(now);
   }
   return fastest;
+}
+
+double SpeedExcess(const Eigen::RowVectorXd& speeds) {
+  return std::max(speeds.maxCoeff() / kFastestJoint, speeds.mean() / kFastestBody);
+}
+
+double SpeedExcess(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
+                   double fps) {
+  double excess = 0;
+  Eigen::Matrix3Xd last = JointPositions(skeleton, before);
+  for (const Pose& pose : poses) {
+    Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    excess = std::max(excess, SpeedExcess((now - last).colwise().norm() * fps));
+    last = std::move(now);
+  }
+  return excess;
 }
 
 }  // namespace choreo

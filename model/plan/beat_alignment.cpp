@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "model/motion/body_limits.h"
 #include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
 #include "model/plan/plan_stages.h"
@@ -31,22 +32,31 @@ double BeatWave(const PlanContext& context, double t) {
          std::cos(2 * M_PI * (t - before) / period);
 }
 
-// The speed with which a plan reaches each of its frames: the mean of all joints, smoothed as
-// kinematic beats are.
-std::vector<double> SpeedsOf(const PlanContext& context, std::span<const Pose> plan) {
+// How a plan reaches each of its frames.
+struct Pace {
+  std::vector<double> speeds;  // the mean of all joints, smoothed as kinematic beats are
+  std::vector<double> most;    // the fastest pace of time, at least 1, at which bodies can move
+};
+
+Pace PaceOf(const PlanContext& context, std::span<const Pose> plan) {
+  Pace pace;
   std::vector<float> speeds;
   Eigen::Matrix3Xd before = JointPositions(context.skeleton, context.history.back());
   for (const Pose& pose : plan) {
     const Eigen::Matrix3Xd now = JointPositions(context.skeleton, pose);
-    speeds.push_back(static_cast<float>((now - before).colwise().norm().mean()));
+    const Eigen::RowVectorXd steps = (now - before).colwise().norm();
+    speeds.push_back(static_cast<float>(steps.mean()));
+    pace.most.push_back(std::max(1.0, 1 / SpeedExcess(steps * context.fps)));
     before = now;
   }
-  return SmoothSpeeds(speeds, context.fps);
+  pace.speeds = SmoothSpeeds(speeds, context.fps);
+  return pace;
 }
 
 }  // namespace
 
-std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds) {
+std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds,
+                                 std::span<const double> paces) {
   const auto frames = static_cast<int>(speeds.size());
   const double unit = context.options.accent / kSteepest *
                       std::min(1.0, frames / (context.options.whole_accent * context.fps));
@@ -70,8 +80,13 @@ std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const dou
       const double time = t + unit * offset;
       if (time < 0 || time > frames - 1) continue;
       const double worth = wave * speed_at(time);
+      const auto frame = static_cast<size_t>(time);
+      const double fastest =
+          paces.empty() ? std::numeric_limits<double>::infinity()
+                        : std::min(paces[frame], paces[std::min(frame + 1, paces.size() - 1)]);
       for (int slope = -kSteepest; slope <= kSteepest; ++slope) {
         if (std::abs(offset - slope) > kFarthest) continue;
+        if (slope > 0 && 1 + unit * slope > fastest) continue;
         float most = kUnreached;
         for (const int from : {slope, slope - 1, slope + 1}) {
           if (std::abs(from) > kSteepest) continue;
@@ -100,7 +115,8 @@ std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const dou
 
 void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan) {
   if (context.beats.empty()) return;
-  const std::vector<double> times = TimesOnBeats(context, SpeedsOf(context, *plan));
+  const Pace pace = PaceOf(context, *plan);
+  const std::vector<double> times = TimesOnBeats(context, pace.speeds, pace.most);
   Retime(context, 0, times, plan);
 }
 

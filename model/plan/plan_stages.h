@@ -45,7 +45,9 @@ void TimeToBeats(const PlanContext& context, std::vector<Pose>* plan);
 /// onto the music's, along the path through time with the largest sum of speed times cos(2 pi phase
 /// of the beat). The pace of time is 1 at first and within 1 - A and 1 + A; A is the accent. The
 /// last frame keeps its time. Time is as even as before without beats and where the music pauses.
-std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds);
+/// `paces`: the fastest pace of each frame's time, at least 1; none: any.
+std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds,
+                                 std::span<const double> paces = {});
 
 /// Gives the plan's frames from `first` on the poses of other times, in [-1, frames - 1]; -1 is the
 /// history's last pose. A root path keeps its positions and heights.

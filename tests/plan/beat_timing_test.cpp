@@ -27,9 +27,10 @@ std::vector<double> EveryFifteen(double first, double last) {
   return beats;
 }
 
-std::vector<double> Times(std::span<const double> beats, std::span<const double> speeds) {
+std::vector<double> Times(std::span<const double> beats, std::span<const double> speeds,
+                          std::span<const double> paces = {}) {
   return TimesOnBeats({.skeleton = Skeleton::Smpl24(), .history = {}, .beats = beats, .fps = 30},
-                      speeds);
+                      speeds, paces);
 }
 
 // A dancer with own beats, `late` frames after the music's.
@@ -58,6 +59,21 @@ TEST(BeatTiming, KeepsTheEndAndStaysWithinTheAccent) {
       }
     }
   }
+}
+
+// Where a body is as fast as bodies get, time does not run faster.
+TEST(BeatTiming, StaysWithinThePacesThatBodiesReach) {
+  const std::vector<double> beats = EveryFifteen(-8, 110), speeds = Swaying(90, 15, 9);
+  std::vector<double> paces(90, 2);
+  std::fill(paces.begin() + 30, paces.begin() + 50, 1.1);
+  const auto fastest = [&](std::span<const double> times) {
+    double most = 0;
+    for (size_t t = 1; t < times.size(); ++t)
+      if (times[t] >= 30 && times[t] < 49) most = std::max(most, times[t] - times[t - 1]);
+    return most;
+  };
+  EXPECT_GT(fastest(Times(beats, speeds)), 1.2);
+  EXPECT_LE(fastest(Times(beats, speeds, paces)), 1.1);
 }
 
 TEST(BeatTiming, MovesTheDancersOwnBeatsOntoTheMusics) {
