@@ -54,7 +54,10 @@ class FootPlanner {
         step_cost_(options.step_cost),
         shortest_step_(std::max(1, static_cast<int>(std::lround(options.shortest_step * fps)))),
         first_step_(FallFrames(foot.fall_before, foot.rise_before, fps)),
-        last_step_(foot.end == FootTrack::End::kInAir ? FallFrames(foot.fall_after, 0, fps) : 1),
+        // A kick may be quicker than a fall: it takes the whole plan at most.
+        last_step_(foot.end == FootTrack::End::kInAir
+                       ? std::min(frames_, FallFrames(foot.fall_after, 0, fps))
+                       : 1),
         places_(foot.toes.size()),
         support_(foot.toes.size()) {
     for (size_t i = 0; i < foot.toes.size(); ++i) {

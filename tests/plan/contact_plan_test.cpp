@@ -143,6 +143,21 @@ TEST(PlanContacts, AFootThatStaysUpDoesNotFall) {
   EXPECT_EQ(stances[1][0].to, 5);
 }
 
+// A leg can kick faster than it would fall; once it stood until the key, and was up a frame later.
+TEST(PlanContacts, AKickLeavesTheFloorAtOnceIfTimeIsShort) {
+  std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
+  for (FootTrack& foot : feet) {
+    foot.toes.resize(15);
+    foot.heights.resize(15);
+    foot.unbalanced.resize(15);
+    foot.end = FootTrack::End::kStands;
+  }
+  Lift(&feet[0], 5, 15, 1.3);
+  feet[0].fall_after = 1.3;  // 16 frames of falling
+  feet[0].end = FootTrack::End::kInAir;
+  EXPECT_TRUE(PlanContacts(feet, kFps, {})[0].empty());
+}
+
 TEST(PlanContacts, DoesNotDependOnTheScenesPlace) {
   std::array<FootTrack, 2> feet = {Standing(0.1), Standing(-0.1)};
   for (size_t i = 0; i < kFrames; ++i) feet[0].toes[i].z() += 0.015 * static_cast<double>(i);
