@@ -36,15 +36,10 @@ constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
 // Pins by joint: the targets, and all joints that stay.
 std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
                           std::span<const JointTarget> targets) {
-  // The pelvis carries what is above it.
-  const auto pelvis = std::ranges::find(targets, 0, &JointTarget::joint);
-  Eigen::Vector3d carried = Eigen::Vector3d::Zero();
-  if (pelvis != targets.end()) carried = pelvis->position - now.col(0);
   std::map<int, Pin> pins = {{0, {now.col(0), kLoose}}};
   for (const char* name :
        {"spine3", "head", "left_wrist", "right_wrist", "left_hand", "right_hand"}) {
-    if (const int joint = skeleton.Find(name); joint >= 0)
-      pins[joint] = {now.col(joint) + carried, kLoose};
+    if (const int joint = skeleton.Find(name); joint >= 0) pins[joint] = {now.col(joint), kLoose};
   }
   const auto& feet = skeleton.feet;
   for (const int foot : feet) {

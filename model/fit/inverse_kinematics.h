@@ -22,8 +22,8 @@ struct DrawnPose {
 };
 
 /// Draws joints to their targets. Other feet stay in place; hands, head, pelvis and chest stay
-/// nearby, so that an arm reaches first and the trunk leans if the arm is too short. A pelvis that
-/// is drawn carries chest, head and hands along. Knees and elbows bend freely; other joints turn as little as needed. A least-squares fit
+/// nearby, so that an arm reaches first and the trunk leans if the arm is too short. Knees and
+/// elbows bend freely; other joints turn as little as needed. A least-squares fit
 /// (fit/fit_problem.h) meets targets within reach to a millimetre or two and approaches others.
 /// About a millisecond. `targets` are finite and for different joints of the skeleton. Pure; throws
 /// Error(kInvalidArgument) for a pose of another joint count.

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "model/motion/kinematics.h"
 #include "tests/motion/motion_fixtures.h"
 
@@ -73,27 +71,6 @@ TEST(DrawJoints, AnArmReachesBeforeTheTrunkLeans) {
       DrawJoints(Body(), standing, std::vector{Target("left_hand", {0.35, 1.35, 0.35})});
   EXPECT_LT((At(drawn.pose, "head") - At(standing, "head")).norm(), 0.06);
   EXPECT_LT((At(drawn.pose, "right_hand") - At(standing, "right_hand")).norm(), 0.06);
-}
-
-TEST(DrawJoints, APelvisCarriesTheUpperBody) {
-  const Pose standing = Standing();
-  const Eigen::Vector3d before = At(standing, "pelvis");
-  for (const Eigen::Vector3d& way : std::vector<Eigen::Vector3d>{
-           {0, -0.2, 0}, {0, -0.35, 0.1}, {0.1, -0.05, 0}, {0, -0.2, -0.1}}) {
-    const DrawnPose drawn =
-        DrawJoints(Body(), standing, std::vector{Target("pelvis", before + way)});
-    EXPECT_LT(drawn.missed_m[0], 0.005);
-    for (const char* joint : {"spine3", "head", "left_hand", "right_hand"}) {
-      EXPECT_LT((At(drawn.pose, joint) - At(standing, joint) - way).norm(), 0.06)
-          << joint << ", way " << way.transpose();
-    }
-    for (const char* joint : {"spine1", "spine2", "spine3", "neck"}) {
-      const Eigen::Vector3d turned = drawn.pose.rotations.col(Body().Find(joint));
-      EXPECT_LT(std::abs(turned.y()), 0.05) << joint << " twists, way " << way.transpose();
-      EXPECT_LT(turned.norm(), 0.3) << joint << ", way " << way.transpose();
-    }
-    ExpectSoundLimbs(drawn.pose);
-  }
 }
 
 TEST(DrawJoints, SaysHowFarOffItEnded) {
