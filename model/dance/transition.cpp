@@ -247,14 +247,16 @@ void TransitionRun::PutOnFeet() {
     const std::vector<Pose> history =
         LastPoses(spec_->history.size(), spec_->history, std::span(plan_.begin(), from),
                   [](const Pose& pose) -> const Pose& { return pose; });
-    const FootworkContext context{.skeleton = model_->skeleton,
-                                  .history = history,
-                                  .keyed = to == plan_.end() && arrival_,
-                                  .held = held_,
-                                  .has_path = spec_->controls[kRootPath].IsGiven(),
-                                  .offset_before = offset_,
-                                  .fps = model_->fps,
-                                  .options = model_->footwork};
+    const FootworkContext context{
+        .skeleton = model_->skeleton,
+        .history = history,
+        .keyed = to == plan_.end() && arrival_,
+        .held = held_,
+        .has_path = spec_->controls[kRootPath].IsGiven(),
+        .has_heights = spec_->controls[kRootPath].IsRequested(kPathHeight),
+        .offset_before = offset_,
+        .fps = model_->fps,
+        .options = model_->footwork};
     std::vector<Pose> piece(from, to);
     Footwork footwork = StandOnFeet(context, &piece);
     std::ranges::copy(piece, from);

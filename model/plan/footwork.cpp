@@ -225,7 +225,7 @@ class PlanStander {
   // A body that leaves the floor, or comes to it, would swing its legs through it: raises the plan
   // there. Elsewhere legs that are under the floor bend.
   void RaisePlan() {
-    if (context_.held) return;
+    if (context_.held || context_.has_heights) return;
     std::vector<double> sunk(plan_.size());
     for (size_t i = 0; i < plan_.size(); ++i) {
       if (carriers_[i].empty() || IsKey(static_cast<int>(i))) continue;

@@ -16,7 +16,8 @@ struct FootworkContext {
   std::span<const Pose> history;  ///< before the first frame, oldest first, at least one
   bool keyed = false;             ///< the last pose is a key, which must not change
   bool held = false;              ///< the plan holds the pose of the last history frame
-  bool has_path = false;          ///< a path fixes the root on the floor
+  bool has_path = false,
+       has_heights = false;  ///< a path fixes the root on the floor, and its height
   /// Footwork::offset of the preceding frames, if they had footwork.
   Eigen::Matrix<double, 3, 2> offset_before = Eigen::Matrix<double, 3, 2>::Zero();
   double fps;
