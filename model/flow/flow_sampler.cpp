@@ -263,7 +263,8 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
       std::vector<Pose> poses = co_await SampleWindow(model, network, part, own);
       double beyond = 0;
       if (noise.temperature > 0) {
-        beyond = SpeedExcess(model.skeleton, asked.history.back(), poses, kModelFps);
+        beyond = FindFastestStep(model.skeleton, asked.history.back(), poses, kModelFps).m_per_s /
+                 kFastestJoint;
         if (may_stray)
           beyond = std::max(beyond, usual.Deviation(ground.ToWorld(poses.back())) / most);
       }

@@ -32,8 +32,5 @@ FastStep FindFastestStep(const Skeleton& skeleton, const Pose& before, std::span
 /// The speed of the fastest joint, or of the whole body, in units of the fastest that bodies reach.
 /// `speeds`: of all joints, metres a second.
 double SpeedExcess(const Eigen::RowVectorXd& speeds);
-/// The most of these poses, of which the first follows `before`.
-double SpeedExcess(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
-                   double fps);
 
 }  // namespace choreo
