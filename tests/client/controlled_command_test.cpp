@@ -365,9 +365,11 @@ TEST_F(ControlledCommandTest, TheReportHasTheWarnings) {
   ASSERT_EQ(outcome.code, 0) << outcome.said;
   EXPECT_THAT(outcome.said, HasSubstr("m/s; people reach 5"));
   const auto warnings = ReadJson(folder_ / "d.json")["warnings"];
-  ASSERT_GE(warnings.size(), 1U);
-  EXPECT_LE(warnings[0]["frame"], 30);
-  EXPECT_THAT(warnings[0]["message"].get<std::string>(), HasSubstr("people reach 5"));
+  const auto warning = std::ranges::find_if(warnings, [](const auto& one) {
+    return one["message"].template get<std::string>().ends_with("people reach 5");
+  });
+  ASSERT_NE(warning, warnings.end());
+  EXPECT_LE((*warning)["frame"], 30);
 }
 
 TEST_F(ControlledCommandTest, BadVelocitiesAreRefused) {
