@@ -1,16 +1,19 @@
 # Writes a build's identity, a part of fingerprints, as the C++ source OUTPUT. A script, because it runs when a source changes.
-#   cmake -DROOT=... -DFOLDERS=a,b -DCOMPILER=... -DBUILD_TYPE=... -DFLAGS=... -DEIGEN=3.4.0 -DUNITY=1 -DOUTPUT=... -P write_build_identity.cmake
+#   cmake -DROOT=... -DPARTS=a,b/one.cpp -DCOMPILER=... -DBUILD_TYPE=... -DFLAGS=... -DEIGEN=3.4.0 -DUNITY=1 -DOUTPUT=... -P write_build_identity.cmake
 # Names are relative to ROOT, so the same sources have the same identity in any place, with git or without.
-string(REPLACE "," ";" folders "${FOLDERS}")
+string(REPLACE "," ";" parts "${PARTS}")
 set(sources)
-foreach(folder ${folders})
-  file(GLOB found RELATIVE ${ROOT} ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.cu
-    ${ROOT}/${folder}/CMakeLists.txt)
+foreach(part ${parts})
+  if(IS_DIRECTORY ${ROOT}/${part})
+    file(GLOB found RELATIVE ${ROOT} ${ROOT}/${part}/*.h ${ROOT}/${part}/*.cpp ${ROOT}/${part}/*.cu
+      ${ROOT}/${part}/CMakeLists.txt)
+  elseif(EXISTS ${ROOT}/${part})
+    set(found ${part})
+  else()
+    message(FATAL_ERROR "there is no ${part} in ${ROOT}")
+  endif()
   list(APPEND sources ${found})
 endforeach()
-if(NOT sources)
-  message(FATAL_ERROR "no sources in ${FOLDERS} of ${ROOT}")
-endif()
 list(SORT sources)
 # These flags contain the build's path and change no bit.
 string(REGEX REPLACE "-f[a-z]+-prefix-map=[^ ]*" "" flags "${FLAGS}")
