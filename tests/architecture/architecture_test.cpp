@@ -239,7 +239,10 @@ bool Calls(const std::string& caller, const Step& step) {
 TEST(Architecture, TheWaysOnThePageFollowTheCode) {
   const std::string& text = TextOf("docs/architecture.md");
   std::vector<std::string> counts;
-  for (const std::string sent : {"an audio chunk", "a key", "a style", "a seed"}) {
+  // The ways may only become shorter.
+  const std::vector<std::pair<std::string, size_t>> most_files = {
+      {"an audio chunk", 17}, {"a key", 14}, {"a style", 16}, {"a seed", 11}};
+  for (const auto& [sent, most] : most_files) {
     std::vector<Step> way;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
@@ -256,7 +259,7 @@ TEST(Architecture, TheWaysOnThePageFollowTheCode) {
           << sent << ": nothing before calls " << way[i].function << " of " << way[i].file;
       files.insert(way[i].file);
     }
-    EXPECT_LE(files.size(), 17U) << sent;  // they may only become shorter
+    EXPECT_LE(files.size(), most) << sent;
     counts.push_back(std::to_string(files.size()));
   }
   EXPECT_THAT(text, HasSubstr("the ways have " + counts[0] + ", " + counts[1] + ", " + counts[2] +
