@@ -21,17 +21,15 @@ constexpr double kMaxSongSeconds = 1e6;  // of a song, of which the dance may us
 constexpr std::streamsize kMaxLineLength = 1000;
 
 /// Continues the count from counted beats to the others.
-void CountOn(BeatTrack* track) {
-  const std::vector<int> told = track->in_bar;
-  const auto first = std::ranges::find_if(told, [](int count) { return count >= 0; });
+void CountOthers(BeatTrack* track) {
+  const auto first = std::ranges::find(track->in_bar, 0);
   // A bar lasts from one to the next if only downbeats are known.
   if (track->beats_in_bar == 1) {
-    const auto second = std::find(first + 1, told.end(), 0);
-    track->beats_in_bar = second != told.end() ? static_cast<int>(second - first) : kDefaultBar;
+    const auto second = std::find(first + 1, track->in_bar.end(), 0);
+    track->beats_in_bar =
+        second != track->in_bar.end() ? static_cast<int>(second - first) : kDefaultBar;
   }
-  const auto at = static_cast<int64_t>(first - told.begin());
-  const int64_t downbeat = first == told.end() ? 0 : at - *first;
-  CountFrom(downbeat, track);
+  CountOn(track);
 }
 
 /// A line of a beat file: the second and, if known, the count in the bar.
@@ -97,7 +95,7 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   }
   if (track.frames.empty())
     throw InvalidArgument("beats", path + " has no beat after second " + InFull(start));
-  if (!counted) CountOn(&track);
+  if (!counted) CountOthers(&track);
   return track;
 }
 
@@ -128,12 +126,12 @@ BeatTrack FindAsAsked(std::span<const Onset> onsets, const BeatHint& hint,
   return track;
 }
 
-/// The index, below zero, of a beat before the song's part, at the tempo of its first beats.
-int64_t BeatBefore(const BeatTrack& track, int64_t frame) {
+/// Beats from a frame before the song's part to its first beat, at the tempo of its first beats.
+int64_t BeatsSince(const BeatTrack& track, int64_t frame) {
   constexpr size_t kBeats = 8;
   const std::vector<double> seconds = track.Seconds();
   const double bpm = TempoOf(std::span(seconds).first(std::min(seconds.size(), kBeats + 1)));
-  const auto before = static_cast<double>(frame - track.frames.front());
+  const auto before = static_cast<double>(track.frames.front() - frame);
   return std::llround(before / kOnsetRate * bpm / 60);
 }
 
@@ -141,7 +139,11 @@ void Change(const BeatOptions& options, double start, BeatTrack* track) {
   Follow(options.hint, track);
   if (!options.downbeat_s) return;
   const auto wanted = std::llround((*options.downbeat_s - start) * kOnsetRate);
-  CountFrom(wanted < 0 ? BeatBefore(*track, wanted) : NearestBeat(*track, wanted), track);
+  if (wanted < 0) {
+    CountFrom(0, BeatsSince(*track, wanted), track);
+  } else {
+    CountFrom(NearestBeat(*track, wanted), 0, track);
+  }
 }
 
 }  // namespace
@@ -196,7 +198,7 @@ void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* 
     track.in_bar.push_back(std::ranges::binary_search(*downbeats, beat) ? 0 : -1);
     track.confidence.push_back(1);
   }
-  CountOn(&track);
+  CountOthers(&track);
   Change(options, start, &track);
   beats->clear();
   downbeats->clear();

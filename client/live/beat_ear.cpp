@@ -15,7 +15,7 @@ int64_t Onsets(double seconds) { return std::llround(seconds * kOnsetRate); }
 /// Counts from the beat nearest to frame `one`, and returns the last downbeat.
 int64_t CountAround(int64_t one, BeatTrack* track) {
   const int64_t first = NearestBeat(*track, one);
-  CountFrom(first, track);
+  CountFrom(first, 0, track);
   const auto last = std::find(track->in_bar.rbegin(), track->in_bar.rend(), 0).base() - 1;
   return track->frames[static_cast<size_t>(last - track->in_bar.begin())];
 }

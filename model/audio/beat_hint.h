@@ -24,11 +24,19 @@ inline constexpr int kDefaultBar = 4;  ///< beats, where nobody says how many
 TempoLimits LimitsOf(const BeatHint& hint);
 
 /// Drops or adds every second beat, as the hint says. Half time keeps the half that contains the
-/// beat nearest to frame `kept`; none: the first downbeat. Bars keep their number of beats.
+/// beat nearest to frame `kept`; none: the first downbeat of each part between pauses. Bars keep
+/// their number of beats. A gap longer than 1.6 beats, by the gaps around, is a pause, and gets no
+/// beat.
 void Follow(const BeatHint& hint, BeatTrack* track, std::optional<int64_t> kept = {});
 
-/// Counts from beat `first` on, and backwards before it; it need not be one of them.
-void CountFrom(int64_t first, BeatTrack* track);
+/// Counts forwards and backwards from a beat, whose count from 0 on is `count`. Beyond a pause the
+/// count moves by as much: only music says how many beats of a bar a pause takes. By time, if it
+/// had no count.
+void CountFrom(int64_t beat, int64_t count, BeatTrack* track);
+
+/// Continues the count, in each part between pauses from its first downbeat or count, to beats
+/// whose count is below 0.
+void CountOn(BeatTrack* track);
 
 /// The beat nearest to a frame; there must be one.
 int64_t NearestBeat(const BeatTrack& track, int64_t frame);

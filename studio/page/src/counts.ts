@@ -9,7 +9,8 @@ const usualBar = 4;
 const fewestTaps = 4;
 const slack = 0.06; // share by which equal tempi may differ
 const missed = 0.07; // seconds between a tap and the beat meant
-const gap = 1.6; // intervals; longer ones are pauses
+const gap = 1.6; // intervals; longer ones are pauses, here and in the program (model/audio/beat_hint.cpp)
+const around = 4; // intervals on either side that tell how long one is
 
 /// Beats in an eight: two bars, of four or three.
 export const eight = (bar: number) => bar * Math.max(1, Math.floor(8 / bar));
@@ -48,19 +49,45 @@ export function countedLive(heard: { time: number; isDown: boolean; sure: number
   return counted(heard.map(({ time }) => time), inBar, bars.length ? median(bars) : usualBar, heard.map(({ sure }) => sure));
 }
 
-/// Counts forwards and backwards from one of the beats.
-function countedFrom(times: number[], one: number, bar: number): Beats {
-  const length = eight(bar);
-  return { bar, list: times.map((time, i) => ({ time: kept(time), count: (((i - one) % length) + length) % length + 1 })) };
+/// Whole beats from one to the next: 1, or more over a pause.
+function beatsToNext(times: number[], i: number): number {
+  const near = intervals(times.slice(Math.max(0, i - around), i + around + 2)).sort((a, b) => a - b);
+  const beats = (times[i + 1] - times[i]) / near[Math.floor((near.length - 1) / 2)];
+  return beats > gap ? Math.round(beats) : 1;
+}
+
+/// Each beat's distance, in beats, from a 1 of its part between pauses. In a part without counts the count goes on by time.
+function sinceOne({ bar, list }: Beats): number[] {
+  const times = timesOf({ bar, list });
+  const places = [0];
+  times.slice(1).forEach((_, i) => places.push(places[i] + beatsToNext(times, i)));
+  const oneOf = (part: number[]) => {
+    const told = part.find((i) => isDownbeat(list[i], bar)) ?? part.find((i) => list[i].count > 0);
+    return told === undefined ? null : places[told] - list[told].count + 1;
+  };
+  const parts: number[][] = [];
+  times.forEach((_, i) => (i > 0 && places[i] === places[i - 1] + 1 ? parts.at(-1)!.push(i) : parts.push([i])));
+  let one = oneOf(parts.flat()) ?? 0;
+  return parts.flatMap((part) => {
+    one = oneOf(part) ?? one;
+    return part.map((i) => places[i] - one);
+  });
+}
+
+const countAt = (since: number, length: number) => ((since % length) + length) % length + 1;
+
+/// Counts forwards and backwards from one of the beats. Beyond a pause the count moves by as much: only music says how many beats of a bar a pause takes.
+function countedFrom(beats: Beats, one: number): Beats {
+  const since = sinceOne(beats);
+  return { bar: beats.bar, list: beats.list.map(({ time }, i) => ({ time: kept(time), count: countAt(since[i] - since[one], eight(beats.bar)) })) };
 }
 
 const nearest = (times: number[], wanted: number) =>
   times.reduce((best, time, i) => (Math.abs(time - wanted) < Math.abs(times[best] - wanted) ? i : best), 0);
 const timesOf = ({ list }: Beats) => list.map(({ time }) => time);
-const firstOne = ({ list }: Beats) => Math.max(0, list.findIndex(({ count }) => count === 1));
 
 /// Makes the beat nearest to a second a 1.
-export const withOne = (beats: Beats, seconds: number) => countedFrom(timesOf(beats), nearest(timesOf(beats), seconds), beats.bar);
+export const withOne = (beats: Beats, seconds: number) => countedFrom(beats, nearest(timesOf(beats), seconds));
 
 /// A second's place among the beats: 1.5 is halfway from the second to the third. Extrapolates before the first and after the last.
 export function placeAmong(seconds: number, times: number[]): number {
@@ -79,24 +106,24 @@ const intervalAt = (place: number, times: number[]) => Math.min(Math.max(place, 
 
 const eachOf = (times: number[], nth: number, first: number) => times.filter((_, i) => i % nth === first % nth);
 
-/// Divides each interval into this many, except pauses.
-function split(times: number[], into: number): number[] {
-  const longest = gap * median(intervals(times));
-  return times.flatMap((time, i) => {
-    const length = times[i + 1] - time;
-    return length <= longest ? Array.from({ length: into }, (_, part) => time + (length * part) / into) : [time];
+/// The beats from each to before the next: this many, but one before a pause.
+const parted = (times: number[], into: number) =>
+  times.map((time, i) => {
+    const parts = i + 1 < times.length && beatsToNext(times, i) === 1 ? into : 1;
+    return Array.from({ length: parts }, (_, part) => (part ? time + ((times[i + 1] - time) * part) / into : time));
   });
-}
 
-/// Keeps every second beat: the half that contains the first 1.
+/// Keeps every second beat: in each part between pauses the half that contains its first 1.
 export function halved(beats: Beats): Beats {
-  const one = firstOne(beats);
-  return countedFrom(eachOf(timesOf(beats), 2, one), Math.floor(one / 2), beats.bar);
+  const since = sinceOne(beats);
+  const list = beats.list.map(({ time }, i) => ({ time: kept(time), count: countAt(since[i] / 2, eight(beats.bar)) }));
+  return { bar: beats.bar, list: list.filter((_, i) => since[i] % 2 === 0) };
 }
 
 export function doubled(beats: Beats): Beats {
-  const times = split(timesOf(beats), 2);
-  return countedFrom(times, nearest(times, beats.list[firstOne(beats)]?.time ?? 0), beats.bar);
+  const since = sinceOne(beats);
+  const list = parted(timesOf(beats), 2).map((both, i) => both.map((time, half) => ({ time: kept(time), count: countAt(2 * since[i] + half, eight(beats.bar)) })));
+  return { bar: beats.bar, list: list.flat() };
 }
 
 /// Moves all beats; keeps those within the song's seconds. Those before the first that is counted are counted back from it.
@@ -143,7 +170,7 @@ export function tapped(heard: Beats, before: Beats, taps: number[], seconds: num
   const times = along(timesOf(heard), taps, period) ?? evenly(phase % period, period, seconds);
   const ones = before.list.filter(({ count }) => count === 1).map(({ time }) => time);
   const one = ones.length ? ones[nearest(ones, taps[0])] : taps[0];
-  return countedFrom(times, nearest(times, one), before.bar);
+  return countedFrom({ bar: before.bar, list: times.map((time) => ({ time, count: 0 })) }, nearest(times, one));
 }
 
 const evenly = (first: number, period: number, seconds: number) =>
@@ -162,7 +189,7 @@ function along(heard: number[], taps: number[], period: number): number[] | null
     return (Math.atan2(sum(Math.sin), sum(Math.cos)) * period) / (2 * Math.PI);
   };
   const more = [1, 2, 3, 4].find((n) => isNear(ratio / n));
-  if (more) return shifted(more > 1 ? split(heard, more) : heard, away, period);
+  if (more) return shifted(more > 1 ? parted(heard, more).flat() : heard, away, period);
   const fewer = [2, 3, 4].find((n) => isNear(ratio * n));
   if (!fewer) return null;
   const ways = Array.from({ length: fewer }, (_, first) => eachOf(heard, fewer, first));

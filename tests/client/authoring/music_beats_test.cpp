@@ -67,6 +67,43 @@ TEST_F(MusicBeats, DoubleTimeAddsOneBetweenTwo) {
   EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(1.5), Near(2), Near(2.5), Near(3)));
 }
 
+// A pause, and a hole where a beat is missing.
+TEST_F(MusicBeats, DoubleTimeAddsNoneInPauses) {
+  const BeatTrack track =
+      Read("1\n1.4\n1.8\n2.6\n3\n3.4\n8\n8.4\n", {.hint = {.double_time = true}});
+  EXPECT_THAT(track.Seconds(),
+              ElementsAre(Near(1), Near(1.2), Near(1.4), Near(1.6), Near(1.8), Near(2.6), Near(2.8),
+                          Near(3), Near(3.2), Near(3.4), Near(8), Near(8.2), Near(8.4)));
+}
+
+TEST_F(MusicBeats, DoubleTimeFollowsAnotherTempo) {
+  const BeatTrack track =
+      Read("0\n0.5\n1\n1.5\n2\n2.5\n3\n4\n5\n6\n7\n8\n9\n", {.hint = {.double_time = true}});
+  EXPECT_EQ(track.frames.size(), 25U);
+}
+
+TEST_F(MusicBeats, HalfTimeKeepsDownbeatsAfterAPause) {
+  const BeatTrack track = Read("1 1\n1.5 2\n2 3\n2.5 4\n3 1\n6 4\n6.5 1\n7 2\n7.5 3\n8 4\n",
+                               {.hint = {.half_time = true}});
+  EXPECT_THAT(track.Seconds(), ElementsAre(Near(1), Near(2), Near(3), Near(6.5), Near(7.5)));
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(1), Near(6.5)));
+}
+
+// A pause of six beats, and then another bar.
+TEST_F(MusicBeats, ADownbeatLeavesBarsBeyondAPauseWhereTheyBegan) {
+  const std::string counted =
+      "0.2 1\n0.7 2\n1.2 3\n1.7 4\n2.2 1\n5.2 1\n5.7 2\n6.2 3\n6.7 4\n7.2 1\n";
+  EXPECT_THAT(Read(counted, {.downbeat_s = 2.2}).DownbeatSeconds(),
+              ElementsAre(Near(0.2), Near(2.2), Near(5.2), Near(7.2)));
+  EXPECT_THAT(Read(counted, {.downbeat_s = 1.2}).DownbeatSeconds(),
+              ElementsAre(Near(1.2), Near(6.2)));
+}
+
+TEST_F(MusicBeats, WithoutCountsTheCountGoesOnByTimeInAPause) {
+  const BeatTrack track = Read("0.2\n0.7\n1.2\n1.7\n2.2\n5.2\n5.7\n6.2\n6.7\n7.2\n");
+  EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(0.2), Near(2.2), Near(6.2)));
+}
+
 TEST_F(MusicBeats, CountsFromTheChosenDownbeat) {
   const BeatTrack track = Read("1\n2\n3\n4\n5\n6\n", {.downbeat_s = 2.9});
   EXPECT_THAT(track.DownbeatSeconds(), ElementsAre(Near(3)));

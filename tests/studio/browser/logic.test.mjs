@@ -194,6 +194,19 @@ test('beats are halved, doubled and nudged, and one of them is a 1', () => {
   assert.deepEqual(beatsMessage(null), {});
 });
 
+test('a pause gets no beats, and bars stay where they begin after it', () => {
+  const times = [0.2, 0.7, 1.2, 1.7, 2.2, 5.2, 5.7, 6.2, 6.7, 7.2];
+  const beats = counted(times, [1, 2, 3, 4, 1, 1, 2, 3, 4, 1], 4);
+  const downbeats = ({ bar, list }) => list.filter((beat) => isDownbeat(beat, bar)).map(({ time }) => time);
+  assert.deepEqual(downbeats(withOne(beats, 2.2)), [0.2, 2.2, 5.2, 7.2]);
+  assert.deepEqual(downbeats(withOne(beats, 1.2)), [1.2, 6.2]);
+  assert.deepEqual(downbeats(withOne(counted(times, [], 4), 0.2)), [0.2, 2.2, 6.2], 'by time');
+  assert.deepEqual(halved(counted(times, [1, 2, 3, 4, 1, 4, 1, 2, 3, 4], 4)).list.map(({ time }) => time), [0.2, 1.2, 2.2, 5.7, 6.7]);
+  // A hole is a pause; another tempo is none.
+  assert.equal(doubled(counted([1, 1.5, 2, 3, 3.5, 4], [], 4)).list.length, 10);
+  assert.equal(doubled(counted([...every(0.5, 7), ...every(1, 6, 4)], [], 4)).list.length, 25);
+});
+
 test('counts later are the beats further on, and go on where there are none', () => {
   const times = [1, 1.5, 2.1, 2.5];
   near(placeAmong(1.8, times), 1.5);
