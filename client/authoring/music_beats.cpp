@@ -79,8 +79,9 @@ BeatTrack ReadBeats(const std::string& path, double start) {
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
     const BeatLine beat = ParseBeat(text, field);
     if (beat.second - last < 1 / kOnsetRate) {
-      throw InvalidArgument(field, InFull(beat.second) + " s does not come after the beat before " +
-                                       "it, at " + InFull(last) + " s");
+      throw InvalidArgument(field, "is " + Rounded(beat.second - last) +
+                                       " s after the beat before it, must be 1/" +
+                                       Rounded(kOnsetRate) + " s or more");
     }
     last = beat.second;
     if (track.frames.size() >= kMaxBeats)

@@ -128,8 +128,9 @@ TEST_F(MusicBeats, BadLinesAreRefusedByTheirNumber) {
   ExpectError(ErrorCode::kInvalidArgument, "beats: ", [&] { Read("# none\n"); });
   for (const char* bad : {"1 2x\n", "1 2 3\n", "0,5\n", "nan\n", "1e300\n", "-1\n"})
     ExpectError(ErrorCode::kInvalidArgument, "beats.txt:1", [&] { Read(bad); });
-  ExpectError(ErrorCode::kInvalidArgument, "after the beat before it",
-              [&] { Read("0.5\n0.501\n"); });
+  ExpectError(ErrorCode::kInvalidArgument,
+              "is 0.01 s after the beat before it, must be 1/90 s or more",
+              [&] { Read("0.01\n0.02\n"); });
   ExpectError(ErrorCode::kInvalidArgument, "too long", [&] { Read(std::string(5000, '1')); });
   ExpectError(ErrorCode::kInvalidArgument, "beats are in seconds", [&] { Read("500\n1000\n"); });
   ExpectError(ErrorCode::kInvalidArgument,
