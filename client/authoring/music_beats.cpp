@@ -1,6 +1,7 @@
 #include "client/authoring/music_beats.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -100,31 +101,40 @@ BeatTrack ReadBeats(const std::string& path, double start) {
   return track;
 }
 
+/// Within a semitone.
+bool IsNear(double bpm, double other) {
+  const double ratio = bpm / other;
+  return std::max(ratio, 1 / ratio) <= 1.06;
+}
+
 /// Whether this tempo, or one that listeners confuse with it, is that of eight beats somewhere.
 bool HasTempo(std::span<const double> beats, double bpm) {
   constexpr size_t kBeats = 8;
-  constexpr double kWithin = 1.06;  // a semitone
   for (size_t i = 0; i + kBeats < beats.size(); ++i) {
+    const double tempo = TempoOf(beats.subspan(i, kBeats + 1));
     for (const double times : {1.0, 2.0, 3.0, 1.5}) {
-      const double ratio = times * TempoOf(beats.subspan(i, kBeats + 1)) / bpm;
-      for (const double off : {ratio, ratio / (times * times)})
-        if (std::max(off, 1 / off) <= kWithin) return true;
+      if (IsNear(tempo * times, bpm) || IsNear(tempo / times, bpm)) return true;
     }
   }
   return false;
 }
 
-/// Finds beats near the tempo of the options, and warns if nothing in the music has it.
-BeatTrack FindAsAsked(std::span<const Onset> onsets, const BeatHint& hint,
-                      std::span<const float> mono) {
-  BeatTrack track = TrackBeats(onsets, LimitsOf(hint), MusicExtent::kWhole, mono);
-  if (!hint.tempo_bpm) return track;
+/// Warns of a tempo that nothing in the music has, or that no beats have.
+void WarnOfTempo(std::span<const Onset> onsets, double asked_bpm, double found_bpm,
+                 double taken_bpm) {
+  std::string warning;
+  const auto whole = [](double bpm) { return std::to_string(std::lround(bpm)); };
   const BeatTrack heard = TrackBeats(onsets);
-  if (heard.tempo_bpm > 0 && !HasTempo(heard.Seconds(), *hint.tempo_bpm)) {
-    std::cerr << "warning: --tempo " + InFull(*hint.tempo_bpm) + " is far from what is heard, " +
-                     std::to_string(std::lround(heard.tempo_bpm)) + " beats a minute\n";
+  if (heard.tempo_bpm > 0 && !HasTempo(heard.Seconds(), asked_bpm)) {
+    warning = " is far from what is heard, " + whole(heard.tempo_bpm) + " beats a minute";
   }
-  return track;
+  const bool followed = std::ranges::any_of(std::array{0.5, 1.0, 2.0}, [&](double times) {
+    return IsNear(found_bpm, times * asked_bpm);
+  });
+  if (!followed)
+    warning += (warning.empty() ? " is not found; beats are taken at " : "; they are taken at ") +
+               whole(taken_bpm) + " a minute";
+  if (!warning.empty()) std::cerr << "warning: --tempo " + InFull(asked_bpm) + warning + '\n';
 }
 
 /// Beats from a frame before the song's part to its first beat, at the tempo of its first beats.
@@ -136,6 +146,14 @@ int64_t BeatsSince(const BeatTrack& track, int64_t frame) {
   return std::llround(before / kOnsetRate * bpm / 60);
 }
 
+/// Warns of a downbeat, in seconds of the song, where there is no beat.
+void WarnOfDownbeat(double downbeat_s, double nearest_s, double tempo_bpm) {
+  if (tempo_bpm <= 0 || std::abs(downbeat_s - nearest_s) <= 60 / tempo_bpm) return;
+  std::cerr << "warning: --downbeat " + InFull(downbeat_s) +
+                   " is more than a beat away from any beat; the nearest, at " +
+                   Rounded(nearest_s) + " s, begins a bar\n";
+}
+
 void Change(const BeatOptions& options, double start, BeatTrack* track) {
   Follow(options.hint, track);
   if (!options.downbeat_s) return;
@@ -143,7 +161,11 @@ void Change(const BeatOptions& options, double start, BeatTrack* track) {
   if (wanted < 0) {
     CountFrom(0, BeatsSince(*track, wanted), track);
   } else {
-    CountFrom(NearestBeat(*track, wanted), 0, track);
+    const int64_t nearest = NearestBeat(*track, wanted);
+    const std::vector<double> seconds = track->Seconds();
+    WarnOfDownbeat(*options.downbeat_s, start + seconds[static_cast<size_t>(nearest)],
+                   TempoOf(seconds));
+    CountFrom(nearest, 0, track);
   }
 }
 
@@ -158,8 +180,9 @@ void RequireSong(const BeatOptions& options, const std::string& song) {
 
 BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOptions& options,
                        std::span<const float> mono) {
-  BeatTrack track = options.FindsThem() ? FindAsAsked(onsets, options.hint, mono)
-                                        : ReadBeats(*options.beats, start);
+  BeatTrack track = options.FindsThem()
+                        ? TrackBeats(onsets, LimitsOf(options.hint), MusicExtent::kWhole, mono)
+                        : ReadBeats(*options.beats, start);
   const double end = static_cast<double>(onsets.size()) / kOnsetRate;
   if (options.downbeat_s && *options.downbeat_s - start > end) {
     throw InvalidArgument("downbeat", InFull(*options.downbeat_s) +
@@ -178,10 +201,16 @@ BeatTrack BeatsAsAsked(std::span<const Onset> onsets, double start, const BeatOp
           "beats", *options.beats + " has no beat within what is heard of the song, its first " +
                        Rounded(start + end) + " s; beats are in seconds");
     }
+    if (options.hint.tempo_bpm)
+      WarnOfTempo(onsets, *options.hint.tempo_bpm, *options.hint.tempo_bpm, 0);
     return track;
   }
+  const double found_bpm = TempoOf(track.Seconds());
   Change(options, start, &track);
   track.tempo_bpm = TempoOf(track.Seconds());
+  const std::optional<double>& asked_bpm = options.hint.tempo_bpm;
+  if (options.FindsThem() && asked_bpm && found_bpm > 0)
+    WarnOfTempo(onsets, *asked_bpm, found_bpm, track.tempo_bpm);
   return track;
 }
 

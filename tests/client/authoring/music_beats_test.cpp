@@ -207,6 +207,19 @@ TEST_F(MusicBeats, ATempoThatTheMusicDoesNotHaveIsWarnedOf) {
   };
   EXPECT_THAT(said(97), testing::StartsWith("warning: --tempo 97 is far from what is heard, 120 "));
   for (const double tempo : {120.0, 123.0, 60.0, 80.0, 180.0}) EXPECT_EQ(said(tempo), "") << tempo;
+  // It might be two thirds of the music's, but nothing is found so near to it.
+  EXPECT_EQ(said(170), "warning: --tempo 170 is not found; beats are taken at 160 a minute\n");
+}
+
+TEST_F(MusicBeats, ADownbeatFarFromAnyBeatIsWarnedOf) {
+  const auto said = [&](double downbeat) {
+    testing::internal::CaptureStderr();
+    Read("1\n1.5\n2\n2.5\n", {.downbeat_s = downbeat}, 0.5);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(said(8), testing::StartsWith("warning: --downbeat 8 is more than a beat away from "
+                                           "any beat; the nearest, at 2.5 s, begins a bar"));
+  for (const double near : {0.1, 0.6, 1.7, 2.9}) EXPECT_EQ(said(near), "") << near;
 }
 
 TEST_F(MusicBeats, AutoNeedsNoSong) {
