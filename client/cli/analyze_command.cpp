@@ -43,14 +43,13 @@ std::pair<double, double> PartOf(const authoring::Music& music, const AnalyzeOpt
   const double said = second("--until", options.until, std::numeric_limits<double>::infinity());
   // All of the song is heard, but a dance of --seconds has no keys beyond them.
   const double until = std::min(said, options.seconds);
-  const auto seconds = [](double value) { return InFull(value) + " s"; };
   if (from >= until) {
-    throw InvalidArgument("--from", seconds(from) + " is not before " +
+    throw InvalidArgument("--from", Rounded(from) + " s is not before " +
                                         (said <= options.seconds ? "--until" : "--seconds") + ", " +
-                                        seconds(until));
+                                        Rounded(until) + " s");
   }
   if (from >= music.audio.seconds()) {
-    throw InvalidArgument("--from", seconds(from) + " is after the song's end at " +
+    throw InvalidArgument("--from", Rounded(from) + " s is after the song's end at " +
                                         Rounded(music.audio.seconds()) + " s");
   }
   return {from, until};
@@ -209,14 +208,15 @@ void AddAnalyzeCommand(CLI::App& program) {
           "--seconds", options->seconds,
           "Show so much of the song, as a dance of this length hears it; keys are suggested within "
           "it.")
-      ->check(TimeInSeconds());
+      ->check(AboveZero());
   AddBeatOptions(*command, &options->beats);
   command->add_flag(
       "--json", options->json,
       "Print duration_s, sample_rate, tempo_bpm, beats (seconds), beats_in_bar, downbeats "
       "(seconds), confidence (of each beat, 0 to 1: how much more begins on the beats around it "
-      "than elsewhere), without_beats (where none is heard), passages (that come back), notes and "
-      "suggested_keys as JSON.");
+      "than elsewhere), without_beats (where none is heard), passages (that come back), energies "
+      "(of each half second), notes and, with --suggest-keys, suggested_keys and keyframes (a "
+      "file of keys) as JSON.");
   command->add_option("--features", options->features,
                       "FILE.npy for the MFCC rows that the models hear: [rows, 40], 30 a second.");
   CLI::Option* suggest =

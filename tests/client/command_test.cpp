@@ -98,6 +98,8 @@ TEST_F(CommandTest, AnalyzesASong) {
   EXPECT_NEAR(part["duration_s"], 4, 1e-3);
   EXPECT_LT(part["beats"].back().get<double>(), 4);
   for (const double beat : part["beats"]) EXPECT_NEAR(std::remainder(beat - 0.25, 0.5), 0, 0.07);
+  EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --seconds 0").said,
+              HasSubstr("--seconds: 0 is not a number above 0"));
   EXPECT_THAT(Choreo("analyze " + At("song.wav") + " --song-start 9").said,
               HasSubstr("--song-start: 9 s is after the end"));
 }
@@ -118,6 +120,8 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
       EXPECT_GE(keys[i]["time_s"].get<double>() - keys[i - 1]["time_s"].get<double>(), 1.2);
     }
   }
+  const std::string help = Choreo("analyze --help").said;
+  for (const auto& item : heard.items()) EXPECT_THAT(help, HasSubstr(item.key()));
   const Outcome text = Choreo(analyze + "4");
   EXPECT_THAT(text.said, HasSubstr(" Hz, 1 channel; "));
   EXPECT_THAT(Choreo("analyze --seconds 0.6 " + At("song.wav")).said, HasSubstr(" 1 bar of 4, "));
@@ -152,6 +156,8 @@ TEST_F(CommandTest, SuggestsBeatsForKeyPoses) {
   }
   EXPECT_THAT(Choreo(analyze + "2 --from 7 --until 3").said,
               HasSubstr("--from: 7 s is not before --until, 3 s"));
+  EXPECT_THAT(Choreo(analyze + "2 --from 7.1234567 --until 3").said,
+              HasSubstr("--from: 7.12 s is not before --until, 3 s"));
   EXPECT_THAT(Choreo(analyze + "2 --from 12.5").said,
               HasSubstr("--from: 12.5 s is after the song's end at 12 s"));
   // Between two moments, counting the beats of the whole song.
