@@ -163,7 +163,11 @@ test('warnings name their key', async () => {
   await withClient(async (client, { skeleton }) => {
     const key = { id: 'far', frame: 10, pose: pose(skeleton, {}, { place: [50, 0] }) };
     const warned = (await collect(client.streamDance([{ config: {} }, { keyframe: key }]))).filter(({ event }) => event?.warning);
-    assert.deepEqual(warned.map(({ event }) => [event.warning.keyframe_id, event.frame]), [['far', '10']]);
+    assert.deepEqual(warned.map(({ event }) => event.warning.keyframe_id), ['far', 'far']);
+    const [planned, danced] = warned.map(({ event }) => event);
+    assert.deepEqual([planned.warning.code, planned.frame], ['WARNING_CODE_INTERVAL_TOO_SHORT', '10']);
+    assert.equal(danced.warning.code, 'WARNING_CODE_JOINT_TOO_FAST');
+    assert(danced.warning.figure > danced.warning.limit, danced.warning.message);
   });
 });
 

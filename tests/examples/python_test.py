@@ -196,8 +196,11 @@ class PythonTest(unittest.TestCase):
 
     def test_warnings_name_their_key(self):
         key = {"keyframe": {"id": "far", "frame": 10, "pose": pose(self.client.info().models[0].skeleton, {}, place=[50, 0])}}
-        (warning,) = (one.event for one in self.client.stream_dance([{"config": {}}, key]) if one.event.HasField("warning"))
-        self.assertEqual((warning.warning.keyframe_id, warning.frame), ("far", 10))
+        planned, danced = (one.event for one in self.client.stream_dance([{"config": {}}, key]) if one.event.HasField("warning"))
+        self.assertEqual((planned.warning.keyframe_id, danced.warning.keyframe_id), ("far", "far"))
+        self.assertEqual((planned.warning.code, planned.frame), (choreography.WARNING_CODE_INTERVAL_TOO_SHORT, 10))
+        self.assertEqual(danced.warning.code, choreography.WARNING_CODE_JOINT_TOO_FAST)
+        self.assertGreater(danced.warning.figure, danced.warning.limit)
 
     def test_cards_come_on_request(self):
         self.assertEqual({model.card for model in self.client.info().models}, {""})
