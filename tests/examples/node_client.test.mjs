@@ -318,6 +318,25 @@ test('calls wait for a server, and give up in time', async () => {
   });
 });
 
+test('a full server that asks to wait longer than a call tries is asked once', () =>
+  withServer(['--max-streams', '1'], async ({ address, log }) => {
+    let stop;
+    const over = new Promise((resolve) => (stop = resolve));
+    async function* silence() {
+      yield { config: { audio_format: pcm } };
+      await over;
+    }
+    await withClient(address, {}, async (holder) => {
+      await holder.streamDance(silence()).next();
+      const refused = withClient(address, { retry: 0.5 }, (client) => collect(client.streamDance([{ config: { frames: 30 } }])));
+      await assert.rejects(refused, ({ code, retryAfter }) => code === 'RESOURCE_EXHAUSTED' && retryAfter > 0.5);
+      await info(address);
+      while (!log().includes('GetServerInfo')) await sleep(20);
+      assert.equal(log().match(/StreamDance .*RESOURCE_EXHAUSTED/g)?.length, 1);
+      stop();
+    });
+  }));
+
 test('who reads too slowly is told the limit', () =>
   withServer(['--unread-seconds', '0.5', '--outbox-kib', '16'], ({ address, log }) =>
     withClient(address, {}, async (client) => {

@@ -341,6 +341,23 @@ class ClientTest(unittest.TestCase):
             self.assertTrue(info(server.address, even_draining=True).models)
             stop.set()
 
+    def test_a_full_server_that_asks_to_wait_longer_than_a_call_tries_is_asked_once(self):
+        def silence():
+            yield {"config": {"audio_format": PCM}}
+            stop.wait()
+
+        stop = threading.Event()
+        with Server("--max-streams", 1) as server, Client(server.address) as holder, holder.stream_dance(silence()) as dance:
+            next(dance)
+            with Client(server.address, retry_s=0.5) as client:
+                error = self.assert_refused("RESOURCE_EXHAUSTED", "", list, client.stream_dance([{"config": {"frames": 30}}]))
+            self.assertGreater(error.retry_after, 0.5)
+            info(server.address)
+            while "GetServerInfo" not in server.log():
+                time.sleep(0.02)
+            self.assertEqual(len(re.findall("StreamDance .*RESOURCE_EXHAUSTED", server.log())), 1)
+            stop.set()
+
     def test_who_reads_too_slowly_is_told_the_limit(self):
         with Server("--unread-seconds", 0.5, "--outbox-kib", 16) as server, Client(server.address) as client:
             with client.stream_dance([{"config": {"frames": 60000}}]) as dance:

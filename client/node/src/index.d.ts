@@ -37,7 +37,10 @@ export interface ClientOptions {
   connectTimeout?: number;
   /** A server of which nothing is heard for so many seconds, not even the answer to a ping, is lost; at least 2, or 0: never. Default 5. */
   silence?: number;
-  /** Seconds to try again and again since a call last made progress; default 10. 0: not at all, so nothing goes on elsewhere. */
+  /**
+   * Seconds to try again and again since a call last made progress; default 10. A server that asks to wait longer than is left is not waited
+   * for: the error has its `retryAfter`. 0: not at all, so nothing goes on elsewhere.
+   */
   retry?: number;
   /** Seconds between tries, doubled with each, up to 2; default 0.1. */
   firstBackoff?: number;

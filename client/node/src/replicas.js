@@ -155,10 +155,12 @@ class Patience {
     // Once all have refused there is no other one left to do better.
     this.#refusals = advice.here ? 0 : this.#refusals + 1;
     const useful = advice.here || (advice.elsewhere && this.#refusals < this.#servers);
-    if (!useful || now - this.#since >= 1000 * this.#options.retry) return undefined;
+    const left = this.#options.retry - (now - this.#since) / 1000;
+    const asked = elsewhere ? 0 : advice.wait; // what a server asks for concerns itself
+    if (!useful || left <= 0 || asked > left) return undefined;
     const doubled = Math.min(longestBackoff, this.#options.firstBackoff * 2 ** this.#failures++);
-    // Clients that lost the same server should not all come back at once; what a server asks for concerns itself.
-    const wait = Math.max(elsewhere ? 0 : advice.wait, doubled * (0.5 + 0.5 * Math.random()));
+    // Clients that lost the same server should not all come back at once.
+    const wait = Math.max(asked, Math.min(left, doubled * (0.5 + 0.5 * Math.random())));
     return now + 1000 * wait < this.#deadline ? wait : undefined;
   }
 }

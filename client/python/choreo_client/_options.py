@@ -33,7 +33,8 @@ class Options:
     token_file          the file of it instead, read again for each call, so that it can be renewed
     connect_timeout_s   for one attempt at one address
     silence_s           a server of which nothing is heard for so long, not even the answer to a ping, is lost; at least 2, or 0: never
-    retry_s             how long to try again since a call last made progress; 0: not at all, so nothing goes on elsewhere
+    retry_s             how long to try again since a call last made progress; 0: not at all, so nothing goes on elsewhere. A server that
+                        asks to wait longer than is left is not waited for: the error has its retry_after
     first_backoff_s     between tries; doubled with each, up to 2 s
     even_draining       ask servers, too, that take no new dances: for who looks at them
     """

@@ -171,11 +171,13 @@ class Patience:
         # Once all have refused there is no other one left to do better.
         self._refusals = 0 if advice.here else self._refusals + 1
         useful = advice.here or (advice.elsewhere and self._refusals < self._servers)
-        if not useful or now - self._since >= self._options.retry_s:
+        left = self._options.retry_s - (now - self._since)
+        asked = 0 if elsewhere else advice.wait_s  # what a server asks for concerns itself
+        if not useful or left <= 0 or asked > left:
             return None
         doubled = min(LONGEST_BACKOFF, self._options.first_backoff_s * 2**self._failures)
         self._failures += 1
-        # Clients that lost the same server should not all come back at once; what a server asks for concerns itself.
-        wait = max(0 if elsewhere else advice.wait_s, doubled * random.uniform(0.5, 1))
+        # Clients that lost the same server should not all come back at once.
+        wait = max(asked, min(left, doubled * random.uniform(0.5, 1)))
         remaining = self._until.remaining()
         return wait if remaining is None or wait < remaining else None
