@@ -96,11 +96,16 @@ test('CommonJS knows it, too', async (t) => {
   assert.equal(code, 0, said);
 });
 
-test("the page's programs are TypeScript, too", async (t) => {
+test("the pages' programs are TypeScript, too", async (t) => {
   if (skip) return t.skip(skip);
   const page = await readFile(join(root, 'client/node/README.md'), 'utf8');
   const [first] = /(?<=^```js\n)[^`]+/m.exec(page);
   await compile('page.ts', `declare function draw(places: number[], turns: number[]): void;\n${first}`);
+  const [show] = /(?<=^```js\n)import [^`]+/m.exec(await readFile(join(root, 'docs/character.md'), 'utf8'));
+  const scene = 'declare const gltf: { scene: Object3D }, renderer: { setAnimationLoop(draw: () => void): void }, audio: { currentTime: number };';
+  const frames = 'declare const header: Header; declare function onFrames(hear: (frames: Frames) => void): void;';
+  const types = "import type { Frames, Header } from 'choreo-client';\nimport type { Object3D } from 'choreo-client/character';";
+  await compile('show.ts', `${types}\n${scene}\n${frames}\n${show}`);
 });
 
 test('its types know the messages', async (t) => {

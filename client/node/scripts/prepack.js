@@ -39,6 +39,7 @@ for (const name of readdirSync(messages)) {
   const sendable = declared
     .replaceAll('(number | string | Long)', '(number | bigint | string | Long)')
     .replaceAll('(number | string)', 'number')
+    .replace("'skeleton': (_choreo_v1_Skeleton__Output | null)", "'skeleton': _choreo_v1_Skeleton__Output") // which always comes
     .replace("'rotations'?: number[]", "'rotations'?: number[] | Float32Array | Float64Array")
     .replace('(Buffer | Uint8Array | string)', '(ArrayBuffer | ArrayBufferView)');
   const type = api.lookup('choreo.v1').nested[name.replace('.d.ts', '')];

@@ -1,14 +1,11 @@
-import type { GetServerInfoResponse__Output } from '../types/choreo/v1/GetServerInfoResponse.js';
-import type { ModelInfo__Output } from '../types/choreo/v1/ModelInfo.js';
-import type { GenerateTransitionRequest, GenerateTransitionResponse } from '../types/messages.js';
+import type { GenerateTransitionRequest, GenerateTransitionResponse, GetServerInfoResponse as ServerInfo } from '../types/messages.js';
 import type { Keyframe, KeyframeRejected, Pose, Skeleton, StreamDanceRequest, StreamDanceResponse } from '../types/messages.js';
 
 // Messages are plain objects, named as in choreo/v1/choreography.proto, which the package brings along. What is sent may leave out fields;
 // what comes has all of them, yet of alternatives one: after `if (answer.response === 'frames')`, or `if (answer.frames)`, the compiler knows
 // it. Numbers of 64 bits come as text.
 export * from '../types/messages.js';
-export type ModelInfo = Omit<ModelInfo__Output, 'skeleton'> & { skeleton: Skeleton };
-export type ServerInfo = Omit<GetServerInfoResponse__Output, 'models'> & { models: ModelInfo[] };
+export type { GetServerInfoResponse as ServerInfo } from '../types/messages.js';
 
 type Plain = string | number | bigint | boolean | symbol | null | undefined | ArrayBuffer | ArrayBufferView | readonly unknown[] | { low: number; high: number };
 type Known<S> = S extends unknown ? keyof S : never;
