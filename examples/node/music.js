@@ -63,6 +63,6 @@ export async function* file(path) {
   const bytes = await readFile(path);
   const piece = 1 << 20;
   for (let start = 0; start < bytes.length; start += piece) {
-    yield { audio: { data: bytes.subarray(start, start + piece), first_sample: start } };
+    yield { audio: { data: bytes.subarray(start, start + piece) } };
   }
 }

@@ -28,7 +28,5 @@ def live(samples, speed=1.0):
 def file(path):
     """The bytes of a WAV, FLAC, Ogg or MP3 file."""
     with open(path, "rb") as song:
-        start = 0
         while data := song.read(1 << 20):
-            yield choreography.Audio(data=data, first_sample=start)
-            start += len(data)
+            yield choreography.Audio(data=data)

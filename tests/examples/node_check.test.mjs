@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
 import { ChoreoClient, ChoreoError, pose } from '../../client/node/src/index.js';
+import { clicks, pcm, wav } from '../../examples/node/music.js';
 import { withServer } from './servers.mjs';
 
 const skeleton = { name: 'two', joint_names: ['pelvis', 'left_shoulder'], pelvis_height: 1 };
@@ -196,6 +197,23 @@ test('music is bytes, or the samples that its encoding says', () =>
     }
   }));
 
+test('pieces of music are numbered, of samples and of files, where nobody says where they start', () =>
+  withClient(async (client) => {
+    const samples = clicks(2);
+    const kinds = [
+      [{ encoding: 'AUDIO_ENCODING_FILE' }, wav(samples)],
+      [pcm, samples],
+    ];
+    for (const [audio_format, music] of kinds) {
+      const config = { seed: 1, frames: 60, generate_until: 0, audio_format };
+      const pieces = [music.subarray(0, 30000), music.subarray(30000, 60000), music.subarray(60000)].map((data) => ({ audio: { data } }));
+      const whole = { audio: { data: music, first_sample: 0 } };
+      const dance = async (audio) => (await collect(client.streamDance([{ config }, ...audio, { end_of_audio: {} }, { keyframes_complete: {} }]))).flatMap((answer) => answer.frames?.rotations ?? []);
+      assert.deepEqual(await dance(pieces), await dance([whole]));
+      assert.equal(pieces[1].audio.first_sample, undefined, 'the caller sees its own');
+    }
+  }));
+
 test('music that no message can hold is refused before it is sent', () =>
   withClient(async (client) => {
     const config = { frames: 30, audio_format: { encoding: 'AUDIO_ENCODING_PCM_F32LE', sample_rate: 48000, channels: 1 } };
@@ -204,7 +222,7 @@ test('music that no message can hold is refused before it is sent', () =>
       code: 'INVALID_ARGUMENT',
       message: `${place}audio.data: ${size} MiB; a message has at most 16 MiB in all: ${remedy}`,
     });
-    const pieces = 'send it in pieces, each with its first_sample';
+    const pieces = 'send it in pieces';
     await assert.rejects(dance(new Uint8Array(17 << 20)), wrong('17.0', pieces));
     await assert.rejects(dance(new Uint8Array(16 << 20)), wrong('16.0', pieces));
     assert.equal(frames(await dance(new Uint8Array((16 << 20) - 32))), 30);

@@ -13,14 +13,17 @@ import queue
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import typing
 import unittest
+import wave
 
 from google.protobuf.json_format import MessageToDict
 
 from choreo_client import Answers, ChoreoError, Client, aio, choreography, pose
+from music import PCM, RATE, clicks
 
 SKELETON = choreography.Skeleton(name="two", joint_names=["pelvis", "left_shoulder"], pelvis_height=1)
 CONFIG = {"config": {"frames": 30}}
@@ -139,6 +142,29 @@ print(api_implementation.Type())
         for data in (floats, array.array("d", [0]), "song.mp3", [1, 2]):
             self.assert_refused(r"audio\.data: ", dance, choreography.AUDIO_ENCODING_PCM_S16LE, data)
 
+    def test_pieces_of_music_are_numbered_where_nobody_says_where_they_start(self):
+        with tempfile.TemporaryFile() as file:
+            with wave.open(file, "wb") as song:
+                song.setnchannels(1)
+                song.setsampwidth(2)
+                song.setframerate(RATE)
+                song.writeframes(clicks(2))
+            file.seek(0)
+            song = file.read()
+        for audio_format, music in (({"encoding": "AUDIO_ENCODING_FILE"}, song), (PCM, clicks(2))):
+            config = {"config": {"seed": 1, "frames": 60, "generate_until": 0, "audio_format": audio_format}}
+            rest = [{"end_of_audio": {}}, {"keyframes_complete": {}}]
+
+            def dance(*pieces):
+                return [number for answer in self.dance(config, *pieces, *rest) for number in answer.frames.rotations]
+
+            pieces = (music[:30000], music[30000:60000], music[60000:])
+            whole = dance({"audio": {"data": music, "first_sample": 0}})
+            self.assertEqual(dance(*({"audio": {"data": data}} for data in pieces)), whole)
+            own = [choreography.StreamDanceRequest(audio={"data": data}) for data in pieces]
+            self.assertEqual(dance(*own), whole)
+            self.assertEqual(own[1].audio.first_sample, 0)  # the caller sees its own
+
     def test_music_that_no_message_can_hold_is_refused_before_it_is_sent(self):
         config = {"frames": 30, "audio_format": {"encoding": "AUDIO_ENCODING_PCM_F32LE", "sample_rate": 48000, "channels": 1}}
 
@@ -146,7 +172,7 @@ print(api_implementation.Type())
             return self.dance({"config": config}, {"audio": {"data": bytes(size)}}, {"end_of_audio": {}})
 
         wrong = r"audio\.data: {} MiB; a message has at most 16 MiB in all: {}$"
-        pieces = "send it in pieces, each with its first_sample"
+        pieces = "send it in pieces"
         for size, told in ((17 << 20, "17.0"), (16 << 20, "16.0")):
             self.assert_refused(wrong.format(told, pieces), dance, size)
         self.assertEqual(sum(answer.frames.count for answer in dance((16 << 20) - 32)), 30)

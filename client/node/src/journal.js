@@ -10,6 +10,7 @@ export class Journal {
   #more; // while the source is asked
   #over = false;
   #musicEnd; // of what was forgotten
+  #nextPiece; // of music: where it starts
   refusedKeys = new RefusedKeys();
   /** What the source threw. */
   failure;
@@ -49,8 +50,9 @@ export class Journal {
     try {
       const fine = checked('StreamDanceRequest', request, `requests[${this.#requests.length}]`, this.#format()?.encoding);
       requireKey(request, fine);
-      requireSendable(fine.audio, 'send it in pieces, each with its first_sample');
+      requireSendable(fine.audio, 'send it in pieces');
       this.refusedKeys.note(fine);
+      if (fine.audio && this.#format()) this.#numberPiece(fine.audio);
       return fine;
     } catch (error) {
       const goesOn = this.#requests[0]?.config?.reject_invalid_keys;
@@ -61,6 +63,12 @@ export class Journal {
       if (typeof keyframeId === 'string') error.violations.forEach((violation) => Object.assign(violation, { keyframeId }));
       throw error.locate(() => ({ request: this.#requests.length }), (field) => ({ field }));
     }
+  }
+
+  /** A piece of music starts where the one before has ended, unless the caller says where. A file's are counted in bytes. */
+  #numberPiece(audio) {
+    audio.first_sample ??= this.#nextPiece ?? this.#format().first_sample ?? 0;
+    this.#nextPiece = Number(audio.first_sample) + Math.floor((audio.data?.length ?? 0) / (this.bytesPerSample() || 1));
   }
 
   /** Nobody will ask any more. */

@@ -27,6 +27,7 @@ class Journal:
         self._said = []  # None: forgotten
         self._over = False
         self._music_end = None  # of what was forgotten
+        self._next_piece = None  # of music: where it starts
         self.refused_keys = RefusedKeys()
         self.failure = None  # what the source raised
 
@@ -56,9 +57,9 @@ class Journal:
         try:
             fine = checked(choreography.StreamDanceRequest, request, f"requests[{len(self._said)}]", config.audio_format.encoding)
             require_key(request, fine)
-            require_sendable(fine, "send it in pieces, each with its first_sample")
+            require_sendable(fine, "send it in pieces")
             self.refused_keys.note(fine)
-            return fine
+            return self._numbered(fine) if self._said and fine.HasField("audio") else fine
         except ChoreoError as error:  # of which the source knows nothing
             blank = self.refused_keys.blank(request, error) if config.reject_invalid_keys else None
             if blank is not None:
@@ -69,6 +70,19 @@ class Journal:
             if isinstance(name, str):
                 error.violations = [Violation(*violation, keyframe_id=name) for violation in error.violations]
             raise error.located(lambda violation: (None, len(self._said)), lambda field, message: (field, None))
+
+    def _numbered(self, request):
+        """A piece of music starts where the one before has ended, unless the caller says where. A file's are counted in bytes."""
+        start = request.audio.first_sample
+        if not start:
+            start = self._said[0].config.audio_format.first_sample if self._next_piece is None else self._next_piece
+        self._next_piece = start + len(request.audio.data) // (self.bytes_per_sample() or 1)
+        if start == request.audio.first_sample:
+            return request
+        numbered = choreography.StreamDanceRequest()
+        numbered.CopyFrom(request)  # the caller's own stays as it is
+        numbered.audio.first_sample = start
+        return numbered
 
     def _end_source(self):
         if hasattr(self._source, "close"):
