@@ -1,6 +1,7 @@
 // A back end that streams dances to web pages as server-sent events. Whoever watches adds key poses meanwhile:
 //
 //   GET  /song.wav          what it dances to
+//   GET  /skeleton          the body that dances
 //   GET  /dance?seed=1      events: dance, frames, key, warning, moved, over, failed; with Last-Event-ID those after it
 //   POST /dance/ID/keys     {"id": "wave", "time": 4.5, "rotations": {"left_shoulder": [0, 0, 1]}}
 import { randomUUID } from 'node:crypto';
@@ -75,6 +76,9 @@ class Backend {
     } else if (asked === 'GET /song.wav') {
       response.setHeader('Content-Type', 'audio/wav');
       response.end(wav(this.#song));
+    } else if (asked === 'GET /skeleton') {
+      response.setHeader('Content-Type', 'application/json');
+      response.end(JSON.stringify((await this.#client.info()).models[0].skeleton));
     } else if (asked === 'GET /dance') {
       await this.#watch(url.searchParams.get('seed') ?? '1', request.headers['last-event-id'], response);
     } else if (dance) {

@@ -10,7 +10,7 @@ const $ = (selector) => document.querySelector(selector);
 const say = (text) => ($('#log').textContent = `${text}\n${$('#log').textContent}`.split('\n').slice(0, 4).join('\n'));
 
 let header; // of the dance
-let scene; // the character's; without one there is a doll
+let chosen; // the character: {scene, humanoid}; without one there is a doll
 let shown; // {character, objects, dance, player}
 let recent = []; // messages that are not past yet
 let over = false;
@@ -29,14 +29,14 @@ const showOn = makeStage($('#stage'), () => {
 /** Puts the dance on the character, as far as it has come and is not past. */
 function embody() {
   if (!header) return;
-  const rig = scene ?? makeDoll(header.skeleton);
-  const { bones, objects } = bonesOf(rig);
+  const { scene, humanoid } = chosen ?? { scene: makeDoll(header.skeleton) };
+  const { bones, objects } = bonesOf(scene, humanoid);
   const character = new Character(bones, header.skeleton);
   const [dance, player] = [character.dance(header), new Player(header)];
   for (const frames of recent) player.add(dance.add(frames));
   if (over) finish({ dance, player });
   shown = { character, objects, dance, player };
-  showOn(rig, objects[character.bones.pelvis]);
+  showOn(scene, objects[character.bones.pelvis]);
 }
 
 function finish({ dance, player }) {
@@ -44,16 +44,24 @@ function finish({ dance, player }) {
   player.end();
 }
 
+/** Throws for a character that cannot dance. */
+async function requireBody({ scene, humanoid }) {
+  const answer = await fetch('/skeleton');
+  if (answer.ok) new Character(bonesOf(scene, humanoid).bones, await answer.json()); // else nobody knows before the dance
+}
+
 /** A character is put in place in the pose in which it rests. */
 async function choose(file) {
-  const kept = scene;
+  const kept = chosen;
   try {
-    scene = await loadCharacter(file);
+    const next = await loadCharacter(file);
+    if (!shown) await requireBody(next);
+    chosen = next;
     if (shown) embody();
-    else showOn(scene);
+    else showOn(chosen.scene);
     say(shown ? `${file.name} dances.` : `${file.name} will dance.`);
   } catch (error) {
-    scene = kept;
+    chosen = kept;
     say(`${file.name}: ${error.message}`);
   }
 }
@@ -78,7 +86,7 @@ async function begin() {
     try {
       embody();
     } catch (error) {
-      scene = undefined;
+      chosen = undefined;
       embody();
       say(`This character cannot dance: ${error.message}`);
     }

@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
+import { gltfBones } from 'choreo-client/character';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 /** A scene on a canvas. `beforeFrame` is called before each picture. */
@@ -55,8 +56,20 @@ export function makeStage(canvas, beforeFrame) {
 
 const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
 
-/** The scene of a .glb or .vrm. */
-export const loadCharacter = async (file) => (await loader.parseAsync(await file.arrayBuffer(), '')).scene;
+/** What a .glb or .vrm shows: its scene, and the bones that a VRM names itself, as bonesOf() takes them. */
+export async function loadCharacter(file) {
+  const bytes = await file.arrayBuffer();
+  const isGltf = /^(glTF|\s*\{)/.test(new TextDecoder().decode(bytes.slice(0, 16)));
+  if (!isGltf) throw new Error('this is no glTF file, .glb or .vrm');
+  const { scene, parser } = await loader.parseAsync(bytes, '');
+  const nodes = gltfBones(parser.json);
+  const humanoid = {};
+  scene.traverse((node) => {
+    const name = nodes[parser.associations.get(node)?.nodes]?.humanoid;
+    if (name) humanoid[name] = { node };
+  });
+  return { scene, humanoid };
+}
 
 /** A doll with the dance's own body: a capsule along each bone. */
 export function makeDoll({ joint_names, parents, offsets, pelvis_height }) {

@@ -132,6 +132,8 @@ test('a key that cannot be danced is refused, and the dance goes on', () =>
     const song = Buffer.from(await (await fetch(`${address}/song.wav`)).arrayBuffer());
     assert.deepEqual([song.toString('latin1', 0, 4), song.length], ['RIFF', 44 + 2 * 22050 * 6]);
     assert.ok(song.subarray(44).some((byte) => byte > 0));
+    const skeleton = await (await fetch(`${address}/skeleton`)).json();
+    assert.deepEqual([skeleton.name, skeleton.joint_names.length], ['smpl24', 24]);
     for (const [path, status] of [['/', 200], ['/favicon.ico', 404], ['/dance?seed=x', 400]]) {
       const answer = await fetch(address + path);
       assert.equal(answer.status, status, await answer.text());

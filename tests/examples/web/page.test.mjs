@@ -2,12 +2,13 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { writeFile } from 'node:fs/promises';
+import { readFile, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { Character, gltfBones } from '../../../client/node/character/index.js';
 import { withServer } from '../servers.mjs';
 
 const { chromium } = createRequire(new URL('../../../studio/page/package.json', import.meta.url))('playwright-core');
@@ -37,6 +38,27 @@ async function withPage(servers, seconds, use) {
     await browser.close();
     backend.kill('SIGINT');
   }
+}
+
+/** A .glb whose bones say nothing by their names, with a VRM's table of them. */
+function asVrm(glb, skeleton) {
+  const end = 20 + glb.readUInt32LE(12);
+  const json = JSON.parse(glb.toString('utf8', 20, end));
+  const { bones } = new Character(gltfBones(json), skeleton);
+  const names = { pelvis: 'hips', spine1: 'spine', head: 'head' };
+  for (const side of ['left', 'right']) {
+    const parts = { hip: 'UpperLeg', knee: 'LowerLeg', ankle: 'Foot', shoulder: 'UpperArm', elbow: 'LowerArm', wrist: 'Hand' };
+    for (const [joint, part] of Object.entries(parts)) names[`${side}_${joint}`] = side + part;
+  }
+  const humanBones = Object.fromEntries(Object.entries(names).map(([bone, name]) => [name, { node: bones[bone] }]));
+  json.extensions = { VRMC_vrm: { specVersion: '1.0', humanoid: { humanBones } } };
+  json.nodes.forEach((node, at) => (node.name = `bone ${at}`));
+  const text = Buffer.from(JSON.stringify(json));
+  const chunk = Buffer.concat([text, Buffer.alloc(-text.length & 3, ' ')]);
+  const head = Buffer.from(glb.subarray(0, 20));
+  head.writeUInt32LE(glb.length - (end - 20) + chunk.length, 8);
+  head.writeUInt32LE(chunk.length, 12);
+  return Buffer.concat([head, chunk, glb.subarray(end)]);
 }
 
 /** Waits until the stage shows something else than before. */
@@ -72,17 +94,28 @@ test('what is no character says so, and the one before dances on', () =>
     withPage([address], 600, async ({ page, says }) => {
       await writeFile(join(pictures, 'junk.glb'), 'no glTF');
       await page.setInputFiles('#file', join(pictures, 'junk.glb'));
-      await says('junk.glb: ');
+      await says('junk.glb: this is no glTF file');
       await page.setInputFiles('#file', join(pictures, 'nameless.glb'));
-      await says('nameless.glb will dance.');
+      await says('nameless.glb: bones: none of them is the pelvis');
       await page.click('#dance');
-      await says('This character cannot dance: bones: none of them is the pelvis');
+      await page.locator('[data-turns]:enabled').first().waitFor();
       await moves(page);
+      await page.evaluate(() => (document.querySelector('#log').textContent = ''));
       await page.setInputFiles('#file', join(pictures, 'nameless.glb'));
       await says('nameless.glb: bones: none of them is the pelvis');
       await page.setInputFiles('#file', join(pictures, 'child.glb'));
       await says('child.glb dances.');
       await moves(page);
+    }),
+  ));
+
+test("a VRM's bones are those of its own table", () =>
+  withServer([], ({ address }) =>
+    withPage([address], 600, async ({ page, says }) => {
+      const skeleton = await page.evaluate(async () => (await fetch('/skeleton')).json());
+      await writeFile(join(pictures, 'own.vrm'), asVrm(await readFile(join(pictures, 'mixamo.glb')), skeleton));
+      await page.setInputFiles('#file', join(pictures, 'own.vrm'));
+      await says('own.vrm will dance.');
     }),
   ));
 
