@@ -74,6 +74,8 @@ test('TLS: authority, certificate of the client, name of the server', () =>
     await withServer(flags, async ({ address }) => {
       const all = { tls: true, caCertificate: ca.cert, clientCertificate: own.cert, clientKey: own.key, serverName: 'choreod' };
       assert.ok((await info(address, all)).models.length > 0);
+      const texts = { ...all, caCertificate: await readFile(ca.cert, 'utf8'), clientCertificate: await readFile(own.cert, 'utf8'), clientKey: await readFile(own.key, 'utf8') };
+      assert.ok((await info(address, texts)).models.length > 0);
       const refused = (options, message = /./) => assert.rejects(info(address, options), { code: 'UNAVAILABLE', message });
       await refused({ ...all, caCertificate: undefined }, /certificate is not trusted \(.*(?:unable to verify|self-signed).*\(caCertificate\)$/);
       await refused({ ...all, serverName: undefined }, /certificate is of .*, not of 127\.0\.0\.1: say of which as serverName$/);
@@ -130,7 +132,9 @@ test('options that cannot be used are named', () =>
       [undefined, {}, 'addresses: undefined is no HOST:PORT'],
       [far, { tls: true, token: 'secret\n' }, 'token: it begins or ends with spaces or a newline; trim it'],
       [far, { tls: true, token: Buffer.from('secret') }, 'token: Buffer is no string'],
-      [far, { tls: true, caCertificate: await readFile(ca.cert, 'utf8') }, 'caCertificate: is the path of a PEM file, not its text'],
+      [other, { token: '' }, 'token: it is no line of visible ASCII characters'],
+      [far, { tls: true, caCertificate: await readFile(ca.key, 'utf8') }, /^caCertificate: the text holds no certificate in PEM: (?!.*-----)/s],
+      [far, { tls: true, clientCertificate: own.cert, clientKey: await readFile(ca.key, 'utf8') }, /^clientKey: the text is not the key of (?!.*-----)/s],
     ]) {
       assert.throws(() => new ChoreoClient(addresses, options), { code: 'INVALID_ARGUMENT', message });
     }

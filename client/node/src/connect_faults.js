@@ -2,6 +2,7 @@
 import { lookup } from 'node:dns/promises';
 import { connect } from 'node:tls';
 import { unavailable } from './error.js';
+import { nameOf } from './options.js';
 
 const probeTime = 1000; // milliseconds for a handshake
 
@@ -19,7 +20,7 @@ function faultOf(reason, { tls, caCertificate }) {
   if (asked) return `the server's certificate is of ${names?.replaceAll('DNS:', '') ?? 'other names'}, not of ${asked}: say of which as serverName`;
   if (/certificate has expired|not yet valid/.test(reason)) return `the server's ${reason.replace(/^the /, '')}`;
   if (/self.signed|unable to (?:verify|get)|certificate (?:signature|chain)/.test(reason)) {
-    const given = caCertificate ? `${caCertificate} is not that of its authority` : 'name the PEM file of its authority';
+    const given = caCertificate ? `${nameOf(caCertificate)} is not that of its authority` : 'name the PEM file of its authority';
     return `the server's certificate is not trusted (${reason}): ${given} (caCertificate)`;
   }
   return undefined;

@@ -19,9 +19,9 @@ export type Exactly<T, S> = T extends Plain ? T : { [K in keyof T]: K extends Kn
 /** How to reach the servers, and how patiently. */
 export interface ClientOptions {
   tls?: boolean;
-  /** PEM file of the authority to trust, with `tls`; default: those that Node.js trusts. */
+  /** PEM file, or its text, of the authority to trust, with `tls`; default: those that Node.js trusts. */
   caCertificate?: string;
-  /** PEM files of a certificate and its key, with `tls`, where the server wants to see one. */
+  /** PEM files, or their texts, of a certificate and its key, with `tls`, where the server wants to see one. */
   clientCertificate?: string;
   clientKey?: string;
   /** Whose certificate the server must have, with `tls`; default: the one of its address. */

@@ -21,7 +21,6 @@ const defaults = {
   retry: 10,
   firstBackoff: 0.1,
 };
-const files = ['caCertificate', 'clientCertificate', 'clientKey'];
 const leastSilence = 2; // seconds
 const mostPort = 65535;
 const mostTokenBytes = 4096; // gRPC's headers have 8 KiB in all
@@ -40,11 +39,9 @@ export function checkOptions(addresses, given) {
   if (options.silence > 0 && options.silence < leastSilence) {
     throw invalid('silence', `${options.silence} s is neither 0 nor at least ${leastSilence} s`);
   }
-  for (const name of files) {
-    if (options[name].includes('-----BEGIN')) throw invalid(name, 'is the path of a PEM file, not its text');
-  }
   if (addresses.length === 0) throw invalid('addresses', 'none is given');
   for (const address of addresses) checkAddress(address);
+  if (given.token !== undefined) requireToken('token', 'it', given.token); // an empty one, too
   checkToken(addresses, options);
   return options;
 }
@@ -75,7 +72,6 @@ function checkToken(addresses, { token, tokenFile, tls }) {
   if (token && tokenFile) throw invalid('token', 'given beside tokenFile; one of them is sent');
   const far = addresses.find((address) => !isOfThisMachine(address));
   if (!tls && far) throw invalid(name, `a token goes to ${far} over TLS alone`);
-  if (token) requireToken('token', 'it', token);
 }
 
 // The value itself is never quoted.
@@ -93,13 +89,17 @@ function read(field, path) {
   }
 }
 
-/** The text of `path`, in which `check` finds no fault. */
-function readPem(field, path, what, check) {
-  const text = read(field, path);
+const isPem = (text) => text.includes('-----BEGIN');
+/** What to call a PEM file or text, which may be a secret. */
+export const nameOf = (pem) => (isPem(pem) ? 'the text' : pem);
+
+/** The text that `pem` is, or is the path of, in which `check` finds no fault. */
+function readPem(field, pem, what, check) {
+  const text = isPem(pem) ? Buffer.from(pem) : read(field, pem);
   try {
     check(text);
   } catch (error) {
-    throw invalid(field, `${path} ${what}: ${error.message}`);
+    throw invalid(field, `${nameOf(pem)} ${what}: ${error.message}`);
   }
   return text;
 }
@@ -112,16 +112,16 @@ export function credentialsFor(options) {
   }
   if (!tls) {
     for (const name of ['caCertificate', 'clientCertificate', 'serverName']) {
-      if (options[name]) throw invalid(name, `"${options[name]}" needs TLS, which is off`);
+      if (options[name]) throw invalid(name, `"${nameOf(options[name])}" needs TLS, which is off`);
     }
     return grpc.credentials.createInsecure();
   }
-  const certificate = (field, path) => readPem(field, path, 'holds no certificate in PEM', (text) => new X509Certificate(text));
+  const certificate = (field, pem) => readPem(field, pem, 'holds no certificate in PEM', (text) => new X509Certificate(text));
   const roots = caCertificate ? certificate('caCertificate', caCertificate) : null;
   if (!clientKey) return grpc.credentials.createSsl(roots);
   const cert = certificate('clientCertificate', clientCertificate);
   const key = readPem('clientKey', clientKey, 'holds no private key in PEM without a passphrase', createPrivateKey);
-  readPem('clientKey', clientKey, `is not the key of ${clientCertificate}`, () => createSecureContext({ cert, key }));
+  readPem('clientKey', clientKey, `is not the key of ${nameOf(clientCertificate)}`, () => createSecureContext({ cert, key }));
   return grpc.credentials.createSsl(roots, key, cert);
 }
 
