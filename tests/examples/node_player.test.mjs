@@ -68,7 +68,15 @@ test('a frame that comes again replaces the one before, in any order, and what i
   assert.equal(player.at(2).state, 'playing', 'the clock may go back a second');
   player.add([pose(3)]);
   const past = player.at(0.1);
-  assert.deepEqual([past.state, past.pose.places[0]], ['waiting', 57], 'not further');
+  assert.deepEqual([past.state, past.pose.places[0]], ['past', 57], 'not further');
+});
+
+test('a player that keeps all shows any time again', () => {
+  const player = new Player(header, { keep: Infinity });
+  player.add(poses(0, 3001));
+  player.at(100);
+  const first = player.at(0.1);
+  assert.deepEqual([first.state, first.pose.places[0]], ['playing', 3]);
 });
 
 test('a frame that never came is bridged by the one before it', () => {

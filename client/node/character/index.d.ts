@@ -94,7 +94,7 @@ export class Character {
 export function smplPoses(frames: SmplFrames, skeleton: Pick<Smpl, 'joint_names'>): CharacterPose[];
 
 export interface PlayerOptions {
-  /** Seconds of the past to keep, for a clock that goes back; default 2. */
+  /** Seconds of the past to keep, for a clock that goes back; default 2. Infinity: all, for a clock that seeks. */
   keep?: number;
   /** Seconds in which a dancer who had to wait for poses comes back to the dance; default 0.3. */
   catchUp?: number;
@@ -104,9 +104,10 @@ export interface PlayerOptions {
 export interface Shown {
   /**
    * 'waiting': the dance has not come, or not begun; its first pose, if it has come. 'playing': between two poses. 'starved': the poses are late;
-   * the last one, and later the way back. 'over': the last pose, after end().
+   * the last one, and later the way back. 'past': the poses of that time are forgotten; the first one that is kept. 'over': the last pose, after
+   * end().
    */
-  state: 'waiting' | 'playing' | 'starved' | 'over';
+  state: 'waiting' | 'playing' | 'starved' | 'past' | 'over';
   pose?: Pick<CharacterPose, 'turns' | 'places'>;
   /** Seconds until it starves. */
   ahead: number;

@@ -21,12 +21,13 @@ export class Player {
   #poses = new Map(); // by frame
   #last = -1; // frame
   #first = 0; // that is kept
+  #hasForgotten = false;
   #over = false;
   #behind; // {pose, since}: starved until then, in that pose
 
   constructor({ frame_rate: rate }, { keep = 2, catchUp = 0.3 } = {}) {
     this.#rate = positive('frame_rate', rate);
-    this.#kept = positive('keep', keep);
+    this.#kept = keep === Infinity ? keep : positive('keep', keep);
     this.#catchUp = positive('catchUp', catchUp);
   }
 
@@ -60,13 +61,16 @@ export class Player {
     const [from, to] = [this.#poses.get(before), this.#poses.get(before + 1)];
     if (from && (to || time === before)) return { state: 'playing', pose: time === before ? from : mix(from, to, time - before) };
     if (this.#poses.size === 0) return { state: 'waiting' };
-    if (time < this.#earliest()) return { state: 'waiting', pose: this.#poses.get(this.#earliest()) };
+    const earliest = this.#earliest();
+    if (time < earliest) return { state: this.#hasForgotten ? 'past' : 'waiting', pose: this.#poses.get(earliest) };
     if (this.#over && time >= this.#last) return { state: 'over', pose: this.#poses.get(this.#last) };
     return { state: 'starved', pose: this.#latest(before) };
   }
 
   #earliest() {
-    return Math.min(...this.#poses.keys());
+    let earliest = Infinity; // as many as are kept would be too many arguments
+    for (const frame of this.#poses.keys()) earliest = Math.min(earliest, frame);
+    return earliest;
   }
 
   /** The last pose until a frame. */
@@ -92,6 +96,6 @@ export class Player {
 
   #forget(seconds) {
     const first = Math.floor(Math.min(seconds * this.#rate, this.#last) - this.#kept * this.#rate);
-    for (; this.#first < first; ++this.#first) this.#poses.delete(this.#first);
+    for (; this.#first < first; ++this.#first) this.#hasForgotten = this.#poses.delete(this.#first) || this.#hasForgotten;
   }
 }
