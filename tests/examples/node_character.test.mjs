@@ -288,6 +288,10 @@ test('what is no body says why', async () => {
   refused(() => {}, 'map.tail: is none of pelvis, spine1, spine2, spine3, spine4, spine5, spine6, neck, neck2, neck3, head, ' + ['left', 'right'].map((side) => ['hip', 'knee', 'ankle', 'foot', 'collar', 'shoulder', 'elbow', 'wrist', 'hand', 'eye'].map((bone) => `${side}_${bone}`).join(', ')).join(', '), { map: { tail: 'x' } });
   refused(() => {}, 'map.head: "x" is none of the bones', { map: { head: 'x' } });
   refused(() => {}, 'bones: left_knee and right_knee are one node', { map: { right_knee: 'mixamorig:LeftLeg' } });
+  refused(() => {}, 'options.inplace: is none of map, inPlace, hands', { inplace: true });
+  assert.throws(() => new Character(bones), /^TypeError: skeleton: undefined is not a dance's header\.skeleton$/);
+  assert.throws(() => new Character(undefined, body), /^TypeError: bones: undefined is no list of bones/);
+  assert.throws(() => new Character(bones, body).dance(), /^TypeError: header: undefined is not a dance's header$/);
   assert.throws(() => new Character(bones, { ...body, name: 'other' }), /^TypeError: skeleton: other is not smpl24$/);
   const stream = new Character(bones, body).dance({ frame_rate: 30 });
   assert.throws(() => stream.add({ ...part(0, 9), rotations: [1, 2] }), /^TypeError: frames: 2 rotations are not of 9 frames of 24 joints$/);

@@ -2,6 +2,7 @@
 import { makeBody } from './body.js';
 import { findBones } from './find_bones.js';
 import { curlFingers } from './fingers.js';
+import { positive, requireObject, requireOptions } from './given.js';
 import { bonesByNames } from './human_bones.js';
 import { fromQuaternion, fromVector, identity, inverse, minus, nearestRotation, stretched, times, toQuaternion, turned } from './linear.js';
 import { orderOf, transform, within } from './rig.js';
@@ -43,7 +44,11 @@ export class Character {
   #inPlace;
   #fingers; // turns, which stay
 
-  constructor(rig, skeleton, { map, inPlace = false, hands = 'relaxed' } = {}) {
+  constructor(rig, skeleton, options = {}) {
+    if (!Array.isArray(rig)) throw new TypeError(`bones: ${rig} is no list of bones, as bonesOf(scene).bones or gltfBones(json)`);
+    requireObject('skeleton', skeleton, "a dance's header.skeleton");
+    requireOptions(options, ['map', 'inPlace', 'hands']);
+    const { map, inPlace = false, hands = 'relaxed' } = options;
     this.#rig = rig;
     this.#inPlace = inPlace;
     const order = orderOf(rig);
@@ -72,7 +77,9 @@ export class Character {
     this.#fingers = [...fingers.values()].flat();
   }
 
-  dance({ frame_rate: frameRate }) {
+  dance(header) {
+    requireObject('header', header, "a dance's header");
+    const frameRate = positive('header.frame_rate', header.frame_rate);
     const reach = Transfer.reach(frameRate);
     let standing = []; // of which `told` are told: hands depend on those before, too
     let told = 0;

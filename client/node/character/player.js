@@ -1,4 +1,5 @@
 // Poses that come at a dance's frame rate, shown when a clock says so: a page draws at its own rate, and music has its own time.
+import { positive, requireObject, requireOptions } from './given.js';
 import { slerp } from './linear.js';
 
 const mix = (a, b, t) => ({
@@ -7,12 +8,6 @@ const mix = (a, b, t) => ({
 });
 
 const smooth = (share) => share * share * (3 - 2 * share);
-
-/** A number that counts. Throws for others. */
-function positive(name, value) {
-  if (!(Number.isFinite(value) && value > 0)) throw new TypeError(`${name}: ${value} is no finite number above 0`);
-  return value;
-}
 
 export class Player {
   #rate;
@@ -25,8 +20,11 @@ export class Player {
   #over = false;
   #behind; // {pose, since}: starved until then, in that pose
 
-  constructor({ frame_rate: rate }, { keep = 2, catchUp = 0.3 } = {}) {
-    this.#rate = positive('frame_rate', rate);
+  constructor(header, options = {}) {
+    requireObject('header', header, "a dance's header");
+    requireOptions(options, ['keep', 'catchUp']);
+    const { keep = 2, catchUp = 0.3 } = options;
+    this.#rate = positive('header.frame_rate', header.frame_rate);
     this.#kept = keep === Infinity ? keep : positive('keep', keep);
     this.#catchUp = positive('catchUp', catchUp);
   }
