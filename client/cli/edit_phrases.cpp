@@ -36,18 +36,17 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
   if (Frame(moved(from_s)) <= Frame(from_s))
     throw InvalidArgument("--repeat", later + " is not later: it must be a frame or more");
   std::vector<client::KeyEdit> phrase = Phrase("--repeat", from_s, until_s);
-  const auto shift = [&](client::KeyPose& key) {
-    key.frame = FrameInDance("--repeat", moved(Seconds(*key.frame)));
-  };
   for (client::KeyEdit& edit : phrase) {
-    shift(edit.key);
-    std::ranges::for_each(edit.held, shift);
+    edit.key.frame = FrameInDance("--repeat", moved(Seconds(*edit.key.frame)));
+    for (client::KeyPose& held : edit.held) held.frame = Frame(moved(Seconds(*held.frame)));
   }
+  EndWithDance(&phrase.back());
   const int64_t first = *phrase.front().key.frame;
   const GroundFrame there = GroundFrame::Of(phrase.front().key.pose);
   const GroundFrame here = Here(first);
   const auto carry = [&](Pose& pose) { pose = here.ToWorld(there.ToLocal(pose)); };
   // Removes the keys there, and those too near.
+  const std::vector<client::Warning> ended = EndHold(first, phrase.front().key.id);
   const int64_t last = LastFrame(phrase.back());
   ClearWay(std::min(Frame(moved(from_s)), first - kMinKeyDistance + 1),
            std::max(Frame(moved(until_s)), last + kMinKeyDistance), {}, "repeated keys");
@@ -56,6 +55,7 @@ void EditSession::Repeat(double from_s, double until_s, const std::string& later
     for (client::KeyPose& held : edit.held) carry(held.pose);
   }
   SetAll("--repeat", phrase);
+  Keep(ended);
 }
 
 void EditSession::MirrorPhrase(double from_s, double until_s) {
@@ -86,6 +86,16 @@ void EditSession::SetAll(const char* field, std::span<client::KeyEdit> phrase) {
   stale_.clear();
 }
 
+void EditSession::EndWithDance(client::KeyEdit* edit) const {
+  if (LastFrame(*edit) >= frames_) HoldUntil(frames_ - 1, edit);
+}
+
+int64_t EditSession::AfterHold(int64_t frame) const {
+  auto key = keys_.lower_bound(frame);
+  for (; key != keys_.end() && HoldsAnother(key->second); ++key) frame = key->first + 1;
+  return frame;
+}
+
 std::vector<client::KeyPose> EditSession::KeysAsDanced(int64_t first, int64_t end) const {
   std::vector<client::KeyPose> danced;
   for (auto key = keys_.lower_bound(first); key != keys_.end() && key->first < end; ++key) {
@@ -100,18 +110,22 @@ std::vector<client::KeyPose> EditSession::KeysAsDanced(int64_t first, int64_t en
 
 std::vector<client::KeyEdit> EditSession::Phrase(const char* field, double from_s,
                                                  double until_s) const {
+  // A hold belongs to its key as a whole.
+  const int64_t from = AfterHold(Frame(from_s)), until = AfterHold(Frame(until_s));
   std::vector<client::KeyEdit> phrase;
-  const int64_t until = Frame(until_s);
-  for (client::KeyPose& danced : KeysAsDanced(Frame(from_s), until)) {
-    if (HoldsAnother(keys_.at(*danced.frame)) && !phrase.empty()) {
+  for (client::KeyPose& danced : KeysAsDanced(from, until)) {
+    if (HoldsAnother(keys_.at(*danced.frame))) {
       phrase.back().held.push_back(std::move(danced));
     } else {
       phrase.push_back({.key = std::move(danced)});
     }
   }
   if (!phrase.empty()) return phrase;
+  const std::string held =
+      from > Frame(from_s) ? ": \"" + keys_.at(from - 1)["holds"].get<std::string>() + "\" is held"
+                           : std::string();
   throw InvalidArgument(field, "the report has no key from " + Rounded(from_s) + " s until " +
-                                   Rounded(until_s) + " s");
+                                   Rounded(until_s) + " s" + held);
 }
 
 void EditSession::Stretch(double from_s, double until_s, double times) {
@@ -134,7 +148,8 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
     }
     before = LastFrame(edit);
   }
-  std::erase_if(phrase, [&](const client::KeyEdit& edit) { return LastFrame(edit) >= frames_; });
+  std::erase_if(phrase, [&](const client::KeyEdit& edit) { return *edit.key.frame >= frames_; });
+  if (!phrase.empty()) EndWithDance(&phrase.back());
   // The frames danced anew begin at a key that stays.
   const bool stays =
       !phrase.empty() && *phrase.front().key.frame == first && phrase.front().held.empty();
@@ -144,26 +159,26 @@ void EditSession::Stretch(double from_s, double until_s, double times) {
     std::cerr << "note: " << count - phrase.size() << " of " << count
               << " keys would come behind the dance, and are left out\n";
   }
-  const int64_t last = LastFrame(phrase.back());
-  ClearWay(stays ? first + 1 : std::min(first, *phrase.front().key.frame - kMinKeyDistance + 1),
+  const int64_t now = *phrase.front().key.frame, last = LastFrame(phrase.back());
+  // The hold of a key before the phrase.
+  const std::vector<client::Warning> ended =
+      now < first ? EndHold(now, phrase.front().key.id) : std::vector<client::Warning>();
+  ClearWay(stays ? first + 1 : std::min(first, now - kMinKeyDistance + 1),
            std::max({Frame(until_s), stretched(Frame(until_s)), last + int64_t{kMinKeyDistance}}),
            unstretched, "stretched keys");
   SetAll("--stretch", std::span(phrase).subspan(size_t{stays}));
+  Keep(ended);
 }
 
 void EditSession::ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,
                            const std::string& what) {
   std::set<int64_t> leave;
-  for (const client::KeyEdit& edit : moved) {
-    leave.insert(*edit.key.frame);
-    for (const client::KeyPose& held : edit.held) leave.insert(*held.frame);
-  }
-  const auto begin = keys_.lower_bound(first);
-  const auto stop = keys_.lower_bound(end);
+  for (const client::KeyEdit& edit : moved) leave.insert(*edit.key.frame);
+  const auto begin = keys_.lower_bound(AfterHold(first));
+  const auto stop = keys_.lower_bound(AfterHold(end));
   for (auto key = begin; key != stop; ++key) {
-    if (leave.contains(key->first)) continue;
     // One line tells of a whole held pose.
-    if (key == begin || !HoldsAnother(key->second)) NoteWay(key->first, what);
+    if (!leave.contains(key->first) && !HoldsAnother(key->second)) NoteWay(key->first, what);
   }
   Forget(begin, stop);
 }

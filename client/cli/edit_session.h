@@ -73,7 +73,11 @@ class EditSession {
   void CheckDistance(const char* field, double at_s, int64_t other, const std::string& what) const;
   /// The report's keys at frames in [first, end), as danced.
   std::vector<client::KeyPose> KeysAsDanced(int64_t first, int64_t end) const;
-  /// The report's keys in [from_s, until_s), as danced, each with what holds it; at least one.
+  /// Ends a hold with the dance at the latest.
+  void EndWithDance(client::KeyEdit* edit) const;
+  /// This frame, or the one after what holds a key from there on.
+  int64_t AfterHold(int64_t frame) const;
+  /// The report's keys in [from_s, until_s), as danced, each with all that holds it; at least one.
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Sets the keys of a phrase at their present places; the dance has no others there.
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
@@ -89,7 +93,8 @@ class EditSession {
   /// Removes keys too near in time to a new key, held from `first` to `last`, with what holds them,
   /// and says so.
   void MakeWay(int64_t first, int64_t last, const std::string& id);
-  /// Removes the dance's keys in [first, end) for others, and names those that are not `moved`.
+  /// Removes the dance's keys in [first, end), with all that holds them, for others, and names
+  /// those that are not `moved`.
   void ClearWay(int64_t first, int64_t end, const std::vector<client::KeyEdit>& moved,
                 const std::string& what);
   void NoteWay(int64_t frame, const std::string& what) const;

@@ -252,6 +252,38 @@ TEST_F(ArrangeTest, AHeldPoseIsHeldAsMuchLonger) {
     EXPECT_LE(ComparePoses(Body(), motion.frames[frame], motion.frames[90]).position_m, 0.001);
 }
 
+// The hold is of frames 90 to 108, from 3 s to 3.6 s.
+TEST_F(ArrangeTest, AHoldGoesWithItsKeyWhereverAPhraseIsCut) {
+  ASSERT_EQ(Edit("dance", "--key kick --at 3 --hold 0.6 --around 1", "held", Server()).code, 0);
+  const auto held = [this](const std::string& name) {
+    std::vector<int64_t> frames;
+    const nlohmann::json report = ReadJson(folder_ / (name + ".json"));
+    for (const auto& key : report["keyframes"])
+      if (key["id"] == "kick" || key.value("holds", "") == "kick") frames.push_back(key["frame"]);
+    return frames;
+  };
+  const std::vector<int64_t> before = held("held");
+  ASSERT_EQ(before.back(), 108);
+  for (const std::string until : {"3.6", "3.3"}) {
+    ASSERT_EQ(Edit("held", "--mirror-phrase 2.9 " + until, "sides", Server()).code, 0);
+    EXPECT_EQ(held("sides"), before);
+    const Motion sides = Read("sides.npz");
+    for (size_t frame = 90; frame <= 108; frame += 6)
+      EXPECT_LE(ComparePoses(Body(), sides.frames[frame], sides.frames[90]).position_m, 0.001);
+    ASSERT_EQ(Edit("held", "--stretch 3 " + until + " 0.5", "shorter", Server()).code, 0);
+    EXPECT_EQ(held("shorter").front(), 90);
+    EXPECT_EQ(held("shorter").back(), 99);
+    ASSERT_EQ(Edit("held", "--repeat 2.9 " + until + " 3", "twice", Server()).code, 0);
+    const std::vector<int64_t> twice = held("twice");
+    EXPECT_EQ(twice.size(), 2 * before.size());
+    EXPECT_EQ(twice.back(), 198);
+  }
+  // The hold is the key's, and the key is not in this phrase.
+  const Outcome outcome = Edit("held", "--mirror-phrase 3.1 3.7", "none", Server());
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("no key from 3.1 s until 3.7 s: \"kick\" is held"));
+}
+
 TEST_F(ArrangeTest, HoldsAKey) {
   const Outcome outcome = Choreo("edit " + At("dance.npz") + Server() +
                                  "--key kick --at 5 --hold 0.6 --around 1 -o " + At("held.npz"));
