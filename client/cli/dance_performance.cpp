@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -128,7 +129,8 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
         config, keys.poses, audio,
         [&](const client::Message& message) {
           Interruption::Check();
-          display(message);
+          const auto* warning = std::get_if<client::Warning>(&message);
+          if (!warning || !authoring::IsOfHold(*warning, keys)) display(message);
           if (show) show->Take(message);
         },
         &dance);
@@ -187,7 +189,10 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   AddEnding(options, music, controls, length, model, &keys);
   options.controls.RequireBegun(controls, length);
   authoring::RefuseHeldInAir(keys, model.fps, model.skeleton);
-  const std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
+  std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
+  if (controls.root_path)
+    std::ranges::copy(authoring::HeldOnPath(keys, *controls.root_path, model.fps),
+                      std::back_inserter(faults));
   ShowWarnings(faults, {model.fps});
 
   client::DanceConfig config;
@@ -205,6 +210,8 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   if (!options.vmc.empty()) show->emplace(options.vmc, model.skeleton);
   client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps, options,
                                     out, *show ? &**show : nullptr);
+  std::erase_if(dance.warnings,
+                [&](const auto& warning) { return authoring::IsOfHold(warning, keys); });
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   for (size_t i = 0; i < written.keys.size(); ++i)
     written.keys[i].holds = authoring::HeldKey(keys, i);

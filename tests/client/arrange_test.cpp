@@ -295,6 +295,27 @@ TEST_F(ArrangeTest, HoldsAKey) {
   EXPECT_GT(ComparePoses(Body(), held.frames[180], held.frames[150]).position_m, 0.01);
 }
 
+TEST_F(ArrangeTest, OneWarningNamesAKeyThatIsHeldWhileThePathGoesOn) {
+  std::ofstream(folder_ / "path.json")
+      << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 6, "x": 3, "z": 0}]})";
+  const auto said = [&](const std::string& place, const std::string& path) {
+    std::ofstream(folder_ / "keys.json")
+        << R"({"keyframes": [{"id": "tree", "time": 2, "pose": "tree", "hold": 2)" + place + "}]}";
+    const Outcome outcome = Choreo("dance" + Server() + "--keyframes " + At("keys.json") +
+                                   " --path " + At(path) + " -o " + At("held.npz"));
+    EXPECT_EQ(outcome.code, 0) << outcome.said;
+    EXPECT_THAT(outcome.said, testing::Not(HasSubstr("tree held")));
+    return outcome.said;
+  };
+  const std::string goes_on = "the path goes on for 1 m while \"tree\" is held from 2 s to 4 s";
+  EXPECT_THAT(said("", "path.json"), HasSubstr(goes_on + ": the pose slides along it"));
+  EXPECT_THAT(said(R"(, "place": [1, 0])", "path.json"), HasSubstr(goes_on + "; the key wins"));
+  std::ofstream(folder_ / "waits.json")
+      << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 2, "x": 1, "z": 0},
+                       {"time": 4, "x": 1, "z": 0}, {"time": 6, "x": 3, "z": 0}]})";
+  EXPECT_THAT(said("", "waits.json"), testing::Not(HasSubstr("the path goes on")));
+}
+
 TEST_F(ArrangeTest, RefusesImpossibleArrangements) {
   const auto expect_failure = [this](const std::string& arguments, const std::string& part) {
     const Outcome outcome = Edit("dance", arguments, "new");
