@@ -123,8 +123,8 @@ void CheckOptions(const EditOptions& options) {
                                       std::to_string(options.keys.size()) +
                                       " keys; each --key needs one");
   }
-  if (!options.hold.empty() && options.keys.empty())
-    throw InvalidArgument("--hold", "goes with --key");
+  if (!options.hold.empty() && options.keys.empty() && options.moves.empty())
+    throw InvalidArgument("--hold", "goes with --key and --move");
   if (!options.hands.empty() && options.keys.empty() && options.moves.empty())
     throw InvalidArgument("--hands", "goes with --key and --move");
   RequireWrittenMotionFile(options.out);
@@ -228,8 +228,8 @@ void AddEditCommand(CLI::App& program) {
               "NAME: a marker to remove from a project. Of several of one name: NAME@SECOND.");
   command
       ->add_option("--hold", options->hold,
-                   "Seconds, or counts (2c), for which the poses of --key are kept. Default: as a "
-                   "key file says, or they are passed.")
+                   "Seconds, or counts (2c), for which the poses of --key and --move are kept. "
+                   "Default: as a key file or --report says, or they are passed.")
       ->check(TimeOrCount());
   AddHit(*command, options->hit, "the poses of --key and --move are");
   AddHands(*command, options->hands,

@@ -70,23 +70,27 @@ void EditSession::SetKey(const std::string& source, double at_s) {
   edit.held = named.held;
   if (!options_.hands.empty()) edit.key.hands = FindHandPose(options_.hands);
   if (options_.hit) edit.key.hit = options_.hit;
-  if (!options_.hold.empty()) {
-    const double until_s =
-        authoring::ParseTime(options_.hold, "--hold").After(at_s, counts_, "--hold");
-    edit.held = authoring::Holding(&edit.key, until_s - at_s, "--hold");
-  }
-  if (!edit.held.empty()) {
-    authoring::RefuseHeldInAir(edit.key, edit.held.back().time_s - edit.key.time_s,
-                               options_.hold.empty() ? source : "--hold", edit_.model.skeleton);
-  }
-  for (client::KeyPose& held : edit.held) {
-    held.frame = Frame(at_s + held.time_s - edit.key.time_s);
-    held.pose = pose;
-    held.hands = edit.key.hands;
-  }
+  HoldAsAsked(source, at_s, &edit);
   const std::vector<client::Warning> ended = MakeRoom("--at", &edit);
   Set("--at", at_s, std::move(edit));
   Keep(ended);
+}
+
+void EditSession::HoldAsAsked(const std::string& source, double at_s, client::KeyEdit* edit) {
+  client::KeyPose& key = edit->key;
+  if (!options_.hold.empty()) {
+    const double until_s =
+        authoring::ParseTime(options_.hold, "--hold").After(at_s, counts_, "--hold");
+    edit->held = authoring::Holding(&key, until_s - at_s, "--hold");
+  }
+  if (edit->held.empty()) return;
+  authoring::RefuseHeldInAir(key, edit->held.back().time_s - key.time_s,
+                             options_.hold.empty() ? source : "--hold", edit_.model.skeleton);
+  for (client::KeyPose& held : edit->held) {
+    held.frame = Frame(at_s + held.time_s - key.time_s);
+    held.pose = key.pose;
+    held.hands = key.hands;
+  }
 }
 
 void EditSession::RemoveKey(const std::string& id) {
@@ -118,6 +122,7 @@ void EditSession::MoveKey(const std::string& id, double to_s) {
       key.pose = Here(frames.front() + by).ToWorld(Here(frames.front()).ToLocal(key.pose));
   }
   edit.key.hit = options_.hit ? options_.hit : HitOf(keys_.at(frames.front()));
+  if (!options_.hold.empty()) HoldAsAsked(edit.key.id, to_s, &edit);
   Forget(keys_.find(frames.front()), keys_.upper_bound(frames.back()));
   const std::vector<client::Warning> ended = MakeRoom("--move", &edit);
   // The frames danced anew around the new place may not include the old one.

@@ -42,7 +42,8 @@ class EditSession {
   void End(const std::string& source);
   /// Removes a key of the report: its two intervals become one.
   void RemoveKey(const std::string& id);
-  /// Moves a key of the report, with what holds it, to another second, as danced.
+  /// Moves a key of the report, with what holds it, to another second, as danced; --hold changes
+  /// how long it is held.
   void MoveKey(const std::string& id, double to_s);
   /// Repeats the report's keys in [from_s, until_s) later, moved and turned to where the dancer is
   /// then, replacing the keys there.
@@ -81,6 +82,9 @@ class EditSession {
   std::vector<client::KeyEdit> Phrase(const char* field, double from_s, double until_s) const;
   /// Sets the keys of a phrase at their present places; the dance has no others there.
   void SetAll(const char* field, std::span<client::KeyEdit> phrase);
+  /// Holds a key at this second, with what holds it, as long as --hold says, or else as it is
+  /// held. `source`: its name in errors.
+  void HoldAsAsked(const std::string& source, double at_s, client::KeyEdit* edit);
   /// Makes room for a new key and what holds it: EndHold, MakeWay, FitHold. Returns the warnings,
   /// for after the edit. Throws for a frame where this edit has set another key.
   std::vector<client::Warning> MakeRoom(const char* field, client::KeyEdit* edit);

@@ -295,6 +295,25 @@ TEST_F(ArrangeTest, HoldsAKey) {
   EXPECT_GT(ComparePoses(Body(), held.frames[180], held.frames[150]).position_m, 0.01);
 }
 
+TEST_F(ArrangeTest, AMovedKeyIsHeldAsLongAsAsked) {
+  ASSERT_EQ(Edit("dance", "--key kick --at 3 --hold 0.6 --around 1", "held", Server()).code, 0);
+  for (const auto& [hold, last] : {std::pair("1.2", 126), {"0.2", 96}}) {
+    const Outcome outcome =
+        Edit("held", std::string("--move kick 3 --hold ") + hold, "longer", Server());
+    ASSERT_EQ(outcome.code, 0) << outcome.said;
+    int64_t until = 0;
+    const nlohmann::json report = ReadJson(folder_ / "longer.json");
+    for (const auto& key : report["keyframes"])
+      if (key.value("holds", "") == "kick") until = key["frame"];
+    EXPECT_EQ(until, last);
+    const Motion motion = Read("longer.npz");
+    for (int64_t frame = 90; frame <= last; frame += 6) {
+      const auto& danced = motion.frames[static_cast<size_t>(frame)];
+      EXPECT_LE(ComparePoses(Body(), danced, motion.frames[90]).position_m, 0.001);
+    }
+  }
+}
+
 TEST_F(ArrangeTest, OneWarningNamesAKeyThatIsHeldWhileThePathGoesOn) {
   std::ofstream(folder_ / "path.json")
       << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 6, "x": 3, "z": 0}]})";
