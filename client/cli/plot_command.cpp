@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
+#include "client/authoring/counts.h"
 #include "client/authoring/json_fields.h"
 #include "client/authoring/motion_input.h"
 #include "client/authoring/music.h"
@@ -88,8 +90,17 @@ PlotSeries RootOf(const Motion& motion, bool height) {
   return line;
 }
 
-PlotSeries AskedOf(const std::string& path, double fps, bool height) {
-  const auto asked = authoring::ParsePathFile(authoring::ReadText(path, "path file"), path, fps);
+/// The song's counts, for paths that are written in them.
+authoring::Counts CountsOf(const PlotOptions& options) {
+  if (options.song.empty()) return {};
+  return authoring::CountsOf(authoring::ReadMusic(
+      options.song, std::numeric_limits<double>::infinity(), options.song_start_s, options.beats));
+}
+
+PlotSeries AskedOf(const std::string& path, const authoring::Counts& counts, double fps,
+                   bool height) {
+  const auto asked =
+      authoring::ParsePathFile(authoring::ReadText(path, "path file"), path, fps, counts);
   if (height && asked.heights.empty()) throw InvalidArgument("--path", path + " has no heights");
   PlotSeries line{.label = "asked", .x = {}, .y = {}, .asked = true};
   for (size_t i = 0; i < asked.points.size(); ++i) {
@@ -171,10 +182,10 @@ void Run(PlotOptions& options) {
   const bool height = options.of == "height";
   if (!options.beats.FindsThem()) inputs.push_back({"--beats", *options.beats.beats});
   RequireOutputs({{"--out", options.out}}, inputs);
-  if (beats != !options.song.empty()) {
-    throw InvalidArgument("--song", beats ? "beats want the song that was danced to"
-                                          : "goes with beats, not with " + options.of);
-  }
+  if (beats && options.song.empty())
+    throw InvalidArgument("--song", "beats want the song that was danced to");
+  if (!beats && !options.song.empty() && options.paths.empty())
+    throw InvalidArgument("--song", "goes with beats, or with the counts of --path");
   authoring::RequireSong(options.beats, options.song);
   if (beats && options.motions.size() > 1) {
     throw InvalidArgument(
@@ -207,6 +218,7 @@ void Run(PlotOptions& options) {
   plot.y_label = plot.map ? "to the dancer's left, m"
                  : height ? "height of the root, m"
                           : "cm a frame, mean of 0.5 s";
+  const authoring::Counts counts = CountsOf(options);
   for (size_t i = 0; i < motions; ++i) {
     const SkeletonMotion dance = authoring::ReadMotionNoting(options.motions[i]);
     PlotSeries line = part ? SpeedOf(*part, dance) : RootOf(dance.motion, height);
@@ -214,7 +226,7 @@ void Run(PlotOptions& options) {
                                         : options.labels[i];
     if (i < asked) {
       PlotSeries wanted = part ? LevelOf(options.speeds[i], line)
-                               : AskedOf(options.paths[i], dance.motion.fps, height);
+                               : AskedOf(options.paths[i], counts, dance.motion.fps, height);
       // A common one comes first.
       if (asked < motions) plot.series.push_back(std::move(wanted));
       plot.series.push_back(std::move(line));
@@ -252,7 +264,9 @@ void AddPlotCommand(CLI::App& program) {
   AddRepeated(*command, "--asked", options->speeds,
               "Speed that was asked for, cm a frame: one for all motions, or one each.")
       ->check(NumberFrom(0, 1000));
-  command->add_option("--song", options->song, "Of beats: the song that was danced to.")
+  command
+      ->add_option("--song", options->song,
+                   "The song that was danced to: for beats, and for paths in its counts.")
       ->check(CLI::ExistingFile);
   AddSongStart(*command, options->song_start_s);
   AddBeatOptions(*command, &options->beats);

@@ -63,6 +63,11 @@ TEST_F(PlotCommandTest, DrawsRequestsBesideResults) {
     return Drawn(kInk);
   };
   EXPECT_GT(ink("path " + both + " --path " + At("path.json")), ink("path " + both) + 100);
+  std::ofstream(folder_ / "counts.json")
+      << R"({"points": [{"time": "1c", "x": 0, "z": 0}, {"time": "5c", "x": 0.5, "z": 0.6}]})";
+  WriteClicks(folder_ / "song.wav", 8);
+  EXPECT_GT(ink("path " + both + " --path " + At("counts.json") + " --song " + At("song.wav")),
+            ink("path " + both) + 100);
   EXPECT_GT(ink("trunk " + both + " --asked 0.5"), ink("trunk " + both) + 100);
   // One each has its motion's colour.
   EXPECT_LT(ink("trunk " + both + " --asked 0.5 --asked 0.6"), ink("trunk " + both) + 100);
