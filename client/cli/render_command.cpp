@@ -97,6 +97,7 @@ void Cut(RenderOptions* options, Stage* stage, std::vector<double>* keys) {
   };
   const double fps = stage->front().motion.fps;
   const int64_t total = CountFrames(*stage);
+  const double ends_s = static_cast<double>(total) / fps;
   const int64_t first =
       options->from.empty() ? 0 : FirstFrameFrom(second("--from", options->from), fps);
   const int64_t end = options->until.empty()
@@ -104,8 +105,11 @@ void Cut(RenderOptions* options, Stage* stage, std::vector<double>* keys) {
                           : std::min(total, FirstFrameFrom(second("--until", options->until), fps));
   if (first >= end) {
     throw InvalidArgument(options->from.empty() ? "--until" : "--from",
-                          "nothing is left to draw: the motion ends at " +
-                              Rounded(static_cast<double>(total) / fps) + " s");
+                          "nothing is left to draw: the motion ends at " + Rounded(ends_s) + " s");
+  }
+  if (!options->until.empty() && second("--until", options->until) > ends_s + 1 / fps) {
+    std::cerr << "note: the motion ends at " << Rounded(ends_s) << " s, before --until "
+              << options->until << '\n';
   }
   for (auto& dancer : *stage) {
     auto& frames = dancer.motion.frames;

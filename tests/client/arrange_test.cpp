@@ -314,6 +314,16 @@ TEST_F(ArrangeTest, AMovedKeyIsHeldAsLongAsAsked) {
   }
 }
 
+TEST_F(ArrangeTest, AFilmThatIsAskedForBeyondTheEndSaysWhereThatIs) {
+  const auto said = [&](const std::string& until) {
+    return Choreo("render " + At("dance.npz") + " --frames 1 --from 9 --until " + until + " -o " +
+                  At("sheet.png"))
+        .said;
+  };
+  EXPECT_THAT(said("40"), HasSubstr("note: the motion ends at 10 s, before --until 40"));
+  EXPECT_THAT(said("10"), testing::Not(HasSubstr("the motion ends")));
+}
+
 TEST_F(ArrangeTest, OneWarningNamesAKeyThatIsHeldWhileThePathGoesOn) {
   std::ofstream(folder_ / "path.json")
       << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 6, "x": 3, "z": 0}]})";
