@@ -112,6 +112,8 @@ void Run(const DanceOptions& options) {
                                  options.seconds.value_or(std::numeric_limits<double>::infinity()),
                                  options.song_start_s, options.beats);
   }
+  // Only our own server's default model is known to have SMPL's skeleton.
+  if (options.server.addresses.empty() && options.model.empty()) CheckKeyFiles(options, music);
   const Connection connection(options.server, options.model);
   const Interruption interruption;
   if (stage) return DanceTogether(options, *stage, music, connection, out);

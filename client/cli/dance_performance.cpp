@@ -166,6 +166,11 @@ Asked AskedFor(const DanceOptions& options, const client::Header& header,
 
 }  // namespace
 
+void CheckKeyFiles(const DanceOptions& options, const std::optional<authoring::Music>& music) {
+  for (const std::string& source : authoring::KeySources(options.keys))
+    authoring::ReadKeys(source, Skeleton::Smpl24(), nullptr, CountsOf(options, music));
+}
+
 Performance Perform(const DanceOptions& options, const std::optional<authoring::Music>& music,
                     const Connection& connection, const std::filesystem::path& out,
                     std::optional<VmcShow>* show) {

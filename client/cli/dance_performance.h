@@ -52,6 +52,10 @@ struct Performance {
   std::vector<double> beats;  ///< of the music, seconds
 };
 
+/// Reads the keys for SMPL's skeleton: throws what Perform would throw of their files, before a
+/// server is started.
+void CheckKeyFiles(const DanceOptions& options, const std::optional<authoring::Music>& music);
+
 /// Dances as the options say, to this music, their song's. Writes what came of a failed or
 /// interrupted dance beside `out`. The show of --vmc starts with the dance. Errors name the option,
 /// or the place in a file.

@@ -324,6 +324,15 @@ TEST_F(ArrangeTest, AFilmThatIsAskedForBeyondTheEndSaysWhereThatIs) {
   EXPECT_THAT(said("10"), testing::Not(HasSubstr("the motion ends")));
 }
 
+TEST_F(ArrangeTest, AFaultyKeyFileIsToldBeforeAServerIsStarted) {
+  std::ofstream(folder_ / "keys.json") << R"({"keyframes": [{"time": 1, "pose": "star_jmp"}]})";
+  const Outcome outcome =
+      Choreo("dance --keyframes " + At("keys.json") + " -o " + At("faulty.npz"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.said, HasSubstr("star_jump"));
+  EXPECT_THAT(outcome.said, testing::Not(HasSubstr("a server is started")));
+}
+
 TEST_F(ArrangeTest, OneWarningNamesAKeyThatIsHeldWhileThePathGoesOn) {
   std::ofstream(folder_ / "path.json")
       << R"({"points": [{"time": 0, "x": 0, "z": 0}, {"time": 6, "x": 3, "z": 0}]})";
