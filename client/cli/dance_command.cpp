@@ -180,9 +180,10 @@ void AddDanceCommand(CLI::App& program) {
                    "otherwise: several on one stage (docs/dancers.md). --out is then a file for "
                    "each, FILE.ID.npz, or one .glb with all of them.")
       ->check(CLI::ExistingFile);
-  command->add_option("-o,--out", options->out,
-                      "FILE.npz, FILE.bvh or FILE.glb to write; default: beside the song, or "
-                      "dance.npz. A file that is there is replaced.");
+  command->add_option(
+      "-o,--out", options->out,
+      "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write; default: beside the song, or "
+      "dance.npz. A file that is there is replaced.");
   command->add_option("--report", options->report, "JSON file to write the report to.");
   options->bvh.AddTo(*command);
   AddVmc(*command, options->vmc);

@@ -327,7 +327,7 @@ void AddEditCommand(CLI::App& program) {
   AddModel(*command, options->model);
   command
       ->add_option("-o,--out", options->out,
-                   "FILE.npz, FILE.bvh or FILE.glb to write; of a project, FILE.json.")
+                   "FILE.npz, FILE.bvh, FILE.glb or FILE.vrma to write; of a project, FILE.json.")
       ->required();
   options->server.AddTo(*command);
   command->callback([options, command] {
