@@ -5,7 +5,7 @@
 namespace choreo::client {
 
 FrameBlock FromProto(const v1::Frames& frames, int joints) {
-  const int count = frames.count();
+  const int64_t count = frames.count();
   if (count < 1 || frames.root_positions_size() != 3 * count ||
       frames.rotations_size() != 3 * count * joints || frames.contacts_size() != 4 * count) {
     throw wire::Broken("frames whose arrays do not have the length that their count asks for");

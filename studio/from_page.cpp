@@ -20,7 +20,7 @@
 namespace choreo::studio {
 namespace {
 
-void RequireCount(const std::string& field, int count, int wanted) {
+void RequireCount(const std::string& field, int64_t count, int64_t wanted) {
   if (count == wanted) return;
   throw InvalidArgument(field,
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
@@ -171,14 +171,14 @@ client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request
 
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton) {
   const v1::Frames& frames = clip.frames();
-  const int count = frames.count();
+  const int64_t count = frames.count();
   if (count < 1) throw InvalidArgument("clip.frames", "there are none");
   RequireCount("clip.frames.root_positions", frames.root_positions_size(), 3 * count);
   RequireCount("clip.frames.rotations", frames.rotations_size(), 3 * count * skeleton.joints());
   CheckRate("clip.frame_rate", clip.frame_rate());
   v1::Frames whole = frames;
   const bool touches = frames.contacts_size() > 0;
-  if (!touches) whole.mutable_contacts()->Resize(4 * count, 0);
+  if (!touches) whole.mutable_contacts()->Resize(static_cast<int>(4 * count), 0);
   client::FrameBlock block = client::FromProto(whole, skeleton.joints());
   client::FinishedDance out;
   out.motion = {.fps = clip.frame_rate(), .frames = std::move(block.poses)};

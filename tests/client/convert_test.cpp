@@ -30,6 +30,12 @@ TEST(ClientConvertTest, RefusesFramesOfTheWrongLength) {
   v1::Frames none = TwoFrames(3);
   none.set_count(0);
   ExpectError(ErrorCode::kInternal, "broke the protocol", [&] { FromProto(none, 3); });
+  // Three numbers for each frame are two more than 2^32.
+  v1::Frames huge;
+  huge.set_count(1431655766);
+  huge.mutable_root_positions()->Resize(2, 0);
+  huge.mutable_rotations()->Resize(6, 0);
+  ExpectError(ErrorCode::kInternal, "broke the protocol", [&] { FromProto(huge, 3); });
 }
 
 TEST(ClientConvertTest, IgnoresUnknownEvents) { EXPECT_FALSE(FromProto(v1::Event()).has_value()); }

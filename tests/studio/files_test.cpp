@@ -183,6 +183,20 @@ TEST_F(StudioTest, WritesAndOpensFiles) {
   }
 }
 
+// Three numbers for each frame are two more than 2^32.
+TEST_F(StudioTest, RefusesAClipOfFarTooManyFrames) {
+  const Opened studio(server_.address());
+  Page page(studio.port());
+  Request write;
+  write.mutable_export_()->set_name("dance.npz");
+  Clip* clip = write.mutable_export_()->mutable_clip();
+  clip->set_frame_rate(30);
+  clip->mutable_frames()->set_count(1431655766);
+  clip->mutable_frames()->mutable_root_positions()->Resize(2, 0);
+  EXPECT_THAT(page.Ask(write).failure().message(),
+              HasSubstr("clip.frames.root_positions: 2 numbers, must be 4294967298"));
+}
+
 TEST_F(StudioTest, NotesOdditiesOfAFile) {
   const Opened studio(server_.address());
   Page page(studio.port());
