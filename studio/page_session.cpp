@@ -176,6 +176,8 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kCancelled) Fail(call, error.what());
+  } catch (const std::exception& error) {
+    Fail(call, error.what());
   }
   const std::lock_guard lock(mutex_);
   dancing->over = true;

@@ -3,10 +3,14 @@
 #include <signal.h>
 
 #include <cmath>
+#include <future>
+#include <stdexcept>
+#include <utility>
 
 #include "client/authoring/key_file.h"
 #include "client/convert.h"
 #include "model/motion/kinematics.h"
+#include "studio/page_session.h"
 #include "studio/server_supervisor.h"
 #include "tests/studio/fixture.h"
 
@@ -44,6 +48,25 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
           << "frame " << frame;
     }
   }
+}
+
+// Sending fails once, with another exception than ours.
+TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
+  const StudioContext context({.addresses = {server_.address()}}, {}, {});
+  std::promise<std::string> answered;
+  bool failed = false;
+  PageSession session(context, [&](const Response& response) {
+    if (response.has_failure()) answered.set_value(response.failure().message());
+    if (!response.has_dance() || std::exchange(failed, true)) return;
+    throw std::runtime_error("the page is gone");
+  });
+  Request dance = DanceRequest(10, 1);
+  dance.set_call(2);
+  session.Take(dance);
+  Request complete = Complete();
+  complete.set_call(2);
+  session.Take(complete);
+  EXPECT_EQ(answered.get_future().get(), "the page is gone");
 }
 
 // The page's beats replace the detected ones.
