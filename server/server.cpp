@@ -133,9 +133,9 @@ SampleQueue::Options QueueingOf(const ServerConfig& config) {
   return {.max_bulk = config.max_waiting};
 }
 
-// Sets the usual number of streams, if the configuration leaves it open. What is measured at start
-// depends on who else is busy then and stays for ever, so it is only told: FrameBudget refuses what
-// the machine does not carry, and learns by dancing.
+// Sets the limit of streams if the configuration leaves it open. The speed measured at start is
+// only logged, because other programs may be busy then. FrameBudget measures the dances themselves,
+// and refuses what the machine does not carry.
 ServerConfig WithStreams(ServerConfig config,
                          const std::vector<std::unique_ptr<SampleQueue>>& queues) {
   if (config.max_streams > 0) return config;

@@ -107,8 +107,8 @@ class EditSession {
   int64_t Around() const;
   /// Whether the edit of a key reaches up to another one so many frames away.
   bool Reaches(int64_t frames) const;
-  /// The last frame before a key that stays, and the first after it: those of other keys, if known
-  /// and near enough; else so far away that no stale frame is left between.
+  /// An edit at `frame` dances the frames between these two anew. They are the neighbouring keys'
+  /// frames if these are within reach. Else all stale frames up to the neighbours lie between them.
   int64_t Before(int64_t frame) const;
   int64_t After(int64_t frame) const;
 

@@ -37,7 +37,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// there. If `change` throws, the exception passes through and the chain stays as it was. Does
   /// nothing once the dance is over.
   void Apply(const std::function<DanceEvents(DanceScore&)>& change);
-  /// What `read` tells of the score.
+  /// Calls `read` with the score, under the lock, and returns what it returns.
   auto Read(const auto& read) const {
     std::lock_guard lock(mutex_);
     return read(score_);

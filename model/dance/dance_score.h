@@ -96,16 +96,16 @@ class DanceScore {
   const Segment* Current() { return timeline_.Planned(); }
   /// Ends it.
   void Finish() { timeline_.Finish(); }
-  /// Whether no frame from `frame` on is danced, as far as is known.
+  /// Whether the dance has no frames from `frame` on, as far as is known.
   bool EndsBy(int64_t frame) const;
   /// Whether the first planned transition is over once the frames before `frame` are danced.
   bool Overtakes(int64_t frame);
 
-  /// Ends the last of the first `planned` transitions where the music turns, as far as rows below
-  /// `ready` tell. Returns whether they tell all.
+  /// Ends the last of the first `planned` transitions where the music turns. Reads the rows of
+  /// music below `ready`. Returns whether later rows can change nothing.
   bool TurnWithMusic(size_t planned, int64_t ready);
-  /// The transition after the first `planned`, if it is certain and rows below `ready` suffice for
-  /// it. `before` is left to the caller. Call once per transition.
+  /// The transition after the first `planned`; none while it may change or needs rows from `ready`
+  /// on. The caller sets `before`. Call once per transition.
   std::optional<Next> TakeNext(size_t planned, int64_t ready);
 
  private:

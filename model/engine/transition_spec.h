@@ -20,11 +20,11 @@
 #include "model/plan/arrival.h"
 #include "model/plan/footwork_options.h"
 
-/// What a model is, and what it is asked for.
+/// Describes a model, and a transition that somebody asks of it.
 namespace choreo {
 
-/// What a model hears of each frame of music besides beats and energy. A transition of a model that
-/// hears waits for all of its music.
+/// The features of music that a model takes for each frame, besides beats and energy. Such a model
+/// begins a transition once it has all of the transition's music.
 struct Hearing {
   int features = 0;  ///< numbers of a frame; 0: nothing
   /// Makes them of the mel bands, in dB.

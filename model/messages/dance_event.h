@@ -22,10 +22,10 @@ struct KeyReached {
   double final_error_m = 0;    ///< of the danced frame
   double final_error_deg = 0;  ///< the same
   double correction_m = 0;     ///< the furthest that any joint was moved on the way to the key
-  /// Only reports have it: the largest acceleration of any joint, m/s^2, at most two frames from
-  /// the key's.
+  /// The largest acceleration of any joint within two frames of the key, m/s^2. Only reports have
+  /// it.
   double max_acceleration = 0;
-  /// Only events have it: what hands do there, if the key says so.
+  /// What hands do at the key, if it says so. Only events have it.
   std::optional<HandPose> hands = {};
 };
 
