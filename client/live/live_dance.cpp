@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "client/live/music_ear.h"
+#include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/core/rounded.h"
 
@@ -69,7 +70,7 @@ void LiveDance::Run(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, M
   observer_.figures(all_);
 }
 
-// Nobody watches a dance that begins after its music.
+// Throws what kept the dance from beginning: nobody watches a dance after its music.
 void LiveDance::RequireBegun() {
   if (begun_ || over_ || !observer_.failure || !observer_.go_on()) return;
   if (const auto failure = observer_.failure()) throw *failure;
@@ -163,7 +164,13 @@ std::vector<client::KeyPose> LiveDance::DancedKeys() const {
   std::vector<client::KeyPose> danced;
   for (const client::KeyReached& reached : report_ ? report_->keys : reached_) {
     const auto is_it = [&](const client::KeyPose& key) { return key.id == reached.id; };
-    danced.push_back(*std::ranges::find_if(sent_, is_it));
+    const auto sent = std::ranges::find_if(sent_, is_it);
+    if (sent == sent_.end()) {
+      throw Error(
+          ErrorCode::kInternal, "",
+          "the server says that a key was reached which it was not sent: " + Printable(reached.id));
+    }
+    danced.push_back(*sent);
   }
   return danced;
 }

@@ -81,6 +81,7 @@ class LiveDance {
   /// The keys that the server said were reached.
   const std::vector<client::KeyReached>& reached() const { return reached_; }
   /// The keys that were danced, in order of time; of a dance that was cut off, those reached.
+  /// Throws Error(kInternal) if the server names one that it was not sent.
   std::vector<client::KeyPose> DancedKeys() const;
 
  private:
