@@ -14,7 +14,7 @@ constexpr std::chrono::seconds kBetweenRefusalReports{1}, kBetweenSweeps{10};
 const char* Reason(ConnectionRefusal refusal) {
   switch (refusal) {
     case ConnectionRefusal::kFlood:
-      return "has flooded the server with frames";
+      return "has flooded the server";
     case ConnectionRefusal::kResets:
       return "has begun more calls than can be ended";
     case ConnectionRefusal::kRate:
@@ -30,10 +30,10 @@ bool AcceptGuard::Takes(int connection) {
   const auto now = Clock::now();
   ++tally_.connections;
   ConnectionRefusal refusal = ConnectionRefusal::kRate;
-  if (held_off_->Has(address)) {
-    refusal = ConnectionRefusal::kFlood;
-  } else if (resets_.IsFull(connection)) {
+  if (resets_.IsFull(connection)) {
     refusal = ConnectionRefusal::kResets;
+  } else if (resets_.held_off()->Has(address)) {
+    refusal = ConnectionRefusal::kFlood;
   } else if (TakesFrom(address, now)) {
     return true;
   }

@@ -2,18 +2,16 @@
 
 #include <chrono>
 #include <map>
-#include <memory>
 #include <string>
 
-#include "server/held_off.h"
 #include "server/reset_guard.h"
 #include "server/tally.h"
 
 namespace choreo {
 
-/// Decides which new connections gRPC gets: none of an address that has flooded it (FrameGuard), or
-/// has more reset calls than can be ended (ResetGuard), or connects too fast. A handshake costs CPU
-/// time that dances need, and each connection has its own bound on frames. For one thread.
+/// Decides which new connections gRPC gets: none of an address that has flooded it (FrameGuard,
+/// ResetGuard), or has more reset calls than can be ended, or connects too fast. A handshake costs
+/// CPU time that dances need, and each connection has its own bound on frames. For one thread.
 class AcceptGuard {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,8 +21,6 @@ class AcceptGuard {
 
   /// Whether this socket may go on to gRPC; logs if it may not, once a second.
   bool Takes(int connection);
-  /// For GuardFrames.
-  const std::shared_ptr<HeldOff>& held_off() const { return held_off_; }
   /// Whether the address is not too fast.
   bool TakesFrom(const std::string& address, Clock::time_point now);
 
@@ -35,7 +31,6 @@ class AcceptGuard {
  private:
   const ResetGuard& resets_;
   Tally& tally_;
-  const std::shared_ptr<HeldOff> held_off_ = std::make_shared<HeldOff>();
   /// When all that an address has used of its rate is paid back; later ones only.
   std::map<std::string, Clock::time_point> paid_back_;
   Clock::time_point next_sweep_, next_report_;

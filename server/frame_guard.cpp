@@ -133,6 +133,7 @@ void GuardFrames(int connection, bool encrypted, std::shared_ptr<HeldOff> held_o
 
 uint64_t HeaderFloods() { return header_floods; }
 uint64_t EmptyFrameFloods() { return empty_frame_floods; }
+void CountCallFlood() { ++empty_frame_floods; }
 
 }  // namespace choreo
 

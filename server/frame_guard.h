@@ -18,5 +18,7 @@ void GuardFrames(int connection, bool encrypted, std::shared_ptr<HeldOff> held_o
 /// Connections that were ended in this process, by reason. Thread-safe.
 uint64_t HeaderFloods();
 uint64_t EmptyFrameFloods();
+/// Counts a connection that ResetGuard has ended among the latter. Thread-safe.
+void CountCallFlood();
 
 }  // namespace choreo

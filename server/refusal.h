@@ -29,7 +29,7 @@ inline constexpr std::array kRefusals = {
 
 /// Why a new connection is closed before gRPC has it: what its address did.
 enum class ConnectionRefusal {
-  kFlood,   ///< sent a flood of frames
+  kFlood,   ///< sent a flood, less than ten seconds ago
   kResets,  ///< reset more calls than can be ended
   kRate,    ///< connects too fast
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/caller.h"
+#include "server/frame_guard.h"
 
 namespace choreo {
 namespace {
@@ -90,6 +91,8 @@ void ResetGuard::Enter(const std::string& peer) {
     Connection& connection = connections_[peer];
     if (++connection.calls <= most_ || std::exchange(connection.closed, true)) return;
   }
+  held_off_->Add(AddressOf(peer));
+  CountCallFlood();
   spdlog::warn("{} has begun more calls than can be ended; its connection is closed", peer);
   End(peer);
 }

@@ -4,16 +4,19 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
+
+#include "server/held_off.h"
 
 namespace choreo {
 
 /// Counts unfinished calls per connection. gRPC forgets a call when its client resets it, but its
 /// memory is in use until it is cleaned up, so endless resets would exhaust memory. Closes a
-/// connection with more than `most` such calls, and until they are done accepts no other one from
-/// its address. Thread-safe.
+/// connection with more than `most` such calls, counts it among the floods and holds its address
+/// off; until they are done accepts no other one from there. Thread-safe.
 class ResetGuard {
  public:
   /// `on_call`: told the peer of each call that begins.
@@ -25,6 +28,9 @@ class ResetGuard {
 
   /// Whether the address of this socket's peer gets no more connections.
   bool IsFull(int connection) const;
+
+  /// The addresses that get no connection for a while, whatever they flooded with.
+  const std::shared_ptr<HeldOff>& held_off() const { return held_off_; }
 
   /// Call when a call begins, and when it is done. `peer` is gRPC's: an address and a port. An
   /// empty one, of gRPC's own services, is not counted.
@@ -39,6 +45,7 @@ class ResetGuard {
 
   const int most_;
   const std::function<void(const std::string&)> on_call_;
+  const std::shared_ptr<HeldOff> held_off_ = std::make_shared<HeldOff>();
   mutable std::mutex mutex_;
   std::map<std::string, Connection> connections_;  // those with calls, by peer. Lock: mutex_
 };

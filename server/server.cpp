@@ -213,7 +213,7 @@ struct Server::Impl {
         close(connection);
         return;
       }
-      GuardFrames(connection, certificate.has_value(), newcomers.held_off());
+      GuardFrames(connection, certificate.has_value(), resets.held_off());
       if (certificate) handshakes.Accepted(connection);
       grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
       parameters.listener_fd = listening;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <string>
 
+#include "server/frame_guard.h"
 #include "server/held_off.h"
 #include "server/reset_guard.h"
 #include "server/tally.h"
@@ -56,6 +57,21 @@ TEST_F(AcceptGuardTest, HonestRatesAreNeverRefused) {
     EXPECT_EQ(Takes(1), 1);
     now_ += milliseconds(1000 / AcceptGuard::kPerSecond + 1);
   }
+}
+
+// As other floods are: one such call more would cost memory, and the next connection brings it.
+TEST(ResetGuardTest, AFloodOfCallsIsCountedAndHeldOff) {
+  ResetGuard guard(2);
+  const std::string peer = "ipv4:192.0.2.1:7", other = "ipv4:192.0.2.2:7";
+  const uint64_t before = EmptyFrameFloods();
+  for (int i = 0; i < 2; ++i) guard.Enter(peer);
+  EXPECT_FALSE(guard.held_off()->Has("ipv4:192.0.2.1"));
+  for (int i = 0; i < 10; ++i) guard.Enter(peer);
+  guard.Enter(other);
+  EXPECT_EQ(EmptyFrameFloods(), before + 1) << "one connection";
+  for (int i = 0; i < 12; ++i) guard.Leave(peer);
+  EXPECT_TRUE(guard.held_off()->Has("ipv4:192.0.2.1")) << "when its calls are done, too";
+  EXPECT_FALSE(guard.held_off()->Has("ipv4:192.0.2.2"));
 }
 
 TEST(HeldOffTest, ForgetsAfterAWhile) {
