@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <sstream>
+#include <utility>
 
 #include "server/status.h"
 #include "tls/pem.h"
@@ -151,18 +152,29 @@ std::optional<bool> Tokens::Refresh() {
     spdlog::error("{}; nobody is let in until it can be read", error.what());
     return false;
   }
-  if (text_ == text) return std::nullopt;
+  if (text_ == text) {
+    seems_empty_ = false;
+    return std::nullopt;
+  }
   Content content = Parse(text);
+  const bool is_empty = content.holders.empty() && content.bad_lines.empty();
+  // So it is for a moment while it is written: it has to stay empty until the next look.
+  if (is_empty && !std::exchange(seems_empty_, true)) return std::nullopt;
+  seems_empty_ = is_empty;
   text_ = std::move(text);
   const bool all_good = content.bad_lines.empty();
-  // Its writer may have failed, or may not have finished.
-  if (content.holders.empty()) {
-    const Error error = all_good ? NoTokens() : BadLines(content.bad_lines);
-    spdlog::error("{}; the {} tokens known before stay valid", error.what(), count());
+  // Whoever empties the file revokes all; one of bad lines is another file, or not finished.
+  if (content.holders.empty() && !is_empty) {
+    spdlog::error("{}; the {} tokens known before stay valid", BadLines(content.bad_lines).what(),
+                  count());
     return false;
   }
   if (!all_good) spdlog::error("{}; the other lines count", BadLines(content.bad_lines).what());
-  spdlog::info("{} tokens are known now", content.holders.size());
+  if (is_empty) {
+    spdlog::warn("{}; nobody is let in until it has one", NoTokens().what());
+  } else {
+    spdlog::info("{} tokens are known now", content.holders.size());
+  }
   Replace(std::move(content.holders));
   warned_ = false;
   return all_good;

@@ -19,8 +19,8 @@ namespace choreo {
 /// Who may call: a file of lines "SHA256 NAME", with the hash in 64 hexadecimal digits (as by
 /// sha256sum) of a token that the client sends as "authorization: Bearer TOKEN". Ignores empty
 /// lines and those that begin with #. Tokens themselves are neither stored nor logged. A token
-/// that is no longer in the file gives no access, unless the file holds no valid token: then the
-/// former ones stay valid. A removed file admits nobody. Thread-safe.
+/// that is no longer in the file gives no access, unless the file holds only bad lines: then the
+/// former ones stay valid. A file that is empty or gone admits nobody. Thread-safe.
 class Tokens {
  public:
   /// An empty path: everybody may call. Throws Error(kInvalidArgument), field "--tokens", naming
@@ -38,8 +38,8 @@ class Tokens {
   grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
 
   /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
-  /// is admitted; a file without a valid token changes nothing. Logs each once. Returns whether a
-  /// changed file has tokens and only good lines; none without a change.
+  /// is admitted; a file of bad lines alone changes nothing. Logs each once. Returns whether a
+  /// changed file has no bad lines; none without a change.
   std::optional<bool> Refresh();
 
  private:
@@ -68,6 +68,7 @@ class Tokens {
   const std::filesystem::path file_;
   // The file as last read; none if unreadable. Used by the refreshing thread.
   std::optional<std::string> text_;
+  bool seems_empty_ = false;  // at the last look
   mutable std::mutex mutex_;
   mutable std::atomic<bool> warned_ = false;                              // of a raw token
   std::shared_ptr<const Holders> holders_ = std::make_shared<Holders>();  // lock: mutex_

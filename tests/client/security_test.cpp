@@ -467,30 +467,46 @@ TEST_F(TokensTest, BrokenFileAdmitsNobody) {
   becomes("b", false, "what is too long is not read");
 }
 
-// A script that writes the file may fail half-way.
-TEST_F(TokensTest, AnEmptiedFileKeepsTheFormerTokens) {
+TEST_F(TokensTest, AnEmptiedFileRevokesAll) {
   const LogCapture log;
   const std::string alice = LineOf("a", "alice");
   Write("tokens", alice);
   Tokens tokens(folder_ / "tokens");
   std::string holder;
   const auto knows_alice = [&] { return tokens.FindHolder("Bearer a", &holder).ok(); };
-  for (const char* empty : {"", "\n", "# nobody\n", "junk line here\n"}) {
+  for (const char* empty : {"", "\n", "# nobody\n"}) {
+    ASSERT_TRUE(knows_alice());
     Write("tokens", empty);
-    EXPECT_EQ(tokens.Refresh(), false) << empty;
-    EXPECT_EQ(tokens.Refresh(), std::nullopt) << "this was told";
+    EXPECT_EQ(tokens.Refresh(), std::nullopt) << "it may just be written";
     EXPECT_TRUE(knows_alice());
+    EXPECT_EQ(tokens.Refresh(), true) << empty;
+    EXPECT_EQ(tokens.Refresh(), std::nullopt) << "this was told";
+    EXPECT_FALSE(knows_alice()) << empty;
+    Write("tokens", alice);
+    EXPECT_EQ(tokens.Refresh(), true);
   }
-  EXPECT_THAT(log.text(),
-              HasSubstr("[error] --tokens: " + (folder_ / "tokens").string() + " holds no token"));
+  EXPECT_THAT(log.text(), HasSubstr("[warning] --tokens: " + (folder_ / "tokens").string() +
+                                    " holds no token, no line \"SHA256 NAME\"; nobody is let in"));
+}
+
+// It is another file, or its writer has failed half-way.
+TEST_F(TokensTest, AFileOfBadLinesKeepsTheFormerTokens) {
+  const LogCapture log;
+  Write("tokens", LineOf("a", "alice"));
+  Tokens tokens(folder_ / "tokens");
+  std::string holder;
+  const auto knows_alice = [&] { return tokens.FindHolder("Bearer a", &holder).ok(); };
+  Write("tokens", "# who may call\njunk line here\n");
+  EXPECT_EQ(tokens.Refresh(), false);
+  EXPECT_EQ(tokens.Refresh(), std::nullopt) << "this was told";
+  EXPECT_TRUE(knows_alice());
+  EXPECT_THAT(log.text(), HasSubstr("[error] --tokens: " + (folder_ / "tokens").string() +
+                                    " line 2: not \"SHA256 NAME\""));
   EXPECT_THAT(log.text(), HasSubstr("the 1 tokens known before stay valid"));
-  EXPECT_THAT(log.text(), HasSubstr("tokens line 1: not \"SHA256 NAME\""));
-  Write("tokens", alice);
-  EXPECT_EQ(tokens.Refresh(), true);
   // Removed tokens do not return.
   std::filesystem::remove(folder_ / "tokens");
   EXPECT_EQ(tokens.Refresh(), false);
-  Write("tokens", "");
+  Write("tokens", "junk line here\n");
   EXPECT_EQ(tokens.Refresh(), false);
   EXPECT_FALSE(knows_alice());
 }
