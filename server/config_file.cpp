@@ -2,6 +2,8 @@
 
 #include <toml++/toml.h>
 
+#include <iterator>
+#include <regex>
 #include <sstream>
 
 #include "model/core/error.h"
@@ -19,14 +21,28 @@ std::string TextOf(const toml::node& node) {
   return text.str();
 }
 
+/// What a line that is no TOML lacks; empty unless it is likely that.
+std::string MissingMarks(const std::string& text, size_t number) {
+  // Also an address in brackets, which begins like a list.
+  static const std::regex kBare(R"(^\s*([\w-]+)\s*=\s*(\[[0-9a-fA-F]*:|[^\s"'\[{#]))");
+  std::istringstream lines(text);
+  std::string line;
+  for (size_t i = 0; i < number; ++i) std::getline(lines, line);
+  std::smatch found;
+  if (!std::regex_search(line, found, kBare)) return "";
+  return found[1].str() + ": texts need quotation marks; ";
+}
+
 }  // namespace
 
 std::vector<CLI::ConfigItem> TomlFile::from_config(std::istream& input) const {
+  const std::string text(std::istreambuf_iterator<char>(input), {});
   toml::table table;
   try {
-    table = toml::parse(input);
+    table = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw InvalidArgument(At(error.source().begin.line), std::string(error.description()));
+    const size_t line = error.source().begin.line;
+    throw InvalidArgument(At(line), MissingMarks(text, line) + std::string(error.description()));
   }
   std::vector<CLI::ConfigItem> settings;
   for (const auto& [key, node] : table) {

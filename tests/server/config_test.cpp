@@ -126,6 +126,11 @@ TEST(ServerConfigTest, SaysWhereInTheFileAnErrorIs) {
        {"listen = \"127.0.0.1:0\n", "listen = \"a\"b\"\n", "workers 2\n", "insecure = yes\n",
         "listen = 127.0.0.1:0\n", "workers = 2000-01-01\n", "workers = {a = 1}\n"})
     EXPECT_TRUE(said(broken).starts_with(at)) << said(broken);
+  for (const char* bare : {"listen = 127.0.0.1:0\n", "listen = [::]:50051\n", "listen=::1 # all\n",
+                           "listen = localhost:50051"})
+    EXPECT_TRUE(said(bare).starts_with(at + "listen: texts need quotation marks; ")) << said(bare);
+  for (const char* other : {"listen = \"127.0.0.1:0\n", "workers =\n", "model = [\"free\"\n"})
+    EXPECT_EQ(said(other).find("quotation marks"), std::string::npos) << said(other);
   EXPECT_TRUE(said("workers = 2\nworkers = 3\n").starts_with("choreod: " + path + ":3: "));
 }
 
