@@ -44,47 +44,65 @@ class Members final : public spdlog::custom_flag_formatter {
   }
 };
 
-/// Limits log lines per period and counts the rest, because anybody can make gRPC log a line per
-/// connection. Thread-safe.
+/// Limits log lines per period and counts the rest, because anybody can make the server log a line
+/// per connection or call. Thread-safe.
 class LineLimit {
  public:
-  /// Whether one more line may be written; `left_out`: the number of lines suppressed since the
-  /// last one.
-  bool Take(int* left_out) {
-    const auto now = std::chrono::steady_clock::now();
+  LineLimit(int lines, std::chrono::seconds period) : most_(lines), period_(period) {}
+
+  /// Whether one more line may be written.
+  bool Take() {
     const std::lock_guard lock(mutex_);
-    if (now - begin_ >= kPeriod) {
-      begin_ = now;
-      lines_ = 0;
-    }
-    if (lines_ == kLines) {
+    BeginPeriod();
+    if (lines_ == most_) {
       ++left_out_;
       return false;
     }
     ++lines_;
-    *left_out = std::exchange(left_out_, 0);
     return true;
   }
 
- private:
-  static constexpr int kLines = 10;
-  static constexpr std::chrono::seconds kPeriod{10};
+  /// The lines suppressed in a period that is over, and not told yet.
+  int TakeLeftOut() {
+    const std::lock_guard lock(mutex_);
+    BeginPeriod();
+    return lines_ == most_ ? 0 : std::exchange(left_out_, 0);
+  }
 
+ private:
+  void BeginPeriod() {  // if the former one is over. Needs the lock
+    const auto now = std::chrono::steady_clock::now();
+    if (now - begin_ < period_) return;
+    begin_ = now;
+    lines_ = 0;
+  }
+
+  const int most_;
+  const std::chrono::seconds period_;
   std::mutex mutex_;
   std::chrono::steady_clock::time_point begin_;
   int lines_ = 0, left_out_ = 0;
 };
 
+LineLimit& RefusedCalls() {
+  static LineLimit limit(10, std::chrono::seconds(1));
+  return limit;
+}
+
 /// Forwards gRPC's own log, which contains only errors unless GRPC_VERBOSITY says otherwise.
 void TakeGrpcLine(gpr_log_func_args* line) {
   CountHandshakeFault(line->message);
-  static LineLimit limit;
-  int left_out = 0;
-  if (!limit.Take(&left_out)) return;
+  static LineLimit limit(10, std::chrono::seconds(10));
+  const int left_out = limit.TakeLeftOut();
   if (left_out > 0) spdlog::warn("gRPC: {} lines were left out", left_out);
-  const auto level = line->severity == GPR_LOG_SEVERITY_ERROR  ? spdlog::level::err
-                     : line->severity == GPR_LOG_SEVERITY_INFO ? spdlog::level::info
-                                                               : spdlog::level::debug;
+  if (!limit.Take()) return;
+  // A server that is told to stop ends handshakes so.
+  const bool is_orderly =
+      std::string_view(line->message).find("Listener stopped serving") != std::string_view::npos;
+  const auto level = is_orderly                                 ? spdlog::level::info
+                     : line->severity == GPR_LOG_SEVERITY_ERROR ? spdlog::level::err
+                     : line->severity == GPR_LOG_SEVERITY_INFO  ? spdlog::level::info
+                                                                : spdlog::level::debug;
   spdlog::log(level, "gRPC: {}", line->message);
 }
 
@@ -152,7 +170,16 @@ std::string JsonLine(const std::string& level, const std::string& message) {
                      Quoted(message));
 }
 
+void LogLeftOutCalls() {
+  const int left_out = RefusedCalls().TakeLeftOut();
+  if (left_out > 0) spdlog::warn("{} lines of refused calls were left out", left_out);
+}
+
 void LogCall(const CallRecord& call) {
+  if (call.refusal) {
+    LogLeftOutCalls();
+    if (!RefusedCalls().Take()) return;
+  }
   if (!log_is_json) return spdlog::info("{}", TextOf(call));
   const std::string object = ObjectOf(call);
   spdlog::get(std::string(kMembers))->info("{}", object.substr(1, object.size() - 2));

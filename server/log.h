@@ -34,7 +34,9 @@ struct CallRecord {
 /// A line to print outside the log, as an object like the log's with --log-format json.
 std::string JsonLine(const std::string& level, const std::string& message);
 
-/// Logs a call's single line at level info.
+/// Logs a call's single line at level info; of refused ones at most ten a second.
 void LogCall(const CallRecord& call);
+/// Logs how many refused calls had no line, if that has not been told. Call it regularly.
+void LogLeftOutCalls();
 
 }  // namespace choreo

@@ -199,6 +199,7 @@ struct Server::Impl {
       serving.calls.EndIdle();
       serving.models.FreeUnused();
       serving.LookAtCost();
+      LogLeftOutCalls();
       UpdateHealth();
       if (certificate) handshakes.Look();
       TellManagerOfLife();

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <grpc/support/log.h>
+#include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "server/log.h"
@@ -121,6 +124,54 @@ TEST_F(LogTest, JsonReplacesInvalidUtf8) {
   spdlog::set_default_logger(before);
   const auto object = nlohmann::json::parse(testing::internal::GetCapturedStderr());
   EXPECT_EQ(object.at("message"), "models/\uFFFD\uFFFD(\"\n.safetensors");
+}
+
+TEST_F(LogTest, AnOrderlyStopIsNoErrorOfGrpc) {
+  const auto before = spdlog::default_logger();
+  testing::internal::CaptureStderr();
+  gpr_log_verbosity_init();  // which servers do when they start
+  StartLog("info", false);
+  gpr_log(GPR_ERROR, "cancel_check_peer error: UNKNOWN:Listener stopped serving. {}");
+  StartLog("info", false);
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("[info] gRPC: cancel_check_peer"));
+}
+
+// Anybody can call without a token, and would fill the log. Lines and what is left out make all.
+TEST_F(LogTest, LinesOfRefusedCallsAreBounded) {
+  const auto before = spdlog::default_logger();
+  std::ostringstream text;
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      "refused", std::make_shared<spdlog::sinks::ostream_sink_mt>(text)));
+  const Caller caller{.peer = "ipv4:192.0.2.1:7"};
+  const grpc::Status refused(grpc::StatusCode::UNAUTHENTICATED, "a token is needed");
+  constexpr int kCalls = 1'000;
+  for (int i = 0; i < kCalls; ++i) {
+    LogCall(
+        {.method = "StreamDance", .caller = caller, .status = refused, .refusal = Refusal::kToken});
+    LogCall({.method = "GetServerInfo", .caller = caller, .status = grpc::Status::OK});
+  }
+  int lines = 0, served = 0, left_out = 0;
+  ExpectEventually(
+      [&] {
+        LogLeftOutCalls();
+        lines = served = left_out = 0;
+        std::istringstream said(text.str());
+        std::smatch found;
+        for (std::string line; std::getline(said, line);) {
+          lines += line.find("UNAUTHENTICATED") != line.npos ? 1 : 0;
+          served += line.find("GetServerInfo") != line.npos ? 1 : 0;
+          if (std::regex_search(line, found,
+                                std::regex("([0-9]+) lines of refused calls were left")))
+            left_out += std::stoi(found[1]);
+        }
+        return lines + left_out == kCalls;
+      },
+      "all are told of");
+  spdlog::set_default_logger(before);
+  EXPECT_EQ(served, kCalls);
+  EXPECT_GT(lines, 0);
+  EXPECT_GT(left_out, lines);
 }
 
 // Anybody who can connect can make gRPC log: it writes ten lines in ten seconds, and counts the
