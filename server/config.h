@@ -44,6 +44,7 @@ struct ServerConfig {
   bool reflection = true;                 ///< clients may query the API's description
   std::string log_level = "info";         ///< trace, debug, info, warning, error, critical, off
   std::string log_format = "text";        ///< text, json
+  bool check = false;                     ///< only tell whether it could serve
   std::string metrics;                    ///< HOST:PORT or PORT for Prometheus; empty: nowhere
 
   // Limits on clients' calls and idle time.

@@ -92,6 +92,12 @@ void AddOptions(CLI::App& app, ServerConfig& config) {
                      ". Without it, the fastest here. Replicas on different CPUs take over each "
                      "other's dances where all have the slowest one's.")
       ->envname("CHOREO_KERNELS");
+  // Neither a variable nor a line in a file keeps a server from serving.
+  app.add_flag(
+         "--check", config.check,
+         "Read settings, models, certificates and tokens as a start would, say \"ok\" or what "
+         "is wrong, and leave: before a restart, beside the server that runs.")
+      ->configurable(false);
   // CLI11 reads variables only after the file, so this variable must be set as the option's
   // default.
   const char* file = std::getenv("CHOREO_CONFIG");

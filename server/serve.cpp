@@ -124,7 +124,10 @@ void RequireAddresses(const ServerConfig& config) {
 
 // Finds unusable files of secrets before loading models, too.
 void RequireSecrets(const ServerConfig& config) {
-  if (!config.tls_certificate.empty()) const CertificateFiles certificate(config);
+  if (!config.tls_certificate.empty()) {
+    const CertificateFiles certificate(config);
+    if (config.check) certificate.LogExpiry();  // as the server itself does
+  }
   const Tokens tokens(config.tokens);
 }
 
@@ -149,10 +152,15 @@ void HoldSignals() {
 
 void Serve(const ServerConfig& config, const ModelFolder::Loader& load) {
   ModelFolder folder(config.models, load);
-  RequireAddresses(config);
+  if (!config.check) RequireAddresses(config);  // the server that runs has them
   RequireSecrets(config);
   const bool has_folder = !config.models.empty();
-  Server server(config, LoadAll(config, folder, load));
+  std::vector<Server::Samplers> models = LoadAll(config, folder, load);
+  if (config.check) {
+    std::cout << "ok" << std::endl;
+    return;
+  }
+  Server server(config, std::move(models));
   Reloader reloader(folder, server);
   // Programs that start a choreod wait for this line.
   const std::string line = "choreod listens on " + SplitAddress(config.listen).host + ':' +

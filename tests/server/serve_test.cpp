@@ -173,6 +173,37 @@ TEST_F(ServeTest, FindsBadSecretsBeforeLoadingModels) {
   }
 }
 
+// Beside the server that runs, which has the address.
+TEST_F(ServeTest, AFileIsCheckedBeforeARestart) {
+  const Listener running("127.0.0.1:0");
+  const std::string file = (folder_ / "choreod.toml").string(),
+                    tokens = (folder_ / "tokens").string(), models = (folder_ / "models").string();
+  std::filesystem::create_directory(models);
+  std::ofstream(models + "/a.safetensors").flush();
+  std::ofstream(tokens) << std::string(64, 'a') << " alice\n";
+  std::ofstream(file) << "listen = \"127.0.0.1:" << running.port() << "\"\nmodels = \"" << models
+                      << "\"\ntokens = \"" << tokens << "\"\n";
+  const auto check = [&](const std::string& more = "") {
+    return Shell(FAKE_CHOREOD " --check --config '" + file + "'" + more);
+  };
+  const Outcome good = check();
+  EXPECT_EQ(good.code, 0) << good.said;
+  EXPECT_TRUE(good.said.ends_with("ok\n")) << good.said;
+  std::ofstream(tokens) << "no hash";
+  std::filesystem::remove(models + "/a.safetensors");
+  for (const auto& [more, fault] : {std::pair<std::string, std::string>{"", tokens + " line 1"},
+                                    {" --tokens ''", "--tokens: is empty"},
+                                    {" --workers -1", "--workers: -1 is not in"}}) {
+    const Outcome bad = check(more);
+    EXPECT_EQ(bad.code, 2) << bad.said;
+    EXPECT_THAT(bad.said, HasSubstr(fault));
+  }
+  std::ofstream(tokens) << std::string(64, 'a') << " alice\n";
+  const Outcome empty = check();
+  EXPECT_EQ(empty.code, 2) << empty.said;
+  EXPECT_THAT(empty.said, HasSubstr("--models: " + models));
+}
+
 TEST_F(ServeTest, ABadFolderOfModelsIsMisuse) {
   std::filesystem::create_directory(folder_ / "empty");
   for (const char* folder : {"absent", "empty"}) {
