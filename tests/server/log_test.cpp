@@ -143,7 +143,8 @@ TEST_F(LogTest, LinesOfRefusedCallsAreBounded) {
   std::ostringstream text;
   spdlog::set_default_logger(std::make_shared<spdlog::logger>(
       "refused", std::make_shared<spdlog::sinks::ostream_sink_mt>(text)));
-  const Caller caller{.peer = "ipv4:192.0.2.1:7"};
+  Caller caller;
+  caller.peer = "ipv4:192.0.2.1:7";
   const grpc::Status refused(grpc::StatusCode::UNAUTHENTICATED, "a token is needed");
   constexpr int kCalls = 1'000;
   for (int i = 0; i < kCalls; ++i) {
