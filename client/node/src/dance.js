@@ -49,9 +49,9 @@ export async function* dance(replicas, requests, given) {
 
 /** Waits until there is a request to begin a call with. Throws for one that is refused, and for a caller who waits no longer. */
 async function firstRequest(journal, signal, deadline) {
-  let leave;
+  let leave, late = false; // a timer may end a millisecond early by the clock
   const end = new Promise((resolve) => {
-    const timer = setTimeout(resolve, Math.min(deadline - Date.now(), 2 ** 31 - 1));
+    const timer = setTimeout(() => resolve((late = true)), Math.min(deadline - Date.now(), 2 ** 31 - 1));
     signal.addEventListener('abort', resolve);
     leave = () => (clearTimeout(timer), signal.removeEventListener('abort', resolve));
     if (signal.aborted) resolve();
@@ -60,7 +60,7 @@ async function firstRequest(journal, signal, deadline) {
   leave();
   if (journal.failure) throw journal.failure;
   if (signal.aborted) throw cancelled();
-  if (Date.now() < deadline) return;
+  if (!late) return;
   throw new ChoreoError({ code: grpc.status.DEADLINE_EXCEEDED, details: 'the deadline passed before the first request' });
 }
 
