@@ -129,4 +129,13 @@ int64_t FeatureStream::FirstSampleFor(int64_t row, double sample_rate) {
   return std::max<int64_t>(first_mono * rate / kModelSampleRate - before, 0);
 }
 
+std::vector<RowSound> SoundsOf(std::span<const float> mono) {
+  FeatureStream stream(kModelSampleRate, 1);
+  stream.Push(mono);
+  stream.Finish();
+  std::vector<RowSound> rows;
+  for (int64_t row = 0; row < stream.audio_rows(); ++row) rows.push_back(stream.Sound(row));
+  return rows;
+}
+
 }  // namespace choreo

@@ -87,4 +87,7 @@ class FeatureStream {
   RowValues silence_{};
 };
 
+/// The sound of each row of a whole song: mono samples at 22 050 Hz.
+std::vector<RowSound> SoundsOf(std::span<const float> mono);
+
 }  // namespace choreo

@@ -20,15 +20,10 @@ MusicAnalysis AnalyseMusic(std::span<const float> mono) {
 MusicAnalysis AnalyseMusic(std::span<const float> mono, std::vector<double> beats,
                            std::vector<double> downbeats) {
   std::vector<Passage> passages = FindPassages(mono, beats);
-  FeatureStream stream(kModelSampleRate, 1);
-  stream.Push(mono);
-  stream.Finish();
-  std::vector<RowSound> rows;
-  for (int64_t row = 0; row < stream.audio_rows(); ++row) rows.push_back(stream.Sound(row));
   return {.beats = std::move(beats),
           .downbeats = std::move(downbeats),
           .passages = std::move(passages),
-          .energies = SongEnergies(rows),
+          .energies = SongEnergies(SoundsOf(mono)),
           .id = MusicId(mono)};
 }
 

@@ -16,13 +16,12 @@ class RepeatLag {
   /// Takes the next mono samples at 22 050 Hz.
   void Hear(std::span<const float> mono);
 
-  /// The lag nearest to `lag`, within kSearch_s, at which [from, to) is most like what precedes it
-  /// by the lag. `lag` itself where nothing begins. Seconds.
+  /// The lag within half a second of `lag` at which [from, to) is most like what precedes it by the
+  /// lag. `lag` itself where nothing begins. Seconds.
   double Near(double lag, double from, double to) const;
 
-  static constexpr double kSearch_s = 0.5;
-
  private:
+  static constexpr double kSearch_s = 0.5;
   static constexpr int kBands = 12, kWindow = 1024;
   using Bands = Eigen::Matrix<float, kBands, 1>;
 

@@ -71,15 +71,12 @@ double Correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// LUFS of each window.
 std::vector<double> LoudnessOf(std::span<const float> mono) {
-  FeatureStream stream(kModelSampleRate, 1);
-  stream.Push(mono);
-  stream.Finish();
+  const std::vector<RowSound> rows = SoundsOf(mono);
   std::vector<double> loudness;
-  constexpr auto kRows = static_cast<int64_t>(kHeardFrames);
-  for (int64_t row = 0; row + kRows <= stream.audio_rows(); row += kRows) {
+  for (size_t first = 0; first + kHeardFrames <= rows.size(); first += kHeardFrames) {
     double power = 0;
-    for (int64_t r = row; r < row + kRows; ++r) power += stream.Sound(r).power;
-    loudness.push_back(Loudness(power / kRows));
+    for (const RowSound& row : std::span(rows).subspan(first, kHeardFrames)) power += row.power;
+    loudness.push_back(Loudness(power / kHeardFrames));
   }
   return loudness;
 }
