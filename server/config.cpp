@@ -18,7 +18,7 @@
 #include "model/core/nearest.h"
 #include "model/core/programs.h"
 #include "model/engine/engine_choice.h"
-#include "model/engine/transition_spec.h"
+#include "model/plan/transition_spec.h"
 #include "server/config_errors.h"
 #include "server/config_file.h"
 #include "server/config_flags.h"

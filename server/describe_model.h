@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/engine/transition_spec.h"
 #include "model/messages/model_description.h"
+#include "model/plan/transition_spec.h"
 
 namespace choreo {
 

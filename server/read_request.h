@@ -7,7 +7,7 @@
 #include "choreo/v1/choreography.pb.h"
 #include "model/dance/dance_stream.h"
 #include "model/dance/transition_group.h"
-#include "model/engine/transition_spec.h"
+#include "model/plan/transition_spec.h"
 
 /// Requests of the API -> the dance's own types. Everything is checked that the message alone can
 /// tell; failures are Error with the path of the field, beginning with `field` where there is one.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/sampler.h"
+#include "model/plan/sampler.h"
 #include "server/config.h"
 
 namespace choreo {

@@ -11,7 +11,7 @@
 #include "model/audio/feature_stream.h"
 #include "model/audio/music_dynamics.h"
 #include "model/core/grid.h"
-#include "model/engine/transition_spec.h"
+#include "model/plan/transition_spec.h"
 
 namespace choreo {
 

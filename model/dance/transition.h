@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/sampler.h"
 #include "model/messages/continuation.h"
 #include "model/messages/dance_event.h"
 #include "model/motion/canonical.h"
 #include "model/motion/motion.h"
 #include "model/plan/arrival.h"
 #include "model/plan/footwork.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

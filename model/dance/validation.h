@@ -8,9 +8,9 @@
 #include "model/core/field.h"
 #include "model/core/limits.h"
 #include "model/dance/transition.h"
-#include "model/engine/transition_spec.h"
 #include "model/motion/motion.h"
 #include "model/motion/pose_limits.h"
+#include "model/plan/transition_spec.h"
 
 /// Checks of external input (for audio see audio/format.h). Every function throws
 /// Error(kInvalidArgument) whose field is the sender's path and whose message gives the value and

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "model/engine/transition_spec.h"
 #include "model/motion/control_request.h"
 #include "model/motion/velocity_factors.h"
+#include "model/plan/transition_spec.h"
 
 namespace choreo {
 

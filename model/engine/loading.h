@@ -7,7 +7,7 @@
 
 #include "model/engine/engine_choice.h"
 #include "model/engine/packed/kernels.h"
-#include "model/engine/sampler.h"
+#include "model/plan/sampler.h"
 
 /// Makes samplers of any kind of model. Free of torch.
 namespace choreo {

@@ -8,7 +8,7 @@
 
 #include "model/core/error.h"
 #include "model/core/histogram.h"
-#include "model/engine/sampler.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

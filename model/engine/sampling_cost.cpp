@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "model/core/grid.h"
-#include "model/engine/sampler.h"
 #include "model/motion/kinematics.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/engine/sampler.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "model/engine/sampler.h"
 #include "model/evaluation/windows.h"
 #include "model/metrics/groove.h"
 #include "model/metrics/joint_track.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

@@ -11,7 +11,7 @@
 
 #include "model/core/safetensors.h"
 #include "model/flow/checkpoint.h"
-#include "model/flow/flow_sampler.h"
+#include "model/flow/flow_model.h"
 
 namespace choreo {
 

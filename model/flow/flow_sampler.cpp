@@ -1,13 +1,15 @@
 #include "model/flow/flow_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <utility>
 
 #include "model/core/grid.h"
 #include "model/core/limits.h"
 #include "model/core/random.h"
+#include "model/flow/flow_field.h"
 #include "model/flow/window_energy.h"
 #include "model/flow/window_features.h"
 #include "model/motion/body_limits.h"
@@ -15,6 +17,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/motion.h"
 #include "model/motion/resample.h"
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
@@ -24,6 +27,7 @@ namespace {
 // frames is farther. A dance that goes there knows no way back: it falls or floats.
 constexpr double kMaxDeviation = 7;
 constexpr int kMaxRetakes = 4;
+constexpr int kRounds = 3;  // of requesting energy
 
 // The random numbers of a window, [.., w]: of the motion's dimensions, then of the energy's levels
 // (the first frame's count) and curves.
@@ -44,120 +48,39 @@ double NumberFor(Decision decision, const FlowModelParts& model, const FlowNoise
   return normal[first + decision];
 }
 
-}  // namespace
-
 // The root path of the controls: which axes it fixes, and where, as residuals x and as white
 // coordinates z, both [3, w].
 struct KnownPath {
-  KnownPath(const WindowRequest& request, const FlowWindow& window);
+  KnownPath(const WindowRequest& request, const FlowWindow& window) {
+    const ControlCurve& path = request.controls[kRootPath];
+    if (!path.IsGiven()) return;
+    axes = {0, 2};
+    if (path.IsRequested(kPathHeight)) axes.push_back(kPathHeight);
+    x = path.values.colwise() - request.history.back().root_position;
+    x -= window.mean().topRows<3>();
+    z.resize(3, x.cols());
+    for (int axis = 0; axis < 3; ++axis)
+      z.row(axis) = window.Whiten(axis, x.row(axis).transpose()).transpose();
+  }
 
   std::vector<int> axes;
   Eigen::MatrixXd x, z;
 };
 
-// F of one window at each step from noise to motion, with guidance by its labels. Model, network
-// and window must outlive it.
-class FlowField {
- public:
-  FlowField(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
-            const FlowWindow& window);
-
-  int steps() const { return model_.config.steps; }
-  double Angle(int step) const { return step * (std::numbers::pi / 2 / steps()); }
-
-  // F of the flow at w: z = size (cos noise + sin motion), size = 1 / (cos + sin). A slice is one
-  // evaluation of the network.
-  Slices<Eigen::MatrixXd> Evaluate(const Eigen::MatrixXd& w, int step);
-
- private:
-  // One input for the network.
-  struct View {
-    Eigen::MatrixXf frames, conditions;
+// The window's features as labelled and, if the model is guided by the labels, without them.
+std::vector<WindowFeatures> Describe(const FlowModelParts& model, WindowRequest request,
+                                     const FlowWindow& window) {
+  const auto describe = [&] {
+    return DescribeWindow(model.skeleton, model.config, model.prior, request, window);
   };
-  void AddView(const WindowRequest& request);
-  Eigen::MatrixXd See(const View& view, const Eigen::MatrixXd& z, int step) const;
-  double SizeAt(int step) const;
-
-  const FlowModelParts& model_;
-  const FlowNetwork& network_;
-  const FlowWindow& window_;
-  std::vector<float> times_;  // per step
-  Eigen::MatrixXf mean_, poses_, joints_;
-  std::vector<View> views_;  // as labelled and, for guidance, without labels
-  double guidance_;
-  // Beats affect neighbouring steps alike, so the last step takes their effect from the one before.
-  bool keeps_effect_;
-  Eigen::MatrixXd effect_;
-};
-
-KnownPath::KnownPath(const WindowRequest& request, const FlowWindow& window) {
-  const ControlCurve& path = request.controls[kRootPath];
-  if (!path.IsGiven()) return;
-  axes = {0, 2};
-  if (path.IsRequested(kPathHeight)) axes.push_back(kPathHeight);
-  x = path.values.colwise() - request.history.back().root_position;
-  x -= window.mean().topRows<3>();
-  z.resize(3, x.cols());
-  for (int axis = 0; axis < 3; ++axis)
-    z.row(axis) = window.Whiten(axis, x.row(axis).transpose()).transpose();
-}
-
-FlowField::FlowField(const FlowModelParts& model, const FlowNetwork& network, WindowRequest request,
-                     const FlowWindow& window)
-    : model_(model), network_(network), window_(window) {
-  for (int step = 0; step < model.config.steps; ++step)
-    times_.push_back(static_cast<float>(SizeAt(step) * std::sin(Angle(step))));
-  const auto tau = static_cast<Eigen::Index>(request.history.size());
-  mean_.resize(model.prior.dimensions(), tau + window.frames());
-  mean_ << window.history().cast<float>(), window.mean().cast<float>();
-  poses_ = mean_;
-  joints_.resize(3 * model.skeleton.joints(), mean_.cols());
-  for (Eigen::Index i = 0; i < tau; ++i) {
-    const Pose& pose = request.history[static_cast<size_t>(i)];
-    joints_.col(i) = JointPositions(model.skeleton, pose).reshaped().cast<float>();
-  }
+  std::vector<WindowFeatures> features = {describe()};
   const bool labelled = !request.beats.empty() || request.style >= 0;
-  keeps_effect_ = request.style < 0;
-  guidance_ = labelled ? model.config.guidance : 1;
-  AddView(request);
+  if (!labelled || model.config.guidance == 1) return features;
   request.beats.clear();
   request.style = -1;
-  if (guidance_ != 1) AddView(request);
+  features.push_back(describe());
+  return features;
 }
-
-Slices<Eigen::MatrixXd> FlowField::Evaluate(const Eigen::MatrixXd& w, int step) {
-  const Eigen::MatrixXd z = SizeAt(step) * w;
-  const Eigen::MatrixXd x = window_.Colour(z);
-  poses_.rightCols(x.cols()) = (window_.mean() + x).cast<float>();
-  joints_.rightCols(x.cols()) = window_.PlaceJoints(model_.skeleton, x);
-  const Eigen::MatrixXd f = See(views_.front(), z, step);
-  co_await Pause();
-  if (views_.size() == 1) co_return f;
-  if (keeps_effect_ && step > 0 && step + 1 == steps()) co_return f + (guidance_ - 1) * effect_;
-  const Eigen::MatrixXd plain = See(views_.back(), z, step);
-  co_await Pause();
-  effect_ = f - plain;
-  const Eigen::MatrixXd guided = guidance_ * f + (1 - guidance_) * plain;
-  co_return guided;
-}
-
-Eigen::MatrixXd FlowField::See(const View& view, const Eigen::MatrixXd& z, int step) const {
-  return network_
-      .Evaluate(z.cast<float>(), poses_, joints_, mean_, view.frames, view.conditions.col(step))
-      .cast<double>();
-}
-
-void FlowField::AddView(const WindowRequest& request) {
-  WindowFeatures seen =
-      DescribeWindow(model_.skeleton, model_.config, model_.prior, request, window_);
-  views_.push_back({std::move(seen.frames), network_.Condition(seen.whole, times_)});
-}
-
-double FlowField::SizeAt(int step) const {
-  return 1 / (std::cos(Angle(step)) + std::sin(Angle(step)));
-}
-
-namespace {
 
 // One pass from noise to motion.
 Slices<std::vector<Pose>> SamplePass(const FlowModelParts& model, const FlowNetwork& network,
@@ -178,7 +101,8 @@ Slices<std::vector<Pose>> SamplePass(const FlowModelParts& model, const FlowNetw
   if (temperature > 0)
     start =
         model.mixing.triangularView<Eigen::Lower>() * normals.topRows(still.rows()).cast<double>();
-  FlowField field(model, network, std::move(request), window);
+  FlowField field(model, network, window, request.history, Describe(model, request, window),
+                  /*keeps_effect=*/request.style < 0);
 
   Eigen::MatrixXd w = start, mean, before;
   if (temperature != 1) mean = co_await field.Evaluate(still, 0);
@@ -208,6 +132,27 @@ WindowRequest PartOf(const WindowRequest& request, int from, int frames,
     part.turning.reset();
   }
   return part;
+}
+
+WindowRequest ToWindowRequest(const TransitionSpec& spec, const std::vector<std::string>& styles) {
+  WindowRequest request{.frames = spec.frames, .history = spec.history, .to_key = spec.frames};
+  const Target* target = spec.target ? &*spec.target : spec.later ? &spec.later->target : nullptr;
+  if (target != nullptr) {
+    request.key = target->pose;
+    request.mask = target->mask;
+    if (target->height) {
+      request.height = true;
+      request.key->root_position.y() = *target->height;
+    }
+    if (!spec.target) request.to_key += spec.later->frames;
+  }
+  request.stage = spec.stage.value_or(GroundFrame());
+  request.controls = spec.controls;
+  request.beats = spec.beats;
+  request.energy_shift = spec.energy;
+  if (const auto style = std::ranges::find(styles, spec.style); style != styles.end())
+    request.style = static_cast<int>(style - styles.begin());
+  return request;
 }
 
 }  // namespace
@@ -282,6 +227,57 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
   }
   danced.erase(danced.begin(), danced.begin() + tau);
   co_return danced;
+}
+
+ContinuousFlowSampler::ContinuousFlowSampler(ModelInfo info, std::string device,
+                                             std::shared_ptr<const FlowModelParts> parts,
+                                             std::shared_ptr<const FlowNetwork> network)
+    : Sampler(std::move(info), std::move(device)),
+      parts_(std::move(parts)),
+      network_(std::move(network)) {}
+
+Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
+  const TransitionSpec& spec = *valid;
+  const FlowNoise noise{.seed = spec.seed,
+                        .candidate = spec.candidate,
+                        .first_frame = spec.first_frame,
+                        .like = spec.noise_like,
+                        .variation = spec.variation,
+                        .temperature = spec.temperature};
+  WindowRequest request = ToWindowRequest(spec, model_.styles);
+  ControlCurve& energy = request.controls[kVelocityFactors];
+  const Eigen::MatrixXd wanted = energy.values;
+  // The mean way's energy cannot be changed.
+  const bool in_rounds =
+      noise.temperature > 0 && energy.IsGiven() && std::ranges::count(energy.requested, true) > 0;
+  std::array<double, kBodyParts> more = {};
+  Plan plan;
+  double least = std::numeric_limits<double>::infinity();  // the error of the nearest result
+  for (int round = 0; round < (in_rounds ? kRounds : 1); ++round) {
+    std::vector<Pose> poses = co_await SampleTransition(*parts_, *network_, request, noise);
+    const double error = in_rounds ? CorrectEnergy(parts_->skeleton, spec.history.back(), poses,
+                                                   wanted, more, energy)
+                                   : 0;
+    if (error < least) {
+      least = error;
+      plan.poses = std::move(poses);
+    }
+  }
+
+  const PlanContext context{.skeleton = model_.skeleton,
+                            .history = spec.history,
+                            .beats = spec.beats,
+                            .keyed = Keyed(spec),
+                            .has_path = spec.controls[kRootPath].IsGiven(),
+                            .has_heights = spec.controls[kRootPath].requested[kPathHeight],
+                            .fps = model_.fps,
+                            .options = parts_->config.plan};
+  for (const auto stage : kPlanStages) stage(context, &plan.poses);
+  Motion motion{.fps = model_.fps, .frames = {spec.history.back()}};
+  motion.frames.insert(motion.frames.end(), plan.poses.begin(), plan.poses.end());
+  plan.contacts = DetectContacts(model_.skeleton, motion);
+  plan.contacts.erase(plan.contacts.begin());  // the history's
+  co_return plan;
 }
 
 }  // namespace choreo

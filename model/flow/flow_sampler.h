@@ -2,12 +2,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "model/core/slices.h"
 #include "model/flow/flow_model.h"
 #include "model/flow/flow_window.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 
@@ -48,5 +51,22 @@ Slices<std::vector<Pose>> SampleWindow(const FlowModelParts& model, const FlowNe
 /// is a key). The model's TurnPrior chooses the way round to the key, unless the request does.
 Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const FlowNetwork& network,
                                            WindowRequest request, FlowNoise noise);
+
+/// Samples the continuous flow. A slice is one evaluation of its network, in rounds if energy is
+/// requested; the last slice runs the plan's stages. Windows are sampled one after another, so a
+/// transition's bits depend on nothing else. Its music input is beats, not sound. Made by
+/// samplers.h.
+class ContinuousFlowSampler : public Sampler {
+ public:
+  ContinuousFlowSampler(ModelInfo info, std::string device,
+                        std::shared_ptr<const FlowModelParts> parts,
+                        std::shared_ptr<const FlowNetwork> network);
+
+  Slices<Plan> Begin(const ValidSpec& spec) override;
+
+ private:
+  std::shared_ptr<const FlowModelParts> parts_;
+  std::shared_ptr<const FlowNetwork> network_;
+};
 
 }  // namespace choreo

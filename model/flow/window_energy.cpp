@@ -1,6 +1,7 @@
 #include "model/flow/window_energy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "model/motion/kinematics.h"
@@ -8,6 +9,9 @@
 
 namespace choreo {
 namespace {
+
+constexpr double kAnswer = 0.6;  // share of additional energy that shows up in the motion
+constexpr double kMaxLog = 1;    // bound of the logarithm of requested over wanted energy
 
 // Whether a key fixes limbs: all joints except hands and feet, which carry at most one other joint.
 bool TellsLimbs(const Skeleton& skeleton, const PoseMask& mask) {
@@ -106,6 +110,25 @@ void CorrectLevels(const FlowModelParts& model, double temperature, WindowReques
     for (double& energy : factors.row(part))
       energy = std::min(energy * (EnergyFactor(input, median) / wanted), std::max(energy, most));
   }
+}
+
+double CorrectEnergy(const Skeleton& skeleton, const Pose& before, const std::vector<Pose>& poses,
+                     const Eigen::MatrixXd& wanted, std::array<double, kBodyParts>& more,
+                     ControlCurve& energy) {
+  std::vector<Pose> seen = {before};
+  seen.insert(seen.end(), poses.begin(), poses.end());
+  const auto danced = MeanVelocityFactors(skeleton, seen);
+  const Eigen::VectorXd asked = wanted.rowwise().mean();
+  double most = 0;
+  for (int part = 0; part < asked.size(); ++part) {
+    const auto at = static_cast<size_t>(part);
+    if (!energy.IsRequested(part)) continue;
+    const double missing = EnergyLevel(asked[part], danced[at]);
+    most = std::max(most, std::abs(missing));
+    more[at] = std::clamp(more[at] + missing / kAnswer, -kMaxLog, kMaxLog);
+    energy.values.row(part) = std::exp(more[at]) * wanted.row(part);
+  }
+  return most;
 }
 
 }  // namespace choreo

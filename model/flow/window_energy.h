@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <vector>
 
 #include "model/flow/energy_prior.h"
 #include "model/flow/flow_model.h"
@@ -22,5 +24,13 @@ void FillInEnergy(const FlowModelParts& model, const EnergyPrior::Levels& level_
 /// Replaces requested levels by those that make the network dance them (EnergyResponse). The mean
 /// motion, at temperature 0, needs no correction.
 void CorrectLevels(const FlowModelParts& model, double temperature, WindowRequest* request);
+
+/// The network responds to requested energy, but too weakly: finds how far each part's motion from
+/// `before` over `poses` misses the energy `wanted`, and requests more or less of it. `more`:
+/// logarithms of requested over wanted energy, changed from round to round. Returns the largest
+/// miss of a part, an EnergyLevel.
+double CorrectEnergy(const Skeleton& skeleton, const Pose& before, const std::vector<Pose>& poses,
+                     const Eigen::MatrixXd& wanted, std::array<double, kBodyParts>& more,
+                     ControlCurve& energy);
 
 }  // namespace choreo

@@ -9,10 +9,10 @@
 #include "model/core/error.h"
 #include "model/core/printable.h"
 #include "model/core/threads.h"
-#include "model/engine/continuous_flow_sampler.h"
 #include "model/engine/loading.h"
 #include "model/engine/packed/continuous_flow.h"
 #include "model/flow/continuous_flow.h"
+#include "model/flow/flow_sampler.h"
 #include "model/flow/torch_kernels.h"
 #include "model/papers/samplers/paper_samplers.h"
 

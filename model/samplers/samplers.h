@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/engine/engine_choice.h"
-#include "model/engine/sampler.h"
+#include "model/plan/sampler.h"
 
 /// Makes samplers from checkpoints: of the continuous flow (model/flow) or the papers' networks
 /// (model/papers). This header is free of torch.

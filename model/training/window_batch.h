@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/flow/flow_sampler.h"
+#include "model/flow/flow_model.h"
 
 namespace choreo {
 

@@ -66,21 +66,22 @@ const std::vector<std::pair<std::string, std::set<std::string>>>& Modules() {
         {flow, {core, motion, plan}},
         {engine, {core, motion, flow, plan}},
         {networks, {core, motion, flow}},
-        {paper_samplers, {core, audio, motion, fit, flow, engine, networks}},
-        {samplers, {core, flow, engine, paper_samplers}},
+        {paper_samplers, {core, audio, motion, fit, plan, flow, engine, networks}},
+        {samplers, {core, plan, flow, engine, paper_samplers}},
         {messages, {core, motion}},
         {dance, {core, audio, motion, plan, engine, messages}},
         {training, {core, audio, motion, fit, formats, draw, flow}},
         {paper_training, {core, audio, motion, flow, networks, training}},
         {metrics, {core, audio, motion}},
-        {evaluation, {core, audio, motion, draw, engine, samplers, dance, training, metrics}},
+        {evaluation, {core, audio, motion, draw, plan, engine, samplers, dance, training, metrics}},
         {tables, {core, motion, draw, metrics, evaluation}},
         {"model/lab",
          {core, audio, engine, samplers, training, paper_training, evaluation, tables}},
         {"tls", {core}},
         {wire, {core, motion, messages, "choreo"}},
         {"server",
-         {core, audio, motion, engine, samplers, messages, dance, "tls", wire, "choreo", "google"}},
+         {core, audio, motion, plan, engine, samplers, messages, dance, "tls", wire, "choreo",
+          "google"}},
         {"client", {core, motion, messages, "tls", wire, "choreo", "google", "grpc"}},
         {live, {core, audio, motion, "client"}},
         {authoring, {core, audio, motion, fit, body, formats, "client"}},
@@ -241,7 +242,7 @@ TEST(Architecture, TheWaysOnThePageFollowTheCode) {
   std::vector<std::string> counts;
   // The ways may only become shorter.
   const std::vector<std::pair<std::string, size_t>> most_files = {
-      {"an audio chunk", 17}, {"a key", 14}, {"a style", 16}, {"a seed", 11}};
+      {"an audio chunk", 16}, {"a key", 13}, {"a style", 15}, {"a seed", 10}};
   for (const auto& [sent, most] : most_files) {
     std::vector<Step> way;
     std::istringstream lines(text);
@@ -374,12 +375,13 @@ TEST(Architecture, FewConstantsAreTunedBetweenNetworkAndArrival) {
   // Constants of a file and options of a stage, but neither integers, such as a solver's
   // iterations, nor members that begin at zero.
   const std::regex name(R"(\b(k[A-Z]\w*|double \w+|, \w+) = (?!0;)[0-9])");
-  std::vector<std::string> files = {
-      "model/flow/flow_sampler.cpp", "model/flow/flow_window.cpp",
-      "model/flow/turn_prior.cpp",   "model/flow/window_energy.cpp",
-      "model/dance/transition.cpp",  "model/engine/continuous_flow_sampler.cpp"};
+  std::vector<std::string> files = {"model/flow/flow_sampler.cpp", "model/flow/flow_window.cpp",
+                                    "model/flow/turn_prior.cpp", "model/flow/window_energy.cpp",
+                                    "model/dance/transition.cpp"};
   for (const std::string& file : Sources().files()) {
-    if (file.starts_with("model/plan/") && file != "model/plan/arrival.cpp") files.push_back(file);
+    if (file.starts_with("model/plan/") && file != "model/plan/arrival.cpp" &&
+        file != "model/plan/transition_spec.h")  // what is asked, not how it is corrected
+      files.push_back(file);
   }
   for (const std::string& file : files) {
     std::ifstream in(std::filesystem::path(CHOREO_SOURCE_DIR) / file);

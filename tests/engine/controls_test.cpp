@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "model/engine/transition_spec.h"
 #include "model/motion/kinematics.h"
+#include "model/plan/transition_spec.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::controls_test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/flow/flow_sampler.h"
+#include "model/flow/flow_model.h"
 #include "model/motion/canonical.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/synthetic_clips.h"

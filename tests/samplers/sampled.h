@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "model/engine/sampler.h"
 #include "model/papers/networks/flow_config.h"
+#include "model/plan/sampler.h"
 
 /// Small models with random weights, transitions for them, and plans of those: what tests of real
 /// samplers share.

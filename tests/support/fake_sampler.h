@@ -11,8 +11,8 @@
 #include "model/audio/mfcc.h"
 #include "model/core/error.h"
 #include "model/core/random.h"
-#include "model/engine/sampler.h"
 #include "model/motion/velocity_factors.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

@@ -6,7 +6,7 @@
 #include "model/core/safetensors.h"
 #include "model/engine/packed/kernels.h"
 #include "model/engine/packed/matrix.h"
-#include "model/flow/flow_sampler.h"
+#include "model/flow/flow_model.h"
 
 namespace choreo {
 

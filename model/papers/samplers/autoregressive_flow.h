@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "model/engine/sampler.h"
 #include "model/papers/networks/flow_config.h"
 #include "model/papers/samplers/flow_stepper.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

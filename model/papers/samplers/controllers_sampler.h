@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/engine/sampler.h"
 #include "model/papers/networks/controllers_model.h"
+#include "model/plan/sampler.h"
 
 namespace choreo {
 

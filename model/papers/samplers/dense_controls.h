@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/engine/transition_spec.h"
+#include "model/plan/transition_spec.h"
 
 namespace choreo {
 

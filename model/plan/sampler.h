@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "model/core/slices.h"
-#include "model/engine/transition_spec.h"
 #include "model/motion/contacts.h"
+#include "model/plan/transition_spec.h"
 
 /// The interface between dances and networks: a transition's spec in, its plan out. No torch, no
 /// gRPC.

@@ -1,4 +1,4 @@
-#include "model/engine/transition_spec.h"
+#include "model/plan/transition_spec.h"
 
 #include <algorithm>
 

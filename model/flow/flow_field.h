@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "model/core/slices.h"
+#include "model/flow/flow_model.h"
+
+namespace choreo {
+
+/// F of one window at each step from noise to motion, with guidance by its labels. Model, network
+/// and window must outlive it.
+class FlowField {
+ public:
+  /// `history`: the window's. `features`: the window's as labelled and, for guidance, without
+  /// labels. `keeps_effect`: the last step takes the labels' effect from the one before, as it may
+  /// for beats, which affect neighbouring steps alike.
+  FlowField(const FlowModelParts& model, const FlowNetwork& network, const FlowWindow& window,
+            std::span<const Pose> history, std::span<const WindowFeatures> features,
+            bool keeps_effect);
+
+  int steps() const { return model_.config.steps; }
+  double Angle(int step) const;
+
+  /// F of the flow at w: z = size (cos noise + sin motion), size = 1 / (cos + sin). A slice is one
+  /// evaluation of the network.
+  Slices<Eigen::MatrixXd> Evaluate(const Eigen::MatrixXd& w, int step);
+
+ private:
+  // One input for the network.
+  struct View {
+    Eigen::MatrixXf frames, conditions;
+  };
+  Eigen::MatrixXd See(const View& view, const Eigen::MatrixXd& z, int step) const;
+  double SizeAt(int step) const;
+
+  const FlowModelParts& model_;
+  const FlowNetwork& network_;
+  const FlowWindow& window_;
+  Eigen::MatrixXf mean_, poses_, joints_;
+  std::vector<View> views_;
+  bool keeps_effect_;
+  Eigen::MatrixXd effect_;
+};
+
+}  // namespace choreo
