@@ -112,6 +112,9 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
                                                asked->audio->first_sample, model_.hearing)
                  : nullptr),
       report_(model_, asked, audio_.get(), mailbox_),
+      output_(model_.fps, asked->output_fps, first_frame_,
+              asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
+                                  : std::nullopt),
       start_time_(PlaybackClock()),
       score_(model_, asked, audio_.get()),
       next_frame_(first_frame_) {
@@ -272,6 +275,12 @@ void DanceChain::Report(const Job& job, int64_t frame, const std::optional<Key>&
     report_.Begin(job.segment(), job.warnings(), job.beats());
     // A resumed dance may begin a frame later.
     if (audio_) audio_->Forget(from - model_.history_frames);
+  }
+  OutputFrames output = output_.Push(job.FrameAt(frame));
+  if (!output.poses.empty()) {
+    mailbox_.Post([output = std::move(output)](DanceSink& sink) {
+      sink.OnFrames(output.first_frame, output.poses, output.contacts);
+    });
   }
   report_.Add(frame, job.FrameAt(frame));
   if (key) report_.Reach(*key, *job.run().arrival());

@@ -16,6 +16,7 @@
 #include "model/dance/dance_score.h"
 #include "model/dance/dance_sink.h"
 #include "model/dance/mailbox.h"
+#include "model/dance/output_rate.h"
 #include "model/engine/sample_queue.h"
 
 namespace choreo {
@@ -91,7 +92,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   Mailbox<DanceSink> mailbox_;
   std::mutex pushing_;                      // of whoever pushes music; before all other locks
   const std::unique_ptr<AudioFeed> audio_;  // null for a dance without music
-  DanceReport report_;                      // of the thread that hands out
+  DanceReport report_;                      // of the thread that hands out, as is output_
+  OutputRate output_;
 
   mutable std::mutex mutex_;  // guards the members below
   double start_time_;         // of the playback; frames are due relative to it

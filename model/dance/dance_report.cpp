@@ -1,42 +1,8 @@
 #include "model/dance/dance_report.h"
 
-#include <cmath>
 #include <utility>
 
-#include "model/motion/resample.h"
-
 namespace choreo {
-
-OutputRate::OutputRate(double model_fps, double output_fps, int64_t first_frame,
-                       std::optional<Pose> before)
-    : model_fps_(model_fps), output_fps_(output_fps), next_input_(first_frame) {
-  if (first_frame == 0) return;
-  // The first output frame after the preceding model frame; earlier ones belong to the part before
-  // the resume.
-  const double before_at = static_cast<double>(first_frame - 1) * output_fps_ / model_fps_;
-  next_output_ = static_cast<int64_t>(std::floor(before_at + kOnFrame)) + 1;
-  last_ = std::move(before);
-}
-
-OutputFrames OutputRate::Push(const DanceFrame& frame) {
-  OutputFrames out;
-  out.first_frame = next_output_;
-  const double now = static_cast<double>(next_input_);
-  for (;; ++next_output_) {
-    const double at = static_cast<double>(next_output_) * model_fps_ / output_fps_;
-    if (at > now + kOnFrame) break;
-    out.contacts.push_back(frame.contacts);
-    if (at >= now - kOnFrame || !last_) {
-      out.poses.push_back(frame.pose);
-      continue;
-    }
-    const double t = at - (now - 1);
-    out.poses.push_back(RoundToFloat(KeepSigns(InterpolatePoses(*last_, frame.pose, t), *last_)));
-  }
-  last_ = frame.pose;
-  ++next_input_;
-  return out;
-}
 
 Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
                             const DanceStart& asked, bool hears_beats) {
@@ -54,11 +20,9 @@ DanceReport::DanceReport(const ModelInfo& model, const ValidDance& asked, const 
       beats_(model.fps, audio, asked->continuation ? asked->continuation->last_beat : std::nullopt),
       meter_(model.skeleton, model.fps, asked->FirstFrame(),
              asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
-      watch_(model.skeleton, model.fps,
-             asked->continuation ? std::optional(asked->continuation->poses.back()) : std::nullopt),
-      output_(model.fps, asked->output_fps, asked->FirstFrame(),
-              asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
-                                  : std::nullopt) {}
+      watch_(
+          model.skeleton, model.fps,
+          asked->continuation ? std::optional(asked->continuation->poses.back()) : std::nullopt) {}
 
 void DanceReport::Begin(const Segment& segment, const std::vector<Warning>& warnings,
                         const std::vector<Beat>& beats) {
@@ -70,12 +34,6 @@ void DanceReport::Begin(const Segment& segment, const std::vector<Warning>& warn
 void DanceReport::Add(int64_t number, const DanceFrame& frame) {
   meter_.Add(frame);
   watch_.Add(number, frame.pose);
-  OutputFrames frames = output_.Push(frame);
-  if (!frames.poses.empty()) {
-    mailbox_.Post([frames = std::move(frames)](DanceSink& sink) {
-      sink.OnFrames(frames.first_frame, frames.poses, frames.contacts);
-    });
-  }
   for (const Beat& beat : beats_.TakeAt(number)) Post(beat);
 }
 

@@ -18,33 +18,6 @@
 
 namespace choreo {
 
-/// Frames at the output rate. Frame j is the dance at time j / fps.
-struct OutputFrames {
-  int64_t first_frame = 0;  ///< counted from time 0 at the output rate
-  std::vector<Pose> poses;
-  std::vector<Contacts> contacts;
-};
-
-/// Resamples a dance in progress. A frame between two model frames waits for the later one and
-/// interpolates: the root linearly, joints along the shortest arcs. At the model's rate frames pass
-/// unchanged. Not thread-safe.
-class OutputRate {
- public:
-  /// `first_frame`: the model's first frame. `before`: the pose directly before it, when a dance
-  /// resumes; output frames between the two then belong to this part.
-  OutputRate(double model_fps, double output_fps, int64_t first_frame, std::optional<Pose> before);
-
-  /// The output frames, zero or more, that the model's next frame completes.
-  OutputFrames Push(const DanceFrame& frame);
-
- private:
-  double model_fps_;
-  double output_fps_;
-  int64_t next_input_;
-  int64_t next_output_ = 0;
-  std::optional<Pose> last_;
-};
-
 /// Tells a dance's sink of an event.
 inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
   mailbox.Post([event](DanceSink& sink) { sink.OnEvent(event); });
@@ -55,8 +28,8 @@ inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
 Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
                             const DanceStart& asked, bool hears_beats);
 
-/// Tells the sink of a dance what is danced: frames at the client's rate, their beats and keys,
-/// continuations, the summary. Not thread-safe.
+/// Tells the sink of a dance about its frames: their beats and keys, the continuations between
+/// them, the summary. Not thread-safe.
 class DanceReport {
  public:
   /// The mailbox must outlive it, as must model and music. `audio`: null without music.
@@ -66,7 +39,7 @@ class DanceReport {
   /// Starts a transition.
   void Begin(const Segment& segment, const std::vector<Warning>& warnings,
              const std::vector<Beat>& beats);
-  /// The next frame, whose number is `number`.
+  /// The next frame, whose number is `number`; the sink has it.
   void Add(int64_t number, const DanceFrame& frame);
   /// That frame reaches this key.
   void Reach(const Key& key, KeyReached reached);
@@ -84,7 +57,6 @@ class DanceReport {
   BeatReport beats_;
   QualityMeter meter_;
   BodyWatch watch_;
-  OutputRate output_;
 };
 
 }  // namespace choreo

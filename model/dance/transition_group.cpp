@@ -12,6 +12,7 @@
 #include "model/dance/dance_report.h"
 #include "model/dance/dance_score.h"
 #include "model/dance/mailbox.h"
+#include "model/dance/output_rate.h"
 
 namespace choreo {
 

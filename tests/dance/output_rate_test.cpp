@@ -1,4 +1,4 @@
-#include "model/dance/dance_report.h"
+#include "model/dance/output_rate.h"
 
 #include <gtest/gtest.h>
 
