@@ -13,7 +13,7 @@
 #include "proto/wire/continuation.h"
 #include "proto/wire/controls.h"
 #include "proto/wire/convert.h"
-#include "proto/wire/read_pose.h"
+#include "proto/wire/poses.h"
 
 namespace choreo {
 namespace {

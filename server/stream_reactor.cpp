@@ -13,7 +13,7 @@
 #include "model/dance/dance_stream.h"
 #include "proto/wire/continuation.h"
 #include "proto/wire/convert.h"
-#include "proto/wire/read_pose.h"
+#include "proto/wire/poses.h"
 #include "server/call_session.h"
 #include "server/key_error.h"
 #include "server/music_file.h"

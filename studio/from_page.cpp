@@ -15,7 +15,7 @@
 #include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"
 #include "proto/wire/controls.h"
-#include "proto/wire/read_pose.h"
+#include "proto/wire/poses.h"
 
 namespace choreo::studio {
 namespace {

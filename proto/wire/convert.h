@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
@@ -15,18 +14,14 @@
 #include "model/messages/dance_manner.h"
 #include "model/messages/model_description.h"
 #include "model/messages/quality_report.h"
-#include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
+#include "proto/wire/poses.h"
 
 /// Our own types <-> messages of the API, for server, client and studio. FromProto reads a server's
 /// messages: one that breaks the protocol raises Error(kInternal). Pure functions, thread-safe.
 namespace choreo::wire {
 
 v1::Skeleton ToProto(const Skeleton& skeleton);
-v1::Pose ToProto(const Pose& pose);
-/// Omits the root position if the mask does not include one.
-v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
-v1::JointMask ToProto(const PoseMask& mask);
 v1::MusicPassage ToProto(const Passage& passage);
 v1::HandPose ToProto(HandPose hands);
 /// Sets the fields of these names.
@@ -39,10 +34,6 @@ v1::QualityReport ToProto(const QualityReport& report);
 v1::Timing ToProto(const CallTiming& timing);
 /// `fps`: the model's, at which frames are counted.
 v1::Event ToProto(const DanceEvent& event, double fps);
-/// All but the candidate.
-v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
-                   std::span<const Contacts> contacts,
-                   v1::RotationEncoding encoding = v1::ROTATION_ENCODING_AXIS_ANGLE);
 
 /// A client's, unchecked.
 DanceManner MannerOf(const v1::DanceConfig& config);

@@ -7,7 +7,7 @@
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
 #include "proto/wire/continuation.h"
-#include "proto/wire/read_pose.h"
+#include "proto/wire/poses.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::wire_test {

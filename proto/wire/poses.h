@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "choreo/v1/choreography.pb.h"
@@ -11,8 +13,8 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// The API's poses, keys and hands -> ours, as server and studio get them. Throw
-/// Error(kInvalidArgument) with the path of the field, beginning with `field`. The callers check
+/// Our poses, keys and hands <-> the API's. Those that read a client's throw
+/// Error(kInvalidArgument) with the path of the field, beginning with `field`; their callers check
 /// how large the numbers are. Pure functions, thread-safe.
 namespace choreo::wire {
 
@@ -37,5 +39,14 @@ std::optional<HandPose> ToHands(v1::HandPose hands, const std::string& field);
 Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field);
 
 KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field);
+
+v1::Pose ToProto(const Pose& pose);
+/// Omits the root position if the mask does not include one.
+v1::Pose ToProto(const Pose& pose, const PoseMask& mask);
+v1::JointMask ToProto(const PoseMask& mask);
+/// All but the candidate.
+v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
+                   std::span<const Contacts> contacts,
+                   v1::RotationEncoding encoding = v1::ROTATION_ENCODING_AXIS_ANGLE);
 
 }  // namespace choreo::wire

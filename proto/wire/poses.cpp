@@ -1,4 +1,4 @@
-#include "proto/wire/read_pose.h"
+#include "proto/wire/poses.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -143,6 +143,55 @@ KeyMoment ToMoment(const v1::Keyframe& keyframe, const std::string& field) {
       break;
   }
   throw InvalidArgument(field, "none of frame, time, interval_after_previous is there");
+}
+
+v1::Pose ToProto(const Pose& pose) {
+  v1::Pose out;
+  out.mutable_root_position()->set_x(pose.root_position.x());
+  out.mutable_root_position()->set_y(pose.root_position.y());
+  out.mutable_root_position()->set_z(pose.root_position.z());
+  out.mutable_rotations()->Reserve(static_cast<int>(pose.rotations.size()));
+  for (const double value : pose.rotations.reshaped()) out.add_rotations(static_cast<float>(value));
+  out.set_encoding(v1::ROTATION_ENCODING_AXIS_ANGLE);
+  return out;
+}
+
+v1::Pose ToProto(const Pose& pose, const PoseMask& mask) {
+  v1::Pose out = ToProto(pose);
+  if (!mask.root_position) out.clear_root_position();
+  return out;
+}
+
+v1::JointMask ToProto(const PoseMask& mask) {
+  v1::JointMask out;
+  for (size_t joint = 0; joint < mask.joints.size(); ++joint) {
+    if (mask.joints[joint]) out.add_joints(static_cast<int>(joint));
+  }
+  return out;
+}
+
+v1::Frames ToProto(int64_t first_frame, std::span<const Pose> poses,
+                   std::span<const Contacts> contacts, v1::RotationEncoding encoding) {
+  v1::Frames out;
+  out.set_first_frame(first_frame);
+  out.set_count(static_cast<int32_t>(poses.size()));
+  const auto add = [&out](double value) { out.add_rotations(static_cast<float>(value)); };
+  for (const Pose& pose : poses) {
+    for (const double value : pose.root_position) out.add_root_positions(static_cast<float>(value));
+    for (Eigen::Index joint = 0; joint < pose.rotations.cols(); ++joint) {
+      const Eigen::Vector3d w = pose.rotations.col(joint);
+      if (encoding == v1::ROTATION_ENCODING_QUATERNION) {
+        for (const double value : QuaternionFromExp(w).coeffs()) add(value);
+      } else if (encoding == v1::ROTATION_ENCODING_MATRIX) {
+        const Eigen::Matrix3d r = ExpMap(w);
+        for (int i = 0; i < 9; ++i) add(r(i / 3, i % 3));
+      } else {
+        for (const double value : w) add(value);
+      }
+    }
+  }
+  for (const Contacts& frame : contacts) out.mutable_contacts()->Add(frame.begin(), frame.end());
+  return out;
 }
 
 }  // namespace choreo::wire

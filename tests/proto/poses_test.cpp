@@ -1,4 +1,4 @@
-#include "proto/wire/read_pose.h"
+#include "proto/wire/poses.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "model/motion/rotation.h"
 #include "proto/wire/convert.h"
 
-namespace choreo::read_pose_test {
+namespace choreo::poses_test {
 
 const Skeleton& Body() { return Skeleton::Smpl24(); }
 
@@ -111,4 +111,4 @@ TEST(ReadPose, WrongRotationsAreNamed) {
   ExpectRefused(matrices, "keyframes[3].rotations[5]", "-1");
 }
 
-}  // namespace choreo::read_pose_test
+}  // namespace choreo::poses_test
