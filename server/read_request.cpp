@@ -28,7 +28,7 @@ std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) 
   for (int i = 0; i < history.poses_size(); ++i) {
     poses.push_back(wire::ToPose(history.poses(i), model.skeleton, At(field, i)));
   }
-  ValidateHistory(model.skeleton, poses, field);
+  CheckHistory(model.skeleton, poses, field);
   CheckedIn(history.first_frame(), 0, kMaxDanceFrames, "config.history.first_frame");
   const size_t kept = std::min(poses.size(), static_cast<size_t>(model.history_frames));
   poses.erase(poses.begin(), poses.end() - static_cast<std::ptrdiff_t>(kept));
@@ -158,7 +158,7 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
   for (int i = 0; i < message.after_size(); ++i) {
     after.push_back(wire::ToPose(message.after(i), model.skeleton, At("after", i)));
   }
-  ValidateHistory(model.skeleton, after, "after");
+  CheckHistory(model.skeleton, after, "after");
   if (!after.empty()) request.after = after.front();
   if (message.has_controls()) request.controls = ToControls(message.controls(), "controls");
 

@@ -7,14 +7,27 @@
 #include "model/audio/feature_stream.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "model/core/nearest.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/music_beats.h"
 #include "model/dance/recurrence.h"
 #include "model/dance/timeline.h"
 #include "model/dance/validation.h"
+#include "model/motion/pose_limits.h"
 
 namespace choreo {
 namespace {
+
+void CheckStyle(const ModelInfo& model, const std::string& style) {
+  const std::string field = "config.style";
+  if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
+  if (style.size() > kMaxIdLength) {
+    throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
+                                     std::to_string(kMaxIdLength));
+  }
+  throw InvalidArgument(field, "\"" + style + "\" is no style of the model " + model.name + "; " +
+                                   DidYouMean(style, model.styles));
+}
 
 void ValidateAudioStart(const ModelInfo& model, const DanceStart::Audio& audio,
                         int64_t first_frame) {
@@ -47,14 +60,14 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
                                                        std::to_string(kMaxPassages));
   }
   CheckEnergies(music_energies, "config.music_energies");
-  ValidateStyle(model, style, "config.style");
+  CheckStyle(model, style);
   ValidateOutputFps(output_fps, "config.frame_rate");
   if (history.size() > static_cast<size_t>(model.history_frames)) {
     throw InvalidArgument("config.history.poses", std::to_string(history.size()) +
                                                       " poses, the limit is " +
                                                       std::to_string(model.history_frames));
   }
-  ValidateHistory(model.skeleton, history, "config.history.poses");
+  CheckHistory(model.skeleton, history, "config.history.poses");
   if (!continuation) return;
   if (!history.empty())
     throw InvalidArgument("config.history", "and a continuation exclude each other");
@@ -97,14 +110,14 @@ void GroupRequest::Validate(const ModelInfo& model) const {
   CheckedIn(FirstFrame(), 0, kMaxDanceFrames,
             continuation ? "config.continuation.frame" : "config.history.first_frame");
   if (target) {
-    ValidatePose(model.skeleton, target->pose, "target");
+    CheckKeyPose(model.skeleton, target->pose, "target");
     ValidateMask(model.skeleton, target->mask, "target_mask");
   }
   ValidateKeyId(target_id, "target_id");
   ValidateHit(hit, "target_hit");
   if (after) {
     if (!target) throw InvalidArgument("after", "needs a target");
-    ValidatePose(model.skeleton, *after, "after");
+    CheckKeyPose(model.skeleton, *after, "after");
   }
   ValidateControls(controls, model, "controls");
   if (!audio) {

@@ -115,7 +115,7 @@ DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const Au
 
 DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when) {
   const std::string field = NextKeyframe();
-  ValidatePose(model_.skeleton, key.pose, field);
+  CheckKeyPose(model_.skeleton, key.pose, field);
   ValidateMask(model_.skeleton, key.mask, field + ".mask");
   ValidateHit(key.hit, field + ".hit");
   const auto rejection = timeline_.Set(key, when, field);

@@ -6,7 +6,6 @@
 
 #include "model/core/error.h"
 #include "model/core/hit.h"
-#include "model/core/nearest.h"
 #include "model/dance/timeline.h"
 
 namespace choreo {
@@ -15,20 +14,6 @@ int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string&
   if (value >= least && value <= most) return value;
   throw InvalidArgument(field, std::to_string(value) + " is not in [" + std::to_string(least) +
                                    ", " + std::to_string(most) + "]");
-}
-
-void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
-  CheckJoints(skeleton, pose, field);
-  CheckPoseLimits(pose, kMaxRotation, "2π", field);
-}
-
-void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
-                     const std::string& field) {
-  for (size_t i = 0; i < poses.size(); ++i) {
-    const std::string pose = At(field, static_cast<int64_t>(i));
-    CheckJoints(skeleton, poses[i], pose);
-    CheckPoseLimits(poses[i], kMaxWoundRotation, Show(kMaxWoundRotation), pose);
-  }
 }
 
 void ValidateKeyId(const std::string& id, const std::string& field) {
@@ -77,16 +62,6 @@ void ValidateHit(std::optional<double> hit, const std::string& field) {
     throw InvalidArgument(field, Show(*hit) + " is not in [0, " + Show(kMaxHit) + "]");
 }
 
-void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field) {
-  if (style.empty() || std::ranges::find(model.styles, style) != model.styles.end()) return;
-  if (style.size() > kMaxIdLength) {
-    throw InvalidArgument(field, "has " + std::to_string(style.size()) + " bytes, at most " +
-                                     std::to_string(kMaxIdLength));
-  }
-  throw InvalidArgument(field, "\"" + style + "\" is no style of the model " + model.name + "; " +
-                                   DidYouMean(style, model.styles));
-}
-
 void ValidateOutputFps(double fps, const std::string& field) {
   if (!(fps >= kMinOutputFps && fps <= kMaxOutputFps)) {
     throw InvalidArgument(
@@ -124,7 +99,7 @@ void ValidateContinuation(const ModelInfo& model, const Continuation& continuati
                                                 " poses, the model needs " +
                                                 std::to_string(model.history_frames));
   }
-  ValidateHistory(model.skeleton, continuation.poses, field + ".poses");
+  CheckHistory(model.skeleton, continuation.poses, field + ".poses");
   if (continuation.last_beat) {
     // Beats may lie after the music's end, as far as the last transition reached.
     const double longest = kMaxDanceFrames / model.fps;

@@ -20,27 +20,16 @@ namespace choreo {
 /// Returns the value; throws unless it is in [least, most].
 int64_t CheckedIn(int64_t value, int64_t least, int64_t most, const std::string& field);
 
-/// Checks a pose of this skeleton: joint count, finite, position within kMaxPosition, every angle
-/// at most kMaxRotation; also for joints that the mask leaves free. `field` is the path of the
-/// pose: "keyframes[3]".
-void ValidatePose(const Skeleton& skeleton, const Pose& pose, const std::string& field);
-
 /// Checks a key's id: 1 to kMaxIdLength bytes.
 void ValidateKeyId(const std::string& id, const std::string& field);
 
 /// Checks a mask for this skeleton, which must not be empty.
 void ValidateMask(const Skeleton& skeleton, const PoseMask& mask, const std::string& field);
 
-/// Checks poses of a history or continuation. Angles may be on any branch, as in real motion.
-void ValidateHistory(const Skeleton& skeleton, std::span<const Pose> poses,
-                     const std::string& field);
-
 /// Checks frames of a control: strictly ascending, within the longest dance.
 void ValidateFrames(std::span<const int64_t> frames, const std::string& field);
 
 void ValidateTemperature(double temperature, const std::string& field);
-/// Checks a style: empty, or one of the model's.
-void ValidateStyle(const ModelInfo& model, const std::string& style, const std::string& field);
 void ValidateShare(double share, const std::string& field);
 /// None, or 0 to kMaxHit.
 void ValidateHit(std::optional<double> hit, const std::string& field);

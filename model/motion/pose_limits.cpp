@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "model/core/error.h"
+#include "model/core/field.h"
 
 namespace choreo {
 namespace {
@@ -35,6 +36,26 @@ void CheckPoseLimits(const Pose& pose, double max_rotation, const std::string& l
     if (angle > max_rotation) {
       throw InvalidArgument(at(), Text(angle, " rad exceeds ", limit_name));
     }
+  }
+}
+
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
+  if (pose.rotations.cols() == skeleton.joints()) return;
+  throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
+                                                  " joints, the model has " +
+                                                  std::to_string(skeleton.joints()));
+}
+
+void CheckKeyPose(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
+  CheckJoints(skeleton, pose, field);
+  CheckPoseLimits(pose, kMaxRotation, "2π", field);
+}
+
+void CheckHistory(const Skeleton& skeleton, std::span<const Pose> poses, const std::string& field) {
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const std::string pose = At(field, static_cast<int64_t>(i));
+    CheckJoints(skeleton, poses[i], pose);
+    CheckPoseLimits(poses[i], kMaxWoundRotation, Show(kMaxWoundRotation), pose);
   }
 }
 

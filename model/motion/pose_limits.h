@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "model/motion/motion.h"
+#include "model/motion/skeleton.h"
 
 /// The limits of all poses, from clients and files.
 namespace choreo {
@@ -18,6 +20,17 @@ inline constexpr double kMaxWoundRotation = 1'000;
 /// path: "keyframes[3].root_position[0]: 1e+30 m is further than 10000 m from the origin".
 void CheckPoseLimits(const Pose& pose, double max_rotation, const std::string& limit_name,
                      const std::string& field);
+
+/// Throws Error(kInvalidArgument, "FIELD.rotations") unless the pose has the skeleton's joints.
+void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);
+
+/// Checks a key's pose: its joints, and angles of at most kMaxRotation, also of joints that a mask
+/// leaves free.
+void CheckKeyPose(const Skeleton& skeleton, const Pose& pose, const std::string& field);
+
+/// Checks the poses of a history or a continuation, "FIELD[3]". Angles may be on any branch, as in
+/// real motion.
+void CheckHistory(const Skeleton& skeleton, std::span<const Pose> poses, const std::string& field);
 
 /// The same for a motion's poses, "frames[7]", with kMaxWoundRotation.
 void CheckMotionLimits(const Motion& motion);

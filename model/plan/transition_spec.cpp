@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/core/error.h"
+#include "model/motion/pose_limits.h"
 
 namespace choreo {
 namespace {
@@ -25,13 +26,6 @@ void CheckTarget(const Target& target, const ModelInfo& model, const std::string
 }
 
 }  // namespace
-
-void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field) {
-  if (pose.rotations.cols() == skeleton.joints()) return;
-  throw InvalidArgument(field + ".rotations", std::to_string(pose.rotations.cols()) +
-                                                  " joints, the model has " +
-                                                  std::to_string(skeleton.joints()));
-}
 
 bool Keyed(const TransitionSpec& spec) {
   if (!spec.target) return false;

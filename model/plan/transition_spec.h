@@ -126,7 +126,4 @@ bool Keyed(const TransitionSpec& spec);
 std::optional<Arrival> ArrivalOf(const TransitionSpec& spec,
                                  Arrival::Lead lead = Arrival::Lead::kWithModel);
 
-/// Throws Error(kInvalidArgument, field) unless the pose has the skeleton's joints.
-void CheckJoints(const Skeleton& skeleton, const Pose& pose, const std::string& field);
-
 }  // namespace choreo

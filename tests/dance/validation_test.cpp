@@ -32,7 +32,7 @@ TEST(Validation, PosesNameFieldValueAndLimit) {
   const auto refusal = [&skeleton](const std::function<void(Pose&)>& spoil) {
     Pose pose = RestPose(skeleton);
     spoil(pose);
-    return Refusal([&] { ValidatePose(skeleton, pose, "keyframes[3]"); });
+    return Refusal([&] { CheckKeyPose(skeleton, pose, "keyframes[3]"); });
   };
   EXPECT_EQ(refusal([](Pose&) {}), "accepted");
   EXPECT_EQ(refusal([](Pose& p) { p.rotations(1, 16) = 7.9; }),
@@ -91,7 +91,9 @@ TEST(Validation, ConfigsNameFieldValueAndLimit) {
               c.music_beats = {1, 1};
             }),
             "config.music_beats[1]: 1 s is not after the beat before it, 1 s");
-  EXPECT_EQ(refusal([](DanceConfig& c) { c.music_energies = {0, std::nanf("")}; }),
+  EXPECT_EQ(refusal([](DanceConfig& c) {
+              c.music_energies = {0, std::nanf("")};
+            }),
             "config.music_energies[1]: nan is not in [-2, 2]");
   EXPECT_EQ(refusal([](DanceConfig& c) { c.music_energies.resize(1201); }),
             "config.music_energies: 1201 energies, the limit is 1200");
