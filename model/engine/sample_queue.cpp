@@ -5,7 +5,9 @@
 #include <cmath>
 #include <condition_variable>
 #include <exception>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -39,16 +41,57 @@ Error CurrentError() {
 
 // One mutex guards the queue's state. It is never held during calls to jobs, except Cancelled.
 struct SampleQueue::Impl {
+  /// When a job is due, in seconds, and then in the order of submission.
+  using Due = std::pair<double, uint64_t>;
+
   /// A job from its submission until its OnDone.
   struct Entry {
     std::shared_ptr<SampleJob> job;
     bool is_bulk;
-    uint64_t order;    ///< of submission; breaks ties of deadlines
-    double deadline;   ///< seconds
+    Due due;           ///< of bulk: 0, as it has no listener
     double submitted;  ///< seconds
     double taken = 0;  ///< seconds that its slices have taken so far
   };
   using Entries = std::vector<std::unique_ptr<Entry>>;
+
+  /// Jobs in the order in which they are due.
+  class Line {
+   public:
+    size_t size() const { return dances_.size() + bulk_.size(); }
+    void Add(std::unique_ptr<Entry> entry) {
+      auto& like = entry->is_bulk ? bulk_ : dances_;
+      const Due due = entry->due;
+      like.emplace(due, std::move(entry));
+    }
+    /// The first one, and when it is due, if bulk is due at `bulk_due`; null without any.
+    std::pair<Due, Entry*> First(double bulk_due) const {
+      std::pair<Due, Entry*> first = {{}, nullptr};
+      if (!dances_.empty()) first = {dances_.begin()->first, dances_.begin()->second.get()};
+      if (bulk_.empty()) return first;
+      const Due due = {bulk_due, bulk_.begin()->first.second};
+      if (first.second == nullptr || due < first.first) return {due, bulk_.begin()->second.get()};
+      return first;
+    }
+    std::unique_ptr<Entry> Take(const Entry& entry) {
+      auto& like = entry.is_bulk ? bulk_ : dances_;
+      return std::move(like.extract(entry.due).mapped());
+    }
+    /// Takes all that `chosen` chooses.
+    Entries TakeAll(const auto& chosen) {
+      Entries all;
+      for (auto* like : {&dances_, &bulk_}) {
+        for (auto at = like->begin(); at != like->end();) {
+          const auto next = std::next(at);
+          if (chosen(*at->second)) all.push_back(std::move(like->extract(at).mapped()));
+          at = next;
+        }
+      }
+      return all;
+    }
+
+   private:
+    std::map<Due, std::unique_ptr<Entry>> dances_, bulk_;
+  };
 
   /// How much bulk is reserved. Shared with reservations, which may outlive the queue.
   struct Bulk {
@@ -64,7 +107,7 @@ struct SampleQueue::Impl {
     const std::unique_ptr<Sampler> sampler;
     SamplingCost cost;
     std::thread thread;
-    Entries begun;       ///< Lock: mutex
+    Line begun;          ///< Lock: mutex
     bool looks = false;  ///< it must look for cancelled jobs next. Lock: mutex
     std::atomic<int> failures_in_a_row = 0;
   };
@@ -76,7 +119,7 @@ struct SampleQueue::Impl {
   mutable std::mutex mutex;
   std::condition_variable work;          ///< wakes workers
   mutable std::condition_variable idle;  ///< signalled when `live` becomes 0
-  Entries waiting;                       ///< Lock: mutex
+  Line waiting;                          ///< Lock: mutex
   size_t live = 0;                       ///< waiting, begun, and inside OnDone. Lock: mutex
   uint64_t submitted = 0;                ///< Lock: mutex
   bool stopped = false;                  ///< Lock: mutex
@@ -93,11 +136,10 @@ struct SampleQueue::Impl {
   // The caller holds the lock; these functions release it while they call jobs.
   using Lock = std::unique_lock<std::mutex>;
   void Run(Worker* worker);
-  Entries TakeCancelled(Worker* worker);
   Entry* Next(Worker* worker);
   void MakeSlice(Worker* worker, Entry* entry, Lock& lock);
   void End(std::unique_ptr<Entry> entry, const Error* failure, Lock& lock);
-  void EndAll(Entries entries, const Error& failure, Lock& lock);
+  void EndAll(Worker* worker, const Error& failure, Lock& lock);
 };
 
 // ---- Calls of clients ---------------------------------------------------------------------------
@@ -105,16 +147,15 @@ struct SampleQueue::Impl {
 void SampleQueue::Impl::Accept(std::shared_ptr<SampleJob> job, bool is_bulk) {
   if (job == nullptr) throw InvalidArgument("job", "is null");
   auto entry = std::make_unique<Entry>();
-  const double deadline = job->Deadline();
+  const double deadline = is_bulk ? 0 : job->Deadline();
   *entry = {.job = std::move(job),
             .is_bulk = is_bulk,
-            .order = 0,
-            .deadline = std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline,
+            .due = {std::isnan(deadline) ? std::numeric_limits<double>::infinity() : deadline, 0},
             .submitted = Seconds(Clock::now())};
   const std::lock_guard lock(mutex);
   if (stopped) throw Error(ErrorCode::kUnavailable, "", "the queue takes no new jobs");
-  entry->order = submitted++;
-  waiting.push_back(std::move(entry));
+  entry->due.second = submitted++;
+  waiting.Add(std::move(entry));
   ++live;
   work.notify_one();
 }
@@ -125,13 +166,9 @@ void SampleQueue::Impl::Run(Worker* worker) {
   FlushDenormals();
   Lock lock(mutex);
   for (;;) {
-    if (stopped) {
-      const Error stopping(ErrorCode::kUnavailable, "", "the queue is stopped");
-      EndAll(std::exchange(worker->begun, {}), stopping, lock);
-      EndAll(std::exchange(waiting, {}), stopping, lock);
-    }
+    if (stopped) EndAll(worker, Error(ErrorCode::kUnavailable, "", "the queue is stopped"), lock);
     if (std::exchange(worker->looks, false)) {
-      EndAll(TakeCancelled(worker), Error(ErrorCode::kCancelled, "", "cancelled"), lock);
+      EndAll(worker, Error(ErrorCode::kCancelled, "", "cancelled"), lock);
     } else if (Entry* next = Next(worker)) {
       MakeSlice(worker, next, lock);
     } else if (exit) {
@@ -142,33 +179,16 @@ void SampleQueue::Impl::Run(Worker* worker) {
   }
 }
 
-SampleQueue::Impl::Entries SampleQueue::Impl::TakeCancelled(Worker* worker) {
-  Entries cancelled;
-  for (Entries* entries : {&worker->begun, &waiting}) {
-    for (std::unique_ptr<Entry>& entry : *entries) {
-      if (entry->job->Cancelled()) cancelled.push_back(std::move(entry));
-    }
-    std::erase(*entries, nullptr);
-  }
-  return cancelled;
-}
-
 // The job that is due first among those that the worker has begun and those that wait. The worker
 // begins it if it waited. Null: there is none.
 SampleQueue::Impl::Entry* SampleQueue::Impl::Next(Worker* worker) {
   // Bulk has no listener, so it is due after all dances that need something within bulk_yields.
-  const double real_time_end = Seconds(Clock::now()) + Seconds(options.bulk_yields);
-  const auto due = [=](const std::unique_ptr<Entry>& entry) {
-    const double at = entry->is_bulk ? std::max(entry->deadline, real_time_end) : entry->deadline;
-    return std::pair(at, entry->order);
-  };
-  const auto mine = std::ranges::min_element(worker->begun, {}, due);
-  const auto fresh = std::ranges::min_element(waiting, {}, due);
-  if (fresh == waiting.end()) return mine == worker->begun.end() ? nullptr : mine->get();
-  if (mine != worker->begun.end() && due(*mine) < due(*fresh)) return mine->get();
-  worker->begun.push_back(std::move(*fresh));
-  waiting.erase(fresh);
-  return worker->begun.back().get();
+  const double bulk_due = Seconds(Clock::now()) + Seconds(options.bulk_yields);
+  const auto [mine_due, mine] = worker->begun.First(bulk_due);
+  const auto [fresh_due, fresh] = waiting.First(bulk_due);
+  if (fresh == nullptr || (mine != nullptr && mine_due < fresh_due)) return mine;
+  worker->begun.Add(waiting.Take(*fresh));
+  return fresh;
 }
 
 void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
@@ -192,24 +212,21 @@ void SampleQueue::Impl::MakeSlice(Worker* worker, Entry* entry, Lock& lock) {
     entry->taken += took;
     slice_seconds.Add(took);
   }
-  if (!more && !failure) {
-    const int made = entry->job->frames();
+  const int made = entry->job->frames();
+  if (!more && !failure && made > 0) {
     worker->failures_in_a_row = 0;
     worker->cost.Add(entry->taken, made);
     transition_seconds.Add(entry->taken);
     frames += static_cast<uint64_t>(made);
     ++transitions;
     if (!entry->is_bulk) {
-      const double due = std::max(entry->deadline, entry->submitted);
+      const double due = std::max(entry->due.first, entry->submitted);
       lateness_seconds.Add(std::max(0.0, Seconds(Clock::now()) - due));
     }
   }
   lock.lock();
   if (more) return;
-  const auto at = std::ranges::find(worker->begun, entry, &std::unique_ptr<Entry>::get);
-  std::unique_ptr<Entry> own = std::move(*at);
-  worker->begun.erase(at);
-  End(std::move(own), failure ? &*failure : nullptr, lock);
+  End(worker->begun.Take(*entry), failure ? &*failure : nullptr, lock);
 }
 
 void SampleQueue::Impl::End(std::unique_ptr<Entry> entry, const Error* failure, Lock& lock) {
@@ -220,8 +237,13 @@ void SampleQueue::Impl::End(std::unique_ptr<Entry> entry, const Error* failure, 
   if (--live == 0) idle.notify_all();
 }
 
-void SampleQueue::Impl::EndAll(Entries entries, const Error& failure, Lock& lock) {
-  for (std::unique_ptr<Entry>& entry : entries) End(std::move(entry), &failure, lock);
+void SampleQueue::Impl::EndAll(Worker* worker, const Error& failure, Lock& lock) {
+  const auto ends = [&](const Entry& entry) {
+    return failure.code() == ErrorCode::kUnavailable || entry.job->Cancelled();
+  };
+  for (Line* line : {&worker->begun, &waiting}) {
+    for (std::unique_ptr<Entry>& entry : line->TakeAll(ends)) End(std::move(entry), &failure, lock);
+  }
 }
 
 // ---- SampleQueue --------------------------------------------------------------------------------

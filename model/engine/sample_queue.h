@@ -33,7 +33,7 @@ class SampleJob {
 
   /// When its first frame is due for its listener, by PlaybackClock. Read once.
   virtual double Deadline() const = 0;
-  /// Its number of frames.
+  /// Its number of frames; 0 for a job that samples none, which statistics leave out.
   virtual int frames() const = 0;
 
   /// Read between slices from any thread (an atomic flag); true ends the job.
