@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/bare_product.h"
@@ -87,14 +88,15 @@ TransitionSpec Spec(const ModelInfo& model, uint64_t seed) {
 void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<double>& beats) {
   TransitionSpec spec = Spec(sampler.model(), 1);
   spec.beats = beats;
-  for (auto _ : state) benchmark::DoNotOptimize(sampler.Sample(spec));
+  const ValidSpec valid(std::move(spec), sampler.model());
+  for (auto _ : state) benchmark::DoNotOptimize(sampler.Begin(valid).Finish());
   state.SetItemsProcessed(state.iterations());
 }
 
 /// The work that serving adds to a sampled transition: footwork.
 void Feet(benchmark::State& state, Sampler& sampler) {
   const TransitionSpec spec = Spec(sampler.model(), 1);
-  const std::vector<Pose> drawn = sampler.Sample(spec).poses;
+  const std::vector<Pose> drawn = sampler.Begin(ValidSpec(spec, sampler.model())).Finish().poses;
   const FootworkContext context{.skeleton = sampler.model().skeleton,
                                 .history = spec.history,
                                 .keyed = true,

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"
-#include "model/dance/transition.h"
 #include "model/dance/validation.h"
 #include "proto/wire/continuation.h"
 #include "proto/wire/controls.h"
@@ -23,15 +23,10 @@ static_assert(std::endian::native == std::endian::little, "PCM samples are read 
 std::vector<Pose> ToHistory(const v1::History& history, const ModelInfo& model) {
   const std::string field = "config.history.poses";
   if (history.poses_size() == 0) throw InvalidArgument(field, "empty; at least 1 pose is needed");
-  // The model needs only the last poses, but a bad one among the others is an error, too.
   std::vector<Pose> poses;
   for (int i = 0; i < history.poses_size(); ++i) {
     poses.push_back(wire::ToPose(history.poses(i), model.skeleton, At(field, i)));
   }
-  CheckHistory(model.skeleton, poses, field);
-  CheckedIn(history.first_frame(), 0, kMaxDanceFrames, "config.history.first_frame");
-  const size_t kept = std::min(poses.size(), static_cast<size_t>(model.history_frames));
-  poses.erase(poses.begin(), poses.end() - static_cast<std::ptrdiff_t>(kept));
   return poses;
 }
 
@@ -46,6 +41,10 @@ void FillCommon(const v1::DanceConfig& config, const ModelInfo& model, uint64_t 
               : config.has_continuation() ? config.continuation().seed()
                                           : fresh_seed;
   out->allow_inexact_resume = config.allow_inexact_resume();
+  if (config.has_history()) {
+    out->history = ToHistory(config.history(), model);
+    out->first_frame = config.history().first_frame();
+  }
   if (config.has_continuation()) {
     out->continuation = wire::FromProto(config.continuation(), model.skeleton, model.history_frames,
                                         "config.continuation");
@@ -77,7 +76,9 @@ void CheckMusic(const v1::AudioFormat& format) {
   }
 }
 
+// DecodeMono converts files to one format, whatever their own is.
 DanceStart::Audio SamplesOf(const v1::AudioFormat& format) {
+  if (format.encoding() == v1::AUDIO_ENCODING_FILE) return {kModelSampleRate, 1, 0};
   return {static_cast<double>(format.sample_rate()), static_cast<int>(format.channels()),
           format.first_sample()};
 }
@@ -88,38 +89,27 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
                          uint64_t fresh_seed) {
   DanceConfig config;
   FillCommon(message, model, fresh_seed, &config);
-  if (message.has_history()) {
-    config.history = ToHistory(message.history(), model);
-    if (message.history().first_frame() > 0) {
-      // A transition in the middle of a dance is the same as resuming there.
-      config.continuation = Continuation{.frame = message.history().first_frame(),
-                                         .poses = FillHistory(model, config.history),
-                                         .fingerprint = model.fingerprint};
-      config.history.clear();
-    }
-  }
   if (message.has_frames()) config.end_frame = message.frames();
   if (message.has_generate_until()) config.generate_until = message.generate_until();
   if (message.has_audio_format()) {
-    const v1::AudioFormat& format = message.audio_format();
-    CheckMusic(format);
-    config.audio = format.encoding() == v1::AUDIO_ENCODING_FILE
-                       // DecodeMono converts files to this format, whatever their own is.
-                       ? DanceConfig::Audio{kModelSampleRate, 1, 0}
-                       : SamplesOf(format);
+    CheckMusic(message.audio_format());
+    config.audio = SamplesOf(message.audio_format());
   }
-  return Valid(std::move(config), model);
+  ValidDance valid(std::move(config), model);
+  // A stream lives long, and needs only the last poses of a long history.
+  valid.Change([&](DanceConfig& checked) {
+    std::vector<Pose>& poses = checked.history;
+    const auto kept = std::min(std::ssize(poses), std::ptrdiff_t{model.history_frames});
+    poses.erase(poses.begin(), poses.end() - kept);
+  });
+  return valid;
 }
 
-GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,
-                            uint64_t fresh_seed) {
+ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& message, const ModelInfo& model,
+                          uint64_t fresh_seed) {
   if (!message.has_config()) throw InvalidArgument("config", "missing");
   GroupRequest request;
   FillCommon(message.config(), model, fresh_seed, &request);
-  if (message.config().has_history()) {
-    request.history = ToHistory(message.config().history(), model);
-    request.first_frame = message.config().history().first_frame();
-  }
   if (message.config().has_frames()) {
     throw InvalidArgument("config.frames", "is for StreamDance; GenerateTransition has its own");
   }
@@ -174,20 +164,21 @@ GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& message, const 
                       " is not config.audio_format.first_sample, " +
                       std::to_string(format.first_sample()));
     }
+    request.audio = SamplesOf(format);
     if (format.encoding() != v1::AUDIO_ENCODING_FILE) {
-      request.audio = SamplesOf(format);
       request.samples = ToSamples(message.audio().data(), format, "audio.data");
+      if (request.samples.empty()) throw InvalidArgument("audio", "has no samples");
     }
   } else if (message.has_audio()) {
     throw InvalidArgument("audio", "there is no config.audio_format");
   }
-  return request;
+  return {std::move(request), model};
 }
 
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field) {
-  std::vector<const google::protobuf::FieldDescriptor*> said;
-  controls.GetReflection()->ListFields(controls, &said);
-  if (!said.empty()) return wire::FromProto(controls, field);
+  std::vector<const google::protobuf::FieldDescriptor*> fields;
+  controls.GetReflection()->ListFields(controls, &fields);
+  if (!fields.empty()) return wire::FromProto(controls, field);
   throw InvalidArgument(
       field, "empty; " + Joined(kControls, &ControlRow::name, " or ") + " must be there");
 }

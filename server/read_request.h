@@ -20,8 +20,8 @@ ValidDance ToDanceConfig(const v1::DanceConfig& config, const ModelInfo& model,
 
 /// Converts a GenerateTransition, without the samples of music files, which are decoded later
 /// (server/music_file.h).
-GroupRequest ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
-                            uint64_t fresh_seed);
+ValidGroup ToGroupRequest(const v1::GenerateTransitionRequest& request, const ModelInfo& model,
+                          uint64_t fresh_seed);
 
 /// Throws if no control is given. ValidateControls checks the values.
 ControlRequest ToControls(const v1::Controls& controls, const std::string& field);

@@ -2,7 +2,6 @@
 
 #include <grpcpp/server_context.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,7 +10,6 @@
 #include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
 #include "model/dance/transition_group.h"
-#include "model/dance/validation.h"
 #include "proto/wire/continuation.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
@@ -39,12 +37,10 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
       ReadMessage(bytes, &message);
       if (!message.has_config()) throw InvalidArgument("config", "missing");
       queue_ = serving_.models.Find(message.config().model(), "config.model");
-      GroupRequest request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
-      Name(queue_->model(), request.seed);
-      request.ValidateStart(queue_->model());  // first: no music is decoded for an invalid request
-      // Other values out of range are reported once the music is there.
-      const int frames = std::clamp(request.frames, 1, kMaxTransitionFrames);
-      serving_.frames.TakeTransition(this, *queue_, party(), request.candidates * frames);
+      // No music is decoded for an invalid request.
+      ValidGroup request = ToGroupRequest(message, queue_->model(), Serving::FreshSeed());
+      Name(queue_->model(), request->seed);
+      serving_.frames.TakeTransition(this, *queue_, party(), request->candidates * request->frames);
       if (message.config().audio_format().encoding() != v1::AUDIO_ENCODING_FILE) {
         return Begin(message, std::move(request));
       }
@@ -105,29 +101,29 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
 
  private:
   // Adds a file's samples, and beats and passages that the client has not given.
-  void AddMusic(const v1::Audio& audio, GroupRequest* request) {
+  void AddMusic(const v1::Audio& audio, ValidGroup* request) {
     RequireOpen();
     std::vector<std::string> notes;
-    request->samples = DecodeMono(
+    std::vector<float> samples = DecodeMono(
         std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); }, &notes);
     if (!notes.empty()) {
-      const double seconds = static_cast<double>(request->samples.size()) / kModelSampleRate;
+      const double seconds = static_cast<double>(samples.size()) / kModelSampleRate;
       music_damaged_ = MusicDamaged(notes, seconds, queue_->model().fps);
     }
-    request->audio = DanceStart::Audio{.sample_rate = kModelSampleRate, .channels = 1};
-    std::vector<double>& beats = request->music_beats;
-    MusicAnalysis music =
-        beats.empty() ? AnalyseMusic(request->samples) : AnalyseMusic(request->samples, beats);
-    beats = std::move(music.beats);
-    if (request->music_id == 0) request->music_id = music.id;
-    if (request->music_passages.empty()) request->music_passages = std::move(music.passages);
-    if (request->music_energies.empty()) request->music_energies = std::move(music.energies);
+    const std::vector<double>& beats = (*request)->music_beats;
+    MusicAnalysis music = beats.empty() ? AnalyseMusic(samples) : AnalyseMusic(samples, beats);
+    request->Change([&](GroupRequest& known) {
+      known.samples = std::move(samples);
+      known.music_beats = std::move(music.beats);
+      if (known.music_id == 0) known.music_id = music.id;
+      if (known.music_passages.empty()) known.music_passages = std::move(music.passages);
+      if (known.music_energies.empty()) known.music_energies = std::move(music.energies);
+    });
   }
 
-  void Begin(const v1::GenerateTransitionRequest& message, GroupRequest asked) {
+  void Begin(const v1::GenerateTransitionRequest& message, ValidGroup request) {
     const ModelInfo& model = queue_->model();
     RequireOpen();  // does not start for a client that has left
-    ValidGroup request(std::move(asked), model);
     encoding_ = message.config().encoding();
     sends_file_ = message.config().audio_format().encoding() == v1::AUDIO_ENCODING_FILE;
     seed_ = request->seed;

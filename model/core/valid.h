@@ -5,21 +5,23 @@
 namespace choreo {
 
 /// A request that has been checked against its model; code that takes one does not check again.
-template <class Asked>
+template <class Request>
 class Valid {
  public:
-  /// Throws what Asked::Validate throws.
-  Valid(Asked asked, const auto& model) : asked_(std::move(asked)) { asked_.Validate(model); }
+  /// Throws what Request::Validate throws.
+  Valid(Request request, const auto& model) : request_(std::move(request)) {
+    request_.Validate(model);
+  }
 
   /// Applies a change that keeps it valid, such as of the frame of its poses.
-  void Change(const auto& change) { change(asked_); }
+  void Change(const auto& change) { change(request_); }
 
-  const Asked& operator*() const& { return asked_; }
-  Asked&& operator*() && { return std::move(asked_); }
-  const Asked* operator->() const { return &asked_; }
+  const Request& operator*() const& { return request_; }
+  Request&& operator*() && { return std::move(request_); }
+  const Request* operator->() const { return &request_; }
 
  private:
-  Asked asked_;
+  Request request_;
 };
 
 }  // namespace choreo

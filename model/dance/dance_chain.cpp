@@ -113,8 +113,8 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_
                  : nullptr),
       report_(model_, asked, audio_.get(), mailbox_),
       output_(model_.fps, asked->output_fps, first_frame_,
-              asked->continuation ? std::optional(RoundToFloat(asked->continuation->poses.back()))
-                                  : std::nullopt),
+              asked->Before().empty() ? std::nullopt
+                                      : std::optional(RoundToFloat(asked->Before().back()))),
       start_time_(PlaybackClock()),
       score_(model_, asked, audio_.get()),
       next_frame_(first_frame_) {

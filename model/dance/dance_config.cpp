@@ -62,23 +62,21 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   CheckEnergies(music_energies, "config.music_energies");
   CheckStyle(model, style);
   ValidateOutputFps(output_fps, "config.frame_rate");
-  if (history.size() > static_cast<size_t>(model.history_frames)) {
-    throw InvalidArgument("config.history.poses", std::to_string(history.size()) +
-                                                      " poses, the limit is " +
-                                                      std::to_string(model.history_frames));
-  }
   CheckHistory(model.skeleton, history, "config.history.poses");
-  if (!continuation) return;
+  if (!continuation) {
+    CheckedIn(first_frame, 0, kMaxDanceFrames, "config.history.first_frame");
+    return;
+  }
   if (!history.empty())
     throw InvalidArgument("config.history", "and a continuation exclude each other");
   ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
 }
 
-std::vector<Warning> DanceStart::Warnings(const ModelInfo& model, int64_t first_frame) const {
+std::vector<Warning> DanceStart::Warnings(const ModelInfo& model, int64_t first) const {
   std::vector<Warning> warnings;
   if (ResumesInexactly(model)) warnings.push_back(InexactResume(*continuation, model));
   if (temperature && *temperature > model.max_temperature)
-    warnings.push_back(TemperatureTooHigh(first_frame, *temperature, model.max_temperature));
+    warnings.push_back(TemperatureTooHigh(first, *temperature, model.max_temperature));
   return warnings;
 }
 
@@ -107,8 +105,7 @@ void GroupRequest::Validate(const ModelInfo& model) const {
                                          "\" has no likelihood; RANK_BY_QUALITY is possible");
   CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
   ValidateStart(model);
-  CheckedIn(FirstFrame(), 0, kMaxDanceFrames,
-            continuation ? "config.continuation.frame" : "config.history.first_frame");
+  CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "config.continuation.frame");
   if (target) {
     CheckKeyPose(model.skeleton, target->pose, "target");
     ValidateMask(model.skeleton, target->mask, "target_mask");
@@ -125,7 +122,6 @@ void GroupRequest::Validate(const ModelInfo& model) const {
     return;
   }
   ValidateAudioStart(model, *audio, FirstFrame());
-  if (samples.empty()) throw InvalidArgument("audio", "has no samples");
   CheckSamples(samples, audio->channels, audio->first_sample);
 }
 

@@ -20,10 +20,11 @@ namespace choreo {
 struct DanceStart : DanceManner, KnownMusic {
   uint64_t seed = 0;
   double output_fps = kModelFps;  ///< 1..120; the model's own rate passes through untouched
-  /// Up to tau poses before the first frame (world, model rate, oldest first). None: the neutral
-  /// stance where a root path begins at that frame, or else at the origin; or the first key's pose
-  /// if that stands on it. Excludes `continuation`.
+  /// Poses before the first frame (world, model rate, oldest first), of which the last tau count.
+  /// None: the neutral stance where a root path begins at that frame, or else at the origin; or the
+  /// first key's pose if that stands on it. Excludes `continuation`.
   std::vector<Pose> history;
+  int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
   std::optional<Continuation> continuation;  ///< start at its frame
   /// Resume from a continuation of another fingerprint with a warning instead of
   /// Error(kFailedPrecondition).
@@ -37,14 +38,16 @@ struct DanceStart : DanceManner, KnownMusic {
   };
   std::optional<Audio> audio;  ///< none: the model dances without music
 
-  /// The poses before the first frame, from the continuation or the history.
+  /// Number of the first frame to be made.
+  int64_t FirstFrame() const { return continuation ? continuation->frame : first_frame; }
+  /// The poses before it, from the continuation or the history.
   const std::vector<Pose>& Before() const { return continuation ? continuation->poses : history; }
 
   bool ResumesInexactly(const ModelInfo& model) const {
     return continuation && continuation->fingerprint != model.fingerprint;
   }
-  /// Warnings to send before the first frame, `first_frame`.
-  std::vector<Warning> Warnings(const ModelInfo& model, int64_t first_frame) const;
+  /// Warnings to send before the first frame, `first`.
+  std::vector<Warning> Warnings(const ModelInfo& model, int64_t first) const;
 
   /// Throws Error(kInvalidArgument), or Error(kFailedPrecondition) for a continuation of another
   /// fingerprint. Fields are named as the API names them: "config.history.poses[0]".
@@ -59,9 +62,6 @@ struct DanceConfig : DanceStart {
   /// Acts like DanceStream::GenerateUntil before all messages: keys then grant nothing.
   std::optional<int64_t> generate_until;
 
-  /// The frame where the dance starts: 0, or the continuation's.
-  int64_t FirstFrame() const { return continuation ? continuation->frame : 0; }
-
   /// Throws what ValidateStart throws; Error(kOutOfRange) for audio that begins too late;
   /// Error(kUnimplemented) for music that the model can't take.
   void Validate(const ModelInfo& model) const;
@@ -71,8 +71,7 @@ struct DanceConfig : DanceStart {
 struct GroupRequest : DanceStart {
   int candidates = 1;  ///< 1..kMaxCandidates, numbered from 0
   RankBy rank_by = RankBy::kQuality;
-  int frames = 0;           ///< 1..min(kMaxTransitionFrames, the model's longest)
-  int64_t first_frame = 0;  ///< absolute, model rate; a continuation's frame goes before it
+  int frames = 0;  ///< 1..min(kMaxTransitionFrames, the model's longest)
   std::optional<Target> target;
   std::string target_id = "target";  ///< its name in warnings and the report
   std::optional<Pose> after;
@@ -82,9 +81,6 @@ struct GroupRequest : DanceStart {
   /// The music around the transition, from audio->first_sample on, interleaved; beyond its end is
   /// silence.
   std::vector<float> samples;
-
-  /// Number of the first frame to be made.
-  int64_t FirstFrame() const { return continuation ? continuation->frame : first_frame; }
 
   /// Throws what DanceConfig::Validate throws, with fields of the request, too: "frames",
   /// "target.rotations[3]", ...

@@ -5,24 +5,25 @@
 namespace choreo {
 
 Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
-                            const DanceStart& asked, bool hears_beats) {
+                            const DanceStart& config, bool hears_beats) {
   Continuation continuation{frame, danced.history, model.fingerprint};
-  if (asked.audio) continuation.audio_from_sample = ResumeSample(asked, frame, model, hears_beats);
+  if (config.audio)
+    continuation.audio_from_sample = ResumeSample(config, frame, model, hears_beats);
   continuation.stage = danced.stage;
   return continuation;
 }
 
-DanceReport::DanceReport(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio,
+DanceReport::DanceReport(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
                          Mailbox<DanceSink>& mailbox)
     : model_(model),
-      asked_(*asked),
+      config_(*config),
       mailbox_(mailbox),
-      beats_(model.fps, audio, asked->continuation ? asked->continuation->last_beat : std::nullopt),
-      meter_(model.skeleton, model.fps, asked->FirstFrame(),
-             asked->continuation ? asked->continuation->reached : std::vector<KeyReached>()),
-      watch_(
-          model.skeleton, model.fps,
-          asked->continuation ? std::optional(asked->continuation->poses.back()) : std::nullopt) {}
+      beats_(model.fps, audio,
+             config->continuation ? config->continuation->last_beat : std::nullopt),
+      meter_(model.skeleton, model.fps, config->FirstFrame(),
+             config->continuation ? config->continuation->reached : std::vector<KeyReached>()),
+      watch_(model.skeleton, model.fps,
+             config->Before().empty() ? std::nullopt : std::optional(config->Before().back())) {}
 
 void DanceReport::Begin(const Segment& segment, const std::vector<Warning>& warnings,
                         const std::vector<Beat>& beats) {
@@ -47,7 +48,7 @@ void DanceReport::Reach(const Key& key, KeyReached reached) {
 void DanceReport::End(int64_t frame, const DancedState& danced) {
   for (const Warning& warning : watch_.Take()) Post(warning);
   Continuation continuation =
-      ContinuationAt(frame, danced, model_, asked_, asked_.music_beats.empty());
+      ContinuationAt(frame, danced, model_, config_, config_.music_beats.empty());
   continuation.last_beat = beats_.last();
   continuation.reached = meter_.keys();
   mailbox_.Post([continuation = std::move(continuation)](DanceSink& sink) {

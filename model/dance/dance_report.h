@@ -26,14 +26,14 @@ inline void PostEvent(Mailbox<DanceSink>& mailbox, const DanceEvent& event) {
 /// Where a dance continues with `frame`, but for what only streams know: its last beat and the keys
 /// that it has reached. `hears_beats`: whether it detects beats in the music.
 Continuation ContinuationAt(int64_t frame, const DancedState& danced, const ModelInfo& model,
-                            const DanceStart& asked, bool hears_beats);
+                            const DanceStart& config, bool hears_beats);
 
 /// Tells the sink of a dance about its frames: their beats and keys, the continuations between
 /// them, the summary. Not thread-safe.
 class DanceReport {
  public:
   /// The mailbox must outlive it, as must model and music. `audio`: null without music.
-  DanceReport(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio,
+  DanceReport(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio,
               Mailbox<DanceSink>& mailbox);
 
   /// Starts a transition.
@@ -52,7 +52,7 @@ class DanceReport {
   void Post(const DanceEvent& event) { PostEvent(mailbox_, event); }
 
   const ModelInfo& model_;
-  const DanceConfig asked_;
+  const DanceConfig config_;
   Mailbox<DanceSink>& mailbox_;
   BeatReport beats_;
   QualityMeter meter_;

@@ -29,8 +29,6 @@ class DanceStream {
       : chain_(std::make_shared<DanceChain>(queue, config, std::move(sink))) {
     chain_->Begin(config);
   }
-  DanceStream(SampleQueue& queue, const DanceConfig& config, std::shared_ptr<DanceSink> sink)
-      : DanceStream(queue, ValidDance(config, queue.model()), std::move(sink)) {}
   ~DanceStream() { Cancel(); }
   DanceStream(const DanceStream&) = delete;
   DanceStream& operator=(const DanceStream&) = delete;

@@ -48,12 +48,10 @@ void RankCandidates(std::vector<CandidateReport>& candidates, RankBy by = RankBy
 /// interval. The destructor cancels. Thread-safe. The queue must outlive it.
 class TransitionGroup {
  public:
-  /// Throws what GroupRequest::Validate throws, and Error(kResourceExhausted) if the queue has no
-  /// room for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs
-  /// are gone.
+  /// `request`: for the queue's model. Throws Error(kResourceExhausted) if the queue has no room
+  /// for all candidates (SampleQueue::ReserveBulk); the room is held until this and its jobs are
+  /// gone.
   TransitionGroup(SampleQueue& queue, ValidGroup request, std::shared_ptr<GroupSink> sink);
-  TransitionGroup(SampleQueue& queue, GroupRequest request, std::shared_ptr<GroupSink> sink)
-      : TransitionGroup(queue, ValidGroup(std::move(request), queue.model()), std::move(sink)) {}
   ~TransitionGroup();
   TransitionGroup(const TransitionGroup&) = delete;
   TransitionGroup& operator=(const TransitionGroup&) = delete;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "model/core/grid.h"
 #include "model/motion/kinematics.h"
@@ -33,9 +34,10 @@ void WarmUp(Sampler& sampler) {
   // Beats like music's: a model guided by beats is evaluated twice.
   for (double beat = 0; beat <= spec.frames; beat += kBeatSeconds * model.fps)
     spec.beats.push_back(beat);
-  sampler.Sample(spec);  // leaves one-time work out of the measurement
-  const double seconds = SecondsOf([&] { sampler.Sample(spec); });
-  sampler.set_seconds_a_frame(seconds / spec.frames);
+  const ValidSpec valid(std::move(spec), model);
+  const auto sample = [&] { sampler.Begin(valid).Finish(); };
+  sample();  // leaves one-time work out of the measurement
+  sampler.set_seconds_a_frame(SecondsOf(sample) / valid->frames);
 }
 
 SamplingCost::SamplingCost(double seconds_a_frame)

@@ -58,7 +58,7 @@ std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, Dance
   config.music_id = MusicId(mono);
   config.generate_until = 0;
   const auto listener = std::make_shared<Listener>();
-  DanceStream stream(queue, config, listener);
+  DanceStream stream(queue, ValidDance(std::move(config), queue.model()), listener);
   if (controls.root_path || controls.velocity_factors) stream.SetControls(controls);
   for (const Key& key : keys) stream.SetKey(key, AtFrame{key.frame});
   stream.PushAudio(mono, 0);

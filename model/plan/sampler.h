@@ -32,8 +32,6 @@ class Sampler {
   /// Samples a plan, in slices short enough for a due frame to wait for one. Spec and sampler must
   /// outlive them.
   virtual Slices<Plan> Begin(const ValidSpec& spec) = 0;
-  /// The same at once. Throws what TransitionSpec::Validate throws.
-  Plan Sample(const TransitionSpec& spec) { return Begin(ValidSpec(spec, model_)).Finish(); }
 
   /// Measured by WarmUp; 0 before.
   double seconds_a_frame() const { return seconds_a_frame_; }

@@ -37,7 +37,7 @@ class ControlledDanceTest : public testing::Test {
   Recording Perform(const std::function<void(DanceStream&)>& messages,
                     const std::shared_ptr<Recorder>& sink, int64_t frames = 300) {
     config_.end_frame = frames;
-    DanceStream stream(*queue_, config_, sink);
+    DanceStream stream(*queue_, Checked(*queue_, config_), sink);
     messages(stream);
     stream.HalfClose();
     return sink->WaitForEnd();
@@ -339,7 +339,7 @@ TEST_F(ControlledDanceTest, SingleTransitionWarnsOfAPathOutsideIt) {
     request.frames = 60;
     request.controls = PathRequest(from, from + 99, 0, 1);
     auto sink = std::make_shared<GroupRecorder>();
-    const TransitionGroup group(*queue_, request, sink);
+    const TransitionGroup group(*queue_, Checked(*queue_, request), sink);
     const Recording transition = sink->Wait();
     ASSERT_EQ(transition.warnings.size(), 1u);
     EXPECT_EQ(transition.warnings[0].code, kind);
@@ -360,7 +360,7 @@ TEST_F(ControlledDanceTest, SingleTransitionEqualsTheStreams) {
   request.target = Target{key, {}};
   request.controls = path;
   auto sink = std::make_shared<GroupRecorder>();
-  const TransitionGroup group(*queue_, request, sink);
+  const TransitionGroup group(*queue_, Checked(*queue_, request), sink);
   const Recording transition = sink->Wait();
   ASSERT_TRUE(dance.summary && transition.summary);
   ASSERT_EQ(transition.poses.size(), dance.poses.size());

@@ -19,7 +19,7 @@ class DanceContract : public ::testing::Test {
                       bool with_audio = false) {
     DanceConfig config;
     if (with_audio) config.audio = DanceConfig::Audio{22050, 2, 0};
-    DanceStream stream(*queue_, config, std::make_shared<Recorder>());
+    DanceStream stream(*queue_, Checked(*queue_, config), std::make_shared<Recorder>());
     try {
       message(stream);
     } catch (const Error& error) {
@@ -126,7 +126,7 @@ TEST_F(DanceContract, ADanceNeedsAnEnd) {
 
 TEST_F(DanceContract, LateKeysAreRejectedAndTheDanceContinues) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue_, {}, sink);
+  DanceStream stream(*queue_, Checked(*queue_, DanceConfig()), sink);
   stream.GenerateUntil(0);
   stream.SetKey({.id = "a", .pose = rest_}, AtFrame{50});
   stream.GenerateUntil(60);
@@ -143,7 +143,7 @@ TEST_F(DanceContract, LateKeysAreRejectedAndTheDanceContinues) {
 
 TEST_F(DanceContract, MessagesAfterTheEndAreIgnored) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue_, {}, sink);
+  DanceStream stream(*queue_, Checked(*queue_, DanceConfig()), sink);
   stream.SetKey({.id = "a", .pose = rest_}, AtFrame{20});
   stream.Cancel();
   EXPECT_TRUE(sink->WaitForEnd().error);
@@ -159,7 +159,7 @@ TEST_F(DanceContract, StoppingTheQueueEndsDancesAfterTheRunningTransition) {
   const Dance dance = RandomDance(31);
   const auto queue = FakeQueue();
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue, dance.config, sink);
+  DanceStream stream(*queue, Checked(*queue, dance.config), sink);
   // Paused at its first frames, it is surely under way when the stop comes.
   std::promise<void> began;
   std::once_flag once;
@@ -197,7 +197,7 @@ TEST_F(DanceContract, ChaosEndsEveryDanceOnce) {
           const std::shared_ptr<DanceStream> alive = handle.lock();
           if (alive != nullptr && count == stop_at) alive->Cancel();
         };
-        auto stream = std::make_shared<DanceStream>(*queue, dance.config, sink);
+        auto stream = std::make_shared<DanceStream>(*queue, Checked(*queue, dance.config), sink);
         handle = stream;
         for (const Key& key : dance.keys) SendKey(*stream, key);
         if (random() % 4 == 0) stream->SetPaused(true);

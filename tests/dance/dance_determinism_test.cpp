@@ -42,7 +42,7 @@ TEST(DanceStream, ChunksAndInterleavingOfAudioDoNotMatter) {
   std::mt19937 random(5);
   for (int round = 0; round < 12; ++round) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, dance.config, sink);
+    DanceStream stream(*queue, Checked(*queue, dance.config), sink);
     size_t key = 0;
     int64_t sample = 0;
     const int64_t samples = static_cast<int64_t>(dance.samples.size());
@@ -83,7 +83,7 @@ TEST(DanceStream, OrderOfKeysDoesNotMatterAfterTheFrontier) {
     std::vector<Key> shuffled = dance.keys;
     std::shuffle(shuffled.begin(), shuffled.end(), random);
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, dance.config, sink);
+    DanceStream stream(*queue, Checked(*queue, dance.config), sink);
     stream.GenerateUntil(0);
     for (Key key : shuffled) {
       if (round % 2 == 0) {  // first somewhere else, with another pose, then moved
@@ -112,7 +112,7 @@ TEST(DanceStream, OrderOfMusicEndAndKeysEndDoesNotMatter) {
   EXPECT_EQ(expected.poses.size(), 99u);
   for (int order = 0; order < 3; ++order) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, dance.config, sink);
+    DanceStream stream(*queue, Checked(*queue, dance.config), sink);
     if (order == 0) {
       // Far more is granted than there is music; whether the dance continues after it is unknown
       // until the keys are complete.
@@ -144,7 +144,7 @@ TEST(DanceStream, PausingHoldsFramesBackAndChangesNone) {
   sink->on_frames = [&handle](size_t count) {
     if (count % 10 == 0) handle.load()->SetPaused(true);
   };
-  DanceStream stream(*queue, dance.config, sink);
+  DanceStream stream(*queue, Checked(*queue, dance.config), sink);
   handle = &stream;
   for (const Key& key : dance.keys) SendKey(stream, key);
   stream.KeysComplete();

@@ -54,7 +54,7 @@ TEST(DanceStream, FramesFlowWhileTheMusicStillArrives) {
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue, config, sink);
+  DanceStream stream(*queue, Checked(*queue, config), sink);
   stream.KeysComplete();
   const std::vector<float> samples = Song(22050, 5);
   // Frame r needs samples up to 735 r + 1024, and no more.
@@ -77,7 +77,7 @@ TEST(DanceStream, ModelWithMusicInputWaitsForItsMusic) {
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue, config, sink);
+  DanceStream stream(*queue, Checked(*queue, config), sink);
   stream.KeysComplete();
   const std::vector<float> samples = Song(22050, 3);
   const size_t enough = 735 * (kTypicalFrames - 1) + 1024;
@@ -114,7 +114,7 @@ TEST(DanceStream, ALongDanceWithoutKeysStaysFinite) {
   config.end_frame = 18'000;  // ten minutes
   config.temperature = 1.0F;
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue, config, sink);
+  DanceStream stream(*queue, Checked(*queue, config), sink);
   stream.KeysComplete();
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.summary) << recording.error->what();
@@ -153,7 +153,7 @@ TEST(DanceStream, CancellationEndsItOnce) {
     auto sink = std::make_shared<Recorder>();
     DanceConfig config;
     config.audio = DanceConfig::Audio{22050, 1, 0};
-    auto stream = std::make_unique<DanceStream>(*queue, config, sink);
+    auto stream = std::make_unique<DanceStream>(*queue, Checked(*queue, config), sink);
     stream->KeysComplete();
     stream->PushAudio(Song(22050, 0.5), 0);  // then it waits for more
     if (how > 0) sink->WaitForFrames(5);
@@ -174,7 +174,7 @@ TEST(DanceStream, WaitingForMusicBlocksNobody) {
   DanceConfig config;
   config.audio = DanceConfig::Audio{22050, 1, 0};
   auto first_sink = std::make_shared<Recorder>();
-  DanceStream first(*queue, config, first_sink);
+  DanceStream first(*queue, Checked(*queue, config), first_sink);
   first.KeysComplete();
   first.PushAudio(Song(22050, 0.5), 0);
   first_sink->WaitForFrames(1);
@@ -185,7 +185,7 @@ TEST(DanceStream, WaitingForMusicBlocksNobody) {
   ASSERT_TRUE(interrupted.summary);
 
   auto sink = std::make_shared<Recorder>();
-  DanceStream alone(*queue, config, sink);
+  DanceStream alone(*queue, Checked(*queue, config), sink);
   alone.KeysComplete();
   alone.PushAudio(Song(22050, 0.5), 0);
   alone.PushAudio(Song(22050, 1.5), 11025);
@@ -198,7 +198,7 @@ TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
   const auto queue = FakeQueue();
   const Dance dance = RandomDance(24);
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue, dance.config, sink);
+  DanceStream stream(*queue, Checked(*queue, dance.config), sink);
   sink->on_frames = [&](size_t count) {
     if (count == 1) stream.SetPaused(true);
   };
@@ -220,7 +220,7 @@ TEST(DanceStream, FreesAllOfADance) {
   for (const bool whole : {true, false}) {
     const auto sink = std::make_shared<Recorder>();
     {
-      DanceStream stream(*queue, {}, sink);
+      DanceStream stream(*queue, Checked(*queue, DanceConfig()), sink);
       stream.GenerateUntil(10);
       sink->WaitForFrames(10);
       stream.SetKey({.id = "a", .pose = RestPose(Skeleton::Smpl24())}, AtFrame{20});
@@ -242,7 +242,7 @@ class ForgetfulRecorder final : public Recorder {
 TEST(DanceStream, FailsWhenMemoryRunsOut) {
   const auto queue = FakeQueue();
   auto sink = std::make_shared<ForgetfulRecorder>();
-  DanceStream stream(*queue, {}, sink);
+  DanceStream stream(*queue, Checked(*queue, DanceConfig()), sink);
   stream.SetKey({.id = "a", .pose = RestPose(Skeleton::Smpl24())}, AtFrame{20});
   const Recording recording = sink->WaitForEnd();
   ASSERT_TRUE(recording.error);
@@ -308,7 +308,7 @@ TEST(DanceStream, RefusedMessagesChangeNothing) {
   const Dance dance = RandomDance(23, 3);
   const Recording expected = Perform(*queue, dance);
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue, dance.config, sink);
+  DanceStream stream(*queue, Checked(*queue, dance.config), sink);
   Pose bad = dance.keys[0].pose;
   bad.rotations(0, 16) = 7.9;
   const std::vector<float> nan(10, std::nanf(""));

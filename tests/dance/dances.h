@@ -84,7 +84,7 @@ inline void SendSong(DanceStream& stream, const Dance& dance, int64_t from = 0) 
 
 inline Recording Perform(SampleQueue& queue, const Dance& dance) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(queue, dance.config, sink);
+  DanceStream stream(queue, Checked(queue, dance.config), sink);
   for (const Key& key : dance.keys) SendKey(stream, key);
   if (dance.config.audio) SendSong(stream, dance, dance.config.audio->first_sample);
   stream.HalfClose();

@@ -146,7 +146,7 @@ TEST(MusicBeats, ArePureInTheSamples) {
   const Recording expected = Perform(*queue, dance);
   for (const int64_t chunk : {735, 10'007, 1'000'000}) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, dance.config, sink);
+    DanceStream stream(*queue, Checked(*queue, dance.config), sink);
     for (const Key& key : dance.keys) SendKey(stream, key);
     stream.KeysComplete();
     const auto samples = static_cast<int64_t>(dance.samples.size());
@@ -175,7 +175,7 @@ TEST(MusicBeats, MayBeGivenDuringTheDance) {
   dance.config.generate_until = 0;
   const auto play = [&](const DanceConfig& config, bool patient) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, config, sink);
+    DanceStream stream(*queue, Checked(*queue, config), sink);
     SendSong(stream, dance, config.audio->first_sample);
     for (int64_t frame = 30; frame <= 450; frame += 30) {
       stream.GenerateUntil(frame);
@@ -216,7 +216,7 @@ TEST(MusicBeats, MayBeGivenDuringTheDance) {
 
 TEST(MusicBeats, AreBoundedAndComeBeforeTheKeysAreComplete) {
   const auto queue = FakeQueue();
-  DanceStream stream(*queue, LiveDance(46, 1).config, std::make_shared<Recorder>());
+  DanceStream stream(*queue, Checked(*queue, LiveDance(46, 1).config), std::make_shared<Recorder>());
   ExpectError(ErrorCode::kInvalidArgument, "music_beats[0].times: empty",
               [&] { stream.GiveBeats({}); });
   ExpectError(ErrorCode::kInvalidArgument, "music_beats[0].times[1]", [&] {

@@ -86,7 +86,7 @@ TEST(MusicTurn, DoesNotDependOnWhenMessagesCome) {
   Recording expected;
   for (int round = 0; round < 12; ++round) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, dance.config, sink);
+    DanceStream stream(*queue, Checked(*queue, dance.config), sink);
     // The same keys and grants in the same order, and the same music, merged in another way. Keys
     // come late enough to lie in transitions that were planned without them.
     size_t message = 0, at = 0;

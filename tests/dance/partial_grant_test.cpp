@@ -24,7 +24,7 @@ class PartialGrantTest : public testing::Test {
   Recording Play(const Dance& dance, const std::vector<std::pair<Step, int64_t>>& steps,
                  bool patient) {
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue_, dance.config, sink);
+    DanceStream stream(*queue_, Checked(*queue_, dance.config), sink);
     SendSong(stream, dance, dance.config.audio->first_sample);
     const int64_t first = dance.config.FirstFrame();
     for (const auto& [step, granted] : steps) {
@@ -70,7 +70,7 @@ TEST_F(PartialGrantTest, GrantsOf1And7AndAllFramesGiveEqualBits) {
 TEST_F(PartialGrantTest, KeysFreezeNothing) {
   Dance dance = Editable(52);
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(*queue_, dance.config, sink);
+  DanceStream stream(*queue_, Checked(*queue_, dance.config), sink);
   SendSong(stream, dance);
   for (const Key& key : dance.keys) SendKey(stream, key);
   stream.GenerateUntil(5);
@@ -175,7 +175,7 @@ TEST_F(PartialGrantTest, WithoutMusicTheDanceGoesAsFarAsGranted) {
   auto sink = std::make_shared<Recorder>();
   DanceConfig config;
   config.generate_until = 40;
-  DanceStream stream(*queue_, config, sink);
+  DanceStream stream(*queue_, Checked(*queue_, config), sink);
   EXPECT_EQ(sink->WaitForFrames(40).poses.size(), 40U);
   stream.KeysComplete();
   EXPECT_EQ(sink->WaitForEnd().poses.size(), 40U);

@@ -74,7 +74,7 @@ std::vector<Message> RandomMessages(int64_t frames, std::mt19937& random) {
 Recording Play(SampleQueue& queue, const Dance& dance, const DanceConfig& config,
                const std::vector<Message>& messages) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(queue, config, sink);
+  DanceStream stream(queue, Checked(queue, config), sink);
   for (const Message& message : messages) message(stream);
   SendSong(stream, dance, config.audio->first_sample);
   stream.HalfClose();

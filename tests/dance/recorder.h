@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "model/dance/dance_stream.h"
@@ -122,6 +123,12 @@ inline bool SameDance(const Recording& a, const Recording& b) {
     }
   }
   return !b.poses.empty();
+}
+
+/// The request, for a queue's model. Throws what its Validate throws.
+template <typename Request>
+Valid<Request> Checked(const SampleQueue& queue, Request request) {
+  return {std::move(request), queue.model()};
 }
 
 /// A queue over workers of one model.

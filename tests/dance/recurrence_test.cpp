@@ -138,7 +138,7 @@ TEST(RecurringDance, DoesNotDependOnWhenItIsSampled) {
     asked.config.generate_until = 0;
     asked.config.variation = 0;
     auto sink = std::make_shared<Recorder>();
-    DanceStream stream(*queue, asked.config, sink);
+    DanceStream stream(*queue, Checked(*queue, asked.config), sink);
     stream.GenerateUntil(70);
     if (patient) sink->WaitForFrames(70);
     stream.GivePassages(passages);

@@ -22,7 +22,7 @@ Recording Resume(SampleQueue& queue, const Dance& dance, const Continuation& con
     config.audio->first_sample = from;
   }
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(queue, config, sink);
+  DanceStream stream(queue, Checked(queue, config), sink);
   messages(stream);
   if (config.audio) SendSong(stream, dance, from);
   stream.HalfClose();
@@ -55,7 +55,7 @@ auto Figures(const std::vector<KeyReached>& keys) {
 void ExpectResumesEverywhere(SampleQueue& queue, const Dance& dance,
                              const std::function<void(DanceStream&)>& messages) {
   auto sink = std::make_shared<Recorder>();
-  DanceStream stream(queue, dance.config, sink);
+  DanceStream stream(queue, Checked(queue, dance.config), sink);
   messages(stream);
   if (dance.config.audio) SendSong(stream, dance);
   stream.HalfClose();

@@ -55,7 +55,7 @@ class GroupRecorder : public GroupSink {
 
 std::shared_ptr<GroupRecorder> Generate(SampleQueue& queue, const GroupRequest& request) {
   auto sink = std::make_shared<GroupRecorder>();
-  TransitionGroup group(queue, request, sink);
+  TransitionGroup group(queue, Checked(queue, request), sink);
   sink->Wait();
   return sink;
 }
@@ -273,7 +273,7 @@ TEST(TransitionGroup, CancellationAndRefusalFreeAllRoom) {
   request.candidates = 5;
   {
     auto sink = std::make_shared<GroupRecorder>();
-    TransitionGroup group(*queue, request, sink);
+    TransitionGroup group(*queue, Checked(*queue, request), sink);
     group.Cancel();
     sink->Wait();
     if (sink->error) {
@@ -284,7 +284,7 @@ TEST(TransitionGroup, CancellationAndRefusalFreeAllRoom) {
   request.candidates = 6;  // one more than there is room for
   auto silent = std::make_shared<GroupRecorder>();
   try {
-    TransitionGroup group(*queue, request, silent);
+    TransitionGroup group(*queue, Checked(*queue, request), silent);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kResourceExhausted);

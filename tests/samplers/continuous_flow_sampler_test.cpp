@@ -37,7 +37,7 @@ class ContinuousFlowSamplerTest : public testing::Test {
     spec.beats = {-4, 8, 20, 32};
     return spec;
   }
-  Plan Dance(const TransitionSpec& spec) { return sampler_->Sample(spec); }
+  Plan Dance(const TransitionSpec& spec) { return SampleNow(*sampler_, spec); }
 
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "model.safetensors";
@@ -107,8 +107,8 @@ TEST_F(ContinuousFlowSamplerTest, KernelsAgree) {
     for (const int frames : {1, 2, 9, 16, 40}) {
       for (uint64_t seed = 1; seed <= 4; ++seed) {
         const TransitionSpec spec = Spec(seed, frames);
-        const auto wanted = torch->Sample(spec);
-        EXPECT_LT(LargestDifference(wanted, packed->Sample(spec)), most)
+        const auto wanted = SampleNow(*torch, spec);
+        EXPECT_LT(LargestDifference(wanted, SampleNow(*packed, spec)), most)
             << packed->model().fingerprint << ", " << frames << " frames, seed " << seed;
       }
     }
@@ -122,9 +122,9 @@ TEST_F(ContinuousFlowSamplerTest, CudaDancesAsTheCpuDoes) {
   EXPECT_EQ(gpu->device(), "cuda:0");
   for (uint64_t seed = 1; seed <= 4; ++seed) {
     const TransitionSpec spec = Spec(seed, 40);
-    const auto danced = gpu->Sample(spec);
-    EXPECT_LT(LargestDifference(cpu->Sample(spec), danced), 2e-4) << "seed " << seed;
-    ExpectSameBits(gpu->Sample(spec), danced);
+    const auto danced = SampleNow(*gpu, spec);
+    EXPECT_LT(LargestDifference(SampleNow(*cpu, spec), danced), 2e-4) << "seed " << seed;
+    ExpectSameBits(SampleNow(*gpu, spec), danced);
   }
 }
 

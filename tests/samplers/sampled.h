@@ -38,6 +38,10 @@ class SmallCheckpoint {
 /// A transition of its own for each seed: with and without key, masks, arrival and music.
 TransitionSpec RandomSpec(const ModelInfo& model, uint64_t seed, int frames = 12);
 
+/// Samples one at once.
+inline Plan SampleNow(Sampler& sampler, const TransitionSpec& spec) {
+  return sampler.Begin(ValidSpec(spec, sampler.model())).Finish();
+}
 /// Samples all of these with a slice of each in turn, until the last is done.
 std::vector<Plan> SampleInTurn(Sampler* sampler, std::span<const TransitionSpec> specs);
 /// Of any output of two plans, in metres, radians, and nats relative to their size.

@@ -66,8 +66,8 @@ TEST_P(SamplersTest, GivesTheSameBitsAloneInTurnWithOthersAndElsewhere) {
   const std::vector<Plan> plans = SampleInTurn(sampler.get(), specs);
   const auto other = Make();
   for (size_t i = 0; i < specs.size(); ++i) {
-    ExpectSameBits(plans[i], sampler->Sample(specs[i]));
-    ExpectSameBits(plans[i], other->Sample(specs[i]));
+    ExpectSameBits(plans[i], SampleNow(*sampler, specs[i]));
+    ExpectSameBits(plans[i], SampleNow(*other, specs[i]));
     if (i > 0) {
       EXPECT_NE(plans[i].poses[0].root_position, plans[i - 1].poses[0].root_position);
     }
@@ -77,11 +77,11 @@ TEST_P(SamplersTest, GivesTheSameBitsAloneInTurnWithOthersAndElsewhere) {
 TEST_P(SamplersTest, EveryInputMatters) {
   const auto sampler = Make();
   const TransitionSpec spec = RandomSpec(sampler->model(), 7);
-  const Plan base = sampler->Sample(spec);
+  const Plan base = SampleNow(*sampler, spec);
   const auto differs = [&](auto change) {
     TransitionSpec changed = spec;
     change(changed);
-    return sampler->Sample(changed).poses[0].rotations != base.poses[0].rotations;
+    return SampleNow(*sampler, changed).poses[0].rotations != base.poses[0].rotations;
   };
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.history[0].root_position.x() += 0.1; }));
   EXPECT_TRUE(differs([](TransitionSpec& it) { it.target->pose.rotations(0, 9) += 0.2; }));
@@ -102,7 +102,7 @@ TEST_P(SamplersTest, RefusesUnfitSpecsAndStaysUsable) {
     TransitionSpec spec = RandomSpec(sampler->model(), 7);
     change(spec);
     try {
-      sampler->Sample(spec);
+      SampleNow(*sampler, spec);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kInvalidArgument);
       return error.what();
@@ -121,7 +121,7 @@ TEST_P(SamplersTest, RefusesUnfitSpecsAndStaysUsable) {
               HasSubstr("audio_history: 40 x 3, must be 40 x 10"));
   EXPECT_THAT(refused([](auto& spec) { spec.music->rows.resize(40, 11); }),
               HasSubstr("audio_rows: 40 x 11, must be 40 x 12"));
-  EXPECT_EQ(sampler->Sample(RandomSpec(sampler->model(), 8)).poses.size(), 12U);
+  EXPECT_EQ(SampleNow(*sampler, RandomSpec(sampler->model(), 8)).poses.size(), 12U);
 }
 
 TEST_P(SamplersTest, ThoseOfOneDeviceShareTheirWeights) {
@@ -131,7 +131,7 @@ TEST_P(SamplersTest, ThoseOfOneDeviceShareTheirWeights) {
   ASSERT_EQ(samplers.size(), 2U);
   EXPECT_EQ(samplers[0]->model().fingerprint, samplers[1]->model().fingerprint);
   const TransitionSpec spec = RandomSpec(samplers[0]->model(), 7);
-  ExpectSameBits(samplers[0]->Sample(spec), samplers[1]->Sample(spec));
+  ExpectSameBits(SampleNow(*samplers[0], spec), SampleNow(*samplers[1], spec));
 }
 
 // On the devices that are there samplers are made, and on no others.
@@ -145,7 +145,7 @@ TEST_P(SamplersTest, ThisBuildHasItsDevices) {
   for (const Device& device : devices) {
     const auto sampler = MakeSampler(checkpoint_.path(), device, kind);
     EXPECT_EQ(sampler->device(), device.name());
-    EXPECT_FALSE(sampler->Sample(RandomSpec(sampler->model(), 7)).poses.empty());
+    EXPECT_FALSE(SampleNow(*sampler, RandomSpec(sampler->model(), 7)).poses.empty());
   }
   const Device beyond{Device::Kind::kCuda, available.cuda_devices};
   EXPECT_THROW(MakeSampler(checkpoint_.path(), beyond, kind), std::exception);

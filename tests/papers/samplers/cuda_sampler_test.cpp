@@ -32,7 +32,8 @@ TEST_P(CudaSamplerTest, SamplesAsTheCpuDoes) {
     EXPECT_EQ(gpu->device(), "cuda:0");
     EXPECT_EQ(gpu->model().fingerprint.find('\n'), std::string::npos) << "a log has it in a line";
     const TransitionSpec spec = RandomSpec(cpu->model(), seed, 30);
-    EXPECT_LT(LargestDifference(cpu->Sample(spec), gpu->Sample(spec)), 2e-4) << "seed " << seed;
+    EXPECT_LT(LargestDifference(SampleNow(*cpu, spec), SampleNow(*gpu, spec)), 2e-4)
+        << "seed " << seed;
   }
 }
 
@@ -42,15 +43,15 @@ TEST_P(CudaSamplerTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
   for (int i = 0; i < 20; ++i)
     specs.push_back(RandomSpec(sampler->model(), static_cast<uint64_t>(i), 5 + i));
   const std::vector<Plan> plans = SampleInTurn(sampler.get(), specs);
-  for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], sampler->Sample(specs[i]));
+  for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], SampleNow(*sampler, specs[i]));
 }
 
 TEST_P(CudaSamplerTest, EveryDeviceGivesTheSameBits) {
   const auto first = Make();
   const TransitionSpec spec = RandomSpec(first->model(), 7);
-  const Plan expected = first->Sample(spec);
+  const Plan expected = SampleNow(*first, spec);
   for (int i = 0; i < TorchDevices().cuda_devices; ++i)
-    ExpectSameBits(Make({Device::Kind::kCuda, i})->Sample(spec), expected);
+    ExpectSameBits(SampleNow(*Make({Device::Kind::kCuda, i}), spec), expected);
 }
 
 }  // namespace choreo::cuda_sampler_test

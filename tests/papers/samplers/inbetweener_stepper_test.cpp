@@ -46,17 +46,18 @@ TEST_F(InbetweenerStepperTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
   for (uint64_t seed = 1; seed <= 6; ++seed)
     specs.push_back(RandomSpec(sampler_->model(), seed, 8 + static_cast<int>(seed)));
   const std::vector<Plan> plans = SampleInTurn(sampler_.get(), specs);
-  for (size_t i = 0; i < specs.size(); ++i) ExpectSameBits(plans[i], sampler_->Sample(specs[i]));
+  for (size_t i = 0; i < specs.size(); ++i)
+    ExpectSameBits(plans[i], SampleNow(*sampler_, specs[i]));
 }
 
 TEST_F(InbetweenerStepperTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikelihood) {
   TransitionSpec spec = RandomSpec(sampler_->model(), 1);
-  const Plan once = sampler_->Sample(spec);
+  const Plan once = SampleNow(*sampler_, spec);
   EXPECT_TRUE(once.log_likelihoods.empty());
   spec.seed = 99;
   spec.candidate = 5;
   spec.temperature = 0.5F;
-  ExpectSameBits(once, sampler_->Sample(spec));
+  ExpectSameBits(once, SampleNow(*sampler_, spec));
 }
 
 TEST_F(InbetweenerStepperTest, DancesOnTheServedPipeline) {

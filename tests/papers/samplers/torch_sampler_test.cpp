@@ -34,7 +34,7 @@ TEST_P(TorchSamplerTest, SamplesAsTheModuleDoes) {
   for (uint64_t seed : {7, 8, 9, 10}) {
     const auto sampler = MakeSampler(checkpoint_.path(), {}, EngineKind::kTorch);
     const TransitionSpec spec = RandomSpec(sampler->model(), seed);
-    const Plan plan = sampler->Sample(spec);
+    const Plan plan = SampleNow(*sampler, spec);
 
     torch::NoGradGuard no_grad;
     const Skeleton& skeleton = model_->skeleton();
