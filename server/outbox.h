@@ -7,9 +7,12 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <mutex>
+#include <optional>
 #include <utility>
 
+#include "model/dance/pacer.h"
 #include "server/call_registry.h"
 
 namespace choreo {
@@ -215,18 +218,16 @@ class Outbox {
 
   // set_paused may make a dance deliver and re-enter here; the outermost call handles it.
   void UpdatePressure() {
-    std::unique_lock lock(mutex_);
-    if (updating_pressure_) return;
-    updating_pressure_ = true;
-    for (;;) {
-      const bool want = paused_ ? bytes_ > max_bytes_ / 2 : bytes_ > max_bytes_;
-      if (want == paused_) break;
-      paused_ = want;
-      lock.unlock();
-      set_paused_(want);
-      lock.lock();
-    }
-    updating_pressure_ = false;
+    pacer_.Run(
+        mutex_, std::numeric_limits<int>::max(),
+        [this]() -> std::optional<bool> {
+          const bool want = paused_ ? bytes_ > max_bytes_ / 2 : bytes_ > max_bytes_;
+          if (want == paused_) return std::nullopt;
+          return paused_ = want;
+        },
+        [this](std::optional<bool> want) {
+          if (want) set_paused_(*want);
+        });
   }
 
   Wire* const wire_;
@@ -244,7 +245,7 @@ class Outbox {
   bool read_wanted_ = false;
   int holds_ = 0;
   bool paused_ = false;
-  bool updating_pressure_ = false;
+  Pacer pacer_;  // of the calls to set_paused_
   grpc::Status status_;
 };
 

@@ -29,14 +29,8 @@ class DanceChain::Job : public SampleJob {
 
   void OnDone(const Error* failure) noexcept override {
     if (failure == nullptr || retired_) return;
-    chain_->React([this, failure] {
-      if (!sampled_) {
-        Fail(*failure);
-      } else if (failure->code() != ErrorCode::kUnavailable) {
-        // The sink threw it. A closing queue (kUnavailable) does not take back sampled frames.
-        chain_->mailbox_.PostError(*failure);
-      }
-    });
+    if (sampled_) return chain_->OnFailure(*failure);
+    chain_->React([this, failure] { Fail(*failure); });
   }
 
   double Deadline() const override { return deadline_; }
@@ -48,7 +42,6 @@ class DanceChain::Job : public SampleJob {
   /// The failure is reported once all frames before the transition are handed out.
   void Fail(const Error& failure) { failure_ = failure; }
 
-  /// The chain's mutex guards these.
   bool sampled() const { return sampled_; }
   const std::optional<Error>& failure() const { return failure_; }
   const Segment& segment() const { return segment_; }
@@ -78,7 +71,7 @@ class DanceChain::Job : public SampleJob {
     }
     do {
       co_await Pause();
-    } while (chain_->HandOut(kFramesASlice));
+    } while (chain_->HandOut());
   }
 
   void Prepare(DanceScore::Next next) {
@@ -97,35 +90,36 @@ class DanceChain::Job : public SampleJob {
   std::vector<Beat> beats_;
   std::vector<Warning> warnings_;
   std::optional<Slices<>> slices_;  // the worker's
-  bool sampled_ = false;            // guarded by the chain's mutex
-  std::optional<Error> failure_;
+  std::atomic<bool> sampled_ = false;
+  std::optional<Error> failure_;  // guarded by the chain's mutex
   std::atomic<bool> retired_ = false;
 };
 
-DanceChain::DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_ptr<DanceSink> sink)
+DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
+                       std::shared_ptr<DanceSink> sink)
     : queue_(queue),
       model_(queue.model()),
-      first_frame_(asked->FirstFrame()),
+      first_frame_(config->FirstFrame()),
       mailbox_(std::move(sink)),
-      audio_(asked->audio
-                 ? std::make_unique<AudioFeed>(asked->audio->sample_rate, asked->audio->channels,
-                                               asked->audio->first_sample, model_.hearing)
+      audio_(config->audio
+                 ? std::make_unique<AudioFeed>(config->audio->sample_rate, config->audio->channels,
+                                               config->audio->first_sample, model_.hearing)
                  : nullptr),
-      report_(model_, asked, audio_.get(), mailbox_),
-      output_(model_.fps, asked->output_fps, first_frame_,
-              asked->Before().empty() ? std::nullopt
-                                      : std::optional(RoundToFloat(asked->Before().back()))),
+      report_(model_, config, audio_.get(), mailbox_),
+      output_(model_.fps, config->output_fps, first_frame_,
+              config->Before().empty() ? std::nullopt
+                                       : std::optional(RoundToFloat(config->Before().back()))),
       start_time_(PlaybackClock()),
-      score_(model_, asked, audio_.get()),
+      score_(model_, config, audio_.get()),
       next_frame_(first_frame_) {
-  if (!asked->Before().empty()) danced_.history = FillHistory(model_, asked->Before());
-  if (asked->continuation) danced_.stage = asked->continuation->stage;
+  if (!config->Before().empty()) danced_.history = FillHistory(model_, config->Before());
+  if (config->continuation) danced_.stage = config->continuation->stage;
 }
 
-void DanceChain::Begin(const ValidDance& asked) {
+void DanceChain::Begin(const ValidDance& config) {
   // Starts frames that the config has granted, too.
   Apply([&](DanceScore&) {
-    const std::vector<Warning> warnings = asked->Warnings(model_, first_frame_);
+    const std::vector<Warning> warnings = config->Warnings(model_, first_frame_);
     return DanceEvents(warnings.begin(), warnings.end());
   });
 }
@@ -137,8 +131,7 @@ void DanceChain::Apply(const std::function<DanceEvents(DanceScore&)>& change) {
     for (const DanceEvent& event : change(score_)) PostEvent(mailbox_, event);
     SubmitNext();
   }
-  while (HandOut(kFramesASlice)) {
-  }
+  HandOutHere();
 }
 
 void DanceChain::PushAudio(std::span<const float> interleaved, int64_t first_sample) {
@@ -188,8 +181,7 @@ void DanceChain::React(const std::function<void()>& change) noexcept {
       change();
       SubmitNext();
     }
-    while (HandOut(kFramesASlice)) {
-    }
+    HandOutHere();
   } catch (...) {
     mailbox_.GiveUp();
     std::lock_guard lock(mutex_);
@@ -205,26 +197,31 @@ void DanceChain::DropJobs() {
   queue_.CheckCancelled();
 }
 
-bool DanceChain::HandOut(int most) {
-  std::unique_lock lock(mutex_);
-  look_again_ = true;
-  if (std::exchange(handing_out_, true)) return false;
-  try {
-    for (int count = 0; count < most && look_again_; ++count) {
-      std::function<void()> report = TakeNext();
-      look_again_ = report != nullptr;
-      lock.unlock();
-      if (report) std::exchange(report, {})();  // and frees what it holds
-      mailbox_.Deliver();                       // the sink may pause the dance
-      lock.lock();
-    }
-  } catch (...) {
-    if (!lock.owns_lock()) lock.lock();
-    handing_out_ = false;
-    throw;
+bool DanceChain::HandOut() {
+  return pacer_.Run(
+      mutex_, kFramesASlice, [this] { return TakeNext(); },
+      [this](std::function<void()> report) {
+        if (report) std::exchange(report, {})();  // and frees what it holds
+        mailbox_.Deliver();                       // the sink may pause the dance
+      });
+}
+
+void DanceChain::HandOutHere() {
+  if (!HandOut()) return;
+  double due = 0;
+  {
+    std::lock_guard lock(mutex_);
+    due = start_time_ + Seconds(next_frame_ - first_frame_);
   }
-  handing_out_ = false;
-  return look_again_;
+  hand_over_.ToWorker(shared_from_this(), due,
+                      [this](std::shared_ptr<SampleJob> job) { queue_.Submit(std::move(job)); });
+}
+
+void DanceChain::OnFailure(const Error& failure) noexcept {
+  React([&] {
+    // A closing queue (kUnavailable) does not take back sampled frames. The sink threw the rest.
+    if (failure.code() != ErrorCode::kUnavailable) mailbox_.PostError(failure);
+  });
 }
 
 std::function<void()> DanceChain::TakeNext() {

@@ -17,6 +17,7 @@
 #include "model/dance/dance_sink.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
+#include "model/dance/pacer.h"
 #include "model/engine/sample_queue.h"
 
 namespace choreo {
@@ -29,15 +30,16 @@ namespace choreo {
 class DanceChain : public std::enable_shared_from_this<DanceChain> {
  public:
   /// The config must be valid.
-  DanceChain(SampleQueue& queue, const ValidDance& asked, std::shared_ptr<DanceSink> sink);
+  DanceChain(SampleQueue& queue, const ValidDance& config, std::shared_ptr<DanceSink> sink);
 
   /// Posts what the sink must know before the first message.
-  void Begin(const ValidDance& asked);
+  void Begin(const ValidDance& config);
 
   /// Applies a message, tells the sink of the events that it causes, and continues the dance from
   /// there. If `change` throws, the exception passes through and the chain stays as it was. Does
   /// nothing once the dance is over.
   void Apply(const std::function<DanceEvents(DanceScore&)>& change);
+
   /// Calls `read` with the score, under the lock, and returns what it returns.
   auto Read(const auto& read) const {
     std::lock_guard lock(mutex_);
@@ -50,6 +52,16 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void HalfClose();
   void SetPaused(bool paused);
   void Cancel() noexcept;
+
+  /// Hands out a few frames and ends of transitions, and calls the sink. One thread at a time does
+  /// so for all others. True if there may be more.
+  bool HandOut();
+
+  // For HandOver.
+  HandOver<DanceChain>& hand_over() { return hand_over_; }
+  bool Cancelled() const { return cancelled_; }
+  /// A job that hands out has failed.
+  void OnFailure(const Error& failure) noexcept;
 
  private:
   class Job;
@@ -67,9 +79,8 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   void FinishAudio();  // requires pushing_
   // Like Apply, for the dance's own changes; also after its end.
   void React(const std::function<void()>& change) noexcept;
-  // Hands out at most `most` frames and ends of transitions, and calls the sink. One thread at a
-  // time does so for all others. True if there may be more.
-  bool HandOut(int most);
+  // Hands out a few frames on this thread, which may be gRPC's; a worker hands out the rest.
+  void HandOutHere();
   // Reports a frame without the lock; `key` is set if the frame reaches it.
   void Report(const Job& job, int64_t frame, const std::optional<Key>& key);
 
@@ -95,15 +106,16 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   DanceReport report_;                      // of the thread that hands out, as is output_
   OutputRate output_;
 
-  mutable std::mutex mutex_;  // guards the members below
-  double start_time_;         // of the playback; frames are due relative to it
+  mutable std::mutex mutex_;   // guards the members below
+  double start_time_;  // of the playback; frames are due relative to it
   DanceScore score_;
   // The first transitions of the timeline: the one being handed out, and the next. All but the last
   // are sampled.
   std::deque<std::shared_ptr<Job>> jobs_;
   DancedState danced_;  // by the transitions that are over
   int64_t next_frame_;  // the next to hand out
-  bool handing_out_ = false, look_again_ = false;
+  Pacer pacer_;         // of what is handed out
+  HandOver<DanceChain> hand_over_;
 };
 
 }  // namespace choreo

@@ -2,16 +2,15 @@
 
 #include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
 
 #include "model/core/error.h"
+#include "model/dance/pacer.h"
 
 namespace choreo {
-
-/// Frames handed out before other dances get a turn.
-inline constexpr int kFramesASlice = 16;
 
 /// Calls a listener: one call at a time, in the order of Post, without a lock. The first thread to
 /// call Deliver makes the calls; other threads do not wait. So a listener may call its caller back.
@@ -21,8 +20,10 @@ class Mailbox {
  public:
   explicit Mailbox(std::shared_ptr<Listener> listener) : listener_(std::move(listener)) {}
 
-  void Post(std::function<void(Listener&)> call) { Add(std::move(call), /*last=*/false); }
-  void PostLast(std::function<void(Listener&)> call) { Add(std::move(call), /*last=*/true); }
+  using Call = std::function<void(Listener&)>;
+
+  void Post(Call call) { Add(std::move(call), /*last=*/false); }
+  void PostLast(Call call) { Add(std::move(call), /*last=*/true); }
   /// OnError is the last call.
   void PostError(const Error& error) {
     PostLast([error](Listener& listener) { listener.OnError(error); });
@@ -35,28 +36,11 @@ class Mailbox {
 
   /// A call's exception passes through; the others wait for the next Deliver.
   void Deliver() {
-    std::unique_lock lock(mutex_);
-    if (delivering_) return;
-    delivering_ = true;
-    try {
-      while (!calls_.empty()) {
-        const std::function<void(Listener&)> call = std::move(calls_.front());
-        calls_.pop_front();
-        lock.unlock();
-        call(*listener_);
-        lock.lock();
-      }
-      if (std::exchange(last_words_, false)) {
-        lock.unlock();
-        listener_->OnError(failure_);
-        lock.lock();
-      }
-    } catch (...) {
-      lock.lock();
-      delivering_ = false;
-      throw;
-    }
-    delivering_ = false;
+    pacer_.Run(
+        mutex_, std::numeric_limits<int>::max(), [this] { return TakeNext(); },
+        [this](Call call) {
+          if (call) call(*listener_);
+        });
   }
 
   /// Drops waiting calls; OnError is the last call. Call it when memory is exhausted: it allocates
@@ -75,7 +59,18 @@ class Mailbox {
   }
 
  private:
-  void Add(std::function<void(Listener&)> call, bool last) {
+  // Requires mutex_.
+  Call TakeNext() {
+    if (!calls_.empty()) {
+      Call next = std::move(calls_.front());
+      calls_.pop_front();
+      return next;
+    }
+    if (!std::exchange(last_words_, false)) return {};
+    return [this](Listener& listener) { listener.OnError(failure_); };
+  }
+
+  void Add(Call call, bool last) {
     std::lock_guard lock(mutex_);
     if (over_) return;
     calls_.push_back(std::move(call));
@@ -85,8 +80,8 @@ class Mailbox {
   const std::shared_ptr<Listener> listener_;
   const Error failure_{ErrorCode::kInternal, "", "it could not go on, maybe for want of memory"};
   mutable std::mutex mutex_;
-  std::deque<std::function<void(Listener&)>> calls_;
-  bool delivering_ = false;
+  Pacer pacer_;
+  std::deque<Call> calls_;
   bool over_ = false;
   bool gave_up_ = false;
   bool last_words_ = false;

@@ -67,7 +67,8 @@ class TransitionGroup::Impl : public std::enable_shared_from_this<TransitionGrou
   std::vector<CandidateReport> reports_;
 };
 
-class TransitionGroup::Impl::Job : public SampleJob {
+class TransitionGroup::Impl::Job : public SampleJob,
+                                   public std::enable_shared_from_this<TransitionGroup::Impl::Job> {
  public:
   Job(std::shared_ptr<Impl> group, TransitionRun run)
       : group_(std::move(group)),
@@ -85,9 +86,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
   }
 
   void OnDone(const Error* failure) noexcept override {
-    if (failure == nullptr) return;
+    if (failure != nullptr) OnFailure(*failure);
+  }
+  void OnFailure(const Error& failure) noexcept {
     try {
-      group_->mailbox_.PostError(*failure);
+      group_->mailbox_.PostError(failure);
       group_->mailbox_.Deliver();
     } catch (...) {
       group_->mailbox_.GiveUp();
@@ -99,19 +102,29 @@ class TransitionGroup::Impl::Job : public SampleJob {
   int frames() const override { return run_.spec().frames; }
   bool Cancelled() const override { return group_->cancelled_; }
 
-  /// Hands out the next frames once sampled, unless the group is paused. True while there are more.
+  /// Hands out a few frames once they are sampled, unless the group is paused. True if there may be
+  /// more.
   bool HandOut() {
-    for (int count = 0; count < kFramesASlice; ++count) {
-      bool any = false;
-      {
-        std::lock_guard lock(mutex_);
-        any = HandOutNext();
-      }
-      group_->mailbox_.Deliver();  // the sink may pause the group
-      if (!any) return false;
-    }
-    return true;
+    return pacer_.Run(
+        mutex_, kFramesASlice, [this] { return TakeNext(); },
+        [this](const DanceFrame* frame) {
+          if (frame != nullptr) Report(*frame);
+          group_->mailbox_.Deliver();  // the sink may pause the group
+        });
   }
+
+  /// Has a worker go on after a pause.
+  void Resume() {
+    {
+      std::lock_guard lock(mutex_);
+      if (!is_sampled_ || handed_out_ == frames()) return;
+    }
+    hand_over_.ToWorker(shared_from_this(), deadline_, [this](std::shared_ptr<SampleJob> job) {
+      group_->queue_.SubmitBulk(std::move(job));
+    });
+  }
+
+  HandOver<Job>& hand_over() { return hand_over_; }
 
  private:
   Slices<> Work(Sampler& sampler) {
@@ -122,13 +135,18 @@ class TransitionGroup::Impl::Job : public SampleJob {
     } while (HandOut());
   }
 
-  bool HandOutNext() {
+  // Requires mutex_. Null if nothing may go out.
+  const DanceFrame* TakeNext() {
     if (!is_sampled_ || group_->paused_ || group_->cancelled_ || handed_out_ == frames())
-      return false;
-    const DanceFrame& frame = run_.frames()[static_cast<size_t>(handed_out_++)];
+      return nullptr;
+    return &run_.frames()[static_cast<size_t>(handed_out_++)];
+  }
+
+  void Report(const DanceFrame& frame) {
+    const int64_t number = run_.spec().first_frame + (&frame - run_.frames().data());
+    const bool is_last = &frame == &run_.frames().back();
     meter_.Add(frame);
-    watch_.Add(run_.spec().first_frame + handed_out_ - 1, frame.pose);
-    const bool is_last = handed_out_ == frames();
+    watch_.Add(number, frame.pose);
     if (is_last && run_.arrival()) {
       KeyReached reached = *run_.arrival();
       reached.id = group_->request_.target_id;
@@ -140,15 +158,13 @@ class TransitionGroup::Impl::Job : public SampleJob {
         sink.OnFrames(candidate, output.first_frame, output.poses, output.contacts);
       });
     }
-    if (!is_last) return true;
+    if (!is_last) return;
     const GroupRequest& request = group_->request_;
     const double strain = Judge();
     group_->Done({Number(), meter_.Report(request.music_beats),
-                  ContinuationAt(run_.spec().first_frame + frames(),
-                                 run_.StateAfter(run_.frames().size()), group_->model_, request,
-                                 /*hears_beats=*/false),
+                  ContinuationAt(number + 1, run_.StateAfter(run_.frames().size()), group_->model_,
+                                 request, /*hears_beats=*/false),
                   strain});
-    return true;
   }
 
   int Number() const { return static_cast<int>(run_.spec().candidate); }
@@ -171,8 +187,11 @@ class TransitionGroup::Impl::Job : public SampleJob {
   std::optional<Slices<>> slices_;  // the worker's
   std::atomic<bool> is_sampled_ = false;
 
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;  // guards the two below
+  Pacer pacer_;
   int handed_out_ = 0;
+  HandOver<Job> hand_over_;
+  // Of the thread that hands out.
   QualityMeter meter_;
   BodyWatch watch_;
   OutputRate output_;
@@ -267,10 +286,7 @@ void TransitionGroup::Impl::SetPaused(bool paused) {
     std::lock_guard lock(mutex_);
     jobs = jobs_;
   }
-  for (const auto& job : jobs) {
-    while (job->HandOut()) {
-    }
-  }
+  for (const auto& job : jobs) job->Resume();
 }
 
 void TransitionGroup::Impl::Cancel() noexcept {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <random>
 #include <thread>
 
@@ -212,6 +213,26 @@ TEST(DanceStream, TheNextTransitionIsSampledWhileOneIsHandedOut) {
   EXPECT_TRUE(sink->WaitForEnd().summary);
   EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
   EXPECT_EQ(queue->stats().transitions, dance.keys.size());
+}
+
+// The thread may be gRPC's, which serves other calls, too.
+TEST(DanceStream, AThreadThatResumesADanceHandsOutAFewFrames) {
+  const auto queue = FakeQueue();
+  const auto sink = std::make_shared<Recorder>();
+  std::atomic<int> handed_out_here = 0;
+  sink->on_frames = [&, here = std::this_thread::get_id()](size_t /*count*/) {
+    if (std::this_thread::get_id() == here) ++handed_out_here;
+  };
+  DanceConfig config;
+  config.end_frame = 300;
+  DanceStream stream(*queue, Checked(*queue, config), sink);
+  stream.SetPaused(true);
+  stream.KeysComplete();
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));  // two transitions are sampled
+  stream.SetPaused(false);
+  EXPECT_EQ(sink->WaitForEnd().poses.size(), 300U);
+  EXPECT_GT(handed_out_here, 0);
+  EXPECT_LE(handed_out_here, kFramesASlice);
 }
 
 // However the dance ends, it releases its listener.

@@ -3,10 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <condition_variable>
+#include <functional>
+#include <future>
 #include <mutex>
+#include <thread>
 
 #include "tests/dance/dances.h"
+#include "tests/engine/sample_job.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::transition_group_test {
@@ -15,6 +20,7 @@ class GroupRecorder : public GroupSink {
  public:
   void OnFrames(int candidate, int64_t first_frame, std::span<const Pose> poses,
                 std::span<const Contacts>) override {
+    if (on_frames) on_frames();
     std::lock_guard lock(mutex_);
     frames.resize(std::max(frames.size(), static_cast<size_t>(candidate) + 1));
     auto& list = frames[static_cast<size_t>(candidate)];
@@ -42,6 +48,7 @@ class GroupRecorder : public GroupSink {
     }
   }
 
+  std::function<void()> on_frames;
   int64_t first = -1;
   std::vector<std::vector<Pose>> frames;
   std::vector<Warning> warnings;
@@ -264,6 +271,34 @@ TEST(TransitionGroup, MeetsTheMotionThatFollows) {
     aware += miss();
   }
   EXPECT_LT(aware, 0.7 * unaware);
+}
+
+// The thread that resumes it may be gRPC's.
+TEST(TransitionGroup, WorkersHandOutWhatAPauseHeldBack) {
+  const auto queue = FakeQueue();
+  GroupRequest request = RandomRequest(6);
+  request.candidates = 3;
+  const auto sink = std::make_shared<GroupRecorder>();
+  std::atomic<bool> handed_out_here = false;
+  sink->on_frames = [&, here = std::this_thread::get_id()] {
+    if (std::this_thread::get_id() == here) handed_out_here = true;
+  };
+  std::promise<void> paused;
+  const auto gate = std::make_shared<LoggedJob>("gate", 1, 0, nullptr);
+  gate->in_slice = [&] { paused.get_future().wait(); };
+  queue->Submit(gate);
+  TransitionGroup group(*queue, Checked(*queue, request), sink);
+  group.SetPaused(true);
+  paused.set_value();
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  group.SetPaused(false);
+  sink->Wait();
+  ASSERT_TRUE(sink->ranked);
+  for (const std::vector<Pose>& frames : sink->frames)
+    EXPECT_EQ(std::ssize(frames), request.frames);
+  EXPECT_FALSE(handed_out_here);
+  EXPECT_TRUE(queue->WaitUntilIdle(std::chrono::seconds(30)));
+  EXPECT_EQ(queue->stats().transitions, 4U) << "the gate's too, but none for handing out";
 }
 
 TEST(TransitionGroup, CancellationAndRefusalFreeAllRoom) {

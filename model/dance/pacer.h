@@ -1,0 +1,94 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "model/engine/sample_queue.h"
+
+namespace choreo {
+
+/// Frames handed out before other dances get a turn, or gRPC its thread back.
+inline constexpr int kFramesASlice = 16;
+
+/// Takes steps one at a time. The first thread that asks takes them; others that ask meanwhile do
+/// not wait: it looks again for them. Guarded by its owner's mutex.
+class Pacer {
+ public:
+  /// Takes at most `most` steps. `next` is called under `mutex` and gives the next step, false if
+  /// there is none now. `take` gets each, also the last false one, without the mutex: it may call
+  /// the owner back. Returns whether more may be left. An exception of `take` passes through; what
+  /// is left waits for the next call.
+  bool Run(std::mutex& mutex, int most, const auto& next, const auto& take) {
+    std::unique_lock lock(mutex);
+    looks_again_ = true;
+    if (std::exchange(runs_, true)) return false;
+    try {
+      for (int taken = 0; taken < most && looks_again_; ++taken) {
+        auto step = next();
+        looks_again_ = static_cast<bool>(step);
+        lock.unlock();
+        take(std::move(step));
+        lock.lock();
+      }
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      runs_ = false;
+      throw;
+    }
+    runs_ = false;
+    return looks_again_;
+  }
+
+ private:
+  bool runs_ = false, looks_again_ = false;
+};
+
+/// Has a worker go on with what `Owner::HandOut` leaves. One job at a time. Thread-safe.
+template <class Owner>
+class HandOver {
+ public:
+  /// Lets `submit` submit a job that hands out, unless one is on its way. If the queue takes no
+  /// more jobs, hands out all that is left here.
+  void ToWorker(std::shared_ptr<Owner> owner, double deadline, const auto& submit) {
+    if (is_asked_.exchange(true)) return;
+    Owner& here = *owner;
+    try {
+      submit(std::make_shared<Job>(std::move(owner), deadline));
+    } catch (const Error&) {
+      is_asked_ = false;
+      while (here.HandOut()) {
+      }
+    }
+  }
+
+ private:
+  class Job : public SampleJob {
+   public:
+    Job(std::shared_ptr<Owner> owner, double deadline)
+        : owner_(std::move(owner)), deadline_(deadline) {}
+
+    bool Continue(Sampler& /*sampler*/) override {
+      std::atomic<bool>& is_asked = owner_->hand_over().is_asked_;
+      is_asked = false;  // from here on whoever leaves something may ask
+      return owner_->HandOut() && !is_asked.exchange(true);
+    }
+    void OnDone(const Error* failure) noexcept override {
+      if (failure == nullptr) return;
+      owner_->hand_over().is_asked_ = false;
+      owner_->OnFailure(*failure);
+    }
+    double Deadline() const override { return deadline_; }
+    int frames() const override { return 0; }
+    bool Cancelled() const override { return owner_->Cancelled(); }
+
+   private:
+    const std::shared_ptr<Owner> owner_;
+    const double deadline_;
+  };
+
+  std::atomic<bool> is_asked_ = false;
+};
+
+}  // namespace choreo
