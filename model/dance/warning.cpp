@@ -46,9 +46,9 @@ Warning InexactResume(const Continuation& continuation, const ModelInfo& model) 
           Warning::Code::kInexactResume};
 }
 
-Warning TemperatureTooHigh(int64_t frame, double asked, double most) {
+Warning TemperatureTooHigh(int64_t frame, double requested, double most) {
   return {frame,
-          "temperature " + RoundedBeyond(asked, most) + " is beyond " + Rounded(most) +
+          "temperature " + RoundedBeyond(requested, most) + " is beyond " + Rounded(most) +
               ", the most that the model is trained for: it dances as at " + Rounded(most),
           Warning::Code::kTemperatureTooHigh};
 }

@@ -16,7 +16,7 @@ Warning IntervalTooShort(const Skeleton& skeleton, const std::string& id, int64_
 Warning InexactResume(const Continuation& continuation, const ModelInfo& model);
 
 /// `frame`: the first of the dance.
-Warning TemperatureTooHigh(int64_t frame, double asked, double most);
+Warning TemperatureTooHigh(int64_t frame, double requested, double most);
 
 Warning PathTooFast(int64_t frame, double m_per_s);
 Warning PathAway(int64_t frame, double metres);

@@ -190,8 +190,8 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
   for (int window = 0, from = 0; window < windows; ++window) {
     const int frames = request.frames * (window + 1) / windows - from;
     const GroundFrame ground = GroundFrame::Of(danced.back());
-    const WindowRequest asked = PartOf(request, from, frames, danced, ground);
-    const bool may_stray = !(asked.key && asked.to_key == asked.frames) &&
+    const WindowRequest part = PartOf(request, from, frames, danced, ground);
+    const bool may_stray = !(part.key && part.to_key == part.frames) &&
                            !request.controls[kRootPath].IsRequested(kPathHeight);
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     std::vector<Pose> nearest;
@@ -201,14 +201,14 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
       own.first_frame += from;
       own.candidate += static_cast<uint32_t>(kMaxCandidates * take);
       if (!own.like.empty()) own.like.erase(own.like.begin(), own.like.begin() + from);
-      WindowRequest part = asked;
+      WindowRequest own_part = part;
       if (part.FrontCounts())
-        part.turn = FreeTurn(model.prior, part,
-                             std::min(own.temperature, 1.0) * NumberFor(kFreeTurn, model, own));
-      std::vector<Pose> poses = co_await SampleWindow(model, network, part, own);
+        own_part.turn = FreeTurn(model.prior, part,
+                                 std::min(own.temperature, 1.0) * NumberFor(kFreeTurn, model, own));
+      std::vector<Pose> poses = co_await SampleWindow(model, network, own_part, own);
       double beyond = 0;
       if (noise.temperature > 0) {
-        beyond = FindFastestStep(model.skeleton, asked.history.back(), poses, kModelFps).m_per_s /
+        beyond = FindFastestStep(model.skeleton, part.history.back(), poses, kModelFps).m_per_s /
                  kFastestJoint;
         if (may_stray)
           beyond = std::max(beyond, usual.Deviation(ground.ToWorld(poses.back())) / most);

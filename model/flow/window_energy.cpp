@@ -118,12 +118,12 @@ double CorrectEnergy(const Skeleton& skeleton, const Pose& before, const std::ve
   std::vector<Pose> seen = {before};
   seen.insert(seen.end(), poses.begin(), poses.end());
   const auto danced = MeanVelocityFactors(skeleton, seen);
-  const Eigen::VectorXd asked = wanted.rowwise().mean();
+  const Eigen::VectorXd means = wanted.rowwise().mean();
   double most = 0;
-  for (int part = 0; part < asked.size(); ++part) {
+  for (int part = 0; part < means.size(); ++part) {
     const auto at = static_cast<size_t>(part);
     if (!energy.IsRequested(part)) continue;
-    const double missing = EnergyLevel(asked[part], danced[at]);
+    const double missing = EnergyLevel(means[part], danced[at]);
     most = std::max(most, std::abs(missing));
     more[at] = std::clamp(more[at] + missing / kAnswer, -kMaxLog, kMaxLog);
     energy.values.row(part) = std::exp(more[at]) * wanted.row(part);

@@ -31,7 +31,7 @@ bool Keyed(const TransitionSpec& spec) {
   if (!spec.target) return false;
   const PoseMask& mask = spec.target->mask;
   return mask.root_position || mask.joints.empty() ||
-         std::ranges::any_of(mask.joints, [](bool asked) { return asked; });
+         std::ranges::any_of(mask.joints, [](bool fixed) { return fixed; });
 }
 
 std::optional<Arrival> ArrivalOf(const TransitionSpec& spec, Arrival::Lead lead) {

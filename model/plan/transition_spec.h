@@ -20,7 +20,7 @@
 #include "model/plan/arrival.h"
 #include "model/plan/footwork_options.h"
 
-/// Describes a model, and a transition that somebody asks of it.
+/// Describes a model, and a transition that it is to make.
 namespace choreo {
 
 /// The features of music that a model takes for each frame, besides beats and energy. Such a model
