@@ -9,8 +9,7 @@
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
-#include "server/field_path.h"
-#include "server/key_error.h"
+#include "server/message_error.h"
 
 namespace choreo {
 namespace {
@@ -112,14 +111,14 @@ grpc::Status MakeStatus(const Mapping& mapping, std::string_view text, const Met
 grpc::Status ToStatus(const Error& error, double retry_after) {
   const auto violation = error.field().empty() ? std::nullopt : std::optional(ViolationOf(error));
   Metadata metadata = {{"field", error.field()}};
-  if (const auto* of_key = dynamic_cast<const KeyError*>(&error))
-    metadata["keyframe_id"] = of_key->key_id();
+  if (const auto* of_message = dynamic_cast<const MessageError*>(&error))
+    metadata["keyframe_id"] = of_message->key_id();
   return MakeStatus(Map(error.code()), error.what(), metadata, violation, retry_after);
 }
 
 Violation ViolationOf(const Error& error) {
   // ErrorInfo has the field as the text names it.
-  return {OneShortLine(PathInMessage(error.field())), OneShortLine(error.Of("").what())};
+  return {OneShortLine(PathInMessage(error)), OneShortLine(error.Of("").what())};
 }
 
 grpc::Status Unauthenticated(const std::string& message) {

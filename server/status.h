@@ -9,8 +9,8 @@
 namespace choreo {
 
 /// The only place that maps failures to gRPC statuses. The status carries google.rpc details:
-/// always ErrorInfo with the error's field, and its key's id (KeyError); BadRequest if there is a
-/// field, with its path in the sent message and a description that does not repeat it; RetryInfo,
+/// always ErrorInfo with the error's field, and its key's id (MessageError); BadRequest if there is
+/// a field, with its path in the sent message and a description that does not repeat it; RetryInfo,
 /// `retry_after` seconds, if retrying helps.
 grpc::Status ToStatus(const Error& error, double retry_after = 1);
 

@@ -2,6 +2,7 @@
 
 #include <grpcpp/server_context.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,7 +16,7 @@
 #include "proto/wire/convert.h"
 #include "proto/wire/poses.h"
 #include "server/call_session.h"
-#include "server/key_error.h"
+#include "server/message_error.h"
 #include "server/music_file.h"
 #include "server/player.h"
 #include "server/read_message.h"
@@ -131,15 +132,20 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::kAudio:
         return TakeAudio(*stream, request.audio());
       case DanceRequest::kKeyframe:
-        return TakeKeyframe(*stream, request.keyframe());
+        return Number(request, request.keyframe().id(),
+                      [&] { TakeKeyframe(*stream, request.keyframe()); });
       case DanceRequest::kRemoveKeyframe:
-        return RemoveKeyframe(*stream, request.remove_keyframe().id());
+        return Number(request, request.remove_keyframe().id(),
+                      [&] { RemoveKeyframe(*stream, request.remove_keyframe().id()); });
       case DanceRequest::kControls:
-        return stream->SetControls(ToControls(request.controls(), stream->NextControls()));
+        return Number(request, "",
+                      [&] { stream->SetControls(ToControls(request.controls(), "controls")); });
       case DanceRequest::kMusicBeats:
-        return GiveBeats(*stream, request.music_beats());
+        return Number(request, "", [&] { GiveBeats(*stream, request.music_beats()); });
       case DanceRequest::kMusicPassages:
-        return stream->GivePassages(wire::ToPassages(request.music_passages().passages()));
+        return Number(request, "", [&] {
+          stream->GivePassages(wire::ToPassages(request.music_passages().passages()));
+        });
       case DanceRequest::kGenerateUntil:
         return stream->GenerateUntil(request.generate_until().frame());
       case DanceRequest::kKeyframesComplete:
@@ -151,6 +157,18 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
       case DanceRequest::REQUEST_NOT_SET:
         return;  // handled before the switch
     }
+  }
+
+  // Takes a message of a kind of which many may come: errors number those accepted.
+  void Number(const DanceRequest& request, const std::string& key_id, const auto& take) {
+    int& number = accepted_[request.request_case()];
+    try {
+      take();
+    } catch (const Error& error) {
+      if (error.field().empty()) throw;
+      throw MessageError(error, number, key_id);
+    }
+    ++number;
   }
 
   void Configure(const v1::DanceConfig& message) {
@@ -213,16 +231,13 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   }
 
   void TakeKeyframe(DanceStream& stream, const v1::Keyframe& keyframe) {
-    const std::string field = stream.NextKeyframe();
     std::optional<KeyMoment> when;
     try {
-      when = wire::ToMoment(keyframe, field);
-      stream.SetKey(wire::ToKey(keyframe, queue_->model().skeleton, field), *when);
+      when = wire::ToMoment(keyframe, "keyframe");
+      stream.SetKey(wire::ToKey(keyframe, queue_->model().skeleton, "keyframe"), *when);
     } catch (const Error& error) {
-      if (!rejects_keys_ || error.code() != ErrorCode::kInvalidArgument)
-        throw KeyError(error, keyframe.id());
-      const auto [path, description] = ViolationOf(error);
-      stream.RejectKey(keyframe.id(), when, path, description);
+      if (error.code() != ErrorCode::kInvalidArgument) throw;
+      Reject(stream, keyframe.id(), when, error);
     }
   }
 
@@ -230,10 +245,17 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
     try {
       stream.RemoveKey(id);
     } catch (const Error& error) {
-      if (!rejects_keys_ || error.code() != ErrorCode::kNotFound) throw KeyError(error, id);
-      const auto [path, description] = ViolationOf(error);
-      stream.RejectKey(id, std::nullopt, path, description);
+      if (error.code() != ErrorCode::kNotFound) throw;
+      Reject(stream, id, std::nullopt, error);
     }
+  }
+
+  // Rejects a key that cannot be used, where the client wishes so. Call inside a catch block.
+  void Reject(DanceStream& stream, const std::string& id, const std::optional<KeyMoment>& when,
+              const Error& error) {
+    if (!rejects_keys_) throw;
+    const auto [path, description] = ViolationOf(error);
+    stream.RejectKey(id, when, path, description);
   }
 
   // The configuration sets these, before the stream exists.
@@ -246,6 +268,7 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   bool rejects_keys_ = false;  // that cannot be used, instead of ending the call
 
   // Messages change these.
+  std::map<DanceRequest::RequestCase, int> accepted_;  // messages of each kind
   MusicFile file_;
   bool file_decoded_ = false;
 };

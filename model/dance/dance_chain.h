@@ -40,12 +40,6 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   /// nothing once the dance is over.
   void Apply(const std::function<DanceEvents(DanceScore&)>& change);
 
-  /// Calls `read` with the score, under the lock, and returns what it returns.
-  auto Read(const auto& read) const {
-    std::lock_guard lock(mutex_);
-    return read(score_);
-  }
-
   // As in DanceStream.
   void PushAudio(std::span<const float> interleaved, int64_t first_sample);
   void EndOfAudio();
@@ -106,7 +100,7 @@ class DanceChain : public std::enable_shared_from_this<DanceChain> {
   DanceReport report_;                      // of the thread that hands out, as is output_
   OutputRate output_;
 
-  mutable std::mutex mutex_;   // guards the members below
+  std::mutex mutex_;   // guards the members below
   double start_time_;  // of the playback; frames are due relative to it
   DanceScore score_;
   // The first transitions of the timeline: the one being handed out, and the next. All but the last

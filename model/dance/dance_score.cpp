@@ -23,9 +23,9 @@ double HearEnergyAt(const AudioFeed& audio, int64_t frame) {
 void WarnOfPose(const Skeleton& skeleton, const TransitionSpec& spec, const std::string& key_id,
                 std::vector<Warning>* warnings) {
   const PoseMask& mask = spec.target->mask;
-  const std::vector<std::string> told = PoseFaults(skeleton, spec.history.back(), mask);
+  const std::vector<std::string> before = PoseFaults(skeleton, spec.history.back(), mask);
   for (const std::string& fault : PoseFaults(skeleton, spec.target->pose, mask)) {
-    if (std::ranges::find(told, fault) == told.end())
+    if (std::ranges::find(before, fault) == before.end())
       warnings->push_back(KeyImpossible(key_id, spec.first_frame + spec.frames - 1, fault));
   }
 }
@@ -92,35 +92,33 @@ PreparedTransition PrepareTransition(const ModelInfo& model, const TransitionInp
   return {std::move(run), std::move(warnings)};
 }
 
-DanceScore::DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio)
-    : timeline_({model.fps, asked->FirstFrame(), asked->end_frame, audio != nullptr,
-                 asked->generate_until, model.max_transition_frames, model.sight_frames}),
+DanceScore::DanceScore(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio)
+    : timeline_({model.fps, config->FirstFrame(), config->end_frame, audio != nullptr,
+                 config->generate_until, model.max_transition_frames, model.sight_frames}),
       controls_(model),
-      beats_(model.fps, asked->music_beats, audio, asked->music_downbeats),
-      recurrence_(model.fps, asked->Variation() < 1 ? asked->music_passages : kNoPassages),
+      beats_(model.fps, config->music_beats, audio, config->music_downbeats),
+      recurrence_(model.fps, config->Variation() < 1 ? config->music_passages : kNoPassages),
       model_(model),
       audio_(audio),
-      first_frame_(asked->FirstFrame()),
-      end_frame_(asked->end_frame),
-      energies_(asked->music_energies),
-      has_beats_(!asked->music_beats.empty()),
-      manner_(*asked),
-      seed_(asked->seed),
-      music_id_(asked->music_id),
+      first_frame_(config->FirstFrame()),
+      end_frame_(config->end_frame),
+      energies_(config->music_energies),
+      has_beats_(!config->music_beats.empty()),
+      manner_(*config),
+      seed_(config->seed),
+      music_id_(config->music_id),
       // A model that hears music hears that of the transition itself.
-      turn_(asked->Dynamics() > 0 && !model.hearing) {
-  if (asked->continuation) reached_before_ = asked->continuation->reached;
-  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(asked->music_passages, model.fps));
+      turn_(config->Dynamics() > 0 && !model.hearing) {
+  if (config->continuation) reached_before_ = config->continuation->reached;
+  if (!recurrence_.empty()) timeline_.SetCuts(CutsOf(config->music_passages, model.fps));
 }
 
 DanceEvents DanceScore::SetKey(const Key& key, const KeyMoment& when) {
-  const std::string field = NextKeyframe();
-  CheckKeyPose(model_.skeleton, key.pose, field);
-  ValidateMask(model_.skeleton, key.mask, field + ".mask");
-  ValidateHit(key.hit, field + ".hit");
-  const auto rejection = timeline_.Set(key, when, field);
-  ++accepted_.keyframes;
-  if (rejection) return {AnswerLate(*rejection, key.hands)};
+  CheckKeyPose(model_.skeleton, key.pose, "keyframe.pose");
+  ValidateMask(model_.skeleton, key.mask, "keyframe.mask");
+  ValidateHit(key.hit, "keyframe.hit");
+  if (const auto rejection = timeline_.Set(key, when, "keyframe"))
+    return {AnswerLate(*rejection, key.hands)};
   return KeysBehindMusic(&key.id);
 }
 
@@ -128,23 +126,19 @@ DanceEvents DanceScore::RejectKey(const std::string& id, const std::optional<Key
                                   const std::string& field, const std::string& reason) {
   KeyRejected rejection = timeline_.RejectInvalid(id, when, reason);
   rejection.field = field;
-  ++accepted_.keyframes;
   return {rejection};
 }
 
 DanceEvents DanceScore::RemoveKey(const std::string& id) {
-  const auto rejection = timeline_.Remove(id, At("remove_keyframes", accepted_.removals));
-  ++accepted_.removals;
-  if (rejection) return {*rejection};
+  if (const auto rejection = timeline_.Remove(id, "remove_keyframe")) return {*rejection};
   return {};
 }
 
 DanceEvents DanceScore::SetControls(const ControlRequest& request) {
-  const std::string field = NextControls();
+  const std::string field = "controls";
   ValidateControls(request, model_, field);
   const int64_t from = timeline_.Frontier(field);
   controls_.Set(request, from, field);
-  ++accepted_.controls;
   if (request.velocity_factors) timeline_.NoteChange();
   if (!request.root_path) return {};
   const int64_t last = request.root_path->frames.back();
@@ -157,24 +151,22 @@ DanceEvents DanceScore::SetControls(const ControlRequest& request) {
 DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,
                                   const std::vector<double>& downbeats,
                                   std::optional<double> confidence) {
-  const std::string field = NextMusicBeats() + ".times";
+  const std::string field = "music_beats.times";
   if (seconds.empty()) throw InvalidArgument(field, "empty");
   CheckBeats(seconds, field);
-  CheckDownbeats(downbeats, seconds, NextMusicBeats() + ".downbeats");
-  if (confidence) ValidateShare(*confidence, NextMusicBeats() + ".confidence");
+  CheckDownbeats(downbeats, seconds, "music_beats.downbeats");
+  if (confidence) ValidateShare(*confidence, "music_beats.confidence");
   const int64_t from = timeline_.Frontier(field);
   const int64_t late = beats_.AddGiven(seconds, from, field, downbeats, confidence);
-  ++accepted_.beats;
   if (late == 0) return {};
   return {BeatsTooLate(std::llround(seconds.front() * model_.fps), late, from)};
 }
 
 DanceEvents DanceScore::GivePassages(const std::vector<Passage>& passages) {
-  const std::string field = NextMusicPassages() + ".passages";
+  const std::string field = "music_passages.passages";
   if (passages.empty()) throw InvalidArgument(field, "empty");
   CheckPassages(passages, field);
   recurrence_.Give(passages, timeline_.Frontier(field), field);
-  ++accepted_.passages;
   return {};
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "model/audio/music_analysis.h"
-#include "model/core/field.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/control_track.h"
 #include "model/dance/dance_config.h"
@@ -62,10 +61,10 @@ class DanceScore {
   };
 
   /// Model and music must outlive it. `audio`: null for a dance without music.
-  DanceScore(const ModelInfo& model, const ValidDance& asked, const AudioFeed* audio);
+  DanceScore(const ModelInfo& model, const ValidDance& config, const AudioFeed* audio);
 
   // Messages, as DanceStream describes them. Each returns what the sink must know. One that throws
-  // changes nothing.
+  // changes nothing; its error has the field's path in the message of the API: "keyframe.mask".
   DanceEvents SetKey(const Key& key, const KeyMoment& when);
   DanceEvents RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                         const std::string& field, const std::string& reason);
@@ -83,12 +82,6 @@ class DanceScore {
   }
   /// The music ends with the samples so far.
   DanceEvents EndOfAudio();
-
-  // The next message of a kind, as DanceStream describes it.
-  std::string NextKeyframe() const { return At("keyframes", accepted_.keyframes); }
-  std::string NextControls() const { return At("controls", accepted_.controls); }
-  std::string NextMusicBeats() const { return At("music_beats", accepted_.beats); }
-  std::string NextMusicPassages() const { return At("music_passages", accepted_.passages); }
 
   const Timeline& timeline() const { return timeline_; }
   const ControlTrack& controls() const { return controls_; }
@@ -127,10 +120,6 @@ class DanceScore {
   uint64_t seed_, music_id_;
   MusicTurn turn_;                          // watches the transition that was taken last
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
-  // Messages so far.
-  struct {
-    int keyframes = 0, removals = 0, controls = 0, beats = 0, passages = 0;
-  } accepted_;
 };
 
 }  // namespace choreo

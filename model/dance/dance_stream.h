@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,7 +18,8 @@ namespace choreo {
 /// except rejected ones, continues bit for bit. Its audio starts at ResumeSample, and frames after
 /// that continuation are sent again.
 ///
-/// A message that throws leaves the stream as it was. Messages after the sink's last call are
+/// A message that throws leaves the stream as it was; its error names the field by its path in the
+/// API's message, such as "keyframe.pose.rotations[16]". Messages after the sink's last call are
 /// ignored. Thread-safe. The destructor cancels. The queue must outlive the sink's last call and
 /// all jobs.
 class DanceStream {
@@ -53,17 +53,12 @@ class DanceStream {
     chain_->Apply([&](DanceScore& score) { return score.NoteMusicDamaged(notes, seconds); });
   }
 
-  /// The next message of a kind, as errors name it: "keyframes[i]", where i counts accepted ones.
-  std::string NextKeyframe() const { return chain_->Read(std::mem_fn(&DanceScore::NextKeyframe)); }
-  std::string NextControls() const { return chain_->Read(std::mem_fn(&DanceScore::NextControls)); }
-
   /// Sets a key (see Timeline). A key that comes too late causes a KeyRejected event and changes
-  /// nothing. Errors name NextKeyframe().
+  /// nothing.
   void SetKey(const Key& key, const KeyMoment& when) {
     chain_->Apply([&](DanceScore& score) { return score.SetKey(key, when); });
   }
-  /// Rejects a key that cannot be used: a KeyRejected event names the wrong field and says why. It
-  /// counts as a key accepted.
+  /// Rejects a key that cannot be used: a KeyRejected event names the wrong field and says why.
   void RejectKey(const std::string& id, const std::optional<KeyMoment>& when,
                  const std::string& field, const std::string& reason) {
     chain_->Apply([&](DanceScore& score) { return score.RejectKey(id, when, field, reason); });
@@ -71,8 +66,8 @@ class DanceStream {
   void RemoveKey(const std::string& id) {
     chain_->Apply([&](DanceScore& score) { return score.RemoveKey(id); });
   }
-  /// Sets controls (see ControlTrack) from the first frame that is not frozen. Errors name
-  /// NextControls(); none may come after KeysComplete, which freezes all.
+  /// Sets controls (see ControlTrack) from the first frame that is not frozen. None may come after
+  /// KeysComplete, which freezes all.
   void SetControls(const ControlRequest& request) {
     chain_->Apply([&](DanceScore& score) { return score.SetControls(request); });
   }

@@ -124,7 +124,7 @@ std::optional<HandPose> ToHands(v1::HandPose hands, const std::string& field) {
 Key ToKey(const v1::Keyframe& keyframe, const Skeleton& skeleton, const std::string& field) {
   if (!keyframe.has_pose()) throw InvalidArgument(field + ".pose", "missing");
   Target target = ToTarget(keyframe.pose(), keyframe.has_mask() ? &keyframe.mask() : nullptr,
-                           skeleton, field, field + ".mask");
+                           skeleton, field + ".pose", field + ".mask");
   Key key{.id = keyframe.id(), .pose = std::move(target.pose), .mask = std::move(target.mask)};
   if (keyframe.has_hit()) key.hit = keyframe.hit();
   key.hands = ToHands(keyframe.hands(), field + ".hands");

@@ -262,11 +262,11 @@ TEST_F(ControlledDanceTest, WarnsOfAPathThatComesTooLate) {
 TEST_F(ControlledDanceTest, BadControlsLeaveTheDanceAsItIs) {
   const Recording dance = Perform([](DanceStream& s) {
     s.SetControls(Factor(BodyPart::kLeftArm, 2));
-    ExpectError(ErrorCode::kInvalidArgument, "controls[1].velocity_factors.factors[0]: -1",
+    ExpectError(ErrorCode::kInvalidArgument, "controls.velocity_factors.factors[0]: -1",
                 [&] { s.SetControls(Factor(BodyPart::kLeftArm, -1)); });
     s.SetPaused(true);  // a dance that is over would take no notice
     s.KeysComplete();
-    ExpectError(ErrorCode::kInvalidArgument, "controls[1]: comes after keyframes_complete",
+    ExpectError(ErrorCode::kInvalidArgument, "controls: comes after keyframes_complete",
                 [&] { s.SetControls(Factor(BodyPart::kLeftArm, 1)); });
     s.SetPaused(false);
   });

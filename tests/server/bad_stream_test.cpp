@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "server/field_path.h"
+#include "server/message_error.h"
 #include "tests/server/bad_stream.h"
 
 namespace choreo::bad_stream_test {
@@ -26,24 +26,36 @@ bool IsPath(const google::protobuf::Descriptor& type, const std::string& path) {
   return field->message_type() != nullptr && IsPath(*field->message_type(), path.substr(end + 1));
 }
 
-TEST(FieldPathTest, NamesTheFieldOfTheSentMessage) {
+TEST(MessageErrorTest, NumbersMessagesAndOmitsTheOneAroundAPose) {
+  const std::pair<const char*, const char*> names[] = {
+      {"keyframe.pose.rotations[16]", "keyframes[3].rotations[16]"},
+      {"keyframe.pose", "keyframes[3].pose"},
+      {"keyframe.mask.joints[2]", "keyframes[3].mask.joints[2]"},
+      {"keyframe", "keyframes[3]"},
+      {"remove_keyframe.id", "remove_keyframes[3].id"},
+      {"controls.root_path.points[3]", "controls[3].root_path.points[3]"},
+      {"music_beats.times[1]", "music_beats[3].times[1]"},
+  };
+  for (const auto& [path, name] : names) {
+    const MessageError error(InvalidArgument(path, "is bad"), 3, "k");
+    EXPECT_EQ(error.field(), name);
+    EXPECT_EQ(error.what(), name + std::string(": is bad"));
+    EXPECT_EQ(PathInMessage(error), path);
+  }
+}
+
+TEST(MessageErrorTest, PathsLeadThroughTheSentMessage) {
   const std::pair<const char*, const char*> paths[] = {
-      {"keyframes[3].rotations[16]", "keyframe.pose.rotations[16]"},
-      {"keyframes[0].root_position[1]", "keyframe.pose.root_position.y"},
       {"config.history.poses[4].root_position[2]", "config.history.poses[4].root_position.z"},
-      {"keyframes[12].pose", "keyframe.pose"},
-      {"keyframes[1].mask.joints[2]", "keyframe.mask.joints[2]"},
-      {"keyframes[1].time", "keyframe.time"},
-      {"keyframes[1]", "keyframe"},
-      {"remove_keyframes[4].id", "remove_keyframe.id"},
-      {"controls[1].root_path.points[3]", "controls.root_path.points[3]"},
-      {"music_beats[1].times[1]", "music_beats.times[1]"},
       {"config.history.poses[0].rotations", "config.history.poses[0].rotations"},
       {"config.continuation.poses[2].rotations[1]", "config.continuation.rotations"},
       {"after[1].rotations[3]", "after[1].rotations[3]"},
       {"", ""},
   };
-  for (const auto& [named, path] : paths) EXPECT_EQ(PathInMessage(named), path);
+  for (const auto& [field, path] : paths)
+    EXPECT_EQ(PathInMessage(InvalidArgument(field, "is bad")), path);
+  EXPECT_EQ(PathInMessage(MessageError(InvalidArgument("keyframe.pose.root_position[1]", ""), 0)),
+            "keyframe.pose.root_position.y");
 }
 
 TEST_P(BadStreamTest, IsNamedAndTheServerContinues) {
