@@ -20,8 +20,8 @@ enum class ErrorCode {
   kInternal,
 };
 
-/// The only exception type of this project. `field()` is the path of the offending value as its
-/// sender knows it, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
+/// The only exception type of this project. `field()` is the path of the offending value in the
+/// sender's terms, such as "keyframes[3].rotations[16]", or empty. `what()` names the field, the
 /// value and the limit.
 class Error : public std::runtime_error {
  public:
@@ -32,7 +32,7 @@ class Error : public std::runtime_error {
 
   ErrorCode code() const noexcept { return code_; }
   const std::string& field() const noexcept { return field_; }
-  /// The same error for `field`, when the code that failed knew it by another name.
+  /// Returns the same error for `field`, for callers that know the value by another name.
   Error Of(const std::string& field) const {
     std::string message = what();
     if (!field_.empty() && message.starts_with(field_ + ": ")) message.erase(0, field_.size() + 2);
@@ -40,7 +40,7 @@ class Error : public std::runtime_error {
   }
 
  private:
-  /// what() would end at the first NUL.
+  /// Escapes NULs, at the first of which what() would end.
   static std::string WithoutNul(std::string text) {
     for (size_t at; (at = text.find('\0')) != std::string::npos;) text.replace(at, 1, "\\x00");
     return text;

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-/// What errors are made of, beside rounded.h.
+/// Parts of error messages: paths of fields and numbers. See also rounded.h.
 namespace choreo {
 
 /// The name of element `index` of a list: "frames[3]".

@@ -9,13 +9,13 @@
 
 namespace choreo {
 
-/// Counts values between bounds. Threads may add while others read. Lock-free.
+/// Counts values by bucket, as Prometheus does. Lock-free and thread-safe.
 class Histogram {
  public:
   struct Snapshot {
     std::vector<double> bounds;  ///< ascending; a value equal to a bound counts below it
     std::vector<uint64_t>
-        counts;      ///< one more than bounds: the last counts values above all bounds
+        counts;      ///< by bucket, one more than bounds; the last counts values above all bounds
     double sum = 0;  ///< of all values
 
     /// Adds the counts of a snapshot with the same bounds.
@@ -29,6 +29,7 @@ class Histogram {
   explicit Histogram(std::vector<double> bounds)
       : bounds_(std::move(bounds)), counts_(bounds_.size() + 1) {}
 
+  /// Counts a value in the lowest bucket whose bound is not below it.
   void Add(double value) noexcept {
     const auto at = std::ranges::lower_bound(bounds_, value) - bounds_.begin();
     counts_[static_cast<size_t>(at)].fetch_add(1, std::memory_order_relaxed);
@@ -41,9 +42,9 @@ class Histogram {
     return now;
   }
 
-  /// 0.1 ms to 5 s.
+  /// Bounds for durations in seconds: 0.1 ms to 5 s.
   static std::vector<double> Seconds() {
-    constexpr double kFrame = 0.033;  // at 30 a second
+    constexpr double kFrame = 0.033;  // a frame at 30 fps
     return {1e-4,   2.5e-4, 5e-4, 1e-3, 2.5e-3, 5e-3, 0.01, 0.025,
             kFrame, 0.05,   0.1,  0.25, 0.5,    1,    2.5,  5};
   }

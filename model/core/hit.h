@@ -2,8 +2,8 @@
 
 namespace choreo {
 
-/// How hard a key may be hit: 0 settles into it gently, 1 takes the dance's own time, this one
-/// comes late and fast. From 4 on time would run backwards.
+/// The largest hit of a key. Hit 0 eases into the key, 1 keeps the dance's own timing, and larger
+/// values arrive late and fast. From 4 on, time would run backwards.
 inline constexpr double kMaxHit = 3;
 
 }  // namespace choreo

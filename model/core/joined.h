@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// The elements as one text for messages: "calm, wild". `text` makes a text of an element.
+/// Joins the elements into one text for messages: "calm, wild". `text` converts an element to text.
 template <typename Range, typename Text = std::identity>
 std::string Joined(const Range& range, const Text& text = {}, std::string_view separator = ", ") {
   std::string all;

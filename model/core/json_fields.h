@@ -7,8 +7,8 @@
     NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))   \
   }
 
-/// Defines to_json and from_json of a struct that a header declares. One list serves both, so that
-/// no field is written but not read. All fields are required.
+/// Defines to_json and from_json of a struct; its header declares them. One list of fields serves
+/// both, so that every field written is also read. All fields are required.
 #define CHOREO_JSON_FIELDS(Type, ...)                                            \
   CHOREO_TO_JSON(Type, __VA_ARGS__)                                              \
   void from_json(const nlohmann::json& nlohmann_json_j, Type& nlohmann_json_t) { \

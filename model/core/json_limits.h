@@ -7,12 +7,13 @@
 
 #include "model/core/error.h"
 
-/// Limits on JSON from others. Both functions throw Error(kInvalidArgument) whose field is `name`,
+/// Limits on untrusted JSON. Both functions throw Error(kInvalidArgument) whose field is `name`,
 /// naming the limit.
 namespace choreo {
 
-/// Refuses JSON nested deeper than any file of ours or glTF's: code that parses, copies or prints
-/// it recurses once per level and would overflow the stack. The parser finds other faults.
+/// Refuses JSON that is nested deeper than our files or any glTF. Code that parses, copies or
+/// prints JSON recurses once per level, so deep nesting would overflow the stack. The parser finds
+/// other faults.
 inline void CheckJsonDepth(std::string_view json, const std::string& name) {
   constexpr int kLimit = 64;
   int depth = 0;
@@ -36,8 +37,8 @@ inline void CheckJsonDepth(std::string_view json, const std::string& name) {
 
 inline constexpr int kMaxJsonLevels = 16;  ///< for skeletons and configurations
 
-/// Refuses numbers that don't fit into an int, which would be truncated or undefined. It suits JSON
-/// without larger numbers or more levels: skeletons and network configurations.
+/// Refuses numbers that don't fit into an int, whose conversion would be undefined. For JSON
+/// without larger numbers or deeper nesting: skeletons and network configurations.
 inline void CheckJsonNumbers(const nlohmann::json& json, const std::string& name,
                              int levels = kMaxJsonLevels) {
   constexpr double kLimit = std::numeric_limits<int>::max();

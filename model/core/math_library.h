@@ -4,8 +4,8 @@
 
 namespace choreo {
 
-/// The C library whose sin, exp, ... this process calls, and the variant that it selects on this
-/// CPU, e.g. "glibc 2.36 fma". Other libraries and variants may round differently.
+/// Names the C library that computes sin, exp, ... in this process, and the variant that it selects
+/// for this CPU, such as "glibc 2.36 fma". Other libraries and variants may round differently.
 std::string MathLibrary();
 
 }  // namespace choreo

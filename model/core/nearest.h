@@ -14,7 +14,7 @@
 
 namespace choreo {
 
-/// Finds the candidate that a misspelt word may mean.
+/// Finds the candidate nearest to a misspelt word. Not thread-safe.
 class Nearest {
  public:
   explicit Nearest(std::string word) : word_(std::move(word)) {}
@@ -26,15 +26,16 @@ class Nearest {
     nearest_ = known;
   }
 
-  /// Empty if none is near.
+  /// The nearest candidate so far, or "" if none is near.
   const std::string& nearest() const { return nearest_; }
 
  private:
-  // The number of wrong letters allowed in a word of this length; short words are all near each
+  // The number of wrong letters allowed in a word of this length. Short words are all near each
   // other.
   static size_t MostEdits(size_t letters) { return letters < 3 ? 0 : letters < 6 ? 1 : 2; }
 
-  // Letters inserted, removed, changed, or exchanged with the next one (optimal string alignment).
+  // The optimal string alignment distance: letters inserted, removed, changed, or exchanged with
+  // the next.
   size_t Edits(const std::string& known) const {
     std::vector<size_t> two_before, before, row(known.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});
@@ -52,7 +53,8 @@ class Nearest {
     return row.back();
   }
 
-  // None unless the candidate may be meant: a prefix is near, such as temp of temperature.
+  // None unless the candidate may be meant. A prefix, such as temp of temperature, is at distance
+  // 0.
   std::optional<size_t> Distance(const std::string& known) const {
     if (word_.size() >= 2 && known.starts_with(word_)) return 0;
     const size_t edits = Edits(known);
@@ -64,8 +66,8 @@ class Nearest {
   std::optional<size_t> least_;
 };
 
-/// For errors about a word that is none of `known`: "did you mean kick?", or what there is if none
-/// is near: "it has kick, dab". `text` makes a text of an element. Names `most` of them.
+/// The end of an error about a word that is not in `known`: "did you mean kick?", or, if none is
+/// near, a list of at most `most` elements: "it has kick, dab". `text` converts an element to text.
 template <typename Range, typename Text = std::identity>
 std::string DidYouMean(const std::string& word, const Range& known, const Text& text = {},
                        size_t most = std::numeric_limits<size_t>::max()) {

@@ -143,7 +143,7 @@ std::vector<T> FromFortranOrder(const std::vector<T>& values, const std::vector<
   return result;
 }
 
-/// A number as stored in the file; `big` means big-endian.
+/// Reads a number as stored in the file. `big`: big-endian.
 template <typename Stored>
 Stored Load(const char* at, bool big) {
   std::array<char, sizeof(Stored)> bytes{};
@@ -178,8 +178,7 @@ std::vector<T> ReadValues(const NpyParts& parts, const std::string& name) {
   return parts.fortran_order ? FromFortranOrder(values, parts.shape) : values;
 }
 
-/// The kinds that are read, without byte order, each with the larger type that NpyArray holds it
-/// as.
+/// The readable kinds, without byte order, and the type to which NpyArray widens each.
 struct NpyKind {
   std::string_view name;
   NpyArray::Values (*read)(const NpyParts& parts, const std::string& name);

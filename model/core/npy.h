@@ -9,11 +9,10 @@
 
 namespace choreo {
 
-/// NumPy's `.npy` arrays, in files and in memory (members of an `.npz`). Reads format versions 1 to
-/// 3, floats of 2, 4 and 8 bytes, integers and booleans, either byte order, 0 to 4 dimensions, C or
-/// Fortran order; widens values to the next of float32, float64, int32 and int64; writes version
-/// 1.0 in C order. Values are always held in C order (last index fastest). Do not share between
-/// threads while it changes.
+/// A NumPy array, read from and written to `.npy` files or members of an `.npz`. Readers accept
+/// format versions 1 to 3, floats of 2, 4 and 8 bytes, integers and booleans, either byte order, 0
+/// to 4 dimensions, and C or Fortran order. They widen values to the next of float32, float64,
+/// int32 and int64. Writers use version 1.0. In memory, values are in C order (last index fastest).
 struct NpyArray {
   using Values = std::variant<std::vector<float>, std::vector<double>, std::vector<int32_t>,
                               std::vector<int64_t>>;
@@ -30,10 +29,10 @@ struct NpyArray {
   }
 };
 
-/// The type of arrays that hold pickled Python objects.
+/// The descr of arrays of pickled Python objects.
 inline constexpr std::string_view kNpyObjects = "|O";
 
-/// An array of any kind, as stored.
+/// An array of any type, as stored in a file.
 struct NpyParts {
   std::string descr;  ///< the value type, such as "<f4"
   bool fortran_order = false;
@@ -41,23 +40,23 @@ struct NpyParts {
   std::string_view values = {};  ///< bytes
 };
 
-/// `parts.values` points into `bytes`. Throws Error(kInvalidArgument) whose field is `name` if the
-/// header is not that of an .npy file.
+/// Parses the header. The result's `values` point into `bytes`. Throws Error(kInvalidArgument)
+/// whose field is `name` if the header is not that of an .npy file.
 NpyParts SplitNpy(std::string_view bytes, const std::string& name);
-/// The inverse, in C order.
+/// The inverse of SplitNpy. Always writes C order.
 std::string JoinNpy(const NpyParts& parts);
 
-/// Throws Error(kInvalidArgument) whose field is `name` if the type is not readable (see above) or
-/// the bytes do not match the shape.
+/// Converts the values. Throws Error(kInvalidArgument) whose field is `name` if the type is not
+/// readable (see NpyArray) or the bytes do not match the shape.
 NpyArray ReadNpyParts(const NpyParts& parts, const std::string& name);
 /// SplitNpy, then ReadNpyParts.
 NpyArray ParseNpy(std::string_view bytes, const std::string& name);
-/// Throws what ParseNpy throws; Error(kNotFound) if the file cannot be opened.
+/// Throws what ParseNpy throws, and Error(kNotFound) if the file cannot be opened.
 NpyArray ReadNpy(const std::filesystem::path& path);
 
 /// Throws Error(kInvalidArgument) if the number of values is not the product of the shape.
 std::string SerializeNpy(const NpyArray& array);
-/// Throws what SerializeNpy throws; Error(kInternal) if the file cannot be written.
+/// Throws what SerializeNpy throws, and Error(kInternal) if the file cannot be written.
 void WriteNpy(const std::filesystem::path& path, const NpyArray& array);
 
 }  // namespace choreo

@@ -2,7 +2,8 @@
 
 namespace choreo {
 
-/// Music that repeats: [from, to) sounds like the music from `like` on. Seconds from the start.
+/// A repeated passage of music: [from, to) sounds like the music that starts at `like`. Seconds
+/// from the start.
 struct Passage {
   double from = 0, to = 0;
   double like = 0;  ///< before `from`

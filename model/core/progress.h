@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-/// Shows how far a long job is and when it will end: on a terminal a bar that redraws itself,
-/// elsewhere a line every ten seconds, so that logs stay readable. Thread-safe.
+/// Shows the progress of a long job and its estimated end. Draws a bar on a terminal; elsewhere
+/// prints a line every ten seconds, so that logs stay readable. Thread-safe.
 class ProgressBar {
  public:
   /// Where and how often the bar is printed. Tests replace `now`.
@@ -19,7 +19,7 @@ class ProgressBar {
     std::chrono::steady_clock::time_point (*now)();
   };
 
-  /// Prints to stderr. `total`: number of steps, or 0 or less if unknown (then no bar and no ETA).
+  /// Prints to stderr. `total`: the number of steps; 0 or less if unknown, which omits bar and ETA.
   ProgressBar(std::string title, int64_t total);
   ProgressBar(std::string title, int64_t total, const Output& output);
   /// Ends the line if the job ended early (by an exception).
@@ -27,9 +27,9 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Counts `steps` as done. `note` ("loss 3.21") is shown after the bar until the next call.
+  /// Counts `steps` as done. Shows `note` ("loss 3.21") after the bar until the next call.
   void Advance(int64_t steps = 1, const std::string& note = {});
-  /// Prints the total time. May be called again.
+  /// Prints the total time. Further calls do nothing.
   void Finish();
   /// Prints a line above the bar.
   void Print(const std::string& line);
@@ -49,7 +49,7 @@ class ProgressBar {
   bool finished_ = false;
 };
 
-/// "12 s", "3 min 07 s", "1 h 02 min".
+/// Formats a duration: "12 s", "3 min 07 s", "1 h 02 min".
 std::string FormatDuration(double seconds);
 
 }  // namespace choreo

@@ -13,8 +13,8 @@ double Percentile(std::vector<float> values, double share);
 /// The value of rank floor(q * (count - 1)), counted from 0. Needs at least one value.
 double Quantile(std::vector<double> values, double q);
 
-/// The running mean of a running quantile: how a signal drifts. Windows reach window_frames / 2 to
-/// each side, less at the ends.
+/// The running mean of a running quantile, which follows a signal's drift. Windows reach
+/// window_frames / 2 to each side, less at the ends. One value per input value.
 std::vector<double> SlowQuantile(const std::vector<double>& values, double q, double window_frames);
 
 /// The median; of an even number of values the upper middle one. Needs at least one value.

@@ -18,14 +18,14 @@ std::array<uint32_t, 4> Philox4x32(const std::array<uint32_t, 4>& counter,
 /// |out[d]| < 6.8.
 void FillNormal(uint64_t seed, uint32_t candidate, int64_t absolute_frame, std::span<float> out);
 
-/// The same for a frame that repeats the frame `like` with this much `variation`. 0: that frame's
-/// numbers; 1: its own; between: correlated with that frame's by sqrt(1 - variation²).
+/// The same for a frame that repeats frame `like`. `variation` 0 gives that frame's numbers, 1 the
+/// frame's own, and values between correlate with `like`'s by sqrt(1 - variation²).
 void FillNormalLike(uint64_t seed, uint32_t candidate, int64_t absolute_frame, int64_t like,
                     double variation, std::span<float> out);
 
-/// A sequence of random numbers for training and sampling of data. Its numbers are unrelated to
-/// FillNormal's of the same seed. Copying copies the position. Not thread-safe; give each thread
-/// its own `stream`.
+/// A sequence of random numbers for training and for sampling data, independent of FillNormal's
+/// numbers for the same seed. A copy continues from the same position. Not thread-safe; give each
+/// thread its own `stream`.
 class Random {
  public:
   explicit Random(uint64_t seed, uint32_t stream = 0) : seed_(seed), stream_(stream) {}

@@ -8,7 +8,7 @@ namespace choreo {
 
 std::string Rounded(double value) {
   constexpr int kDecimals = 2;
-  constexpr double kTiny = 5e-4;  // metres, millimetres or degrees: too small to matter to people
+  constexpr double kTiny = 5e-4;  // metres, millimetres or degrees: too small to matter
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0 ? "-inf" : "inf";
   if (std::abs(value) < kTiny) value = 0;
   const int zeros = value == 0 || std::abs(value) >= 0.1

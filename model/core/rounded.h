@@ -4,15 +4,15 @@
 
 namespace choreo {
 
-/// A measured number for messages: two decimals, or two significant digits below 0.1; no trailing
-/// zeros; 0 below half a thousandth.
+/// Formats a measured number for messages: two decimals, or two significant digits below 0.1,
+/// without trailing zeros; "0" below half a thousandth.
 std::string Rounded(double value);
 
-/// A measured number that exceeds `limit`: rounded as above, or in full if rounding would make it
-/// look like the limit.
+/// Formats a measured number that exceeds `limit`: like Rounded, or like InFull if rounding would
+/// make it equal the limit.
 std::string RoundedBeyond(double value, double limit);
 
-/// A number in full: for refused values and limits, which might look allowed when rounded.
+/// Formats a number exactly, for refused values and limits, which might look allowed when rounded.
 std::string InFull(double value);
 
 }  // namespace choreo

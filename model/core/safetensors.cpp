@@ -32,7 +32,7 @@ int64_t ElementCount(const std::vector<int64_t>& shape) {
   return count;
 }
 
-// Halving smaller tensors saves too little.
+// Storing smaller tensors as bfloat16 saves too little.
 constexpr size_t kMinHalved = 4096;
 
 // Whether every value is exact in bfloat16, the upper half of a float.
@@ -123,8 +123,7 @@ class SafetensorsReader {
     return tensor;
   }
 
-  // The next tensor must start at our end or later; the previous one must end at our start or
-  // earlier.
+  // Refuses a tensor that overlaps the one before it or the one after it.
   void Occupy(const std::string& name, uint64_t begin, uint64_t end) {
     if (begin == end) return;
     const auto after = occupied_.lower_bound(begin);
@@ -139,7 +138,7 @@ class SafetensorsReader {
   const std::string name_;
   std::ifstream file_;
   uint64_t file_bytes_ = 0, data_begin_ = 0;
-  std::map<uint64_t, uint64_t> occupied_;  // by the tensors so far, begin to end
+  std::map<uint64_t, uint64_t> occupied_;  // ranges of the tensors so far: begin to end
 };
 
 }  // namespace

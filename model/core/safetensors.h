@@ -23,19 +23,19 @@ struct Safetensors {
   const NamedTensor& Get(const std::string& name, const std::vector<int64_t>& shape) const;
 };
 
-/// Rounds values to bfloat16, which files store in half the bytes.
+/// Rounds the values to bfloat16. Files store such tensors in half the bytes.
 void RoundToBfloat16(NamedTensor* tensor);
 
-/// Throws Error(kNotFound) for a missing file and Error(kInvalidArgument) for one that is
-/// truncated, overlapping, not float32 or not safetensors at all; the message names the file and
-/// the tensor.
+/// Throws Error(kNotFound) for a missing file and Error(kInvalidArgument) for a file that is
+/// truncated, is no safetensors file, or has tensors that overlap or are neither float32 nor
+/// bfloat16. The message names the file and the tensor.
 Safetensors ReadSafetensors(const std::filesystem::path& path);
 
-/// Writes atomically (AtomicFile): a kill leaves either the old file or the new one.
+/// Writes atomically (AtomicFile): a killed process leaves either the old file or the new one.
 void WriteSafetensors(const std::filesystem::path& path, const Safetensors& content);
 
-/// 128-bit XXH3 in hex of names, shapes, bytes and metadata (except the key `without`): equal
-/// content, equal hash.
+/// The 128-bit XXH3 hash, in hex, of names, shapes, values and metadata, except the metadata key
+/// `without`. Equal content has equal hashes.
 std::string ContentHash(const Safetensors& content, const std::string& without = {});
 
 }  // namespace choreo

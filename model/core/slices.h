@@ -15,14 +15,15 @@ using Pause = std::suspend_always;
 
 namespace slices {
 
-/// What all coroutines of a piece of work share.
+/// The part of a coroutine's promise that does not depend on its result. Coroutines that await each
+/// other form a chain.
 struct Promise {
-  Promise* outermost = this;          ///< whose Continue resumes the work
-  std::coroutine_handle<> innermost;  ///< of the outermost: where the work paused
+  Promise* outermost = this;          ///< the head of the chain, whose Continue resumes the work
+  std::coroutine_handle<> innermost;  ///< set in the outermost: where the work paused
   std::coroutine_handle<> caller;     ///< awaits this one; null for the outermost
   std::exception_ptr failure;
 
-  /// Gives the thread back to the caller.
+  /// Returns control to the caller.
   struct Return {
     bool await_ready() const noexcept { return false; }
     template <typename P>
@@ -55,10 +56,10 @@ struct ResultPromise<void> : Promise {
 
 }  // namespace slices
 
-/// Work that pauses between slices, so that its thread may turn to something more urgent, or drop
-/// it. A coroutine that returns it pauses with `co_await Pause();`, has all slices of other work
-/// made with `co_await Other();`, and gives its result with co_return. It must not outlive what it
-/// takes by reference. Nothing runs before the first slice. Not thread-safe.
+/// Work that pauses between slices, so that its thread can do something more urgent first, or drop
+/// the work. A coroutine with this return type pauses with `co_await Pause();`, runs other work to
+/// its end with `co_await Other();`, and returns its result with co_return. Its reference arguments
+/// must outlive it. Nothing runs before the first slice. Not thread-safe.
 template <typename T = void>
 class [[nodiscard]] Slices {
  public:
@@ -73,22 +74,23 @@ class [[nodiscard]] Slices {
     if (work_) work_.destroy();
   }
 
-  /// Makes the next slice; true while more are left. Throws what the work throws, which ends it.
+  /// Runs the next slice. Returns whether more remain. Throws what the work throws, which ends the
+  /// work.
   bool Continue() {
     work_.promise().innermost.resume();
     if (work_.promise().failure) std::rethrow_exception(work_.promise().failure);
     return !work_.done();
   }
-  /// Makes all slices that are left.
+  /// Runs all remaining slices and returns the result.
   T Finish() {
     while (Continue()) {
     }
     return Take();
   }
-  /// The result. Call once, when no slice is left.
+  /// Returns the result. Call once, when no slice remains.
   T Take() { return work_.promise().Take(); }
 
-  /// For co_await: makes all slices and gives the result.
+  /// For co_await: runs all slices and returns the result.
   struct Awaiter {
     std::coroutine_handle<promise_type> work;
 

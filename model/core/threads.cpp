@@ -53,9 +53,9 @@ BlasInfo DetectBlas() {
   using enum BlasInfo::Kind;
   const std::string path = FileOf(gemm);
   const std::string file = std::filesystem::path(path).filename().string();
-  // Debian's libblas.so.3 for OpenBLAS only forwards to libopenblas.so.0, so the library that has
-  // sgemm_ need not be the BLAS that runs. Netlib's is loaded beside the others only if sgemm_ is
-  // its own.
+  // Debian's libblas.so.3 for OpenBLAS only forwards to libopenblas.so.0, so the library that
+  // exports sgemm_ need not be the BLAS that runs. Where Netlib's library exports sgemm_ itself, it
+  // runs, even if others are loaded.
   if (!path.ends_with("/blas/" + file)) {
     if (auto* config = Find<char*()>("openblas_get_config")) return {kFast, config(), path};
     if (Find<void>("MKL_Get_Version_String")) return {kFast, "Intel MKL", path};

@@ -9,14 +9,14 @@ namespace choreo {
 /// The BLAS that this process runs, as the dynamic linker reports it.
 struct BlasInfo {
   enum class Kind {
-    kNone,       ///< no BLAS is loaded: nothing here multiplies large matrices
-    kReference,  ///< Netlib's: correct, but 10 to 50 times too slow to serve
+    kNone,       ///< no BLAS is loaded: large products use no BLAS
+    kReference,  ///< Netlib's reference: correct, but 10 to 50 times too slow to serve
     kFast,       ///< OpenBLAS, MKL or BLIS
     kUnknown,    ///< unrecognised
   };
   Kind kind = Kind::kNone;
-  std::string name;  ///< its own description ("OpenBLAS 0.3.21 ..."), or the file's name
-  std::string path;  ///< its file, links resolved; empty if there is none or it is linked in
+  std::string name;  ///< the library's own description ("OpenBLAS 0.3.21 ..."), or the file's name
+  std::string path;  ///< the library's file, links resolved; empty if there is none
 };
 
 BlasInfo DetectBlas();
@@ -25,10 +25,10 @@ BlasInfo DetectBlas();
 /// Returns a warning if its speed is unknown, and "" if it is fast.
 std::string RequireFastBlas(const BlasInfo& blas);
 
-/// Cores that this process may use, given CPU affinity and cgroup quota; at least 1.
+/// The number of cores that this process may use, given CPU affinity and cgroup quota; at least 1.
 int UsableCores();
 
-/// CPU time that the calling thread has used.
+/// The CPU time that the calling thread has used, seconds.
 double ThreadCpuSeconds();
 
 inline constexpr int kMaxMathThreads = 1024;  ///< for one matrix product
@@ -38,9 +38,9 @@ inline constexpr int kMaxMathThreads = 1024;  ///< for one matrix product
 /// model/samplers/samplers.h.
 void SetMathThreads(int threads);
 
-/// Treats denormals as zero on the calling thread and on threads that it starts. Denormals cost 100
-/// times a normal operation, and recurrent states decay into them. No effect except on x86-64 and
-/// AArch64.
+/// Flushes denormals to zero on the calling thread and on threads that it starts later. An
+/// operation on denormals is 100 times slower, and recurrent states decay into them. No effect
+/// except on x86-64 and AArch64.
 void FlushDenormals();
 
 }  // namespace choreo

@@ -4,7 +4,8 @@
 
 namespace choreo {
 
-/// A request that has been checked against its model; code that takes one does not check again.
+/// A request that has been checked against its model. Code that takes a Valid does not check it
+/// again.
 template <class Request>
 class Valid {
  public:
@@ -13,7 +14,8 @@ class Valid {
     request_.Validate(model);
   }
 
-  /// Applies a change that keeps it valid, such as of the frame of its poses.
+  /// Applies a change that keeps the request valid, such as moving its poses to another frame of
+  /// reference.
   void Change(const auto& change) { change(request_); }
 
   const Request& operator*() const& { return request_; }
