@@ -6,11 +6,11 @@
 
 namespace choreo {
 
-/// [joints] The share of the body's mass at each joint: positions * weights is the centre of mass,
-/// and the weights sum to 1. A segment's mass lies on the line between two joints. Masses and
-/// centres are those of de Leva (1996, "Adjustments to Zatsiorsky-Seluyanov's segment inertia
-/// parameters", Tables 4 and 5), the mean of women's and men's. Wrists and hands are whatever
-/// descends from elbows. Empty if the skeleton lacks a role, wrists, or a joint called "head".
+/// Returns the share of the body's mass at each joint, [joints]. They sum to 1, and positions *
+/// weights is the centre of mass. A segment's mass lies on the line between two joints. Segment
+/// masses and centres are the means of women's and men's in de Leva (1996, "Adjustments to
+/// Zatsiorsky-Seluyanov's segment inertia parameters", Tables 4 and 5). All descendants of an elbow
+/// count as wrist and hand. Empty if the skeleton lacks a role, wrists, or a joint called "head".
 Eigen::VectorXd MassWeights(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -7,26 +7,28 @@
 
 namespace choreo {
 
-/// A frame on the floor: origin below a dancer's root, +Z along the heading. A transition's
-/// canonical frame is that of its last history pose, so that moving or turning the scene moves the
-/// dance and changes nothing else.
+/// A frame of reference on the floor: its origin is below a dancer's root, and its +Z axis points
+/// along the heading. A transition's canonical frame is that of its last history pose, so that
+/// moving or turning the scene moves the dance and changes nothing else.
 struct GroundFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< y = 0
   double heading = 0;                                ///< radians about +Y, 0 = +Z
 
+  /// The frame below this pose's root.
   static GroundFrame Of(const Pose& pose);
-  /// World → this frame. Keeps rotations' branches, except the root's; see NearestBranch.
+  /// Converts from the world to this frame. Rotation vectors keep their branches (see
+  /// NearestBranch), except the root's.
   Pose ToLocal(const Pose& world) const;
   Eigen::Vector3d ToLocal(const Eigen::Vector3d& world) const;
   GroundFrame ToLocal(const GroundFrame& world) const;
-  /// This frame → world.
+  /// Converts from this frame to the world.
   Pose ToWorld(const Pose& local) const;
 };
 
-/// The vertical in the root's own frame, unit.
+/// The world's vertical in the root's own frame, unit length.
 Eigen::Vector3d UpOf(const Pose& pose);
-/// How far the root's heading turns from a pose over those after it, radians about +Y. Whole turns
-/// count.
+/// The total turn of the root's heading from a pose over the poses after it, radians about +Y.
+/// Counts whole turns.
 double TurnOver(const Pose& from, std::span<const Pose> poses);
 /// The mean direction of the roots' headings, radians about +Y; 0 for no poses.
 double MeanFacing(std::span<const Pose> poses);

@@ -6,8 +6,8 @@
 namespace choreo {
 namespace {
 
-// A foot joint touches down below the first and lifts off above the second: metres, and metres a
-// second (1 cm a frame at 30 fps).
+// A foot joint touches down below the first speed and lifts off above the second, metres per
+// second. 0.3 m/s is 1 cm per frame at 30 fps.
 constexpr double kDownSpeed = 0.30, kUpSpeed = 0.50;
 
 }  // namespace
@@ -46,7 +46,7 @@ std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& mot
   JointPlacement earlier = ForwardKinematics(skeleton, motion.frames.front());
   JointPlacement later = earlier;
   if (motion.frames.size() > 1) {
-    // The first step has the same speed backwards; only the height must be the first frame's.
+    // The step backwards from the second frame has the first frame's height and the step's speed.
     ForwardKinematics(skeleton, motion.frames[1], later);
   }
   contacts.push_back(detector.Next(later.positions, earlier.positions, motion.fps));

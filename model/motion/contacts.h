@@ -9,19 +9,20 @@
 
 namespace choreo {
 
-/// Metres above rest height: up to the first a joint is on the floor; beyond the second it is off
-/// it.
+/// Metres above the joint's height at rest. Up to kDownHeight a joint is on the floor, beyond
+/// kUpHeight off it.
 inline constexpr double kDownHeight = 0.04, kUpHeight = 0.07;
 
-/// Detects contacts frame by frame. A foot joint touches down when it is both low and slow, and
-/// stays down until it is half as high or fast again: contacts depend on their frame and those
-/// before. Heights are relative to the joint's own at rest. Not thread-safe.
+/// Detects foot contacts frame by frame. A foot joint touches down when it is both low and slow. It
+/// lifts off when it exceeds higher thresholds of height or speed, so contacts depend on earlier
+/// frames, too. Heights are relative to the joint's own at rest. Not thread-safe.
 class ContactDetector {
  public:
   /// Throws Error(kInvalidArgument) if the skeleton lacks a foot joint.
   explicit ContactDetector(const Skeleton& skeleton);
 
-  /// Joint positions of two consecutive frames, [3, joints].
+  /// Takes the joint positions of two consecutive frames, [3, joints], metres. Returns the contacts
+  /// of the later one.
   const Contacts& Next(const Eigen::Matrix3Xd& earlier, const Eigen::Matrix3Xd& later, double fps);
 
   const Contacts& contacts() const { return contacts_; }
@@ -32,8 +33,8 @@ class ContactDetector {
   Contacts contacts_ = {};
 };
 
-/// Contacts of every frame. The first frame takes its speed from the next step; a single frame
-/// counts as standing still.
+/// Detects the contacts of every frame. The first frame takes its speed from the second; a single
+/// frame counts as standing still.
 std::vector<Contacts> DetectContacts(const Skeleton& skeleton, const Motion& motion);
 
 }  // namespace choreo

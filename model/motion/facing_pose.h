@@ -7,8 +7,8 @@
 
 namespace choreo {
 
-/// A pose in paper C's form (Section 3.1): turned to face +Z, which separates the body's pose from
-/// where it stands and looks.
+/// A pose in paper C's form (Section 3.1), turned to face +Z. It separates the body's pose from its
+/// place and heading.
 struct FacingPose {
   Eigen::Vector3d root = Eigen::Vector3d::Zero();  ///< p^r, metres
   double heading = 0;       ///< o^r, radians about +Y; 0 faces +Z, as in GroundFrame

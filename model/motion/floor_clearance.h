@@ -7,11 +7,11 @@
 
 namespace choreo {
 
-/// [joints] How far the body extends below each joint that touches the floor, metres: for a foot
-/// joint its height at rest, for others at most 5 cm.
+/// How far the body extends below each joint that touches the floor, metres, [joints]: a foot
+/// joint's height at rest; at most 5 cm for others.
 Eigen::RowVectorXd FloorClearance(const Skeleton& skeleton);
 
-/// Height of the body's lowest point above the floor, metres, by that clearance.
+/// The height of the body's lowest point above the floor, metres, given FloorClearance.
 double HeightAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
 }  // namespace choreo

@@ -10,7 +10,7 @@
 namespace choreo {
 namespace {
 
-// `local(joint)`: the joint's rotation matrix.
+// `local(joint)` returns the joint's local rotation matrix.
 template <typename Local>
 void Place(const Skeleton& skeleton, const Eigen::Vector3d& root, const Local& local,
            JointPlacement& placement) {

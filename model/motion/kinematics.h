@@ -22,16 +22,16 @@ JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose);
 /// Positions alone, [3, joints].
 Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose);
 
-/// The same without allocation if `placement` already has the skeleton's size.
+/// The same into `placement`, without allocation if it already has the skeleton's size.
 void ForwardKinematics(const Skeleton& skeleton, const Pose& pose, JointPlacement& placement);
-/// The same from local rotation matrices, [3, 3 joints], one after another.
+/// The same from local rotation matrices, [3, 3 * joints], side by side.
 void ForwardKinematics(const Skeleton& skeleton, const Eigen::Vector3d& root,
                        const Eigen::Ref<const Eigen::Matrix3Xd>& local, JointPlacement& placement);
 
 /// The distance between two poses: the largest joint distance (metres) and the largest angle of a
-/// local joint rotation (degrees). Ignores degrees of freedom outside `mask`: without the root's
-/// position it measures with both roots in one place; with any joint masked out the distance is the
-/// root's alone (0 if that is masked too) and the angles those of the other joints.
+/// local joint rotation (degrees). Degrees of freedom outside `mask` do not count. Without the root
+/// position, both roots are moved to one place. If any joint is masked out, the distance is the
+/// root's alone (0 if that is masked out, too), and the angle is over the remaining joints.
 struct PoseError {
   double position_m = 0;
   double angle_deg = 0;
@@ -39,21 +39,21 @@ struct PoseError {
 PoseError ComparePoses(const Skeleton& skeleton, const Pose& a, const Pose& b,
                        const PoseMask& mask = {});
 
-/// [joints] Whether `mask` determines where a joint is relative to the root: it includes the
+/// Whether `mask` determines each joint's position relative to the root, [joints]: it includes the
 /// rotations of all joints above.
 std::vector<bool> KnownPlaces(const Skeleton& skeleton, const PoseMask& mask);
 
-/// The root height at which the pose stands on the floor: no joint lower than the lowest at rest,
-/// no foot joint lower than itself at rest. None if `mask` leaves open how the feet hang below the
-/// root, and without feet.
+/// The root height, metres, at which the pose stands on the floor: no joint is lower than the
+/// lowest joint at rest, and no foot joint is lower than itself at rest. None for skeletons without
+/// feet, and if `mask` does not determine the feet's position relative to the root.
 std::optional<double> StandingHeight(const Skeleton& skeleton, const Pose& pose,
                                      const PoseMask& mask = {});
 
-/// The skeleton without rotations, feet on the floor, at the origin, facing +Z.
+/// The pose without rotations: feet on the floor, at the origin, facing +Z.
 Pose RestPose(const Skeleton& skeleton);
 
-/// The pose in which a dance without history starts: standing at ease, with hanging arms. Without
-/// elbows it is the rest pose.
+/// The pose in which a dance without history starts: standing at ease, arms hanging. The rest pose
+/// for skeletons without elbows.
 Pose StandingPose(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -9,23 +9,23 @@
 namespace choreo {
 namespace {
 
-// The last share of a limb's length, over which it straightens softly: near full length a
-// millimetre of reach is six degrees of bend, and an exact knee would snap.
+// The last share of a limb's length, over which it straightens softly. Near full length a
+// millimetre of reach changes the bend by six degrees, and an exact knee would snap.
 constexpr double kSoftShare = 0.04;
 // Sine of the bend below which the knee's hinge axis, not its bend, determines the plane.
 constexpr double kHingeWeight = 0.02;
 constexpr double kStraightTurn = 200 / kDegrees;  // radians a second for a straight limb,
 constexpr double kFreedom = 30;                   // 1/s: and this much more per radian of bend
 
-/// A knee or elbow that turns about one axis, between bones of lengths `a` and `b`; only the share
-/// `in_plane` of the lower one turns.
+/// A knee or elbow with one axis, between bones of lengths `a` and `b`. `in_plane`: the share of
+/// the lower bone across the axis, which turns.
 struct Knee {
   double a, b, in_plane;
 
   double Straight() const { return std::sqrt(a * a + b * b + 2 * a * b * in_plane); }
 
-  // The bend, radians, at this distance between its ends: exact except in a soft zone, where it
-  // straightens ever more slowly and never fully.
+  // The bend, radians, at this distance between the limb's ends. Exact except in the soft zone,
+  // where the limb straightens ever more slowly and never fully.
   double SoftBend(double distance) const {
     const double straight = Straight(), zone = kSoftShare * straight;
     const double beyond = distance - (straight - zone);
@@ -33,8 +33,8 @@ struct Knee {
     return std::acos(std::clamp((soft * soft - a * a - b * b) / (2 * a * b * in_plane), -1.0, 1.0));
   }
 
-  // The bend at `distance` for a knee that is bent by `bend` at `present`: near there its present
-  // bend, even straight or backwards, and further away the soft one.
+  // The bend at `distance` for a knee that is bent by `bend` at distance `present`: near `present`
+  // that bend, even if straight or backwards; further away, SoftBend.
   double BendFrom(double bend, double present, double distance) const {
     const double fades = 4 * kSoftShare * Straight();
     const double near = std::max(0.0, 1 - std::abs(distance - present) / fades);
@@ -47,8 +47,8 @@ struct Bend {
   double angle;
 };
 
-// A bent leg's plane counts as far as it bends like its hinge: a knee bent backwards or sideways
-// bends forward from there.
+// The more a leg bends about its hinge, the more its plane counts. A knee bent backwards or
+// sideways bends forward from there.
 Bend FindBend(const Limb& limb, const Eigen::Vector3d& hinge, const JointPlacement& placement) {
   const auto at = [&](int joint) -> Eigen::Vector3d { return placement.positions.col(joint); };
   const Eigen::Vector3d thigh = at(limb.middle) - at(limb.upper);

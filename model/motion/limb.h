@@ -11,30 +11,29 @@
 
 namespace choreo {
 
-/// Radians of bend below which a limb counts as straight.
+/// The bend below which a limb counts as straight, radians.
 inline constexpr double kStraightBend = 5 / kDegrees;
 
-/// Two bones and what hangs on them: hip, knee, ankle or shoulder, elbow, wrist. Joint indices of a
-/// chain.
+/// A limb of two bones, as joint indices of a chain: hip, knee, ankle or shoulder, elbow, wrist.
 struct Limb {
   int upper = -1, middle = -1, end = -1;
 };
 
-/// Range of a limb's bend: radians, 0 is straight, forward is positive.
+/// The range of a limb's bend, radians: 0 is straight, positive the natural way.
 struct BendRange {
   double least = -M_PI, most = M_PI;
 };
 
-/// The bends that a limb bent by `bend` may reach within `seconds`. On a straight limb a centimetre
-/// is ten degrees; reaching it in one frame would snap.
+/// The bends that a limb bent by `bend` may reach within `seconds`. In a nearly straight limb,
+/// moving the end by a centimetre changes the bend by ten degrees, which would snap in one frame.
 BendRange NextBend(double bend, double seconds);
 
 /// Two-bone inverse kinematics: turns the upper two joints so that the end reaches `goal`, given
 /// relative to the upper joint, and keeps the end's global rotation. A bent limb bends in its
-/// present plane, a straight one about `hinge` (a world direction about which it bends naturally).
-/// Continuous in pose and goal; near full length the end may miss by a centimetre, and beyond the
-/// bends in `range` the limb points at the goal. `placement` is of `pose` and is stale afterwards.
-/// Returns the bend.
+/// present plane, a straight one about `hinge`, the world direction of its natural axis. The result
+/// is continuous in pose and goal. Near full length the end may miss the goal by a centimetre; if
+/// the goal needs a bend outside `range`, the limb points at it. `placement` is that of `pose` and
+/// is stale afterwards. Returns the bend, radians.
 double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& skeleton,
                 const JointPlacement& placement, const Eigen::Vector3d& goal, Pose* pose,
                 const BendRange& range = {});
@@ -49,17 +48,17 @@ struct Leg {
   static std::array<Leg, 2> Of(const Skeleton& skeleton);
 };
 
-/// How far `toes` would be from the hip with the foot turned as it is, as a share of the length of
-/// thigh and shin: below 1 the ankle of `placement` can get there.
+/// The distance from the hip that the ankle would have with the toes at `toes` and the foot's
+/// present rotation, over the length of thigh and shin. Below 1 the leg can reach it.
 double Reach(const Leg& leg, const JointPlacement& placement, const Eigen::Vector3d& toes);
 
-/// `toes`, or the nearest point to them at which the leg is as straight as `most` (a Reach) or, if
-/// that is more, as it already is.
+/// Returns `toes`, or the nearest point at which Reach is at most `most` or, if that is larger, the
+/// leg's present Reach.
 Eigen::Vector3d WithinReach(const Leg& leg, const JointPlacement& placement,
                             const Eigen::Vector3d& toes, double most);
 
-/// Turns hip and knee so that the toes reach `toes` (in the frame of `pose`) and the foot keeps its
-/// global rotation, by PlaceEnd, whose bend it returns. A straight knee bends forward.
+/// Turns hip and knee by PlaceEnd so that the toes reach `toes` (in the frame of `pose`) and the
+/// foot keeps its global rotation. A straight knee bends forward. Returns the bend, radians.
 double PlaceToes(const Leg& leg, const Skeleton& skeleton, const JointPlacement& placement,
                  const Eigen::Vector3d& toes, Pose* pose, const BendRange& range = {});
 

@@ -11,8 +11,8 @@
 /// per bone.
 namespace choreo {
 
-/// [joints] the joint on the other side. Throws Error(kInvalidArgument) naming a left_ or right_
-/// joint without a counterpart.
+/// The joint on the other side of each, [joints]. Throws Error(kInvalidArgument) naming a left_ or
+/// right_ joint without a counterpart.
 std::vector<int> MirrorPairs(const Skeleton& skeleton);
 
 /// left_x for right_x and vice versa; other names unchanged.

@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// One frame of a skeleton, in a world frame: right-handed, Y up, floor y = 0.
+/// A skeleton's pose in one frame. The world is right-handed, Y up, with the floor at y = 0.
 struct Pose {
   Eigen::Vector3d root_position =
       Eigen::Vector3d::Zero();  ///< of joint 0 (SMPL: the pelvis), metres
@@ -17,35 +17,35 @@ struct Pose {
       rotations;  ///< [3, joints] axis-angle (exponential map), radians, local to the parent
 };
 
-/// Foot contacts c_t of paper F, Section 3.2.1, in the order of Skeleton::feet: 1 on the floor, 0
-/// off it; a model's may lie between.
+/// Foot contacts, c_t of paper F (Section 3.2.1), in the order of Skeleton::feet: 1 on the floor, 0
+/// off it. A model's contacts may lie between.
 using Contacts = std::array<float, 4>;
 
-/// Frames at a constant rate. Exponential-map branches are continuous from frame to frame.
+/// A sequence of poses at a constant rate. Rotation vectors keep to one branch from frame to frame.
 struct Motion {
   double fps = kModelFps;
   std::vector<Pose> frames;
 };
 
-/// Moves every rotation to the branch nearest to `previous`'s. The rotations themselves do not
-/// change.
+/// Rewrites every rotation vector on the branch nearest to `previous`'s. The rotations themselves
+/// do not change.
 void MakeContinuous(Pose& pose, const Pose& previous);
 
-/// The same from frame to frame, starting from an unchanged first frame.
+/// The same from frame to frame. The first frame stays unchanged.
 void MakeContinuous(Motion& motion);
 
-/// The same pose with each rotation written so that its quaternion (QuaternionFromExp) has the sign
-/// of `previous`'s (their product is not negative), and as near to `previous` as that allows.
-/// Quaternions then never jump between frames. The vectors equal MakeContinuous's except around
+/// Returns the same pose with each rotation vector on the branch nearest to `previous`'s among
+/// those whose quaternion (QuaternionFromExp) has a non-negative product with `previous`'s. So
+/// quaternions never flip sign between frames. The vectors equal MakeContinuous's except around
 /// whole turns about a tilting axis, where no choice is continuous in time. Pure, thread-safe.
 Pose KeepSigns(Pose pose, const Pose& previous);
 
-/// The degrees of freedom of a pose that a key sets. An empty joint mask means all joints.
+/// The degrees of freedom of a pose that a key constrains.
 struct PoseMask {
   bool root_position = true;
-  std::vector<bool> joints;  ///< [joints] or empty
+  std::vector<bool> joints;  ///< [joints], or empty: all joints
 
-  /// Whether it includes this joint's rotation.
+  /// Whether the mask includes this joint's rotation.
   bool Constrains(Eigen::Index joint) const {
     return joints.empty() || joints[static_cast<size_t>(joint)];
   }
@@ -55,12 +55,12 @@ struct PoseMask {
 struct Target {
   Pose pose;
   PoseMask mask;
-  /// The root's height above the floor, metres, if the key leaves its position open. None: the
-  /// height is open, too.
+  /// The root's height above the floor, metres, for a key that does not constrain the root
+  /// position. None leaves the height open, too.
   std::optional<double> height = {};
 };
 
-/// `key` where `mask` includes it, `open` elsewhere. Both have the same joint count.
+/// Returns `key` where `mask` constrains it and `open` elsewhere. Both have the same joint count.
 Pose Masked(const Pose& key, const PoseMask& mask, Pose open);
 
 }  // namespace choreo

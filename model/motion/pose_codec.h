@@ -8,12 +8,12 @@
 
 namespace choreo {
 
-/// The pose feature vector x_t of paper F, Section 3.2.1: root position 3 | rotations 3 a joint |
-/// forward, sideways, yaw velocity 3 | contacts 4 (82 for SMPL's 24 joints). Metres, radians, m/s,
-/// rad/s; not standardised.
+/// Encodes poses as the feature vector x_t of paper F (Section 3.2.1): root position (3), rotation
+/// vectors (3 per joint), forward, sideways and yaw velocity (3), contacts (4); 82 numbers for
+/// SMPL's 24 joints. Metres, radians, m/s and rad/s, not standardised.
 ///
-/// Rotations use the branch nearest to the previous pose's. Immutable, hence safe to share between
-/// threads; nothing below allocates if its output has the right size.
+/// Rotation vectors use the branch nearest to the previous pose's. Immutable, hence safe to share
+/// between threads. No function allocates if its output has the right size.
 class PoseCodec {
  public:
   explicit PoseCodec(const Skeleton& skeleton) : joints_(skeleton.joints()) {}
@@ -35,9 +35,9 @@ class PoseCodec {
 
   struct Decoded {
     Pose pose;
-    Contacts contacts = {};  ///< as stored in the vector: a model's may leave [0, 1]
+    Contacts contacts = {};  ///< as stored in the vector; a model's may be outside [0, 1]
   };
-  /// The inverse. Ignores the velocity, which follows from the poses.
+  /// The inverse of Encode. Ignores the velocity, which follows from the poses.
   void Decode(Eigen::Ref<const Eigen::VectorXf> x, Decoded& out) const;
   Decoded Decode(Eigen::Ref<const Eigen::VectorXf> x) const;
 

@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kRounding = 0.01;  // degrees, for files that state the limit itself
+constexpr double kRounding = 0.01;  // degrees of tolerance, for files that contain the limit itself
 
 constexpr double kUnderFloor = 0.05;     // metres of tolerance for rounded poses
 constexpr double kInAir = 0.15;          // metres; less may be tiptoe
@@ -39,7 +39,8 @@ std::string FloorFault(const Skeleton& skeleton, const Pose& pose, const PoseMas
          Rounded(kMaxJumpHeight) + " m";
 }
 
-/// The joint that moves fastest relative to the root on the straight way between two poses.
+/// Describes the joint that moves fastest relative to the root between two poses, if it is too
+/// fast.
 std::string SpeedFault(const Skeleton& skeleton, const TimedPose& from, const TimedPose& to) {
   const double seconds = to.seconds - from.seconds;
   if (!(seconds > 0)) return "";

@@ -6,7 +6,7 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Describes poses that no body can do, in words for people. Pure functions; they throw
+/// Finds poses that no body can take and describes them for users. Pure functions, which throw
 /// Error(kInvalidArgument) for a pose or mask of another joint count.
 namespace choreo {
 
@@ -17,11 +17,11 @@ inline constexpr double kMaxJumpHeight = 1.2;  ///< metres from the floor to the
 std::vector<std::string> PoseFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// Finds only the faults of knees and elbows.
+/// The same for the bends of knees and elbows alone.
 std::vector<std::string> BendFaults(const Skeleton& skeleton, const Pose& pose,
                                     const PoseMask& mask = {});
 
-/// The fault of a pose in the air that is held for longer than a jump of its height lasts: "the
+/// The fault of a pose in the air that is held for longer than a jump to its height lasts: "the
 /// body is 0.25 m in the air, where a jump keeps it for 0.45 s, not 1 s"; empty if there is none.
 std::string HoldFault(const Skeleton& skeleton, const Pose& pose, const PoseMask& mask,
                       double seconds);
@@ -34,15 +34,15 @@ struct TimedPose {
   PoseMask mask = {};
 };
 
-/// A fault of one of these poses.
+/// A fault of one of several poses.
 struct TimedFault {
-  size_t pose = 0;  ///< its index
+  size_t pose = 0;  ///< the pose's index
   std::string message;
 };
 
-/// The faults between poses in time: limbs that would be too fast ("left_hand would go
-/// 9.3 m/s about the body from "a" to "b"; people reach 7"); and a body in the air for longer than
-/// a jump takes. The server warns about each pose's own faults and bodies that travel too fast.
+/// Finds faults between poses in time: limbs that would move too fast ("left_hand would go 9.3 m/s
+/// about the body from "a" to "b"; people reach 7"), and a body in the air for longer than a jump
+/// lasts. The server warns about each pose's own faults and about bodies that travel too fast.
 std::vector<TimedFault> DanceFaults(const Skeleton& skeleton, const std::vector<TimedPose>& poses);
 
 }  // namespace choreo

@@ -6,13 +6,14 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// The limits of all poses, from clients and files.
+/// Limits of poses from clients and files.
 namespace choreo {
 
-inline constexpr double kMaxPosition = 10'000;  ///< metres from the origin, each axis
-/// Radians, for keys: 2π, rounded up for senders that compute in floats.
+inline constexpr double kMaxPosition = 10'000;  ///< metres from the origin along each axis
+/// The largest rotation angle of a key, radians: 2π, rounded up for senders that compute in floats.
 inline constexpr double kMaxRotation = 6.2832;
-/// Radians. Continuous motions may wind up this far; beyond it a float has too little precision.
+/// The largest rotation angle of a motion, radians. Continuous branches may wind up this far;
+/// beyond it a float has too little precision.
 inline constexpr double kMaxWoundRotation = 1'000;
 
 /// Throws Error(kInvalidArgument) unless all numbers are finite, the position within kMaxPosition

@@ -25,7 +25,7 @@ Eigen::Vector3d LogMap(const Eigen::Matrix3d& r) {
 
 Eigen::Quaterniond QuaternionFromExp(const Eigen::Vector3d& w) {
   const double angle = w.norm();
-  // Computes both always, because compilers then compute them together.
+  // Always computes both, so that compilers merge them into one sincos.
   const double sine = std::sin(0.5 * angle), cosine = std::cos(0.5 * angle);
   const double scale = angle < 1e-8 ? 0.5 : sine / angle;
   return {cosine, scale * w.x(), scale * w.y(), scale * w.z()};

@@ -11,8 +11,8 @@ namespace choreo {
 /// role (hips, knees, shoulders, elbows: left, right; feet as Skeleton::feet; -1 for none).
 std::string SkeletonToJson(const Skeleton& skeleton);
 
-/// Throws Error(kInvalidArgument) that names what is missing, or for a skeleton that
-/// Skeleton::Validate refuses.
+/// The inverse. Throws Error(kInvalidArgument), which names a missing member, and what
+/// Skeleton::Validate throws.
 Skeleton SkeletonFromJson(const std::string& text);
 
 }  // namespace choreo

@@ -14,7 +14,7 @@
 namespace choreo {
 
 inline constexpr double kGravity = 9.81;  ///< m/s^2
-/// A sinking body keeps at least this share of its weight for MomentLever.
+/// The least share of its weight that MomentLever assumes for a sinking body.
 inline constexpr double kLightest = 0.25;
 /// A foot is on the floor if its toes, or its ankle less 5 cm, are less than 5 cm above it.
 inline constexpr double kSoleHeight = 0.05, kAnkleAboveSole = 0.05;
@@ -23,22 +23,22 @@ inline constexpr double kThrown = 6;
 /// Metres that feet extend beyond their joints: a zero moment point this close is within them.
 inline constexpr double kSoleReach = 0.15;
 
-/// h / (c''_y + g), seconds squared, of the zero moment point c - h c'' / (c''_y + g): `height` of
-/// the centre above the floor, `rise` its acceleration upwards.
+/// The factor h / (c''_y + g), seconds squared, in the zero moment point c - h c'' / (c''_y + g).
+/// `height`: of the centre of mass above the floor, metres. `rise`: its upward acceleration, m/s^2.
 inline double MomentLever(double height, double rise) {
   return height / std::max(kLightest * kGravity, kGravity + rise);
 }
 
-/// The point of the convex hull of `others` (at least one) nearest to a point of the floor; the
-/// point itself if it is inside.
+/// The point of the convex hull of `others` (at least one) that is nearest to `point`; `point`
+/// itself if it is inside.
 Eigen::Vector2d NearestInHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
-/// The way there, metres, shorter by `slack`: zero for a point at most that far off.
+/// The vector to that point, metres, shortened by `slack`; zero if it is no longer than that.
 Eigen::Vector2d WayToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others,
                           double slack);
 /// The distance to that point, metres; infinite without others.
 double DistanceToHull(const Eigen::Vector2d& point, std::vector<Eigen::Vector2d> others);
 
-/// The points of a frame that balance needs.
+/// The points of a body from which balance is measured.
 struct BodyPoints {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of mass, metres
   Eigen::Matrix<double, 3, 4>
@@ -57,19 +57,19 @@ struct Balance {
   std::optional<double> centre_outside, zmp_outside;
 
   bool Thrown() const { return acceleration.y() < -kThrown; }
-  /// Whether the body is held or flies naturally: the zero moment point is at most kSoleReach
-  /// outside of what is on the floor, or the body is thrown.
+  /// Whether the body stands or flies naturally: the zero moment point is at most kSoleReach
+  /// outside the hull of what is on the floor, or the body is thrown.
   bool Supported() const { return Thrown() || (zmp_outside && *zmp_outside <= kSoleReach); }
 };
 
-/// Measures balance from joint positions. Smooths the centre of mass by a Gaussian of 1.5 frames,
-/// with ends mirrored through their first and last value. The zero moment point is c - h c'' /
-/// (c''_y + g), where h is c's height above the floor. Immutable; thread-safe.
+/// Measures balance from joint positions. Smooths the centre of mass with a Gaussian of 1.5 frames,
+/// extending both ends by odd reflection. The zero moment point is c - h c'' / (c''_y + g), where h
+/// is c's height above the floor. Immutable; thread-safe.
 class BalanceGauge {
  public:
   static constexpr int kReach = 7;  ///< four standard deviations and one frame more
 
-  /// Whether it works for a skeleton: one with MassWeights.
+  /// Whether the skeleton has MassWeights, which the gauge needs.
   static bool Fits(const Skeleton& skeleton);
 
   /// `skeleton` must Fit. `floor`: its height, metres.
@@ -90,21 +90,21 @@ class BalanceGauge {
   std::array<double, 2 * kReach + 1> bend_ = {};
 };
 
-/// Counts supported frames while a dance goes by, in constant memory. The floor is y = 0; feet
+/// Counts the supported frames of a running dance in constant memory. The floor is y = 0; feet
 /// stand on it as in the rest pose. Not thread-safe.
 class SupportMeter {
  public:
   /// `skeleton` must fit BalanceGauge.
   SupportMeter(const Skeleton& skeleton, double fps);
 
-  /// The next frame's [3, joints].
+  /// Adds the next frame's joint positions, [3, joints], metres.
   void Add(const Eigen::Matrix3Xd& joints);
-  /// Share of the frames so far; 1 before the first.
+  /// The share of supported frames so far; 1 before the first.
   double Share() const;
 
  private:
   BalanceGauge gauge_;
-  std::vector<BodyPoints> last_;  // as many as At needs for the next frame
+  std::vector<BodyPoints> last_;  // the frames that BalanceGauge::At needs for the next one
   int64_t judged_ = 0, supported_ = 0;
 };
 

@@ -6,7 +6,7 @@
 
 namespace choreo {
 
-/// Velocity of the root along the ground (paper F, Section 3.2.1), relative to the earlier pose's
+/// The root's velocity over the ground (paper F, Section 3.2.1), relative to the earlier pose's
 /// heading.
 struct RootVelocity {
   double forward = 0;   ///< m/s, towards the earlier heading
@@ -16,7 +16,8 @@ struct RootVelocity {
 
 RootVelocity RootVelocityBetween(const Pose& earlier, const Pose& later, double fps);
 
-/// Jerk of a joint, the third difference of its positions in four consecutive frames, m/s^3.
+/// A joint's jerk, m/s^3: the norm of the third difference of its positions in four consecutive
+/// frames.
 double JointJerk(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                  const Eigen::Vector3d& third, const Eigen::Vector3d& fourth, double fps);
 
