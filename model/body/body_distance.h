@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// A moving body (doll.h), prepared frame by frame for measuring its distance from another.
+/// A moving body (doll.h), prepared for LeastDistance. Immutable.
 class MovingBody {
  public:
   /// Throws like BuildFigure.
@@ -24,20 +24,20 @@ class MovingBody {
   struct Frame {
     std::vector<BoundedCone> parts;
     Eigen::Vector3f middle;
-    float radius;  // of a ball around the whole body
+    float radius;  // of a ball around the whole body, metres
   };
   std::vector<Frame> frames_;
 };
 
-/// How near two bodies come.
+/// The closest approach of two bodies.
 struct BodyDistance {
-  double metres = 0;  ///< between their surfaces; negative: the depth of overlap
+  double metres = 0;  ///< distance of the surfaces; negative: the depth of overlap
   int64_t frame = 0;  ///< the first with that distance
 };
 
-/// The least distance of two moving bodies, the second displaced by `moved`, metres. Between limbs
-/// it is taken at the nearest points of their axes, which errs by at most the limb's taper there.
-/// Throws Error(kInvalidArgument) if either has no frames. Thread-safe.
+/// The least distance of two moving bodies, the second displaced by `moved`, metres. Measures limbs
+/// at the nearest points of their axes, which errs by at most the limb's taper there. Throws
+/// Error(kInvalidArgument) if either has no frames. Thread-safe.
 BodyDistance LeastDistance(const MovingBody& a, const MovingBody& b,
                            const Eigen::Vector3d& moved = Eigen::Vector3d::Zero());
 

@@ -38,10 +38,10 @@ bool MayEnter(const ConeLanes& cones, const Lanes& origins, const Lanes& directi
   return Any(away2 - along * along < cones.bound2 && (along > 0 || away2 < cones.bound2));
 }
 
-// The mantle: points at distance radius from the axis, measured along the slanted normal. In the
-// axis coordinate s (times the axis length) the mantle is a quadric in the ray's distance; it ends
-// where the balls begin, at s = 0 and s = taper. The shape is convex, so the ray enters at the
-// nearest hit of any part.
+// The mantle is the surface between the balls: points at distance radius from the axis, measured
+// along the slanted normal. It is a quadric in the ray's distance, and ends where the balls begin,
+// at the axis coordinates (times the axis length) s = 0 and s = taper. The shape is convex, so the
+// ray enters at the nearest hit of any part.
 Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions) {
   const Lanes from = origins - cones.a;
   const Lane slope = cones.radius_a - cones.radius_b;
@@ -80,7 +80,7 @@ Lane Enter(const ConeLanes& cones, const Lanes& origins, const Lanes& directions
 
 Lane ShadowOf(const ConeLanes& cones, const Lanes& points, const Eigen::Vector3f& light,
               float spread) {
-  // Where the ray to the light and the axis come closest.
+  // The nearest points of the ray to the light and the axis.
   const Lanes to_light = Lanes::All(light), to_a = cones.a - points;
   const Lane axis_light = Dot(cones.axis, to_light);
   const Lane determinant = cones.axis2 - axis_light * axis_light;

@@ -12,11 +12,11 @@
 namespace choreo {
 namespace {
 
-constexpr double kStickRadius = 0.035;  // of bones without a known role
+constexpr double kStickRadius = 0.035;  // metres, of bones without a known role
 constexpr double kTrunkRadius = 0.085;
 constexpr float kBlend = 0.012f, kBlendReach = 4 * kBlend;  // metres
 
-// A DollBall, by its joint's name.
+// A DollBall whose joint is given by name.
 struct Ball {
   const char* joint;
   float x, y, z;
@@ -71,7 +71,7 @@ const NamedPart kMiddle[] = {
     {{"head", 0, 0.165f, -0.075f, 0.045f}, {"head", 0, 0.170f, -0.090f, 0.042f}, kHairColour},
 };
 
-// The joint is -1 if the skeleton lacks one that the doll needs.
+// The doll's parts for SMPL's joints. A joint that the skeleton lacks is -1.
 std::vector<DollPart> SmplParts(const Skeleton& skeleton) {
   std::vector<DollPart> doll;
   const auto as_it_is = [&](const Ball& ball) {
@@ -105,7 +105,7 @@ std::vector<double> BoneRadii(const Skeleton& skeleton) {
     set(knee, 0.062);
     set(ankle, 0.044);
     set(elbow, 0.044);
-    // Whatever carries hips and shoulders, up to the root, is trunk.
+    // The joints from hips and shoulders up to the root are the trunk.
     for (const int limb : {hip, shoulder}) {
       for (int joint = limb; joint > 0; joint = skeleton.parents[joint]) set(joint, kTrunkRadius);
     }

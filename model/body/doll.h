@@ -27,14 +27,14 @@ struct DollBall {
   double radius;
 };
 
-/// The hull of two balls.
+/// A part of the doll: the convex hull of two balls.
 struct DollPart {
   DollBall a, b;
   Colour colour;
 };
 
-/// The doll for a skeleton: left limbs in kLeftColour, right limbs in kRightColour, and a head
-/// whose nose shows where it looks. A skeleton without all of SMPL's joints gets a capsule for
+/// Builds the doll for a skeleton: left limbs in kLeftColour, right limbs in kRightColour, and a
+/// head whose nose shows where it faces. A skeleton without all of SMPL's joints gets a capsule for
 /// every bone, with a radius by its joints' roles.
 std::vector<DollPart> MakeDoll(const Skeleton& skeleton);
 
@@ -44,7 +44,7 @@ struct PlacedPart {
   Colour colour;
 };
 
-/// Places the doll's parts for these joint placements, in the doll's order.
+/// Places the doll's parts by joint placements, in the doll's order.
 std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
                                   const JointPlacement& placement);
 
@@ -52,15 +52,16 @@ std::vector<PlacedPart> PlaceDoll(const std::vector<DollPart>& doll,
 /// not the skeleton's.
 std::vector<PlacedPart> BuildFigure(const Skeleton& skeleton, const Pose& pose);
 
-/// Height of the doll above the floor, metres: 0 if it touches as at rest, negative if it sinks in.
-/// Throws what BuildFigure throws.
+/// The doll's height above the floor, metres: 0 if it touches the floor as at rest, negative if it
+/// sinks in. Throws what BuildFigure throws.
 double DollAboveFloor(const Skeleton& skeleton, const Pose& pose);
 
-/// Parts of one colour form one piece of skin: those that part `index` may meet.
+/// The parts that may form one piece of skin with part `index`: those of its colour that may meet
+/// it.
 std::vector<const PlacedPart*> SkinAround(const std::vector<PlacedPart>& parts, size_t index);
 
-/// The normal of a part at `point` on its surface, where its `own` normal is blended with those of
-/// the parts in `around` that it meets there.
+/// The normal of a part at `point` on its surface: its `own` normal, blended with those of the
+/// parts in `around` that it meets there.
 Eigen::Vector3f SkinNormal(const std::vector<const PlacedPart*>& around,
                            const Eigen::Vector3f& point, const Eigen::Vector3f& own);
 

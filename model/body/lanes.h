@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <cmath>
 
-/// Vectors of values that a processor handles at once.
+/// SIMD vectors of floats.
 namespace choreo {
 
 inline constexpr int kLanes = 4;
-/// Operators work lane by lane, also with a scalar; `?:` selects by a comparison.
+/// kLanes floats. Operators work lane by lane, also with a scalar; `?:` selects by a comparison.
 typedef float Lane __attribute__((vector_size(kLanes * sizeof(float))));
 
 inline Lane AllLanes(float value) { return Lane{} + value; }

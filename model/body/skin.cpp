@@ -12,7 +12,7 @@ using Eigen::Vector3f;
 
 constexpr int kSegments = 24;      // around a capsule
 constexpr int kRings = 6;          // from each tangent circle to its pole
-constexpr double kOnJoint = 0.06;  // metres: an end this near to its joint counts as on it
+constexpr double kOnJoint = 0.06;  // metres: an end this near to its joint is on it
 
 // The joint that moves a part's far end.
 int Carrier(const Skeleton& skeleton, const DollPart& part) {
@@ -32,13 +32,13 @@ bool IsShared(const std::vector<DollPart>& doll, const DollPart& part, const Dol
   });
 }
 
-// One capsule: a pole, rings of latitude over both balls, a pole. Balls and cone share their
+// Adds a capsule: a pole, rings of latitude over both balls, a pole. Balls and cone share their
 // normals on the tangent circles, so no edge shows.
 void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int joint_b) {
   const Vector3f along = cone.b - cone.a;
   const float length = along.norm();
   const float slope = length > 0 ? (cone.radius_a - cone.radius_b) / length : 2;
-  const bool nested = std::abs(slope) >= 1;  // one ball holds the other
+  const bool nested = std::abs(slope) >= 1;  // one ball contains the other
   const Vector3f axis = nested ? Vector3f::UnitY() : (along / length).eval();
   // Two unit vectors that complete a right-handed frame.
   const Vector3f helper = std::abs(axis.y()) < 0.9f ? Vector3f::UnitY() : Vector3f::UnitX();
@@ -112,8 +112,8 @@ std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton) {
     const size_t first = patch->positions.size();
     AddCapsule(*patch, parts[i].shape, doll[i].a.joint, Carrier(skeleton, doll[i]));
     const std::vector<const PlacedPart*> around = SkinAround(parts, i);
-    // Two bones that share a ball move relative to each other, and both show there in dots. So both
-    // have the ball's round normals; otherwise each one's rest shading would show through.
+    // Two bones that share a ball move relative to each other and overlap there. Both take the
+    // ball's round normals; otherwise the shading of each at rest would show through.
     std::vector<const PlacedPart*> of_bone;
     std::ranges::copy_if(around, std::back_inserter(of_bone), [&](const PlacedPart* other) {
       const DollPart& part = doll[other - parts.data()];

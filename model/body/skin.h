@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// Triangles of one colour. Each vertex is bound to one joint.
+/// A mesh of one colour. Each vertex is bound to one joint.
 struct SkinPatch {
   Colour colour;
   std::vector<Eigen::Vector3f> positions;          ///< in the rest pose on the floor, metres
@@ -20,9 +20,9 @@ struct SkinPatch {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// The doll as a skin for linear blending: tapered capsules, one patch per colour in the doll's
-/// order. A capsule's end on a joint moves with the bone that carries the joint, so that limbs keep
-/// their shape however far they bend; an end beside a joint moves with the joint. Deterministic.
+/// Makes the doll's skin for linear blend skinning: tapered capsules, one patch per colour, in the
+/// doll's order. A capsule's end on a joint moves with the bone above the joint, so that limbs keep
+/// their shape however far they bend. An end beside a joint moves with the joint. Deterministic.
 std::vector<SkinPatch> MakeSkin(const Skeleton& skeleton);
 
 }  // namespace choreo

@@ -17,7 +17,7 @@ constexpr double kText = 11;
 constexpr size_t kMaxShownName = 36;  // bytes
 constexpr Colour kQuiet = Colour::Hex(0x8f887c), kTaken = Colour::Hex(0xb3402e);
 
-// Cuts at the start of a character.
+// Shortens a name, never within a character.
 std::string Shown(const std::string& name) {
   std::string shown = Printable(name);
   if (shown.size() <= kMaxShownName) return shown;
@@ -36,7 +36,7 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
   Eigen::AlignedBox3d body;
   for (const ChartBone& bone : bones) body.extend(bone.place);
   const Eigen::Vector3d middle = body.center(), size = body.sizes();
-  // Names stand in a column on their joint's side, in the joints' vertical order.
+  // Names are in a column on their joint's side, in the joints' vertical order.
   std::vector<ChartBone> columns[2], sorted = bones;
   std::ranges::stable_sort(sorted, std::greater<>(),
                            [](const ChartBone& b) { return b.place.y(); });

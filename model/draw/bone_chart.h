@@ -9,7 +9,7 @@ namespace choreo {
 
 inline constexpr size_t kMaxChartBones = 400;
 
-/// A rig's joint in a chart.
+/// A joint of a rig, as drawn in a chart.
 struct ChartBone {
   std::string name;
   Eigen::Vector3d place;

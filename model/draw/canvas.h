@@ -9,7 +9,7 @@
 #include "model/body/colour.h"
 #include "model/draw/picture.h"
 
-/// Shared by the pictures of this folder: a cairo surface that frees itself, and text.
+/// A cairo surface that frees itself, and text, for the pictures of this folder.
 namespace choreo {
 
 inline constexpr Colour kPaper = Colour::Hex(0xffffff), kInk = Colour::Hex(0x24292f);
@@ -19,15 +19,15 @@ enum class Align { kLeft, kCentre, kRight };
 /// An RGB picture in memory. Not thread-safe; different canvases are independent.
 class Canvas {
  public:
-  /// Filled with `background`. Throws Error(kInvalidArgument) for a width or height outside 1 to
-  /// kMaxPicturePixels.
+  /// Fills the canvas with `background`. Throws Error(kInvalidArgument) for a width or height
+  /// outside 1 to kMaxPicturePixels.
   Canvas(int width, int height, const Colour& background);
 
   cairo_t* cr() const { return context_.get(); }
   int width() const { return width_; }
 
   void SetColour(const Colour& colour, double alpha = 1) const;
-  /// Draws text in the current colour, vertically centred at y.
+  /// Draws text in the current colour, vertically centred at y. Pixels.
   void Text(const std::string& text, double x, double y, double size, Align align = Align::kLeft,
             bool bold = false) const;
   double TextWidth(const std::string& text, double size, bool bold = false) const;

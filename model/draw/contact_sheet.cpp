@@ -46,7 +46,7 @@ std::string TimeText(double seconds) {
   return text;
 }
 
-// Drawn right of the title, from left to right, or below it if that is long.
+// Facts and a legend, drawn to the right of the title, or below a long one.
 struct Header {
   std::string facts;
   std::vector<std::pair<Colour, std::string>> legend;
@@ -71,7 +71,7 @@ struct Header {
     for (const auto& [colour, text] : legend) width += canvas.TextWidth(text, kFont) + kDot;
     return width;
   }
-  // Whether the title leaves no room beside it on a sheet this wide.
+  // Whether a title leaves no room beside it on a sheet of this width.
   bool Wraps(const Canvas& canvas, const std::string& title, int width) const {
     return kMargin + canvas.TextWidth(title, kTitleFont, true) + kDot + Width(canvas) + kMargin >
            width;
@@ -86,7 +86,7 @@ struct Header {
     canvas.SetColour(kFaint);
     canvas.Text(facts, x, y, kFont);
     x += canvas.TextWidth(facts, kFont);
-    // The first dot of its own line is at the margin if there are no facts.
+    // On a line of its own, the first dot is at the margin if there are no facts.
     if (wraps && facts.empty()) x -= 22 - 5;
     for (const auto& [colour, text] : legend) {
       x += 22;
@@ -129,7 +129,7 @@ void DrawTile(const Canvas& canvas, const Picture& picture, int x, int y, const 
     canvas.Text(number, right, text_y, kFont - 2, Align::kRight);
     right -= canvas.TextWidth(number, kFont - 2) + 4;
   }
-  // The badge is beside the caption, where it hides nobody; a narrow tile only has its frame.
+  // The badge is beside the caption, where it hides no dancer. A narrow tile has only its frame.
   const double badge = x + 12 + canvas.TextWidth(caption, kFont, true);
   const double width = canvas.TextWidth("key", kFont - 1, true) + 12;
   if (!shown.key || badge + width > right) return;

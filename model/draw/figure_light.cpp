@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kShadowBias = 0.012f;  // metres off the surface: parts overlap at the joints
+constexpr float kShadowBias =
+    0.012f;  // metres above the surface, because parts overlap at the joints
 
 std::vector<ConeLanes> InLanes(std::span<const BoundedCone> cones) {
   std::vector<ConeLanes> lanes;

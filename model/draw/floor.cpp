@@ -11,20 +11,20 @@ namespace {
 constexpr float kFloorGrid = 0.5f;        // metres between the lines
 constexpr float kGridHalfWidth = 0.008f;  // metres
 constexpr float kFadeFrom = 0.55f;        // of the reach
-constexpr int kStretch = 16;              // columns that are tried for one colour at once
+constexpr int kStretch = 16;              // columns tested for one colour at once
 
 Eigen::Vector2f OnFloor(const Eigen::Vector3f& point) { return {point.x(), point.z()}; }
 
-// The way from the nearest grid line.
+// The distance from the nearest grid line, signed.
 template <class Value>
 Value FromLine(Value at) {
-  // Adding it rounds to whole numbers: floats of this size have no fraction.
+  // Adding this rounds to whole numbers, because floats of this size have no fraction.
   constexpr float kWhole = 3 << 22;
   const Value whole = (at / kFloorGrid + kWhole) - kWhole;
   return at - kFloorGrid * whole;
 }
 
-// The share that grid lines leave free in stretches of the floor, `width` wide around `at`.
+// The share of stretches of the floor, `width` wide around `at`, that grid lines leave free.
 Lane BetweenLines(Lane at, Lane width) {
   const Lane covered = (kGridHalfWidth + 0.5f * width - Abs(FromLine(at))) / width;
   return 1 - Min(Max(covered, 0), Min(2 * kGridHalfWidth / width, AllLanes(1)));

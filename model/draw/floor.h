@@ -11,22 +11,22 @@
 
 namespace choreo {
 
-/// The floor y = 0 around what a view shows, as its camera sees it: with a grid fixed in the world,
-/// fading into the background.
+/// Draws the floor y = 0 around the middle of a view, with a grid that is fixed in the world and
+/// fades into the background. Immutable; thread-safe.
 class Floor {
  public:
   /// Keeps references to `camera` and `light`. Colours are linear.
   Floor(const View& view, const Camera& camera, const FloorLight& light, int width, int height,
         const Eigen::Vector3f& floor, const Eigen::Vector3f& background);
 
-  /// Draws a row of the picture as `width` rgb pixels. Returns how many of them show nothing but
-  /// the floor's own colour and so were copied, which is faster than computing each.
+  /// Draws a row of the picture as `width` rgb pixels. Returns how many of them show only the
+  /// floor's own colour; these are copied, which is faster than computing each.
   int DrawRow(int y, uint8_t* rgb) const;
-  /// The linear colour at a point of the picture, averaged over `size` pixels around it.
+  /// The linear colour at a point of the picture, averaged over `size` pixels.
   Eigen::Vector3f At(const Eigen::Array2f& pixel, float size) const;
 
  private:
-  // The floor positions of a picture row, x and z. The camera does not tilt sideways, so they are
+  // The floor positions (x, z) of a picture row. The camera does not tilt sideways, so they are
   // evenly spaced on a line.
   struct Line {
     Eigen::Vector2f middle, step;  // at the picture's middle, and per pixel
@@ -37,7 +37,7 @@ class Floor {
     Line here, next;  // `next`: the row `size` pixels below
   };
   Row RowAt(float y, float size) const;
-  // Whether columns [from, to] of a row show nothing but the floor's own colour.
+  // Whether columns [from, to] of a row show only the floor's own colour.
   bool IsPlain(const Row& row, float from, float to) const;
   Lanes Light(const Row& row, Lane from_middle) const;
 

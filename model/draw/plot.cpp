@@ -83,7 +83,7 @@ void Select(const Canvas& canvas, const Stroke& stroke) {
   cairo_set_dash(canvas.cr(), dashes, stroke.dashed ? 2 : 0, 0);
 }
 
-// Bars of all series side by side at each x, standing on 0.
+// Draws the bars of all series side by side at each x, from 0.
 void DrawBars(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
               const Axis& x_axis, const Axis& y_axis) {
   const double width = 0.8 / static_cast<double>(plot.series.size());
@@ -134,7 +134,7 @@ void DrawSeries(const Canvas& canvas, const Plot& plot, const std::vector<Stroke
   cairo_set_dash(cr, nullptr, 0, 0);
 }
 
-// Draws below the title in as many lines as needed, and moves `top` below them.
+// Draws the legend below the title, on as many lines as needed, and moves `top` below them.
 void DrawLegend(const Canvas& canvas, const Plot& plot, const std::vector<Stroke>& strokes,
                 double left, double right, double& top) {
   constexpr double kSample = 26, kBetween = 22, kPitch = 20;

@@ -6,29 +6,30 @@
 
 namespace choreo {
 
-/// One line of a plot, joined in the order given; a point that is not finite interrupts it.
+/// One line of a plot. It joins its points in the order given; a point that is not finite
+/// interrupts it.
 struct PlotSeries {
   std::string label;
   std::vector<double> x, y;  ///< of equal length
-  /// Marks a requested value beside the measured one: dashed, in the colour of the series before
-  /// it; if first, in the text's.
+  /// Draws the requested value beside the measured one: dashed, in the colour of the series before
+  /// it, or in the text's if it is the first.
   bool asked = false;
 };
 
 inline constexpr int kMinPlotPixels = 200, kMaxPlotPixels = 8192;  ///< per side
 
-/// A line chart, or with `x_names` a bar chart. A line that is half covered by an earlier one is
-/// dashed, so that both show.
+/// A line chart, or a bar chart if `x_names` is set. A line that is half covered by an earlier one
+/// is dashed, so that both show.
 struct Plot {
   std::string title;
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
   bool map = false;  ///< equal scales on both axes
-  /// Includes 0 on the vertical axis, as bars always do.
+  /// Includes 0 on the vertical axis, as bar charts always do.
   bool from_zero = false;
-  /// Names of x = 0, 1, ..., as many as fit; the series' bars stand side by side there. Not with
-  /// map.
+  /// Names of x = 0, 1, ..., where the series' bars stand side by side. As many names show as fit.
+  /// Not with `map`.
   std::vector<std::string> x_names = {};
   int width = 1000;  ///< pixels
   int height = 600;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// A plot's axes: ranges, round numbers along them, and positions of values in the picture.
+/// A plot's axes: ranges of values, ticks at round numbers, and positions in the picture.
 namespace choreo {
 
 /// The range of values on an axis.
@@ -24,7 +24,8 @@ struct Range {
     const double extra = std::max(0.0, extent - (high - low)) / 2;
     low -= extra, high += extra;
   }
-  /// Makes it neither empty nor a single point, and adds `margin` of the extent on both sides.
+  /// Makes the range neither empty nor a single point, and adds `margin` times the extent on both
+  /// sides.
   void Settle(double margin) {
     if (!(low <= high)) low = 0, high = 1;
     if (high - low < 1e-9 * std::max(1e-6, std::abs(high))) {
@@ -41,7 +42,8 @@ struct Tick {
   std::string label;
 };
 
-/// A range of values, drawn at `from` to `to`, pixels.
+/// An axis with values from `low` to `high`, drawn from pixel `from` to pixel `to`, with a tick
+/// every `tick_distance` pixels or more.
 class Axis {
  public:
   Axis(double low, double high, double from, double to, double tick_distance)
@@ -59,7 +61,7 @@ class Axis {
   double At(double value) const { return from_ + (value - low_) / (high_ - low_) * (to_ - from_); }
   const std::vector<Tick>& ticks() const { return ticks_; }
 
-  /// Labels it with names of 0, 1, ... instead of numbers, spaced so that `widest` has room.
+  /// Labels 0, 1, ... with names in place of numbers, leaving room for `widest` pixels each.
   void Name(const std::vector<std::string>& names, double widest) {
     const auto stride = static_cast<size_t>(std::ceil(widest / (At(1) - At(0))));
     ticks_.clear();

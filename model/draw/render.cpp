@@ -23,7 +23,8 @@ using Eigen::Vector3f;
 
 constexpr float kLampSpread = 0.10f;  // radians
 constexpr int kMaxSamples = 8;        // per side of a pixel
-constexpr int kAlike = 6;  // of 255: pixels of one part between two so alike are their mean
+constexpr int kAlike =
+    6;  // of 255: a pixel of one part between two pixels this alike becomes their mean
 
 std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
   std::vector<BoundedCone> parts;
@@ -31,7 +32,7 @@ std::vector<BoundedCone> Bound(const std::vector<PlacedPart>& figure) {
   return parts;
 }
 
-// The lamp is at the left above the camera.
+// The lamp is to the upper left of the camera.
 Vector3f LampDirection(double azimuth) {
   const double side = azimuth - 0.75;
   return Eigen::Vector3d(0.62 * std::sin(side), 1, 0.62 * std::cos(side))
@@ -75,7 +76,8 @@ class Renderer {
     for (int y = 0; y < picture_.height; ++y) floor_.DrawRow(y, PixelAt(0, y));
     const Eigen::Vector2i from = box_.min(), to = box_.max();
     for (int y = from.y(); y < to.y(); ++y) CastRow(y, &rows_.emplace_back());
-    // Draws every second pixel of every second row first: light changes slowly between most.
+    // Draws every second pixel of every second row first, because light changes slowly between
+    // most.
     for (int y = from.y(); y < to.y(); y += 2) {
       for (int x = from.x(); x < to.x(); x += 2) Draw(x, y);
       for (int x = from.x() + 1; x < to.x(); x += 2) DrawBetween(x, y, Eigen::Vector2i::UnitX());
@@ -92,7 +94,8 @@ class Renderer {
     return rows_[row][column / kLanes].part[column % kLanes];
   }
 
-  // A pixel's samples lie between its last one and those of its neighbours before it.
+  // Whether a pixel shows a single part: all its samples lie between its last one and those of its
+  // neighbours to the left and above.
   bool ShowsOnePart(int x, int y) const {
     const float part = PartAt(x, y);
     return part == PartAt(x - 1, y) && part == PartAt(x, y - 1) && part == PartAt(x - 1, y - 1);

@@ -21,13 +21,13 @@ struct FrameStyle {
 /// The colour of the frame around a key pose.
 inline constexpr Colour kKeyColour = Colour::Hex(0xd99a00);
 
-/// Draws one pose, lit from the left above the camera, with its shadow on the floor y = 0, into a
-/// picture whose width and height are set (1 to kMaxPicturePixels); resizes `picture.rgb`.
+/// Draws one pose, lit from the upper left of the camera, with its shadow on the floor y = 0.
+/// `picture` has its width and height set (1 to kMaxPicturePixels); its `rgb` is resized.
 /// Deterministic. Throws Error(kInvalidArgument) for sizes, a view or a style outside their limits,
 /// or a pose with another joint count or values that are not finite. Thread-safe.
 void DrawFrame(const Skeleton& skeleton, const Pose& pose, const View& view,
                const FrameStyle& style, Picture& picture);
-/// The same for all bodies on a stage (BuildFigure).
+/// The same for several bodies, given by the parts of their dolls (BuildFigure).
 void DrawFrame(const std::vector<PlacedPart>& figures, const View& view, const FrameStyle& style,
                Picture& picture);
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMaxExtent = 100;  // metres: the limit of a View
 constexpr double kWidening = 1.02;  // ratio of one tried extent to the next
 constexpr float kFreeEdge = 0.02f;
-constexpr int kTriedHeight = 1000;  // pixels: for any picture
+constexpr int kTriedHeight = 1000;  // pixels: serves pictures of any size
 
 double AzimuthOf(CameraSide side) {
   switch (side) {
@@ -49,7 +49,7 @@ std::vector<double> SmoothHeadings(const Motion& motion) {
   return smooth;
 }
 
-// A wide stage is not a high one.
+// A View of a stage, which may be wide without being high.
 View StageView(const FramedStage& framed, double azimuth, double extent) {
   View view{.target = {framed.middle.x(), View().target.y(), framed.middle.y()},
             .azimuth = azimuth,

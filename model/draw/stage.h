@@ -11,11 +11,12 @@
 #include "model/draw/view.h"
 #include "model/motion/skeleton_motion.h"
 
-/// Shows all dancers in one picture. The camera moves over the floor with their middle.
+/// Shows several dancers in one picture. The camera moves over the floor with the middle of the
+/// dancers.
 namespace choreo {
 
-/// From where dancers are seen: one from the dancer's own front in the first frame, several from
-/// the front of the stage, +Z.
+/// The side from which the camera looks: relative to a single dancer's heading in the first frame,
+/// or to the front of the stage, +Z, for several.
 enum class CameraSide {
   kFront,
   kThreeQuarter,
@@ -23,13 +24,13 @@ enum class CameraSide {
   kBack,
   kFollow  ///< three quarters from the front, turning with a single dancer
 };
-/// The names in this order.
+/// Names, indexed by CameraSide.
 inline constexpr std::array<const char*, 5> kCameraNames = {"front", "three-quarter", "side",
                                                             "back", "follow"};
 /// Throws Error(kInvalidArgument) whose field is "camera" for another name.
 CameraSide FindCamera(const std::string& name);
 
-/// Smoothing of what the camera follows, seconds.
+/// Smoothing of the path that the camera follows, seconds.
 inline constexpr double kCameraLag = 0.6;
 
 using Stage = std::vector<SkeletonMotion>;
@@ -37,24 +38,25 @@ using Stage = std::vector<SkeletonMotion>;
 /// Throws Error(kInvalidArgument) for no dancers, a dancer without frames, or different rates.
 void CheckStage(const Stage& stage);
 
-/// The frames of the longest motion. Shorter ones hold their last pose.
+/// The number of frames of the longest motion. Shorter ones hold their last pose.
 int64_t CountFrames(const Stage& stage);
 const Pose& PoseOf(const SkeletonMotion& dancer, int64_t frame);
 
 /// The mean position of the roots on the floor, x and z.
 Eigen::Vector2d MiddleOf(const Stage& stage, int64_t frame);
 
-/// The bodies at a frame.
+/// The parts of all bodies at a frame.
 std::vector<PlacedPart> FiguresAt(const Stage& stage, int64_t frame);
 
-/// The views of these frames, each centred on its floor position, for pictures of this aspect
-/// (width over height), wide enough for everybody. Default side: three quarters from the front for
-/// one dancer, the front for several. Throws Error(kInvalidArgument) whose field is "camera" if it
-/// is to follow several.
+/// A frame and the floor position (x, z) at the middle of its picture, metres.
 struct FramedStage {
   int64_t frame = 0;
   Eigen::Vector2d middle;
 };
+/// Views of these frames for pictures of this aspect (width over height), wide enough for all
+/// dancers. The default side is three quarters from the front for one dancer, the front for
+/// several. Throws Error(kInvalidArgument), whose field is "camera", if the camera is to follow
+/// several dancers.
 std::vector<View> ViewsOf(const Stage& stage, const std::vector<FramedStage>& frames, double aspect,
                           std::optional<CameraSide> side = {});
 

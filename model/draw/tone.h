@@ -25,7 +25,7 @@ inline float SmoothStep(float from, float to, float value) {
 /// Converts linear light to sRGB bytes.
 class Tone {
  public:
-  /// Clips to 0 to 1.
+  /// Writes pixels; clips values to [0, 1].
   void Put(const Lanes& linear, uint8_t* rgb) const {
     typedef int Whole __attribute__((vector_size(sizeof(Lane))));
     int channel = 0;
@@ -41,7 +41,7 @@ class Tone {
   }
 
  private:
-  // Fine enough for the steep dark end: a table step is less than one byte step.
+  // Fine enough for the steep dark end, where a table step is less than one byte step.
   static constexpr int kSteps = 1 << 15;
   static std::vector<uint8_t> Bytes() {
     std::vector<uint8_t> made;

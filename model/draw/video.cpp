@@ -16,11 +16,11 @@ namespace choreo {
 namespace {
 
 constexpr double kKeyGlow = 0.15;  // seconds
-constexpr int kFrameShare = 90;    // a key's frame is this part of the picture's height wide
-constexpr int kSamples = 2;        // the encoder blurs any more
+constexpr int kFrameShare = 90;    // a key's frame is the picture's height over this wide
+constexpr int kSamples = 2;        // the encoder would blur more
 
-// The camera follows the dancers over the floor, low-passed by a Gaussian, which looks as far ahead
-// as back.
+// The camera's path over the floor: the dancers' middle, smoothed by a Gaussian, whose window
+// reaches as far ahead as back.
 std::vector<FramedStage> Follow(const Stage& stage) {
   const double sigma = kCameraLag * stage.front().motion.fps;
   const auto reach = static_cast<int64_t>(std::ceil(3 * sigma));
@@ -45,7 +45,7 @@ double Glow(double seconds, const std::vector<double>& keys) {
   return glow;
 }
 
-// The picture itself does not change: a key is not a change of light.
+// Draws only a border, so that a key does not look like a change of light.
 void DrawKeyFrame(double amount, Picture* picture) {
   const int border = std::max(1, picture->height / kFrameShare);
   const double key[] = {kKeyColour.r, kKeyColour.g, kKeyColour.b};

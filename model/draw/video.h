@@ -14,17 +14,17 @@ namespace choreo {
 
 struct VideoOptions {
   VideoFormat format;
-  /// Times of key poses, seconds from the motion's first frame; a frame shows briefly around the
-  /// picture.
+  /// Times of key poses, seconds from the motion's first frame. A coloured frame appears briefly
+  /// around the picture at each.
   std::vector<double> keys;
   std::optional<CameraSide> side;  ///< as in ViewsOf
   /// Called after each frame with the total number of frames; may be empty.
   std::function<void(int64_t frames)> on_frame;
 };
 
-/// Draws dancers (stage.h) as a video with its music. The camera follows them smoothly.
-/// Interpolates if the rate differs from the motions'. Draws frames on every core; the result does
-/// not depend on their number. Throws what VideoEncoder, CheckStage and ViewsOf throw. Thread-safe.
+/// Draws dancers (stage.h) as a video with music. The camera follows them smoothly. Interpolates if
+/// the rate differs from the motions'. Uses all cores; the result does not depend on their number.
+/// Throws what VideoEncoder, CheckStage and ViewsOf throw. Thread-safe.
 void DrawVideo(const Stage& stage, const VideoOptions& options, const std::filesystem::path& mp4);
 
 /// The camera's views, one per frame.

@@ -62,7 +62,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& 
                            int64_t frames)
     : mp4_(mp4), file_(mp4) {
   CheckFormat(format);
-  // A socket instead of a pipe: writing to an ffmpeg that has died is then an error, not a signal.
+  // Uses a socket, not a pipe, so that writing to a dead ffmpeg is an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Error(ErrorCode::kInternal, "", std::string("socketpair: ") + std::strerror(errno));
@@ -128,7 +128,7 @@ void VideoEncoder::Fail() {
   const ssize_t count = pread(said_, said.data(), said.size(), 0);
   said.resize(count > 0 ? static_cast<size_t>(count) : 0);
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  // Errors are one line; the first names the cause.
+  // Keeps the first line of ffmpeg's messages, which names the cause.
   throw Error(ErrorCode::kInternal, mp4_.string(),
               "ffmpeg: " + (said.empty() ? "ended early" : said.substr(0, said.find('\n'))));
 }

@@ -14,7 +14,7 @@ constexpr int Fixed(double value) {
   return static_cast<int>(value * (1 << kBits) + (value < 0 ? -0.5 : 0.5));
 }
 
-// The share of red, green and blue in a value that spans `range` of 255, from `zero` on.
+// Weights of red, green and blue in a value that spans `range` of 255 and begins at `zero`.
 struct Mix {
   int r, g, b, zero;
 
@@ -45,7 +45,7 @@ std::vector<uint8_t> Yuv420(const Picture& picture) {
     const uint8_t *upper = &picture.rgb[3 * y * width], *lower = upper + 3 * width;
     uint8_t* luma = &planes[y * width];
     for (size_t x = 0; x < width; x += 2, upper += 6, lower += 6, luma += 2, ++cb, ++cr) {
-      // Most of a film is floor: its pixels equal those before them, even where colour overlaps.
+      // Most of a video is floor, whose pixels equal those to their left. Reuses their chroma.
       if (x > 2 && std::memcmp(upper - 3, upper - 9, 9) == 0 &&
           std::memcmp(lower - 3, lower - 9, 9) == 0) {
         std::memcpy(luma, luma - 2, 2), std::memcpy(luma + width, luma + width - 2, 2);
