@@ -89,7 +89,7 @@ Eigen::Matrix3Xd BoneNormaliser::Apply(const Eigen::Matrix3Xd& source, const Sou
     }
     const Eigen::Vector3d bone = SourceBone(mark, source);
     const double length = mark.rigid ? bone.norm() : size.lengths[i];
-    // A bone without length has no direction: put the landmark at its parent's place.
+    // A bone of no length has no direction, so its landmark is put at its parent.
     const double factor = length > 1e-9 ? mark.rest_length / length : 0;
     targets.col(i) = targets.col(mark.parent) + factor * bone;
   }

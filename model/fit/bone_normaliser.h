@@ -11,13 +11,14 @@
 
 namespace choreo {
 
-/// A subject's size, measured once.
+/// A recorded person's size, measured once.
 struct SourceSize {
-  double scale = 1;             ///< our leg length over the source's: multiplies the root's travel
+  double scale = 1;  ///< our leg length over the source's, which scales the root's travel
   std::vector<double> lengths;  ///< [landmarks] source metres from the parent landmark (median)
 };
 
-/// Turns source positions into targets for our landmarks. Immutable after construction.
+/// Converts source positions to targets for our landmarks: the source's directions with our bone
+/// lengths. Immutable after construction; thread-safe.
 class BoneNormaliser {
  public:
   /// Throws Error(kInvalidArgument) for a landmark whose joints are missing in `joint_names` or the
@@ -25,17 +26,17 @@ class BoneNormaliser {
   BoneNormaliser(const Skeleton& skeleton, const SourceMapping& mapping,
                  const std::vector<std::string>& joint_names);
 
-  /// Median landmark distances of a clip, and the scale from the lengths of legs (hip, knee,
-  /// ankle), or of all bones if the mapping has no knees.
+  /// Measures the median landmark distances of a clip, and the scale from the lengths of legs (hip,
+  /// knee, ankle), or of all bones if the mapping has no knees.
   SourceSize Measure(const PositionClip& clip) const;
 
-  /// Our leg length over the source's in one frame. Some recordings join takes whose hips lie at
-  /// different places in the body (tang2018: thighs of 46 and of 54 cm in one clip), so that the
-  /// scale of the root's height must change in time.
+  /// Our leg length over the source's in one frame. Some recordings join takes with hips at
+  /// different places in the body (tang2018: thighs of 46 and of 54 cm in one clip), so the scale
+  /// of the root's height changes over time.
   double HeightScale(const Eigen::Matrix3Xd& source) const;
 
-  /// Source joints [3, K] → landmark targets [3, landmarks] in metres at our size. `height_scale`,
-  /// the HeightScale around this time, multiplies the root's height.
+  /// Converts source joints [3, K] to landmark targets [3, landmarks], metres, at our size.
+  /// `height_scale`: the HeightScale around this time, which multiplies the root's height.
   Eigen::Matrix3Xd Apply(const Eigen::Matrix3Xd& source, const SourceSize& size,
                          double height_scale) const;
 

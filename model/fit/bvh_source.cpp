@@ -83,15 +83,15 @@ class SpineChain {
 constexpr double kChestHeight = 0.657;
 constexpr double kCollarHeight = 0.841;
 constexpr double kHalfCollarWidth = 0.1254;
-// Position of the shoulder relative to the collar, with the arm held out sideways.
+// Position of the shoulder relative to the collar, with the arm held out sideways, metres.
 constexpr double kShoulderOut = 0.207;
 constexpr double kShoulderUp = 0.035;
 // The share of the source's shoulder movement that ours keep.
 constexpr double kShoulderShare = 0.4;
 
-// Source skeletons place their collarbones higher and nearer to the neck than ours, and swing them
-// much further: about our collar joint, a hanging arm would pull the shoulder right through it. So
-// the shoulder is a blend of the source's and a point fixed to the chest.
+// Source skeletons have their collarbones higher and nearer to the neck than ours, and swing them
+// much further. About our collar joint, a hanging arm would pull the shoulder through the collar.
+// So the shoulder is a blend of the source's and a point fixed to the chest.
 void AddCollar(const PositionClip& clip, const SpineChain& spine, const ClipBones& bones,
                const std::string& side, MappingBuilder& builder) {
   // The direction across the chest, outwards on this side.
@@ -137,8 +137,9 @@ void AddTrunk(const PositionClip& clip, const ClipBones& bones, MappingBuilder& 
   AddCollar(clip, spine, bones, "right_", builder);
 }
 
-// Position of a toe joint on a flat foot, forward and up from the ankle: 33 degrees below it
-// (dancedb's median), where ours is 26; end sites of feet are 17 degrees below, iClone's toes 5.
+// Position of a toe joint on a flat foot, forward and up from the ankle, metres. It is 33 degrees
+// below the ankle in most rigs (dancedb's median; 26 in ours), 17 for end sites of feet, and 5 for
+// iClone's toes.
 Eigen::Vector2d ToePoint(const std::string& toes) {
   if (toes.ends_with("_end")) return {0.12, -0.037};
   if (toes.ends_with("L_ToeBase") || toes.ends_with("R_ToeBase")) return {0.12, -0.011};

@@ -12,8 +12,8 @@ namespace choreo {
 namespace {
 
 constexpr double kMaxAnkleHeight =
-    0.3;  // share of the leg: an ankle above this does not stand on y = 0
-constexpr double kSunkenToes = -0.03;    // share of the leg: nor do toes below this
+    0.3;  // share of the leg: an ankle above this is not on a floor at y = 0
+constexpr double kSunkenToes = -0.03;    // share of the leg: nor are toes below this
 constexpr double kToesHeight = 0.025;    // share of the leg: height of SMPL's toes
 constexpr double kAnkleHeight = 0.1;     // share of the leg: height of SMPL's ankles
 constexpr double kMinBoneLength = 1e-4;  // share of the leg
@@ -101,8 +101,8 @@ class BodyBuilder {
     if (bones_.Find("head") >= 0) AddBone("head", neck, upright_);
   }
 
-  // The turn from the rest pose, already turned by `turn`, to the bone's direction in SMPL: first
-  // to `straight`, which SMPL's bones are near, so that no bone rolls on a long way.
+  // The rotation from the rest pose, after `turn`, to the bone's direction in SMPL. It leads
+  // through `straight`, near which SMPL's bones are, so that no bone rolls on the way.
   Eigen::Matrix3d Along(const std::string& from, const std::string& to, const Eigen::Matrix3d& turn,
                         const Eigen::Vector3d& straight) const {
     const Eigen::Vector3d bone = turn * (Place(to) - Place(from));

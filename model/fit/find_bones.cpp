@@ -49,7 +49,7 @@ std::vector<int> TopsOf(const RigNodes& rig) {
   return tops;
 }
 
-// The names of a group's nodes. Keeps the node most like a bone of those with one name.
+// The names of a group's nodes. Of nodes with the same name, keeps the one most like a bone.
 std::vector<std::string> NamesOf(const RigNodes& rig, const Group& group) {
   const auto rank = [&](int node) {
     const bool carries = std::ranges::find(rig.parents, node) != rig.parents.end();
@@ -76,13 +76,13 @@ int Needed(const HumanBones& found) {
   return needed;
 }
 
-// How many of a body's bones are among `nodes`.
+// Counts the body's bones among `nodes`.
 int Count(const HumanBones& found, const std::vector<bool>& nodes) {
   return static_cast<int>(
       std::ranges::count_if(found.bones, [&](const auto& bone) { return nodes[bone.second]; }));
 }
 
-// How many bones are below the bone that carries them in a body, such as knees below hips.
+// Counts the bones that descend from the bone above them in a body, such as knees from hips.
 int Connected(const RigNodes& rig, const HumanBones& found) {
   int connected = 0;
   const auto add = [&](const std::string& bone, const std::string& above) {
@@ -115,7 +115,7 @@ void FindPelvis(const RigNodes& rig, HumanBones* found) {
   if (node >= 0 && !taken) found->bones["pelvis"] = node;
 }
 
-// The node that carries both arms is the chest, the last of the spine, whatever its name.
+// The node above both arms is the chest, the last bone of the spine, whatever its name.
 void FindChest(const RigNodes& rig, HumanBones* found) {
   const auto arm = [&](const std::string& side) {
     const int collar = found->Find(side + "collar");
@@ -136,8 +136,8 @@ void FindChest(const RigNodes& rig, HumanBones* found) {
     found->bones[next] = chest;
 }
 
-// Tries all nodes together, then the descendants of each node: a file may have several bodies,
-// whose names may be equal, and the one that moves counts.
+// Finds a body by names among all nodes, then among the descendants of each node. A file may have
+// several bodies with the same names; the one that moves counts.
 HumanBones ByNames(const RigNodes& rig) {
   const auto score = [&](const HumanBones& found) {
     return std::tuple(Needed(found), Count(found, rig.moves), Count(found, rig.joints),
@@ -145,7 +145,7 @@ HumanBones ByNames(const RigNodes& rig) {
   };
   HumanBones best = FindHumanBones(NamesOf(rig, Group(rig.names.size(), true)), rig.moves);
   size_t looked_at = 0;
-  std::vector<int> partial;  // no whole body hangs from these or their descendants
+  std::vector<int> partial;  // neither these nor their descendants have a whole body below them
   for (const int top : TopsOf(rig)) {
     const bool below =
         std::ranges::any_of(partial, [&](int node) { return IsBelow(top, node, rig.parents); });
@@ -177,7 +177,7 @@ void Choose(const RigNodes& rig, const BoneChoice& choice, HumanBones* found) {
   for (int node = 0; node < count; ++node) {
     if (rig.names[node] != choice.name) continue;
     nodes.push_back(node);
-    // Meshes often share the name of the joint that they hang on.
+    // A mesh often has the name of the joint above it.
     if (rig.joints[node] && !rig.meshes[node]) joints.push_back(node);
   }
   if (nodes.empty())
@@ -195,7 +195,7 @@ HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen)
   HumanBones found = rig.table;
   if (!MissingBone(found).empty()) {
     found = ByNames(rig);
-    // A table that lacks some bones still identifies the others better than a guess does.
+    // A table that lacks some bones still identifies the others better than names do.
     for (const auto& [bone, node] : rig.table.bones) {
       std::erase_if(found.bones, [n = node](const auto& other) { return other.second == n; });
       found.bones[bone] = node;

@@ -7,7 +7,7 @@
 #include "model/core/error.h"
 #include "model/fit/human_bones.h"
 
-/// Finds which nodes of a rig are the bones of a body, for motions and characters alike.
+/// Finds the nodes of a rig that are the bones of a body, in motion files and character files.
 namespace choreo {
 
 /// The nodes of a file; some are the bones of one or more bodies.
@@ -15,32 +15,33 @@ struct RigNodes {
   std::vector<std::string> names;  ///< may be empty or duplicate
   std::vector<int> parents;        ///< -1: none
   Eigen::Matrix3Xd places;         ///< [3, nodes] at rest in the world
-  std::vector<bool> joints;        ///< a skin uses it; all if there is no skin
-  std::vector<bool> moves;         ///< an animation moves it; none if there is no animation
-  std::vector<bool> meshes;        ///< it holds a mesh, and may only share a bone's name
-  HumanBones table = {};           ///< from the file itself, such as VRM's table
+  std::vector<bool> joints;        ///< a skin uses the node; all true if there is no skin
+  std::vector<bool> moves;   ///< an animation moves the node; all false if there is no animation
+  std::vector<bool> meshes;  ///< the node holds a mesh, which often has a bone's name
+  HumanBones table = {};     ///< bones that the file itself names, as VRM does
 };
 
-/// A user's assignment of a bone to a node by name or by number (from 0 on), or to neither, which
-/// removes the bone.
+/// A user's assignment of a bone to a node, by name or by number from 0 on. Neither of them removes
+/// the bone.
 struct BoneChoice {
   std::string bone = {};   ///< a name of HumanBones
   std::string name = {};   ///< of a node, or empty
   int node = -1;           ///< if there is no name
-  std::string field = {};  ///< the field of errors about it
+  std::string field = {};  ///< the field of errors about the choice
 };
 
-/// Assigns bones from `chosen`, then the file's table, then names. With duplicate names, takes the
-/// bones of one skeleton together: prefers the body that moves, and the node with a skin, that
-/// moves, that is no mesh. Bones may be missing. Throws Error(kInvalidArgument), whose field is the
-/// choice's, for a bone or node that does not exist.
+/// Assigns bones by `chosen`, then by the file's table, then by names. If names are duplicate,
+/// takes all bones from one skeleton, and prefers the body that moves, and nodes that a skin uses,
+/// that move, and that hold no mesh. Bones may be missing. Throws Error(kInvalidArgument), whose
+/// field is the choice's, for a bone or node that does not exist.
 HumanBones FindBones(const RigNodes& rig, const std::vector<BoneChoice>& chosen = {});
 
-/// The bodies that move: `found`, and others with as many bones and none in common, in the file's
-/// order.
+/// Returns the bodies that move: `found`, and others with as many bones and none in common, in the
+/// file's order.
 std::vector<HumanBones> MovingBodies(const RigNodes& rig, const HumanBones& found);
 
-/// The names of a rig tell too little; the caller may guess from its shape (guess_bones.h).
+/// Thrown if the names of a rig do not identify enough bones. The caller may guess them from the
+/// rig's shape (guess_bones.h).
 class UnknownBones : public Error {
  public:
   UnknownBones(const std::string& field, const std::string& missing, RigNodes rig,

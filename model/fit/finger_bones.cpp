@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr size_t kThumb = 0, kHandFingers = 5, kBentBones = 3;  // bones of a finger that bend
-constexpr double kNoDirection = 1e-6;                           // share of the hand: no direction
+constexpr double kNoDirection = 1e-6;  // share of the hand: a shorter vector has no direction
 
-// The names from the thumb to the little finger; the later spellings are MMD's.
+// The names of the fingers, from the thumb to the little finger, in English and as MMD spells them.
 constexpr std::array<std::array<std::string_view, 3>, kHandFingers> kFingerNames = {
     {{"thumb", "親指", "親指"},
      {"index", "人指", "人差指"},
@@ -29,7 +29,7 @@ constexpr std::array<std::array<std::string_view, 3>, kHandFingers> kFingerNames
      {"ring", "薬指", "薬指"},
      {"pinky", "little", "小指"}}};
 
-/// Degrees by which each bone of each finger is bent against the one before it.
+/// The bend of each bone of each finger against the bone before it, degrees.
 using Bends = std::array<std::array<double, kBentBones>, kHandFingers>;
 constexpr std::array<Bends, kHandPoseNames.size()> kBends = {{
     {},
@@ -67,7 +67,7 @@ Hand FindFingers(const RigNodes& rig, int wrist) {
       });
       std::vector<int>& chain = hand[finger];
       if (!is_its || (finger != kThumb && name.find("metacarpal") != std::string::npos)) continue;
-      // Twists and corrections beside the bones do not belong to the chain.
+      // Skips twist and correction nodes beside the bones.
       if (chain.empty() || IsBelow(node, chain.back(), rig.parents)) chain.push_back(node);
       break;
     }
@@ -104,7 +104,7 @@ class HandCurl {
     if (!(size_ > 0)) return;
     for (size_t finger = 1; finger < kHandFingers; ++finger) Bend(finger, palm_, curled);
     if (hand_[kThumb].empty()) return;
-    // The thumb turns towards a place before the fingers' knuckles.
+    // The thumb turns towards a point in front of the fingers' knuckles.
     const Vector3d before = middle_ + 0.35 * size_ * palm_ - Place(hand_[kThumb].front());
     if (before.norm() > kNoDirection * size_) Bend(kThumb, before.normalized(), curled);
   }
@@ -123,7 +123,7 @@ class HandCurl {
     axis.normalize();
     Vector3d before = first;
     for (size_t bone = 0; bone < std::min(chain.size(), kBentBones); ++bone) {
-      // The last node continues like the one before if nothing is behind it.
+      // A last node without an end continues in the direction of the bone before it.
       const Vector3d along =
           bone + 1 < chain.size() ? Vector3d(Place(chain[bone + 1]) - Place(chain[bone])) : before;
       const double rests = std::atan2(axis.dot(before.cross(along)), before.dot(along));
@@ -162,7 +162,7 @@ std::vector<CurledBone> CurlFingers(const RigNodes& rig, const HumanBones& bones
     for (CurledBone& bone : CurlFingers(rig, bones, keys[i].pose)) {
       const double angle = std::exchange(bone.angles, {}).front();
       auto& own = curled.try_emplace(bone.node, std::move(bone)).first->second;
-      own.angles.resize(keys.size());  // straight where a pose does not bend it
+      own.angles.resize(keys.size());  // 0, straight, for poses that do not bend the bone
       own.angles[i] = angle;
     }
   }

@@ -14,10 +14,12 @@ namespace {
 
 constexpr int kRefinementIterations = 2;
 
-// Seconds over which heights are levelled: longer than a jump, shorter than a recording's drift.
+// Window over which heights are levelled, seconds: longer than a jump, shorter than a recording's
+// drift.
 constexpr double kGroundWindow = 4.0;
-// The floor's rank among the heights of the lowest joint in that window. Jumping dancers are on the
-// floor for longer; feet that a recording sinks into the floor are there for less.
+// The quantile of the lowest joint's heights in that window that is taken as the floor. Jumping
+// dancers are on the floor for longer than this share; feet that the recording sinks into the floor
+// are there for less.
 constexpr double kGroundShare = 0.3;
 constexpr double kSizeWindow = 1.0;
 

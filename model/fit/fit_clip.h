@@ -6,9 +6,9 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Joint positions → rotations of our skeleton, in two steps: bone-normalise the source (its
-/// directions, our lengths), then solve each frame's rotations by damped least squares, starting
-/// from the frame before.
+/// Fits rotations of our skeleton to recorded joint positions. First normalises the source's bones
+/// (its directions, our lengths), then solves for each frame's rotations by damped least squares,
+/// starting from the frame before.
 namespace choreo {
 
 struct FitResult {
@@ -16,15 +16,15 @@ struct FitResult {
   double mean_error_m = 0;  ///< over frames and landmarks, against the bone-normalised source
   double p95_error_m = 0;
   double scale = 1;           ///< SourceSize::scale
-  double ground_shift_m = 0;  ///< mean of what was added to the heights
+  double ground_shift_m = 0;  ///< the mean correction of heights (Ground)
 };
 
-/// Brings the body down to the floor at least every few seconds. The correction changes slowly, so
-/// that jumps stay. Returns its mean, metres.
+/// Puts the body on the floor at least every few seconds. The correction changes slowly, so jumps
+/// stay. Returns its mean, metres.
 double Ground(const Skeleton& skeleton, Motion& motion);
 
-/// Fits a whole clip: measure, normalise, fit forwards, refine once with both neighbours known
-/// (zero phase), and ground. About 0.5 ms a frame.
+/// Fits a whole clip: measures and normalises it, fits forwards, refines once with both neighbours
+/// known (zero phase), and grounds the result. About 0.5 ms per frame.
 FitResult FitClip(const PositionClip& clip, const SourceMapping& mapping, const Skeleton& skeleton,
                   const FitOptions& options = {});
 

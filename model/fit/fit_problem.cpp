@@ -8,11 +8,11 @@
 namespace choreo {
 namespace {
 
-// Damping grows with each refused step; beyond the maximum, steps are too short to matter.
+// Damping grows with each rejected step. Beyond the maximum, steps are too short to matter.
 constexpr double kFirstDamping = 1e-4;
 constexpr double kMaxDamping = 1e2;
 
-// Weight of the parent's rotation relative to landmarks, square metres.
+// Weight of the parent's rotation relative to landmarks in Start, square metres.
 constexpr double kStays = 1e-4, kTrunkStays = 0.02;
 
 }  // namespace
@@ -99,7 +99,7 @@ double FitProblem::Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& n
       damping *= 20.0;
     }
   }
-  // The last trial may have been refused.
+  // The last trial may have been rejected.
   Place(pose);
   double squares = 0, weights = 0;
   for (int i = 0; i < marks_.size(); ++i) {
@@ -146,9 +146,9 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
                           (point.joint != joint || !point.offset.isZero());
                  });
     }
-    // Keep the parent's rotation without evidence. The trunk's landmarks are nearly collinear and
-    // don't tell its twist: from their noise a start could be wound up by a whole turn and stay so,
-    // with hips and shoulders in place.
+    // Without evidence, the joint keeps its parent's rotation. The trunk's landmarks are nearly
+    // collinear and do not determine its twist. By their noise a start could be twisted by a whole
+    // turn and stay so, with hips and shoulders in place.
     const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
     Eigen::Matrix3d correlation = (InTrunk(joint) ? kTrunkStays : kStays) * carried;
     bool told = false;
@@ -164,7 +164,7 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
       const Eigen::Vector3d lower =
           (targets.col(hinge.end_mark) - targets.col(hinge.hinge_mark)).normalized();
       const Eigen::Vector3d plane = upper.cross(lower);
-      // If the plane of a nearly straight limb says that it bends backwards, it is noise.
+      // If a nearly straight limb seems to bend backwards, its plane is noise.
       const bool plausible = plane.norm() > kSineOfSureBend || plane.dot(carried * hinge.axis) > 0;
       if (plausible) correlation += 0.05 * plane * hinge.axis.transpose();
     }

@@ -8,8 +8,8 @@
 
 namespace choreo {
 
-/// The least-squares problem of one frame (fit_terms.h), solved by Levenberg-Marquardt on the
-/// rotations' tangent space. Not thread-safe.
+/// Solves the least-squares problem of one frame (fit_terms.h) by Levenberg-Marquardt in the
+/// tangent space of the rotations. Not thread-safe.
 class FitProblem {
  public:
   FitProblem(const Skeleton& skeleton, const SourceMapping& mapping, const FitOptions& options,
@@ -17,16 +17,16 @@ class FitProblem {
   FitProblem(const FitProblem&) = delete;
   FitProblem& operator=(const FitProblem&) = delete;
 
-  /// Improves `pose` by at most `iterations` accepted steps. Returns the weighted root mean square
-  /// distance of landmarks from targets, metres.
+  /// Improves `pose` by at most `iterations` accepted steps. Returns the weighted RMS distance of
+  /// landmarks from targets, metres.
   double Solve(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours, int iterations,
                Pose& pose);
 
-  /// An initial pose without a predecessor. From the root on, each joint takes the rotation that
-  /// best turns the rest directions of the landmarks below it onto the targets' (Kabsch); a bent
-  /// limb's plane decides the twist of hips and shoulders.
+  /// Computes an initial pose for a frame without a predecessor. From the root outwards, each joint
+  /// takes the rotation that best turns the rest directions of the landmarks below it onto the
+  /// targets' (Kabsch). A bent limb's plane determines the twist of its hip or shoulder.
   Pose Start(const Eigen::Matrix3Xd& targets) const;
-  /// The trunk's total rotation from rest over all its joints, radians.
+  /// The total rotation from rest over all joints of the trunk, radians.
   double TrunkTurn(const Pose& pose) const;
 
   /// The landmarks of the pose that Solve returned last, [3, landmarks].
@@ -37,7 +37,7 @@ class FitProblem {
   void Linearise(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
                  const Pose& pose);
   void Place(const Pose& pose);
-  bool InTrunk(int joint) const;  ///< between the root and both shoulders
+  bool InTrunk(int joint) const;  ///< whether it is between the root and both shoulders
 
   const Skeleton skeleton_;
   const LandmarkSet marks_;

@@ -41,8 +41,8 @@ Eigen::Matrix3d AxisInformation(const Eigen::Vector3d& axis, double along_rad, d
   return along / Square(along_rad) + (Eigen::Matrix3d::Identity() - along) / Square(across_rad);
 }
 
-// Adds the derivative of a point with respect to a joint's rotation: a turn by omega (world) moves
-// it by `turned` x omega; the unknown is a turn in the parent's frame.
+// Adds the derivative of a point with respect to a joint's rotation. A rotation by omega (world)
+// moves the point by `turned` x omega; the unknown is a rotation in the parent's frame.
 void AddTurn(const Eigen::Matrix3d& turned, int joint, int parent, Eigen::Index row,
              const JointPlacement& joints, Eigen::MatrixXd* jacobian) {
   auto block = jacobian->block<3, 3>(row, 3 + 3 * joint);
@@ -155,14 +155,14 @@ JointTerm::JointTerm(const Skeleton& skeleton, const FitOptions& options, double
   }
 }
 
-// A hinge that is bent far and also turned about its limb is turned by more than half a turn; the
-// shorter way round would be a backwards bend, so it is wrong.
+// A hinge that is bent far and also twisted is rotated by more than half a turn. The shorter way
+// round would be a backwards bend, so it is wrong.
 Eigen::Vector3d JointTerm::Prior::Turn(const Eigen::Vector3d& w) const {
   return w.norm() < kMaxShortTurn || hinge_axis.dot(w) >= 0 ? w : OtherWayRound(w);
 }
 
-// How far a hinge is below straight (negative) or beyond the largest bend (positive). 0 for other
-// joints.
+// The angle by which a hinge is below straight (negative) or beyond the largest bend (positive),
+// radians. 0 for other joints.
 double JointTerm::Prior::Beyond(const Eigen::Vector3d& turn) const {
   if (hinge_axis.isZero()) return 0;
   const double bend = hinge_axis.dot(turn);
@@ -202,7 +202,7 @@ void JointTerm::Linearise(const Pose& pose, const FitNeighbours& neighbours,
     own_gradient += slope.transpose() * pull;
     for (const Pose* other : {neighbours.before, neighbours.after}) {
       if (other == nullptr) continue;
-      // log(R R_other^T), in the parent's frame as delta is; its own Jacobian is near identity.
+      // log(R R_other^T), in the parent's frame like delta. Its Jacobian is nearly the identity.
       const Eigen::Vector3d change = ExpFromQuaternion(
           QuaternionFromExp(w) * QuaternionFromExp(other->rotations.col(joint)).conjugate());
       own_normal.diagonal().array() += change_information_;

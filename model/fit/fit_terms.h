@@ -6,23 +6,23 @@
 #include "model/fit/landmarks.h"
 #include "model/motion/kinematics.h"
 
-/// The terms of one frame's least-squares problem, each with its residual, cost and Jacobian in one
-/// place. The unknowns are the root's position and a turn of each joint in its parent's frame: 3 +
-/// 3 joints.
+/// The terms of one frame's least-squares problem, each with its residual, cost and Jacobian. The 3
+/// + 3 * joints unknowns are the root's position and a rotation of each joint in its parent's
+/// frame.
 namespace choreo {
 
 /// Standard deviations of the least-squares terms, besides SourceMapping::accuracy_m.
 struct FitOptions {
-  double rest_rad = 1.2;           ///< every joint towards its rest rotation
+  double rest_rad = 1.2;           ///< of every joint from its rest rotation
   double stiff_rad = 0.5;          ///< the same of spine, collars, neck, head, wrists and feet
   double twist_rad = 0.7;          ///< of hips and shoulders about the bone below
   double foot_turn_rad = 0.35;     ///< of ankles about the shin
-  double hinge_side_rad = 0.35;    ///< knees and elbows off their hinge axis
-  double hinge_limit_rad = 0.006;  ///< knees and elbows beyond straight
+  double hinge_side_rad = 0.35;    ///< of knees and elbows off their hinge axis
+  double hinge_limit_rad = 0.006;  ///< of knees and elbows beyond straight
   double change_rad = 0.12;        ///< of every joint since the frame before, at 30 fps
-  int iterations = 3;              ///< per warm-started frame
-  bool recover = true;             ///< restart where the fit is lost, even if it jumps
-  bool ground = true;              ///< FitClip only: bring the body down to the floor
+  int iterations = 3;              ///< per frame with a predecessor
+  bool recover = true;             ///< restart where the fit is lost, even if the motion jumps
+  bool ground = true;              ///< FitClip only: put the body on the floor (Ground)
 };
 
 /// A frame's neighbours in time; either may be null.
@@ -37,20 +37,20 @@ struct FitPlaces {
   Eigen::Matrix3Xd marks;  ///< [3, landmarks]
 };
 
-/// Residuals and their Jacobian, three rows each: [rows, 3 + 3 joints].
+/// Residuals, three rows each, and their Jacobian, [rows, 3 + 3 * joints].
 struct FitRows {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
 };
 
-/// Pulls landmarks to their targets. Skeleton and marks must outlive it.
+/// Pulls landmarks to their targets. Skeleton and marks must outlive the term.
 class LandmarkTerm {
  public:
   LandmarkTerm(const Skeleton& skeleton, const LandmarkSet& marks, double accuracy_m)
       : skeleton_(skeleton), marks_(marks), accuracy_m_(accuracy_m) {}
 
   void AddCost(const FitPlaces& places, const Eigen::Matrix3Xd& targets, double* cost) const;
-  /// Fills the first rows, landmark by landmark; expects a zero Jacobian.
+  /// Fills the first rows, landmark by landmark. Expects a zero Jacobian.
   void Linearise(const FitPlaces& places, const Eigen::Matrix3Xd& targets, FitRows* rows) const;
 
  private:
@@ -64,9 +64,10 @@ class LandmarkTerm {
   double accuracy_m_;
 };
 
-inline constexpr double kSineOfSureBend = 0.3;  ///< bent for certain, whatever the noise
+inline constexpr double kSineOfSureBend = 0.3;  ///< a limb this bent is bent, despite any noise
 
-/// The plane of a bent limb gives its hinge axis, which fixes the twist of the bone above.
+/// The plane of a bent limb. Its normal is the hinge axis, which determines the twist of the bone
+/// above.
 struct HingePlane {
   int upper_joint;
   int upper_mark, hinge_mark, end_mark;
@@ -75,7 +76,7 @@ struct HingePlane {
   double weight = 0;                                 ///< in this frame: 0 for a straight limb
 };
 
-/// Pulls hinge axes to the normals of bent limbs' planes. Skeleton and marks must outlive it.
+/// Pulls hinge axes to the normals of bent limbs' planes. Skeleton and marks must outlive the term.
 class HingePlaneTerm {
  public:
   HingePlaneTerm(const Skeleton& skeleton, const LandmarkSet& marks);
@@ -83,10 +84,10 @@ class HingePlaneTerm {
   const std::vector<HingePlane>& planes() const { return planes_; }
   int rows() const { return 3 * static_cast<int>(planes_.size()); }
 
-  /// Takes the planes from a frame's targets.
+  /// Sets the planes from a frame's targets.
   void Aim(const Eigen::Matrix3Xd& targets);
   void AddCost(const FitPlaces& places, double* cost) const;
-  /// Fills the last rows; expects a zero Jacobian.
+  /// Fills the last rows. Expects a zero Jacobian.
   void Linearise(const FitPlaces& places, FitRows* rows) const;
 
  private:
@@ -98,14 +99,14 @@ class HingePlaneTerm {
   std::vector<HingePlane> planes_;
 };
 
-/// Pulls each joint weakly to the rest rotation, keeps knees and elbows on their hinge and not
-/// beyond straight, and keeps joints near their neighbours in time.
+/// Pulls each joint weakly to its rest rotation, keeps knees and elbows on their hinge axis and
+/// from bending beyond straight, and keeps joints near their neighbours in time.
 class JointTerm {
  public:
   JointTerm(const Skeleton& skeleton, const FitOptions& options, double fps);
 
   void AddCost(const Pose& pose, const FitNeighbours& neighbours, double* cost) const;
-  /// Adds to the normal equations, [3 + 3 joints] each way.
+  /// Adds to the normal equations, which have 3 + 3 * joints rows and columns.
   void Linearise(const Pose& pose, const FitNeighbours& neighbours, Eigen::MatrixXd* normal,
                  Eigen::VectorXd* gradient) const;
 

@@ -14,10 +14,10 @@ namespace choreo {
 namespace {
 
 // Shares of the body's height.
-constexpr double kBeside = 0.02;      // further than this from the middle, a node belongs to a side
+constexpr double kBeside = 0.02;      // a node further than this from the middle belongs to a side
 constexpr double kAboveToes = 0.035;  // ankles are at least this high
 constexpr size_t kMinNodes = 10, kMaxNodes = 5000;  // limits, also for hostile files
-constexpr size_t kFingers = 3;                      // chains that a hand carries at least
+constexpr size_t kFingers = 3;                      // the least number of chains below a hand
 
 class BodyGuess {
  public:
@@ -156,7 +156,8 @@ void TurnRound(const Eigen::Matrix3Xd& places, HumanBones* found) {
 
 // The number of conditions on a plausible body that hold.
 int Plausible(const HumanBones& found, const Eigen::Matrix3Xd& places) {
-  constexpr double kAlike = 0.1;  // of a bone's length, which it may differ from the other side's
+  constexpr double kAlike =
+      0.1;  // share of a bone's length by which it may differ from the other side's
   int points = 0;
   const auto place = [&](const std::string& bone) -> std::optional<Eigen::Vector3d> {
     const int node = found.Find(bone);

@@ -24,7 +24,7 @@ std::vector<std::string_view> Split(std::string_view names) {
   return out;
 }
 
-// A table name on one side; middle bones as they are.
+// A name of the table for one side. Names of middle bones stay as they are.
 std::string OnSide(std::string_view name, const Rig& rig, bool left) {
   std::string out;
   for (const char letter : name) {
@@ -118,8 +118,8 @@ std::vector<std::string> PrefixesOf(const Rig& rig, const std::vector<std::strin
   return prefixes;
 }
 
-// Removes the common ending of most names, as in "LeftArm_jnt" or "l_arm_bind_jnt". A side is no
-// ending.
+// Removes the common ending of most names, as in "LeftArm_jnt" or "l_arm_bind_jnt", unless it is a
+// side.
 std::vector<std::string> WithoutCommonEnd(std::vector<std::string> names) {
   const auto end_of = [](const std::string& name) {
     const size_t at = name.find_last_of("_.-:| ");

@@ -7,12 +7,13 @@
 /// The table behind human_bones.h. Private to this folder.
 namespace choreo {
 
-/// The bones in Rig::limbs.
+/// The bones of Rig::limbs, in its order.
 inline constexpr std::string_view kLimbBones[] = {"hip",      "knee",  "ankle", "foot", "collar",
                                                   "shoulder", "elbow", "wrist", "hand", "eye"};
 
-/// One maker's names of bones: for each bone its possible names, best first, separated by '|';
-/// spines and necks from below. '*' stands for the side, '@' for the side in lower case.
+/// One tool's names of bones. Each bone has its possible names, best first, separated by '|';
+/// spines and necks list their bones from below. '*' stands for the side, '@' for the side in lower
+/// case.
 struct Rig {
   std::string_view name;
   std::string_view side_names[2];  ///< left, right

@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kPinAccuracy = 0.0005;  // metres, of targets
 constexpr int kIterations = 200;
-// How firmly other joints keep their places relative to targets: feet stay, a moved foot keeps its
-// rotation, the trunk and other limbs' ends give way by centimetres.
+// Weights of other joints' positions relative to targets: feet stay, a moved foot keeps its
+// rotation, and the trunk and the ends of other limbs give way by centimetres.
 constexpr double kFirm = 3;
 constexpr double kAlong = 0.05;
 constexpr double kLoose = 0.01;
 
-/// A joint's place, and its weight.
+/// A joint's position and its weight.
 struct Pin {
   Eigen::Vector3d position;
   double weight;
 };
 
-// Only the pose itself says what is near: distance from rest costs almost nothing.
+// Distance from the present pose counts; distance from rest costs almost nothing.
 constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
                                       .stiff_rad = 3,
                                       .twist_rad = 3,
@@ -33,7 +33,7 @@ constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
                                       .hinge_side_rad = 0.08,
                                       .change_rad = 0.3};
 
-// Pins by joint: the targets, and all joints that stay.
+// Pins by joint: the targets, and all joints that should stay.
 std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
                           std::span<const JointTarget> targets) {
   std::map<int, Pin> pins = {{0, {now.col(0), kLoose}}};

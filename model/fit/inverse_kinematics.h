@@ -7,10 +7,10 @@
 #include "model/motion/motion.h"
 #include "model/motion/skeleton.h"
 
-/// Inverse kinematics of the whole body: targets pull some joints, and the rest follow.
+/// Inverse kinematics of the whole body: targets pull some joints, and the others follow.
 namespace choreo {
 
-/// Where a joint should be: world, metres.
+/// The position that a joint should reach, in the world, metres.
 struct JointTarget {
   int joint = -1;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -18,15 +18,15 @@ struct JointTarget {
 
 struct DrawnPose {
   Pose pose;
-  std::vector<double> missed_m;  ///< [targets] final distance of each joint
+  std::vector<double> missed_m;  ///< [targets] each joint's final distance from its target
 };
 
-/// Draws joints to their targets. Other feet stay in place; hands, head, pelvis and chest stay
-/// nearby, so that an arm reaches first and the trunk leans if the arm is too short. Knees and
-/// elbows bend freely; other joints turn as little as needed. A least-squares fit
-/// (fit/fit_problem.h) meets targets within reach to a millimetre or two and approaches others.
-/// About a millisecond. `targets` are finite and for different joints of the skeleton. Pure; throws
-/// Error(kInvalidArgument) for a pose of another joint count.
+/// Pulls joints to their targets by a least-squares fit (fit/fit_problem.h). Feet without targets
+/// stay in place. Hands, head, pelvis and chest stay nearby, so an arm reaches first, and the trunk
+/// leans only if the arm is too short. Knees and elbows bend freely; other joints turn as little as
+/// needed. Meets targets within reach to a millimetre or two, and approaches others. Takes about a
+/// millisecond. `targets` are finite, one per joint at most. Pure. Throws Error(kInvalidArgument)
+/// for a pose of another joint count.
 DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
                      std::span<const JointTarget> targets);
 

@@ -10,7 +10,7 @@
 
 namespace choreo {
 
-/// The landmarks of a mapping, resolved on our skeleton. Immutable after construction.
+/// The landmarks of a mapping, located on our skeleton. Immutable after construction; thread-safe.
 class LandmarkSet {
  public:
   struct Point {
@@ -34,7 +34,7 @@ class LandmarkSet {
   static Eigen::Vector3d Position(const Point& point, const JointPlacement& placement) {
     return placement.positions.col(point.joint) + placement.rotations[point.joint] * point.offset;
   }
-  /// [3, landmarks]
+  /// The positions of all landmarks, [3, landmarks], metres.
   Eigen::Matrix3Xd Positions(const JointPlacement& placement) const;
 
   /// The landmark at a joint's position, or -1.

@@ -9,7 +9,7 @@
 
 namespace choreo {
 
-/// Builds a mapping landmark by landmark, parents first.
+/// Builds a SourceMapping landmark by landmark, parents first.
 class MappingBuilder {
  public:
   MappingBuilder(std::string name, double accuracy_m) {
@@ -30,13 +30,13 @@ class MappingBuilder {
                                   .weight = weight});
   }
 
-  /// A joint that both skeletons have.
+  /// Adds a joint that both skeletons have.
   void AddJoint(const std::string& ours, const std::string& parent, const std::string& source,
                 double weight = 1) {
     Add(ours, parent, {{source, 1.0}}, {{.joint = ours}}, weight);
   }
 
-  /// Adds the middle of the hips, the root of everything, and both hips.
+  /// Adds both hips and, as the root landmark, their middle.
   void AddHips(const std::string& left, const std::string& right) {
     Add("hips", "", {{left, 0.5}, {right, 0.5}}, Between("left_hip", "right_hip"));
     AddJoint("left_hip", "hips", left);

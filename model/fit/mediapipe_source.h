@@ -10,15 +10,16 @@
 
 namespace choreo {
 
-/// MediaPipe Pose's 33 landmarks in its order: "nose", "left_eye_inner", ... "right_foot_index".
+/// The names of MediaPipe Pose's 33 landmarks in its order: "nose", "left_eye_inner", ...
+/// "right_foot_index".
 const std::vector<std::string>& MediaPipeJointNames();
 
-/// A pose from the landmarks of one picture: `landmarks` [3, 33] are MediaPipe's world landmarks,
-/// metres around the middle of the hips, x to the picture's right, y down, z away from the camera.
-/// `visibilities` [33], 0 to 1, weight them; priors fill in what is hardly visible. The result has
-/// our bones in their directions. It stands near the origin with a foot on the floor; a person who
-/// looks into the camera faces +Z. Pure; throws Error(kInvalidArgument) for numbers that are not
-/// finite.
+/// Fits a pose to the landmarks of one picture. `landmarks` [3, 33] are MediaPipe's world
+/// landmarks: metres from the middle of the hips, x to the picture's right, y down, z away from the
+/// camera. `visibilities` [33], 0 to 1, weight them; priors determine what is hardly visible. The
+/// result has our bones in the landmarks' directions, and stands near the origin with a foot on the
+/// floor. A person who looks into the camera faces +Z. Pure. Throws Error(kInvalidArgument) for
+/// numbers that are not finite.
 Pose FitMediaPipe(const Eigen::Matrix3Xd& landmarks, std::span<const double> visibilities,
                   const Skeleton& skeleton);
 

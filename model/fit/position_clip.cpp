@@ -104,8 +104,8 @@ int RemoveSpikes(double speed_limit, int max_frames, PositionClip& clip) {
     for (int frame = 1; frame < count; ++frame) {
       const Eigen::Vector3d before = clip.frames[frame - 1].col(joint);
       if ((clip.frames[frame].col(joint) - before).norm() <= step_limit) continue;
-      // The spike ends at the first frame that the joint could reach at a plausible speed; without
-      // one it is a jump.
+      // The spike ends at the first frame that the joint could reach at a plausible speed. If there
+      // is none, it is a jump.
       int good = frame + 1;
       const int end = std::min(count, frame + max_frames + 1);
       while (good < end &&

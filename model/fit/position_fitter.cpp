@@ -9,10 +9,10 @@ namespace choreo {
 namespace {
 
 constexpr int kFirstIterations = 60;  // for a frame without a predecessor
-// Root mean square landmark distance above which a warm start counts as lost.
+// RMS landmark distance above which a warm start counts as lost, metres.
 constexpr double kLostDistance = 0.04;
-// Radians beyond which no trunk turns. A trunk beyond them is wound up: hips and shoulders are in
-// place, but a whole turn apart.
+// The largest rotation of a trunk, radians. A trunk beyond it is wound up: hips and shoulders are
+// in place, but a whole turn apart.
 constexpr double kWoundTurn = 2.6;
 
 }  // namespace
@@ -41,8 +41,8 @@ const Pose& PositionFitter::Next(const Eigen::Matrix3Xd& targets, const Pose* af
   return *pose_;
 }
 
-// Tries again from scratch, and keeps the result only if it is much nearer, or as near and unwound:
-// even a clip that does not fit should be smooth.
+// Tries again from scratch. Keeps the result only if it is much nearer, or as near and unwound,
+// because even a clip that does not fit should be smooth.
 void PositionFitter::Recover(const Eigen::Matrix3Xd& targets, const FitNeighbours& neighbours,
                              double distance) {
   Pose fresh = problem_->Start(targets);

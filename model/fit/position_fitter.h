@@ -9,16 +9,16 @@
 
 namespace choreo {
 
-/// Fits frame after frame, causally: a result depends only on its frame and those before. Not
+/// Fits frame after frame, causally: a result depends only on its frame and earlier ones. Not
 /// thread-safe; use one per stream.
 class PositionFitter {
  public:
   PositionFitter(const Skeleton& skeleton, const SourceMapping& mapping,
                  const FitOptions& options = {}, double fps = kModelFps);
 
-  /// Landmark targets [3, landmarks] → the pose, on the exp-map branch nearest to the frame before.
-  /// Rotations that they leave open, such as a straight arm's twist, changes little from the frame
-  /// before and stays close to `after`'s, if given.
+  /// Fits the next pose to landmark targets [3, landmarks], metres, on the exponential-map branch
+  /// nearest to the frame before. Rotations that the targets leave open, such as a straight arm's
+  /// twist, change little from the frame before and stay close to `after`'s, if given.
   const Pose& Next(const Eigen::Matrix3Xd& targets, const Pose* after = nullptr);
 
   /// Continues as if `previous` had been the frame before.

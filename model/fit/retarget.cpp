@@ -64,7 +64,7 @@ class CommonMapping {
     Bone(side + "hip", "hips", from.hip, to.hip);
     Bone(side + "knee", side + "hip", from.knee, to.knee);
     Bone(side + "ankle", side + "knee", from.ankle, to.ankle);
-    // Ankles have different heights above their soles: a foot is flat where the other's is.
+    // Ankles differ in height above their soles. This keeps one foot flat where the other is.
     const Eigen::Vector3d sole = (Rest(from_, from.toes) - Rest(from_, from.ankle)).normalized() *
                                  (Rest(to_, to.toes) - Rest(to_, to.ankle)).norm();
     builder_.Add(side + "toes", side + "ankle", {{Name(from_, from.toes), 1.0}},

@@ -5,12 +5,13 @@
 
 namespace choreo {
 
-/// Moves a motion to another skeleton: joints with the same role, and heads and hands with the same
-/// name, move alike; travel scales with the legs, and the height above the floor stays. It is a fit
-/// (fit/fit_clip.h): frames must be consecutive, or a single one. Between skeletons with the same
-/// bones the motion is unchanged. Throws Error(kInvalidArgument) naming a role
-/// (Skeleton::RequireRoles) that either lacks.
+/// Retargets a motion to another skeleton by a fit (fit/fit_clip.h), so frames must be consecutive.
+/// Joints with the same role, and heads and hands with the same name, move alike. Travel scales
+/// with the legs; the height above the floor stays. Between skeletons with the same bones the
+/// motion is unchanged. Throws Error(kInvalidArgument), naming a role (Skeleton::RequireRoles) that
+/// either skeleton lacks.
 Motion Retarget(const Skeleton& from, const Motion& motion, const Skeleton& to);
+/// The same for a single pose.
 Pose Retarget(const Skeleton& from, const Pose& pose, const Skeleton& to);
 
 }  // namespace choreo

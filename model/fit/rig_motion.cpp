@@ -84,7 +84,7 @@ class RigFitter {
     return FitClip(clip, RigSource(clip, rig_.bones), SmplBody(), {.ground = false}).motion;
   }
 
-  // Rotations from SMPL's rest, in the world, to each bone's own frame.
+  // Sets the rotations from SMPL's rest, in the world, to each bone's own frame.
   void TakeRest(const RigReading::Rest& found) {
     const CharacterBody& rest = found.body;
     frames_.assign(rig_.names.size(), Eigen::Matrix3d::Identity());
@@ -99,7 +99,7 @@ class RigFitter {
     }
   }
 
-  // The same rotations, as constant as possible, from a fit to positions.
+  // Estimates the same rotations, which should be constant, from a fit to positions.
   void Calibrate(const Motion& fitted) {
     std::vector<Eigen::Matrix3d> sums(rig_.names.size(), Eigen::Matrix3d::Zero());
     for (int64_t frame = 0; frame < rig_.count; ++frame) {
@@ -124,7 +124,7 @@ class RigFitter {
     }
   }
 
-  // Rotation of our trunk, `share` of the way from pelvis to chest.
+  // The rotation of our trunk at `share` of the way from pelvis to chest.
   static Eigen::Matrix3d OurSpine(const JointPlacement& ours, double share) {
     static const int joints[] = {0, SmplBody().Find("spine1"), SmplBody().Find("spine2"),
                                  SmplBody().Find("spine3")};
@@ -169,7 +169,7 @@ class RigFitter {
         turns[joint] = turns[parent];
       }
     }
-    // Limbs point where the rig's do, whatever moved them there.
+    // Limbs point where the rig's do, even if the file moves them without rotations.
     for (const LimbSegment& segment : LimbSegments()) {
       const Eigen::Vector3d bone = reading_.Bone(theirs, segment);
       if (bone.norm() * scale_ < 1e-6) continue;
@@ -215,7 +215,7 @@ class RigFitter {
 RigFit FitRig(const RigMotion& rig, double scale) {
   const RigReading as_named(rig);
   const auto named = [&] { return RigFitter(as_named, scale).Fit(); };
-  // Toes tell the front; without them, knees and elbows do.
+  // Toes show the front; without them, knees and elbows do.
   const bool has_toes = as_named.Find("left_foot") >= 0 && as_named.Find("right_foot") >= 0;
   if (as_named.Stands() && has_toes) return named();
   std::optional<RigFit> as_it_is;

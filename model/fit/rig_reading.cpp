@@ -15,12 +15,12 @@ namespace choreo {
 namespace {
 
 constexpr int64_t kSamples = 200;  // frames sampled to find what is constant
-// How far a rest pose's limbs may deviate from SMPL's, radians: legs hang; arms are anywhere
+// The largest deviation of a rest pose's limbs from SMPL's, radians. Legs hang; arms are anywhere
 // between hanging and held out.
 constexpr double kLegsAside = 50 / kDegrees, kArmsAside = 115 / kDegrees;
 constexpr double kTrunkAside = 35 / kDegrees;
-// A bone that carries the next one keeps it in the same place, within these radians and bone
-// lengths.
+// In its own frame, a bone that moves the next one keeps it in the same place, within kLooseBone
+// radians, except for kMaxLoose bones.
 constexpr double kLooseBone = 15 / kDegrees;
 constexpr int kMaxLoose = 2;
 
@@ -37,7 +37,7 @@ Eigen::Vector3d NearestAxis(const Eigen::Vector3d& way) {
   return Eigen::Vector3d::Unit(axis) * (way[axis] < 0 ? -1 : 1);
 }
 
-// The placement as one of our bodies, if it is a standing body with arms hanging or held out.
+// The placement as a CharacterBody, if it is a standing body with arms hanging or held out.
 std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matrix3Xd& places) {
   std::optional<CharacterBody> body;
   try {
@@ -63,7 +63,7 @@ std::optional<CharacterBody> RestBody(const HumanBones& bones, const Eigen::Matr
   }
   for (const std::string joint : {"hip", "shoulder"})
     if ((place("left_" + joint) - place("right_" + joint)).x() < 0) return std::nullopt;
-  // A resting body is alike on both sides; one in the middle of a dance is not.
+  // A body at rest is symmetric; one in the middle of a dance is not.
   for (size_t i = 0; i < LimbSegments().size() / 2; ++i) {
     const LimbSegment &left = LimbSegments()[i],
                       &right = LimbSegments()[i + LimbSegments().size() / 2];
@@ -142,7 +142,8 @@ Eigen::Vector3d RigReading::Inside(const RigPlacement& placement,
   return (placement.turns[Find(segment.from)].transpose() * bone).normalized();
 }
 
-// Whether, in most frames, nearly all limbs point in their own frames where `expected` says.
+// Whether, in most frames, nearly all limbs point in the direction `expected`, seen in their own
+// frames.
 bool RigReading::Point(const std::function<Eigen::Vector3d(const LimbSegment&)>& expected,
                        double share) const {
   int loose = 0;

@@ -9,23 +9,24 @@
 #include "model/fit/character_body.h"
 #include "model/fit/rig_motion.h"
 
-/// The facts that a recording reveals about its rig before fitting. Private to this folder.
+/// Finds out from a recording what its rig's rest pose and rotations mean, before fitting. Private
+/// to this folder.
 namespace choreo {
 
-/// The share of frames that makes a rule.
+/// The share of frames in which something must hold to count as a rule.
 inline constexpr double kRuleShare = 0.9;
 
-/// The bones whose direction is that to their end: by SMPL's names, which HumanBones uses, too.
+/// A limb's bone: the joints at its two ends, by their names in SMPL and HumanBones.
 struct LimbSegment {
   std::string from, to;
 };
-/// The left side's bones, then as many of the right.
+/// The left side's bones, followed by the right side's in the same order.
 const std::vector<LimbSegment>& LimbSegments();
 
-/// Samples a few frames; the recording must outlive it.
+/// Analyses a recording by a sample of its frames. The recording must outlive it.
 class RigReading {
  public:
-  /// Fails like FitRig.
+  /// Throws what FitRig throws.
   explicit RigReading(const RigMotion& rig);
 
   const RigMotion& rig() const { return rig_; }
@@ -36,8 +37,8 @@ class RigReading {
   double Scale() const;
   /// RigFit::missing.
   std::vector<std::string> Missing() const;
-  /// Whether the positions of bones' ends turn with the bones: always, unless joints were moved
-  /// without turning anything.
+  /// Whether the ends of bones move with the bones' rotations. False for files that move joints
+  /// without rotating them.
   bool TurnsCarry() const;
 
   /// A rest pose that is a standing body.
@@ -45,10 +46,10 @@ class RigReading {
     CharacterBody body;
     const RigPlacement* placement = nullptr;
   };
-  /// The best of the file's rest poses; without a usable one, the first frame that stands with
-  /// straight limbs and arms held out.
+  /// The best of the file's rest poses, or else the first frame that stands with straight limbs and
+  /// arms held out.
   std::optional<Rest> FindRest() const;
-  /// Whether one of the file's rest poses stands.
+  /// Whether one of the file's rest poses is a standing body.
   bool Stands() const;
   /// RigFit::up.
   std::optional<Eigen::Vector3d> Up() const;

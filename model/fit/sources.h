@@ -9,72 +9,71 @@
 #include "model/fit/position_clip.h"
 #include "model/motion/skeleton.h"
 
-/// Says how the joints of source skeletons locate ours.
+/// Maps the joints of source skeletons to ours.
 namespace choreo {
 
 /// A weighted sum of named joints; the weights sum to 1.
 using JointBlend = std::vector<std::pair<std::string, double>>;
 
-/// Median distance of two points of a recorded dancer over the clip.
+/// The median distance of two points over a clip.
 double MedianDistance(const PositionClip& clip, const JointBlend& a, const JointBlend& b);
 
 /// A point fixed to one of our joints.
 struct OurPoint {
   std::string joint;
   double weight = 1;
-  /// Offset in the joint's frame (at rest: x to the dancer's left, y up, z forward), metres. It
-  /// serves points that are not joints, such as heels and temples, and source joints at another
-  /// place in the body than ours of the same name.
+  /// Offset in the joint's frame (at rest: x to the dancer's left, y up, z forward), metres. For
+  /// points that are not joints, such as heels and temples, and for source joints whose place in
+  /// the body differs from ours of the same name.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 
-/// A point that both skeletons have: a joint, or a place between joints such as the middle of the
-/// hips. Landmarks form a tree whose root is the first.
+/// A point that both skeletons have: a joint, or a point between joints such as the middle of the
+/// hips. Landmarks form a tree, whose root is the first.
 struct Landmark {
   std::string name;
   JointBlend source;           ///< in terms of the source's joints
   std::vector<OurPoint> ours;  ///< in terms of our skeleton's joints; the weights sum to 1
   int parent = -1;             ///< index of an earlier landmark, -1 for the first
-  /// true: the source's direction from the parent with our rest length (a bone). false: the
-  /// source's vector, scaled by our rest length over the source's median length (several bones in
-  /// between, so that the distance may change).
+  /// True for a single bone: the target takes the source's direction from the parent and our rest
+  /// length. False for several bones, whose ends change their distance: the target takes the
+  /// source's vector, scaled by our rest length over the source's median length.
   bool rigid = true;
-  double weight = 1;  ///< confidence: multiplies the residual
+  double weight = 1;  ///< confidence, which multiplies the residual
 };
 
-/// A source skeleton, as the fit needs it.
+/// A source skeleton's landmarks, for fitting.
 struct SourceMapping {
   std::string name;
   std::vector<Landmark> landmarks;
-  /// Standard deviation of its landmarks, metres. Smaller values fit more closely; larger ones give
+  /// Standard deviation of the landmarks, metres. Smaller values fit more closely; larger ones give
   /// joint limits and smoothness more weight.
   double accuracy_m = 0.004;
-  /// Source joints that touch the floor (for levelling and grounding).
+  /// Source joints that touch the floor, for levelling and grounding.
   std::vector<std::string> feet;
 };
 
-/// Our own skeleton with all joints given, for models that predict positions. `hands`: the weight
-/// of joints below the wrists.
+/// The mapping of our own skeleton with all its joints, for models that predict positions. `hands`:
+/// the weight of joints below the wrists.
 SourceMapping IdentitySource(const Skeleton& skeleton, double hands = 1);
 
-/// A recorded BVH hierarchy, by its joint names (human_bones.h). End sites are named after their
-/// parent + "_end". Measures the spine's proportions on the clip. Throws Error(kInvalidArgument)
-/// naming the first missing joint of those needed: hips, knees, ankles, shoulders, elbows, wrists,
-/// neck.
+/// The mapping of a BVH clip by its joint names (human_bones.h). End sites have their parent's name
+/// + "_end". Measures the spine's proportions in the clip. Throws Error(kInvalidArgument), naming
+/// the first missing joint of those needed: hips, knees, ankles, shoulders, elbows, wrists, neck.
 SourceMapping BvhSource(const PositionClip& clip);
 /// The same for known bones.
 SourceMapping RigSource(const PositionClip& clip, const HumanBones& bones);
 
-inline constexpr double kTangAccuracy = 0.015;  ///< of tang2018's points, metres
+inline constexpr double kTangAccuracy = 0.015;  ///< metres, of tang2018's points
 
-/// "Dance with Melody" (Tang et al. 2018): 23 joints. `Tang2018JointNames` lists them in file
-/// order, without the world centre in row 0 of the .npy.
+/// The 23 joints of "Dance with Melody" (Tang et al. 2018) in file order, without the world centre
+/// in row 0 of the .npy.
 const std::vector<std::string>& Tang2018JointNames();
 SourceMapping Tang2018Source();
 
-/// The same dancers as first published: 21 joints, listed in file order. The row called head is the
-/// left temple, the heels' rows are midway between heel and toes, and the neck lies two thirds of
-/// the way from the waist to the temple and so adds nothing.
+/// The 21 joints of the same dancers as first published, in file order. The row called head is the
+/// left temple. The heels' rows are midway between heel and toes. The neck is two thirds of the way
+/// from the waist to the temple, so it adds nothing.
 const std::vector<std::string>& Tang61JointNames();
 SourceMapping Tang61Source();
 

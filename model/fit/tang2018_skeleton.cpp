@@ -46,8 +46,8 @@ class Lengths {
   std::span<const PositionClip> clips_;
 };
 
-/// Position of a triangle's tip over its base: how far along it from the first end and how far off
-/// it, from the tip's distances to both ends. A tip out of reach lies on the base.
+/// Position of a triangle's tip relative to its base, computed from the tip's distances to both
+/// ends: along the base from its first end, and off it. A tip out of reach lies on the base.
 struct Tip {
   double along, off;
 };
@@ -103,7 +103,7 @@ NativeTang2018 MeasureTang2018(std::span<const PositionClip> clips) {
   const double half_shoulders = 0.5 * lengths.Between("left_shoulder", "right_shoulder");
   const double half_head = 0.5 * lengths.Between("left_temple", "right_temple");
   const double half_neck = 0.5 * lengths.Between(shoulders, temples);
-  // The chest joint is above the hips, as are the shoulders, at their recorded distance from the
+  // The chest joint is above the hips, as the shoulders are, at their recorded distance from the
   // waist.
   const double depth = belly * std::sin(kWaistLean);
   const double reach = lengths.Between(waist, shoulders);

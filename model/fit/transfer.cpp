@@ -16,7 +16,7 @@
 namespace choreo {
 namespace {
 
-// Metres at SMPL's size: a hand nearer than the first touches, one farther than the second is free.
+// Metres at SMPL's size: a hand nearer than kTouches touches, one farther than kFree is free.
 constexpr double kTouches = 0.12, kFree = 0.32;
 // Seconds of smoothing, so that a hand that swings past the hips does not jerk.
 constexpr double kDraws = 0.08;
@@ -39,7 +39,7 @@ double LegHeight(const Skeleton& skeleton) {
          2;
 }
 
-/// Finds which of SMPL's global rotations a character's joint takes.
+/// Chooses the global rotation of SMPL's body that a character's joint takes.
 class Takes {
  public:
   explicit Takes(const Skeleton& character) {
@@ -72,7 +72,7 @@ class Takes {
     int from, to;
     double share;
   };
-  // The point `part` of `parts` of the way along a chain.
+  // The rotation at `part` / `parts` of the way along a chain.
   static Take Along(const std::vector<std::string>& chain, int part, int parts) {
     const double way = static_cast<double>(part) * static_cast<double>(chain.size() - 1) / parts;
     const auto below = static_cast<size_t>(way);
@@ -99,7 +99,7 @@ std::vector<HandShifts> Smooth(const std::vector<HandShifts>& ways, double fps) 
   return smooth;
 }
 
-/// Moves hands to where SMPL's are, relative to what they touch.
+/// Moves hands to SMPL's positions relative to what they touch.
 class Hands {
  public:
   Hands(const Skeleton& character, double size)
@@ -118,7 +118,7 @@ class Hands {
     }
   }
 
-  /// How far each hand must move from `now`.
+  /// The displacement of each hand from `now`, metres.
   HandShifts Shifts(const Eigen::Matrix3Xd& smpl, const Eigen::Matrix3Xd& now) const {
     return (HandShifts() << HandShift(0, smpl, now), HandShift(1, smpl, now)).finished();
   }
@@ -154,7 +154,7 @@ class Hands {
       way += weight * (goal - hand);
       weights += weight;
     };
-    // Hands that touch meet in their middle: each moves half of the way.
+    // Hands that touch meet in their middle, so each moves half of the way.
     const Eigen::Vector3d apart = our_hand - Col(smpl, ours_[1 - side]);
     const Eigen::Vector3d middle = (hand + Col(now, arms_[1 - side].end)) / 2;
     draw(middle + size_ * apart / 2, Nearness(apart.norm()));

@@ -4,19 +4,19 @@
 #include "model/motion/skeleton.h"
 
 /// Transfers a dance from SMPL's body to a character's (character_body.h), whose rest pose is
-/// SMPL's. Bones turn in the world as SMPL's do; a trunk or neck with more or fewer bones bends as
-/// much in total. All functions are pure and per frame; motions have one pose a frame.
+/// SMPL's. Bones take the world rotations of SMPL's. A trunk or neck with more or fewer bones bends
+/// as much in total. All functions are pure and work frame by frame.
 namespace choreo {
 
-/// Height of the character's hips above its ankles at rest, over SMPL's: the scale of its travel.
+/// The height of the character's hips above its ankles at rest over SMPL's, which scales travel.
 double CharacterSize(const Skeleton& character);
 
-/// Copies the bones' rotations, and the hips' position scaled by CharacterSize.
+/// Copies the bones' world rotations, and the hips' position scaled by CharacterSize.
 Motion CopyTurns(const Motion& smpl, const Skeleton& character);
 
-/// Corrects the limbs of `copied` (consecutive frames) by inverse kinematics (motion/limb.h): toes
-/// go where SMPL's are, scaled, with flat feet at the floor; hands that touch or nearly touch each
-/// other, the head, the thighs or the floor keep SMPL's distance from it, scaled.
+/// Corrects the limbs of `copied` (consecutive frames) by inverse kinematics (motion/limb.h). Toes
+/// move to SMPL's positions, scaled, with flat feet at the floor. Hands that touch or nearly touch
+/// each other, the head, the thighs or the floor keep SMPL's distance from them, scaled.
 Motion PlaceLimbs(const Motion& smpl, const Skeleton& character, Motion copied);
 
 /// CopyTurns, then PlaceLimbs. Throws Error(kInvalidArgument) for poses of another joint count than
