@@ -39,7 +39,7 @@ struct Layout {
   const char* trans;
 };
 
-// The first layout whose rotations exist.
+// All layouts, in order of preference.
 constexpr Layout kLayouts[] = {
     {nullptr, "poses", "trans"},
     {nullptr, "smpl_poses", "smpl_trans"},
@@ -53,7 +53,7 @@ constexpr Layout kLayouts[] = {
     {nullptr, "thetas", "trans"},
     {nullptr, "q", "pos"},
 };
-// Other names of the same place.
+// All names of the root's position.
 constexpr const char* kTransNames[] = {"trans", "transl", "smpl_trans", "translation"};
 constexpr const char* kRateNames[] = {"mocap_frame_rate", "mocap_framerate", "fps", "frame_rate",
                                       "framerate"};
@@ -70,7 +70,7 @@ std::optional<Layout> FindLayout(const NpzArchive& npz) {
   return std::nullopt;
 }
 
-// Text for messages.
+// Names all layouts for messages.
 std::string LayoutNames() {
   std::string names;
   for (const Layout& layout : kLayouts) {
@@ -111,7 +111,7 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
   return otherwise;
 }
 
-// Whether the arrays, or those of a dict at most this deep within, are a motion.
+// Whether the arrays, or those of a dict nested at most `depth` deep, are a motion.
 bool HoldsMotion(const NpzArchive& npz, int depth) {
   return FindLayout(npz) ||
          (depth > 0 && std::ranges::any_of(npz.NestedNames(), [&](const std::string& name) {
@@ -119,8 +119,8 @@ bool HoldsMotion(const NpzArchive& npz, int depth) {
           }));
 }
 
-// The name of the nested dict that holds a motion, or "". If several do, the one that --body names;
-// this uses up --body.
+// The name of the nested dict that holds a motion, or "". If several do, takes the one that --body
+// names, and clears --body.
 std::string DictWithin(const NpzArchive& npz, MotionReading* reading) {
   std::vector<std::string> holding;
   for (const std::string& name : npz.NestedNames()) {
@@ -147,7 +147,7 @@ Motion Assemble(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotatio
   const int joints = Skeleton::Smpl24().joints();
   const int known = rotations.rows() == 3 * joints ? joints : kBodyJoints;
   Motion motion = MotionOfRows(positions, rotations.topRows(3 * known), joints, fps, key);
-  CheckMotionLimits(motion);  // before turns of the world hide an absurd angle
+  CheckMotionLimits(motion);  // before the change of axes hides an absurd angle
   return motion;
 }
 
@@ -156,7 +156,7 @@ bool IsSmplX(const NpzArchive& npz, Eigen::Index joints) {
   try {
     return npz.Has("surface_model_type") && npz.Text("surface_model_type").starts_with("smplx");
   } catch (const Error&) {
-    return false;  // not text: tells nothing
+    return false;  // not text: no information
   }
 }
 
@@ -256,8 +256,8 @@ Eigen::Vector3d SmplXRestPelvis() { return {0.00312326, -0.35140747, 0.01203655}
 
 namespace {
 
-/// The vector of which QuaternionFromExp makes q itself, not -q: its angle is in [0, 2 pi]. It
-/// follows q without jumps, except through -1.
+/// The rotation vector that QuaternionFromExp converts to q itself, not -q. Its angle is in [0, 2
+/// pi]. It follows q continuously, except through -1.
 Eigen::Vector3d ExpWithSign(const Eigen::Quaterniond& q) {
   const double sine = q.vec().norm();
   if (sine < 1e-150) return Eigen::Vector3d::Zero();
@@ -270,7 +270,7 @@ Pose ToAmass(const Pose& pose) {
   const Eigen::Matrix3d z_up = kYUpFromZUp.transpose();
   Pose amass = pose;
   amass.root_position = z_up * pose.root_position - SmplRestPelvis();
-  // Dancers who turn stay away from where this jumps, so importers see no jump, and no frame
+  // Turning dancers stay away from that discontinuity, so importers see no jump, and no frame
   // depends on others.
   amass.rotations.col(0) =
       ExpWithSign(Eigen::Quaterniond(z_up) * QuaternionFromExp(pose.rotations.col(0)));

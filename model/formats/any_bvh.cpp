@@ -16,7 +16,7 @@
 namespace choreo {
 namespace {
 
-// The joints that move: those whose values differ between frames; if none do, those that have
+// The joints that move: those whose values differ between frames or, if none do, those with
 // channels.
 std::vector<bool> MovedJoints(const BvhFile& file) {
   std::vector<bool> moves, has;
@@ -45,8 +45,8 @@ Motion FitBvh(const BvhFile& file, const MotionReading& reading) {
   return FitNodes(std::move(nodes), motion, reading);
 }
 
-// Converts angles that look like radians to degrees: some exceed 1, and none exceeds a whole turn,
-// except those of a root that keeps turning slowly.
+// Converts angles that look like radians to degrees. In radians some angles exceed 1, and none
+// exceeds a whole turn, except those of a root that keeps turning slowly.
 std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& reading) {
   constexpr Eigen::Index kMinFrames = 10;  // fewer frames prove nothing
   constexpr double kTurn = 2 * M_PI + 1e-3, kLimb = 1;
@@ -105,7 +105,8 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
     MotionReading quietly = reading;
     quietly.notes = &notes;
     SkeletonMotion read = TakeBvh(*turned, wanted, quietly);
-    // Degrees of a dancer who sways a little would, as radians, bend knees and elbows backwards.
+    // If degrees of a dancer who sways a little were read as radians, knees and elbows would bend
+    // backwards.
     if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
       reading.Note(
           "its angles are taken as radians, as they are so small; --angles degrees says otherwise");

@@ -8,9 +8,9 @@
 
 namespace choreo {
 
-/// Reads a BVH file of any skeleton: unchanged if it is `wanted` (if any), SMPL's, or one of its
-/// own in our conventions, otherwise fitted to SMPL's. Angles that look like radians are taken as
-/// such, unless `reading` says what they are.
+/// Reads a BVH file of any skeleton. The motion is unchanged if the skeleton is `wanted` (if
+/// given), SMPL's, or another one in our conventions; otherwise it is fitted to SMPL's body. Angles
+/// that look like radians count as radians, unless `reading` states the unit.
 SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
                           const MotionReading& reading);
 

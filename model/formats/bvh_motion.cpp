@@ -42,7 +42,7 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
 // Angles z, x, y (radians) with R = Rz Rx Ry, of the two solutions (and their whole turns) the one
 // nearest to `previous`.
 Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previous) {
-  // Angles z and y are one at a quarter turn about x; y keeps its value.
+  // At a quarter turn about x, z and y turn about the same axis; y keeps its value.
   const bool locked = std::hypot(r(2, 0), r(2, 2)) < 1e-9;
   const double y = locked ? previous.z() : std::atan2(-r(2, 0), r(2, 2));
   const Eigen::Matrix3d zx = r * Eigen::AngleAxisd(-y, Eigen::Vector3d::UnitY()).matrix();
@@ -56,13 +56,13 @@ Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previo
   return (a - previous).squaredNorm() <= (b - previous).squaredNorm() ? a : b;
 }
 
-/// A file's blocks, and our joint for each, -1 for an End Site.
+/// The blocks of a file and our joint for each, -1 for an End Site.
 struct BvhBlocks {
   std::vector<BvhJoint> joints;
   std::vector<int> ours;
 };
 
-/// Appends a joint of ours below the block `parent`, and all that hangs from it.
+/// Appends one of our joints and its descendants below the block `parent`.
 void AppendBlocks(const Skeleton& skeleton, const BvhLayout& layout, int index, int parent,
                   BvhBlocks& blocks) {
   const auto block = static_cast<int>(blocks.joints.size());
@@ -81,7 +81,7 @@ void AppendBlocks(const Skeleton& skeleton, const BvhLayout& layout, int index, 
     if (skeleton.parents[child] == index) AppendBlocks(skeleton, layout, child, block, blocks);
   }
   if (blocks.ours.back() != index) return;
-  // A leaf's end is half of its bone's length further.
+  // A leaf's End Site is half of its bone's length further.
   blocks.joints.push_back({.name = joint.name + "_end",
                            .parent = block,
                            .offset = joint.offset / 2,
@@ -90,7 +90,7 @@ void AppendBlocks(const Skeleton& skeleton, const BvhLayout& layout, int index, 
   blocks.ours.push_back(-1);
 }
 
-/// Maps each joint of a file to ours in this layout, -1 for an End Site; none if the file has
+/// Maps each joint of a file to ours in this layout, -1 for an End Site. None if the file has
 /// another skeleton.
 std::optional<std::vector<int>> FindJoints(const BvhFile& file, const Skeleton& skeleton,
                                            const BvhLayout& layout) {

@@ -42,7 +42,7 @@ std::string FromAnyBytes(std::string text) {
   return text;
 }
 
-// Windows's "Unicode" is UTF-16, with or without a byte order mark.
+// Converts UTF-16, which Windows calls "Unicode", with or without a byte order mark.
 std::string ToUtf8(std::string_view text, const std::string& name) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const bool little = text.size() > 1 && (text.starts_with("\xFF\xFE") || text[1] == '\0');
@@ -95,7 +95,7 @@ std::vector<BvhJoint> ReadHierarchy(BvhTokens& tokens) {
   };
   begin_root();
   while (!open.empty() || tokens.NextIs("ROOT")) {
-    if (open.empty()) begin_root();  // another person or a prop
+    if (open.empty()) begin_root();  // a root of another person or a prop
     const std::string_view word = tokens.Next("'}'");
     if (word == "}") {
       open.pop_back();
@@ -110,7 +110,7 @@ std::vector<BvhJoint> ReadHierarchy(BvhTokens& tokens) {
       begin(std::string(tokens.RestOfLine("a joint name")), false);
     } else if (BvhTokens::SameWord(word, "End") || BvhTokens::SameWord(word, "EndSite")) {
       if (BvhTokens::SameWord(word, "End")) tokens.Expect("Site");
-      if (!tokens.NextIs('{')) tokens.RestOfLine("'{'");  // some give it a name
+      if (!tokens.NextIs('{')) tokens.RestOfLine("'{'");  // some files name the End Site
       begin(joints[open.back()].name + "_end", true);
     } else {
       tokens.Fail("CHANNELS, JOINT, End Site or '}'", word);
@@ -119,8 +119,8 @@ std::vector<BvhJoint> ReadHierarchy(BvhTokens& tokens) {
   return joints;
 }
 
-// Joints whose position channels are 0 or small throughout would all be in their parents' places;
-// such channels are added to the offset.
+// Joints whose position channels are 0 or small throughout would coincide with their parents. Such
+// channels are added to the offset.
 void FindAdding(BvhFile& file) {
   constexpr double kNearly = 0.25;  // of the offset
   Eigen::Index row = 0;
@@ -168,7 +168,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   file.frame_time = tokens.Number("a frame time");
   file.states_rate = file.frame_time != 0;
   if (!file.states_rate) file.frame_time = 1 / kModelFps;
-  // Some programs write milliseconds: 4 and more are at most 250 frames a second.
+  // Some programs write milliseconds: 4 and more mean at most 250 frames per second.
   if (const double seconds = file.frame_time / 1000;
       file.frame_time >= kMaxFrameTime && seconds < 1) {
     file.notes.push_back("its frame time is " + Rounded(file.frame_time) +
@@ -179,7 +179,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
     tokens.Fail("a frame time of 1e-5 to 4 s, or as many milliseconds",
                 std::to_string(file.frame_time));
   }
-  std::vector<double> values;  // not reserved: the header's count may be anything
+  std::vector<double> values;  // not reserved, because the header's count may be wrong
   // Complete rows count, whatever the header says.
   int64_t lines = 0, line = -1;
   while (!tokens.AtEnd()) {

@@ -16,8 +16,8 @@
 
 namespace choreo {
 
-/// Splits at white space; lines only count for messages. # and // begin comments to the end of
-/// their line. Private to this folder.
+/// Splits the text of a BVH file at white space. Lines matter only in messages. # and // begin
+/// comments up to the end of the line. Not thread-safe. Private to this folder.
 class BvhTokens {
  public:
   BvhTokens(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -35,7 +35,7 @@ class BvhTokens {
     return text_.substr(begin, at_ - begin);
   }
 
-  // "Frames:", "Frames :", or without the colon; more may follow directly.
+  // Skips a label: "Frames:", "Frames :" or "Frames". The next token may follow directly.
   void Label(std::string_view word) {
     SkipSpace();
     if (!SameWord(text_.substr(at_, word.size()), word)) {
@@ -60,7 +60,7 @@ class BvhTokens {
     return at_ < text_.size() && text_[at_] == letter;
   }
 
-  // The rest of this line, for joint names with spaces in them.
+  // The rest of the line, for joint names with spaces.
   std::string_view RestOfLine(const char* expected) {
     while (at_ < text_.size() && IsSpace(text_[at_]) && text_[at_] != '\n') ++at_;
     const size_t begin = at_;
@@ -80,7 +80,7 @@ class BvhTokens {
   double Number(const char* expected, double limit = std::numeric_limits<double>::infinity()) {
     std::string_view token = Next(expected);
     std::string digits(token.starts_with('+') ? token.substr(1) : token);
-    // A decimal comma.
+    // Accepts a decimal comma.
     if (std::ranges::count(digits, ',') == 1 && digits.find('.') == std::string::npos)
       std::ranges::replace(digits, ',', '.');
     double value = 0;
@@ -124,7 +124,7 @@ class BvhTokens {
   }
 
  private:
-  // DOS's end of a file, and zeros that fill its last block, count as spaces.
+  // DOS's end-of-file character, and zeros that fill the last block, count as spaces.
   static bool IsSpace(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\x1a' || c == '\0';
   }

@@ -13,8 +13,8 @@
 
 namespace choreo {
 
-/// A character in a binary glTF file (.glb, .vrm): mesh, skin, materials, any extensions. Only its
-/// nodes are read. Immutable.
+/// A character in a binary glTF file (.glb, .vrm) with mesh, skin, materials and any extensions.
+/// Parses only the nodes. Immutable; thread-safe.
 class CharacterFile {
  public:
   /// Throws Error(kNotFound) if the file cannot be opened; Error(kInvalidArgument) whose field
@@ -23,23 +23,23 @@ class CharacterFile {
   explicit CharacterFile(const std::filesystem::path& path);
 
   const GltfNodes& nodes() const { return nodes_; }
-  /// The same for finding bones (fit/find_bones.h); places in the file's unit.
+  /// The nodes for finding bones (fit/find_bones.h), with places in the file's unit.
   const RigNodes& rig() const { return rig_; }
   const Eigen::Matrix3Xd& places() const { return rig_.places; }
 
-  /// Calls FindBones of find_bones.h.
+  /// FindBones of find_bones.h for this file.
   HumanBones FindBones(const std::vector<BoneChoice>& chosen = {}) const {
     return choreo::FindBones(rig_, chosen);
   }
 
   /// Writes the character with the dance as its first animation, "dance", whose extras hold `fps`.
-  /// Everything else stays, byte for byte. The dance keeps our axes in the file's world: Y up, +Z
-  /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, which is of
-  /// this file. Throws Error(kInvalidArgument) for a motion without frames, zero scales, or more
-  /// than 4 GiB; Error(kInternal) if the file cannot be written. `fingers` have an angle, or one
-  /// per frame.
-  /// With RootMotion::kRoot the node right above all bones has the way over the floor, or one that
-  /// is added above the pelvis. Throws Error(kInvalidArgument) if no one node is above the bones.
+  /// Everything else stays byte for byte. The dance keeps our axes in the file's world, Y up and +Z
+  /// ahead, whichever way the character faces at rest. `motion` is of `body.skeleton`, and `body`
+  /// of this file. `fingers` have one angle, or one per frame. Throws Error(kInvalidArgument) for a
+  /// motion without frames, zero scales, or more than 4 GiB; Error(kInternal) if the file cannot be
+  /// written. With RootMotion::kRoot, the node right above all bones carries the character over the
+  /// floor, or a new node above the pelvis if there is none. Throws Error(kInvalidArgument) if no
+  /// one node is above the bones.
   void WriteDance(const std::filesystem::path& out, const CharacterBody& body, const Motion& motion,
                   const std::vector<CurledBone>& fingers = {},
                   RootMotion root = RootMotion::kPelvis) const;

@@ -78,7 +78,8 @@ class DrivenNodes {
     throw InvalidArgument(GltfItem("nodes", node), "has a scale of zero");
   }
 
-  // True for the pelvis, and for a bone whose parent node is not the bone above it.
+  // Whether a bone needs a track for its position: the pelvis, and a bone whose parent node is not
+  // the bone above it.
   bool Moves(size_t joint) const {
     const int above = body_.skeleton.parents[joint];
     if (above < 0) return true;
@@ -98,7 +99,7 @@ class DrivenNodes {
   JointPlacement placement_;
 };
 
-// The rotation of a finger's node in its parent, which carries it along.
+// The rotation of a finger's node relative to its parent.
 Eigen::Quaterniond Curled(const CurledBone& finger, double angle, const GltfNodes& nodes,
                           const std::vector<Eigen::Affine3d>& rest) {
   const int parent = nodes.parents[finger.node];
@@ -138,7 +139,7 @@ int AddNodeAbove(int topmost, GltfBuilder* gltf) {
   return static_cast<int>(above);
 }
 
-/// The track of a node that carries what is below it over the floor; -1: of one that is added.
+/// The track of a node that carries its descendants over the floor. `node` -1: a node to be added.
 GltfTrack CarriedOver(const std::vector<GroundFrame>& way, int node, const GltfNodes& nodes,
                       const std::vector<Eigen::Affine3d>& rest) {
   GltfTrack track;
@@ -159,7 +160,7 @@ GltfTrack CarriedOver(const std::vector<GroundFrame>& way, int node, const GltfN
   return track;
 }
 
-// Animated nodes must not have a matrix.
+// Replaces a node's matrix by its parts, because animated nodes must not have a matrix.
 void StateParts(ordered_json& node, const GltfPlacement& rest) {
   if (!node.is_object() || node.erase("matrix") == 0) return;
   const auto list = [](const auto& values) {

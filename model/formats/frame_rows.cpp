@@ -19,17 +19,17 @@
 namespace choreo {
 namespace {
 
-enum class Place : uint8_t { kPelvis, kSmpl, kSmplX };  // the point that a row's place gives
+enum class Place : uint8_t { kPelvis, kSmpl, kSmplX };  // the point of the body at a row's position
 
 struct Kind {
   int64_t width;
   const char* of;
   double fps;
-  int64_t place, turns;  ///< where they begin
-  int64_t joints, each;  ///< values of a turn
+  int64_t place, turns;  ///< first columns
+  int64_t joints, each;  ///< values of a rotation
   Place root;
   bool z_up = false;
-  int64_t betas = 0;  ///< where ten of them begin, or 0
+  int64_t betas = 0;  ///< first of ten columns, or 0
 };
 
 constexpr Kind kKinds[] = {
@@ -61,7 +61,7 @@ double Rate(int64_t width, const char* of, double fps, const MotionReading& read
 using Rows = Eigen::Map<const Eigen::MatrixXd>;  // [width, frames]
 
 Motion ReadKind(const Kind& kind, const Rows& rows, const MotionReading& reading) {
-  // Makes an array of its own, so that rotation_rows.h can parse it.
+  // Copies the rotations to an array of their own, so that rotation_rows.h can parse it.
   NpzArchive npz;
   const Eigen::MatrixXd stated = rows.middleRows(kind.turns, kind.joints * kind.each);
   const std::string key = "[:, " + std::to_string(kind.turns) + ":]";

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// Splits and joins binary glTF. Private to this folder.
+/// Splits and joins the chunks of binary glTF. Private to this folder.
 namespace choreo {
 
 struct GlbChunks {
@@ -13,20 +13,20 @@ struct GlbChunks {
   std::string_view others;  ///< any further chunks, unchanged
 };
 
-/// All bytes of a file. Throws Error(kNotFound) naming the path if it cannot be opened,
-/// Error(kInvalidArgument) without it for anything but a regular file, or 4 GiB or more, which no
-/// glb can have.
+/// Reads all bytes of a file. Throws Error(kNotFound), naming the path, if it cannot be opened;
+/// Error(kInvalidArgument), without a field, unless it is a regular file of less than 4 GiB, a
+/// glb's limit.
 std::string ReadGlbBytes(const std::filesystem::path& path);
 
-/// Reads the same from a text glTF, converted to binary with the buffer file beside it, if any, as
-/// its binary chunk. Throws, too, Error(kInvalidArgument) naming that file if it is unreadable or
-/// not beside or below `path`, and for several.
+/// Reads a text glTF and converts it to binary; its buffer file, if any, becomes the binary chunk.
+/// Throws what ReadGlbBytes throws, and Error(kInvalidArgument) for several buffer files and for
+/// one that is unreadable or not beside or below `path`, naming it.
 std::string ReadGltfBytes(const std::filesystem::path& path);
 
-/// Points into `bytes`. Throws Error(kInvalidArgument) without a field.
+/// The result points into `bytes`. Throws Error(kInvalidArgument) without a field.
 GlbChunks SplitGlb(std::string_view bytes);
 
-/// The inverse; pads chunks as required. Throws Error(kInvalidArgument) for 4 GiB or more.
+/// The inverse. Pads chunks as glTF requires. Throws Error(kInvalidArgument) for 4 GiB or more.
 std::string JoinGlb(const GlbChunks& chunks);
 
 }  // namespace choreo

@@ -10,30 +10,31 @@
 
 namespace choreo {
 
-/// A node's track through a dance, in glTF's numbers.
+/// A node's animation, in glTF's number formats.
 struct GltfTrack {
   int node = -1;
-  std::vector<float> turns;   ///< x y z w, frame after frame; or one, for all
-  std::vector<float> places;  ///< x y z; empty if it stays in place
+  std::vector<float> turns;   ///< x y z w, frame after frame, or one for all frames
+  std::vector<float> places;  ///< x y z, frame after frame; empty if the node stays in place
 
-  /// Chooses the sign nearer to the frame before, as readers interpolate the shorter way between
-  /// neighbours.
+  /// Adds a frame's rotation. Chooses the quaternion's sign that is nearer to the frame before,
+  /// because readers interpolate linearly between neighbours.
   void AddTurn(Eigen::Quaterniond turn);
   void AddPlace(const Eigen::Vector3d& place);
 };
 
-/// A glTF document and its binary data, being extended. Private to this folder.
+/// Extends a glTF document and its binary data. Not thread-safe. Private to this folder.
 class GltfBuilder {
  public:
   using Json = nlohmann::ordered_json;
 
   GltfBuilder(Json document, std::string_view binary);
 
-  /// A member that is a list. Throws Error(kInvalidArgument) naming it if it is something else.
+  /// The list with this name, created if missing. Throws Error(kInvalidArgument), naming it, if the
+  /// member is no list.
   Json& List(const char* name);
 
-  /// Adds an accessor with its own view of packed elements, and returns its index. `type` such as
-  /// "VEC3"; `target` is the view's, 0 for none.
+  /// Adds an accessor with its own view of packed elements, and returns its index. `type`: such as
+  /// "VEC3". `bounds`: adds min and max. `target`: the view's, 0 for none.
   template <typename T>
   size_t Add(std::span<const T> values, std::string_view type, bool bounds = false,
              int target = 0) {
@@ -54,11 +55,11 @@ class GltfBuilder {
     return index;
   }
 
-  /// Adds an animation, "dance", before all others, whose extras hold `fps`. Skips tracks without a
+  /// Adds an animation, "dance", before all others. Its extras hold `fps`. Skips tracks without a
   /// node.
   void AddDance(double fps, size_t frames, const std::vector<GltfTrack>& tracks);
 
-  /// The whole file, followed by further chunks. Throws what JoinGlb throws.
+  /// Returns the whole file, followed by the chunks in `others`. Throws what JoinGlb throws.
   std::string Join(std::string_view others = {});
 
  private:

@@ -21,17 +21,17 @@ struct GltfChannel {
   Interpolation interpolation = Interpolation::kLinear;
   Eigen::RowVectorXd times;  ///< [keys] ascending, seconds
   Eigen::MatrixXd values;    ///< [3 or 4, keys]
-  /// [3 or 4, keys] per second, for kCubic: the tangents before and after each key
+  /// [3 or 4, keys], per second, for kCubic: the tangents before and after each key.
   Eigen::MatrixXd arrives = {}, leaves = {};
 
-  /// Sets its property at `time`, holding the first and the last key outside.
+  /// Sets the animated property at `time`, seconds. Holds the first and the last key outside.
   void Drive(double time, GltfPlacement& placement) const;
-  /// Whether it has keys that differ.
+  /// Whether any keys differ.
   bool Moves() const;
 };
 
-/// The channels of one of the file's animations. Throws Error(kInvalidArgument) naming a faulty
-/// part. Private to this folder, like the above.
+/// Reads the channels of one animation. Throws Error(kInvalidArgument), naming a faulty part.
+/// Private to this folder, like GltfChannel.
 std::vector<GltfChannel> ReadGltfChannels(const tinygltf::Model& model, size_t animation);
 
 }  // namespace choreo

@@ -9,13 +9,13 @@
 
 #include "model/core/error.h"
 
-/// Reads .glb with tinygltf, checking every index and range. Private to this folder.
+/// Reads .glb with tinygltf and checks every index and range. Private to this folder.
 namespace choreo {
 
-/// "list[3]".
+/// The name of an element in messages: "list[3]".
 std::string GltfItem(const char* list, size_t index);
 
-/// Returns the element, or throws Error(kInvalidArgument) whose field is `name`.
+/// Returns the element. Throws Error(kInvalidArgument), whose field is `name`, if there is none.
 template <typename T>
 const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
   if (index < 0 || static_cast<size_t>(index) >= list.size()) {
@@ -25,11 +25,12 @@ const T& GltfAt(const std::vector<T>& list, int index, const char* name) {
   return list[static_cast<size_t>(index)];
 }
 
-/// Opens no file and decodes no pictures. Throws Error(kInvalidArgument) without a field.
+/// Parses a glb without opening other files or decoding pictures. Throws Error(kInvalidArgument)
+/// without a field.
 tinygltf::Model ParseGlb(std::string_view bytes);
 
-/// An accessor's elements, [components, count], sparse or not; normalised integers become -1 to 1.
-/// `type` is a TINYGLTF_TYPE. Throws Error(kInvalidArgument) naming the accessor.
+/// Reads an accessor's elements, [components, count], sparse or not. Normalised integers become -1
+/// to 1. `type` is a TINYGLTF_TYPE. Throws Error(kInvalidArgument), naming the accessor.
 Eigen::MatrixXd ReadGltfAccessor(const tinygltf::Model& model, int index, int type);
 
 }  // namespace choreo

@@ -11,7 +11,8 @@ class Model;
 
 namespace choreo {
 
-/// Limit of node positions in frames read or written: a gigabyte, whatever a small file claims.
+/// The largest number of node positions in all frames read or written, about a gigabyte, whatever a
+/// small file claims.
 inline constexpr double kMaxPlaces = 3e7;
 
 /// A node's transform relative to its parent.
@@ -25,7 +26,7 @@ struct GltfPlacement {
   }
 };
 
-/// [3, nodes]
+/// The nodes' positions, [3, nodes].
 Eigen::Matrix3Xd PlacesOf(const std::vector<Eigen::Affine3d>& world);
 
 /// The nodes of a glTF file.
@@ -35,14 +36,14 @@ struct GltfNodes {
   std::vector<size_t> order;       ///< all nodes, parents first
   std::vector<GltfPlacement> rest;
 
-  /// World transforms of all nodes. Throws Error(kInvalidArgument) for one farther away than any
-  /// motion goes.
+  /// World transforms of all nodes. Throws Error(kInvalidArgument) for a node beyond the limits of
+  /// motions (motion/pose_limits.h).
   std::vector<Eigen::Affine3d> Place(const std::vector<GltfPlacement>& local) const;
   std::vector<Eigen::Affine3d> PlaceAtRest() const { return Place(rest); }
 };
 
-/// Throws Error(kInvalidArgument) naming the node: two parents, its own ancestor, a placement that
-/// is not finite.
+/// Throws Error(kInvalidArgument), naming the node, if it has two parents, is its own ancestor, or
+/// has a placement that is not finite.
 GltfNodes ReadGltfNodes(const tinygltf::Model& model);
 
 }  // namespace choreo

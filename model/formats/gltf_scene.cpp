@@ -68,8 +68,8 @@ int CountBones(const HumanBones& bones, const std::vector<bool>& nodes) {
       std::ranges::count_if(bones.bones, [&](const auto& bone) { return nodes[bone.second]; }));
 }
 
-// Combines all animations if each moves only a part of the body and no node is moved by two,
-// because some exporters write one per node or limb. Otherwise returns false.
+// Some exporters write one animation per node or limb. Combines all animations if each moves only a
+// part of the body and no node is moved by two. Otherwise returns false.
 bool TakeParts(const tinygltf::Model& model, const MotionReading& reading, GltfScene* scene) {
   std::vector<int> part(scene->nodes.names.size(), -1);
   std::vector<GltfChannel> channels;
@@ -134,7 +134,7 @@ size_t ChooseAnimation(const tinygltf::Model& model, const MotionReading& readin
   return chosen;
 }
 
-// The positions of a skin's joints, and of the other nodes with them, when the mesh was bound.
+// The transforms of a skin's joints, and of the nodes that move with them, when the mesh was bound.
 std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& model,
                                                         const GltfNodes& nodes,
                                                         const HumanBones& body) {
@@ -151,7 +151,7 @@ std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& m
   try {
     inverse = ReadGltfAccessor(model, largest->inverseBindMatrices, TINYGLTF_TYPE_MAT4);
   } catch (const Error&) {
-    return std::nullopt;  // for example compressed; use the nodes' own rest pose
+    return std::nullopt;  // for example if compressed: the nodes' own rest pose serves
   }
   const std::vector<Eigen::Affine3d> rest = nodes.PlaceAtRest();
   std::vector<Eigen::Affine3d> bound = rest;
@@ -167,7 +167,7 @@ std::optional<std::vector<Eigen::Affine3d>> BoundPlaces(const tinygltf::Model& m
     bound[static_cast<size_t>(largest->joints[i])] = place;
     is_joint[static_cast<size_t>(largest->joints[i])] = true;
   }
-  // Other nodes move with a joint below them or else with the one above.
+  // Another node moves with a joint below it, or else with the one above it.
   const auto follow = [&](int node, int other) {
     bound[node] = bound[other] * rest[other].inverse() * rest[node];
     is_joint[node] = true;
@@ -248,7 +248,7 @@ void ChooseTimes(const tinygltf::Model& model, size_t number, const MotionReadin
   scene.frames = static_cast<int64_t>(frames);
 }
 
-// A user who asks for another body may mean another animation.
+// Finds the body. A user who requests a body that does not exist may mean another animation.
 HumanBones FindBodyOf(const tinygltf::Model& model, const RigNodes& rig,
                       const MotionReading& reading) {
   try {

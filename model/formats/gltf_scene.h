@@ -17,9 +17,9 @@ namespace choreo {
 /// The nodes of a glTF file and one of its animations. Private to this folder.
 struct GltfScene {
   GltfNodes nodes;
-  RigNodes rig;  ///< the same; `moves`: the nodes that the animation moves
-  /// The nodes' transforms when the first skin with most of the body's bones was bound; none
-  /// without.
+  RigNodes rig;  ///< the nodes for finding bones; `moves`: the nodes that the animation moves
+  /// The nodes' world transforms when the first skin with most of the body's bones was bound. None
+  /// without a skin.
   std::optional<std::vector<Eigen::Affine3d>> bound;
   std::vector<GltfChannel> channels;
   double fps = 0;
@@ -30,8 +30,9 @@ struct GltfScene {
   std::vector<Eigen::Affine3d> Frame(int64_t frame) const;
 };
 
-/// The animation in `reading`, or else the first that moves most of a body's bones. Throws
-/// Error(kNotFound) naming the path, and Error(kInvalidArgument) naming the part, as gltf.h says.
+/// Reads the animation that `reading` names, or else the first that moves most of a body's bones.
+/// Throws what ReadGlb throws, Error(kNotFound) naming the path and Error(kInvalidArgument) naming
+/// the part.
 GltfScene ReadGltfScene(const std::filesystem::path& path, const MotionReading& reading = {});
 
 }  // namespace choreo

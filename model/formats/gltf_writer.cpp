@@ -100,8 +100,8 @@ size_t AddBody(const Skeleton& skeleton, bool has_root, GltfBuilder* gltf) {
   return gltf->Add<float>(inverse_bind, "MAT4");
 }
 
-// Adds a body bound to the joints, which are the nodes from `first` on, and its root on the floor,
-// if it has one; returns the nodes of the scene.
+// Adds a body bound to its joints, which are the nodes from `first` on, and its root on the floor,
+// if it has one. Returns the nodes of the scene.
 Json AddSkin(const Skeleton& skeleton, size_t matrices, size_t first, bool has_root,
              const std::string& prefix, GltfBuilder* gltf) {
   Json joints = Json::array();

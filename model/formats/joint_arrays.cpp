@@ -19,9 +19,9 @@ namespace {
 constexpr const char* kPlacesNames[] = {"joints",    "joints3d",      "joint_positions",
                                         "positions", "pred_position", "motion"};
 constexpr int64_t kPlacedBody = 22;
-// Tolerance for limb lengths, as networks stretch bones a little.
+// Relative tolerance of limb lengths, because networks stretch bones a little.
 constexpr double kStretch = 0.1;
-// Missing hands extend the forearms by this share of their length, with a small weight.
+// Missing hands extend the forearms by this share of the forearm's length, with a small weight.
 constexpr double kHand = 0.33, kHandWeight = 0.05;
 
 const Skeleton& PlacedBody() { return Skeleton::Smpl24(); }
@@ -30,7 +30,7 @@ bool IsPlacedFrame(int64_t width) {
   return width == 3 * kPlacedBody || width == 3 * PlacedBody().joints();
 }
 
-/// The joints of all frames, [3, joints] each; none for other shapes.
+/// The joints of all frames, [3, joints] each. Empty for other shapes.
 std::vector<Eigen::Matrix3Xd> PlacesOfFrames(const NpyArray& array) {
   std::vector<int64_t> shape = array.shape;
   if (shape.size() == 4 && shape[0] == 1) shape.erase(shape.begin());
@@ -43,7 +43,7 @@ std::vector<Eigen::Matrix3Xd> PlacesOfFrames(const NpyArray& array) {
   return frames;
 }
 
-// MDM's [people, joints, 3, frames].
+// Reorders MDM's [people, joints, 3, frames].
 NpyArray FramesFirst(const NpyArray& array) {
   const int64_t people = array.shape[0], width = 3 * array.shape[1], frames = array.shape[3];
   const std::vector<double> values = array.As<double>();

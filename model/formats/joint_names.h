@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// The naming of SMPL's joints in a file.
+/// A naming of SMPL's joints in files.
 enum class JointNames : uint8_t {
   kSmpl,     ///< pelvis, left_hip, ...
   kMixamo,   ///< mixamorig:Hips, mixamorig:LeftUpLeg, ...
@@ -20,10 +20,10 @@ inline constexpr std::array kAllJointNames = {JointNames::kSmpl, JointNames::kMi
 
 /// "smpl", "mixamo", "humanik" or "ue".
 std::string_view NameOf(JointNames names);
-/// Throws Error(kInvalidArgument) whose field is `field`, naming the four.
+/// The inverse of NameOf. Throws Error(kInvalidArgument), whose field is `field`, naming the four.
 JointNames ParseJointNames(std::string_view text, const std::string& field);
 
-/// The name of `joint`, one of SMPL's, in that naming. Other joints keep their names.
+/// The name of SMPL's `joint` in this naming. Other joints keep their names.
 std::string JointName(const std::string& joint, JointNames names);
 
 }  // namespace choreo

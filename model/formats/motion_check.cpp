@@ -24,14 +24,15 @@ constexpr double kStands = 0.7;
 constexpr double kRuleShare = 0.9;  // share of frames that make a rule
 // In fewer frames a body may be lying on purpose: a pose, a fall.
 constexpr size_t kFewFrames = 10;
-// Metres. A higher pelvis means another unit.
+// A higher pelvis means another unit, metres.
 constexpr double kTooHigh = 20;
-constexpr double kOnFloor = 0.25;  // metres of a joint: bodies are thick and differ
-constexpr double kLying = 0.05;    // height of a lying body's pelvis
+constexpr double kOnFloor =
+    0.25;  // metres: a joint this near is on the floor, as bodies are thick and differ
+constexpr double kLying = 0.05;  // metres: height of a lying body's pelvis
 constexpr double kLowPelvis = 0.3, kHighPelvis = 2;
-// Metres. Less below the floor may be a shoe or a fit's error.
+// Metres. A body less far below the floor may be due to shoes or to the fit.
 constexpr double kSunken = 0.05;
-// No jump stays this high above the floor for this long: metres and seconds.
+// No jump stays this high above the floor for so long: metres and seconds.
 constexpr double kHangs = 0.15, kHangsFor = 2;
 constexpr double kStill = 1e-4;      // metres and radians
 constexpr double kFloorShare = 0.1;  // quantile of the lowest points that is the floor
@@ -47,7 +48,7 @@ std::string Metres(double metres) {
   return text;
 }
 
-/// The way from hips to shoulders in each frame, in the file's axes; empty without these joints.
+/// The vector from hips to shoulders in each frame, in the file's axes. Empty without these joints.
 std::vector<Eigen::Vector3d> Trunks(const FileMotion& file) {
   const Skeleton& body = file.skeleton;
   std::vector<Eigen::Vector3d> trunks;
@@ -70,8 +71,8 @@ double ShareStanding(const std::vector<Eigen::Vector3d>& trunks, const Eigen::Ve
   return static_cast<double>(standing) / static_cast<double>(std::max<size_t>(1, trunks.size()));
 }
 
-/// How far the lowest joint is along `up`, in the middle of all frames or in another share of them:
-/// 0 on the file's floor.
+/// The height along `up` of the lowest joint: the median over frames, or another quantile. 0 is the
+/// file's floor.
 double LowestAlong(const FileMotion& file, const Eigen::Vector3d& up, double share = 0.5) {
   std::vector<double> lowest;
   JointPlacement placement;
@@ -90,8 +91,8 @@ bool IsOnFloor(const FileMotion& file, const Eigen::Vector3d& up) {
   return std::abs(LowestAlong(file, up)) < kOnFloor && Median(std::move(heights)) > kLying;
 }
 
-/// The axis other than `axis` on whose floor the body is; none if it is on the floor of `axis`,
-/// too.
+/// The axis other than `axis` on whose floor the body is. None if it is also on the floor of
+/// `axis`.
 std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::Vector3d& axis) {
   if (IsOnFloor(file, file.up) || IsOnFloor(file, axis)) return std::nullopt;
   std::optional<Eigen::Vector3d> beside;
@@ -104,11 +105,11 @@ std::optional<Eigen::Vector3d> FloorBeside(const FileMotion& file, const Eigen::
   return beside;
 }
 
-/// The file's up axis, or that along which the body stands in nearly all frames.
+/// The file's up axis, or the axis along which the body stands in nearly all frames.
 Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (!reading.up.empty()) return ParseUp(reading.up);
   const std::vector<Eigen::Vector3d> trunks = Trunks(file);
-  // A body may bend or lie for long, so its rest pose is better evidence of what is up. The floor
+  // A body may bend or lie for long, so its rest pose is better evidence of the up axis. The floor
   // is better than both.
   if (file.rest_up && *file.rest_up != file.up &&
       (ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up) ||
@@ -130,7 +131,7 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
                    " stands it on its head");
       return *beside;
     }
-    // A body that is on the file's floor when lying, and would be in the air if it stood, is lying.
+    // A body that is on the file's floor if it lies, and in the air if it stands, is lying.
     const bool lies = std::abs(LowestAlong(file, file.up)) < kOnFloor &&
                       std::abs(LowestAlong(file, axis, 0)) > kOnFloor;
     if (lies || trunks.size() < kFewFrames || axis == -file.up) {
@@ -194,9 +195,9 @@ void NoteBends(const FileMotion& file, const Motion& motion, const MotionReading
   }
 }
 
-// Moves a rig down or up as a whole, so that its lowest poses stand on the floor and a dancer who
-// is on a stage, or lifted, stays up. If the body comes down to the file's floor, only poses near
-// that floor count.
+// Moves a rig down or up as a whole, so that its lowest poses are on the floor; a dancer who is on
+// a stage, or lifted, stays up. If the body reaches the file's floor, only poses near that floor
+// count.
 void PutOnFloor(const Skeleton& skeleton, const MotionReading& reading, Motion* motion) {
   std::vector<double> heights, hips;
   for (const Pose& pose : motion->frames) {

@@ -30,7 +30,8 @@ SkeletonMotion ReadPickled(std::string_view pickle, const std::filesystem::path&
   return {Skeleton::Smpl24(), ReadSmplMotion(ParsePickledArrays(pickle, path.string()), reading)};
 }
 
-// Python objects among the arrays: numbers, dicts, or things that the motion does not need.
+// Adds Python objects among the arrays: numbers and dicts. Other objects do not matter for the
+// motion.
 void TakePickled(const std::string& key, const std::string& pickle, NpzArchive* npz) {
   try {
     npz->SetArray(key, ParsePickledArray(pickle, key));
@@ -38,7 +39,7 @@ void TakePickled(const std::string& key, const std::string& pickle, NpzArchive* 
     try {
       npz->SetNested(key, ParsePickledArrays(pickle, key));
     } catch (const Error&) {
-      // Refused on access.
+      // Reading it refuses it.
     }
   }
 }
@@ -125,7 +126,7 @@ constexpr Format kFormats[] = {
     {".npy", ReadObjects, nullptr},
 };
 
-// Other formats that people try, and how to convert them.
+// Other common formats and how to convert them.
 constexpr std::pair<const char*, const char*> kOtherFormats[] = {
     {".fbx", "Blender imports it, and exports .glb or .bvh"},
     {".dae", "Blender imports it, and exports .glb or .bvh"},

@@ -13,41 +13,42 @@
 
 namespace choreo {
 
-/// A path's extension in small letters: ".npz" of "DANCE.NPZ".
+/// A path's extension in lower case: ".npz" for "DANCE.NPZ".
 std::string SmallExtension(const std::filesystem::path& path);
 
-/// The formats of motion files, by their extension, whose case does not matter: `.npz`
-/// (amass_npz.h), `.bvh` (bvh.h), `.glb` and `.vrma` (gltf.h), and `.pkl` (pickle.h, as
-/// amass_npz.h), which is only read.
+/// Whether a path has the extension of a readable motion format, in any case: `.npz` (amass_npz.h),
+/// `.bvh` (bvh.h), `.glb` and `.vrma` (gltf.h), or `.pkl` (pickle.h, with the layouts of
+/// amass_npz.h), which can only be read.
 bool IsMotionFile(const std::filesystem::path& path);
 
-/// ".npz, .bvh, .glb, ...": the readable ones, for help and messages.
+/// The readable extensions for help and messages: ".npz, .bvh, .glb, ...".
 std::string MotionFileExtensions();
 
-/// Throws Error(kInvalidArgument) whose field is the path, naming the formats, unless IsMotionFile.
+/// Throws Error(kInvalidArgument), whose field is the path and whose message names the formats,
+/// unless IsMotionFile.
 void RequireMotionFile(const std::filesystem::path& path);
-/// The same for formats that can be written.
+/// The same for formats that WriteMotion supports.
 void RequireWrittenMotionFile(const std::filesystem::path& path);
 
 /// Reads a motion and its skeleton at the file's own rate. The skeleton is SMPL's, or one stored in
 /// an npz (own_arrays.h), BVH or glTF (own_skeleton.h). Any other rig is read as SMPL's body
 /// (node_motion.h): scaled by its legs, with its bones' rotations, put on the floor. Throws
 /// Error(kInvalidArgument), whose field begins with the path, for other extensions, files without
-/// frames, values beyond motion/pose_limits.h and what the formats refuse; UnknownBones if names
-/// tell too little; Error(kNotFound) if the file cannot be opened.
+/// frames, values beyond motion/pose_limits.h and what the formats refuse; UnknownBones if names do
+/// not identify enough bones; Error(kNotFound) if the file cannot be opened.
 SkeletonMotion ReadMotion(const std::filesystem::path& path, const MotionReading& reading = {});
 
 /// The treatment of a motion with other bones: retarget it (fit/retarget.h), or refuse it with
-/// Error(kInvalidArgument) naming both skeletons.
+/// Error(kInvalidArgument), which names both skeletons.
 enum class OtherSkeleton : uint8_t { kRetarget, kRefuse };
 
-/// Reads the same on this skeleton.
+/// Reads a motion on this skeleton.
 Motion ReadMotion(const std::filesystem::path& path, const Skeleton& skeleton,
                   OtherSkeleton other = OtherSkeleton::kRetarget,
                   const MotionReading& reading = {});
 
-/// Writes a file in the format of its extension; an npz of another skeleton than SMPL's contains
-/// it. Only an npz stores `contacts`, one per frame. Throws what ReadMotion throws for values, and
+/// Writes a file in the format of its extension. An npz contains the skeleton if it is not SMPL's.
+/// Only an npz stores `contacts`, one per frame. Throws what ReadMotion throws for values, and
 /// Error(kInternal) if the file cannot be written.
 void WriteMotion(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
                  const std::vector<Contacts>* contacts = nullptr);

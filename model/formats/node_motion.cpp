@@ -27,8 +27,8 @@ RigPlacement Keep(const RigPlacement& all, const std::vector<int>& nodes) {
   return kept;
 }
 
-// The node whose rotation is the pelvis's: the one that carries both legs, if a node above it
-// carries the trunk, too, as in MMD.
+// The node whose rotation is the pelvis's. In MMD it is the node above both legs, if a node above
+// that carries the trunk, too.
 int TurningPelvis(const HumanBones& found, const std::vector<int>& parents) {
   const int pelvis = found.Find("pelvis"), left = found.Find("left_hip");
   int node = parents[static_cast<size_t>(left)];
@@ -115,7 +115,7 @@ HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
 Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& reading) {
   HumanBones found = FindBody(nodes, reading);
   if (const std::string missing = MissingBone(found); !missing.empty()) {
-    // Without a usable rest pose the first frame is better evidence.
+    // Without a usable rest pose, the first frame is better evidence.
     const bool guessable =
         MissingBone(GuessBones(nodes.parents, nodes.places, nodes.joints)).empty();
     if (!guessable) nodes.places = motion.frame(0).places;

@@ -34,7 +34,7 @@ std::string ErrorText(int code) {
 }
 
 // Reads exactly `size` bytes; libzip verifies their checksum at the end. Reads in pieces, so that
-// memory depends on the data, not on the directory's claim.
+// memory use depends on the data, not on the size that the directory states.
 bool ReadAll(zip_file_t* file, uint64_t size, std::string* bytes) {
   constexpr uint64_t kPiece = 1 << 20;
   while (bytes->size() < size) {

@@ -11,8 +11,8 @@
 #include "model/motion/skeleton.h"
 #include "model/motion/skeleton_motion.h"
 
-/// Motions of any skeleton in npz files, and the checks of all writers. amass_npz.h writes motions
-/// of SMPL's skeleton, so that SMPL's tools can read them.
+/// Reads and writes motions of any skeleton in npz files, and checks the input of all writers.
+/// Motions of SMPL's skeleton are written by amass_npz.h, so that SMPL's tools can read them.
 namespace choreo {
 
 /// Throws Error(kInvalidArgument) for no frames, a frame of another joint count than the skeleton's
@@ -21,26 +21,28 @@ void RequireWritable(const Skeleton& skeleton, const Motion& motion,
                      const std::vector<Contacts>* contacts = nullptr);
 
 /// Adds root_positions [F, 3] of joint 0, metres, Y up; rotations [F, joints, 3], axis-angle,
-/// local; fps; and contacts [F, 4] if they are given. Throws what RequireWritable throws.
+/// local; fps; and contacts [F, 4], if given. Throws what RequireWritable throws.
 void AddOwnArrays(const Skeleton& skeleton, const Motion& motion,
                   const std::vector<Contacts>* contacts, NpzArchive& npz);
-/// The inverse, without contacts. Throws Error(kInvalidArgument) naming the array.
+/// The inverse, without contacts. Throws Error(kInvalidArgument), naming the array.
 Motion ReadOwnArrays(const Skeleton& skeleton, const NpzArchive& npz);
 
-/// Throws Error(kInvalidArgument, key), which names the frame, for values of [columns, F] that are
-/// not finite.
+/// Throws Error(kInvalidArgument, key), which names the frame, if values [columns, F] are not
+/// finite.
 void RequireFinite(const Eigen::Ref<const Eigen::MatrixXd>& rows, const std::string& key);
 
-/// A finite array as [columns, F]. Accepts, too, the shapes [F, a, b], if a x b is one of
+/// Returns a finite array as [columns, F]. Also accepts the shapes [F, a, b] if a * b is one of
 /// `columns`, [1, F, a], and [a] for a single frame.
 Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
                         std::initializer_list<int64_t> columns);
-/// A number, possibly written as text.
+/// Returns a number, which may be stored as text.
 double NpzNumber(const NpzArchive& npz, const std::string& key);
 inline constexpr double kMinFileFps = 1, kMaxFileFps = 1000;
-/// Throws Error(kInvalidArgument, key) unless the rate, frames a second, is within these limits.
+/// Returns the rate, frames per second. Throws Error(kInvalidArgument, key) unless it is within
+/// these limits.
 double CheckRate(const std::string& key, double fps);
-/// Poses of `joints` joints from columns of rotations; missing joints have none.
+/// Makes a motion of `joints` joints from columns of positions and rotation vectors. Missing joints
+/// do not rotate.
 Motion MotionOfRows(const Eigen::MatrixXd& positions, const Eigen::MatrixXd& rotations, int joints,
                     double fps, const std::string& key);
 

@@ -23,7 +23,7 @@ int FindRoot(const std::vector<std::string>& names, const std::vector<int>& pare
   return node;
 }
 
-// Whether it rests like our skeletons: y up, facing +Z, of a person's size. Other programs' rigs
+// Whether a skeleton rests like ours: Y up, facing +Z, of a person's size. Rigs of other programs
 // with our joint names may not.
 bool StandsAsOurs(const Skeleton& skeleton) {
   constexpr double kUpright = 0.8;                   // cosine

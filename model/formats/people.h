@@ -7,21 +7,21 @@
 #include "model/core/npy.h"
 #include "model/formats/motion_reading.h"
 
-/// Arrays of several people. Private to this folder.
+/// Finds one person in arrays of several people. Private to this folder.
 namespace choreo {
 
-/// The number of people in an array, [people, frames, ...] or [frames, people, ...], whose frames
-/// satisfy `is_frame`: the smaller one. 1 for an array of one person.
+/// The number of people in an array [people, frames, ...] or [frames, people, ...] whose frames
+/// satisfy `is_frame`: the smaller extent. 1 for an array of one person.
 int64_t PeopleIn(const NpyArray& array, const std::function<bool(int64_t width)>& is_frame);
 
-/// The person to read: the first, with a note, or the one of --body. Throws Error(kInvalidArgument)
-/// whose field is --body.
+/// The person to read: the one of --body, or the first, with a note. Throws
+/// Error(kInvalidArgument), whose field is --body.
 int64_t ChoosePerson(int64_t people, const std::string& key, const MotionReading& reading);
 
-/// Whether one of an array's first two extents counts so many people.
+/// Whether one of an array's first two extents is `people`.
 bool HoldsPeople(const NpyArray& array, int64_t people);
 
-/// The array of one of so many people.
+/// The array of one of `people` people.
 NpyArray PersonOf(const NpyArray& array, int64_t people, int64_t person);
 
 }  // namespace choreo

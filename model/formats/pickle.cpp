@@ -19,7 +19,7 @@
 namespace choreo {
 namespace {
 
-/// Limits time, memory and nesting. A dict of arrays needs about 40 operations an array.
+/// Limits time, memory and nesting. A dict of arrays needs about 40 operations per array.
 constexpr int kMaxOperations = 4096;
 
 /// NumPy's dtype of Python objects, with the byte order that this file gives every dtype.
@@ -51,7 +51,7 @@ const std::set<std::string> kKnownGlobals = {"numpy.ndarray",
                                              "collections.defaultdict",
                                              "collections.OrderedDict"};
 
-/// Runs a pickle's operations on a stack, as Python does, for the few that dicts of arrays need.
+/// Runs the few operations of pickles that dicts of arrays need, on a stack, as Python does.
 class Unpickler : PickleInput {
  public:
   using PickleInput::PickleInput;
@@ -138,7 +138,7 @@ class Unpickler : PickleInput {
     Push(Object{.kind = kNumber, .array = NpyArray{{}, std::move(value)}});
   }
   void PushInteger(int64_t value) { PushNumber(std::vector{value}); }
-  // No motion needs a number beyond int64: it counts as None.
+  // A number beyond int64, which no motion needs, counts as None.
   void PushInteger(std::string_view line) {
     if (line.ends_with('L')) line.remove_suffix(1);
     const std::optional<int64_t> value = NumberIn<int64_t>(line);
@@ -198,7 +198,7 @@ class Unpickler : PickleInput {
     }
   }
 
-  /// Gives the dtype or array below it on the stack its state.
+  /// Sets the state of the dtype or array below it on the stack.
   void Build() {
     const Ref state = Pop(kTuple);
     const Ref object = Pop();
@@ -218,7 +218,7 @@ class Unpickler : PickleInput {
   }
 
   void Fill(const Ref& array, const Ref& shape, const Ref& dtype, bool fortran, const Ref& values) {
-    // A pickle may use the same bytes for many arrays: each use counts.
+    // Counts each use, because a pickle may use the same bytes for many arrays.
     if ((filled_ += values->text.size()) > bytes_.size()) Refuse("more values than the file has");
     NpyParts parts{dtype->text, fortran, {}, values->text};
     for (const Ref& extent : shape->items) {
@@ -272,7 +272,7 @@ class Unpickler : PickleInput {
   void Append(const std::vector<Ref>& items) {
     const Ref list = Pop(kList);
     for (const Ref& item : items) {
-      // Drops containers: one of them might contain this list, a cycle.
+      // Drops containers, because one of them might contain this list, which would be a cycle.
       const bool plain = item->array || item->kind == kText || item->kind == kDict;
       list->items.push_back(plain ? item : std::make_shared<Object>(Object{.kind = kNone}));
     }

@@ -15,15 +15,15 @@
 
 namespace choreo {
 
-/// The bytes of a pickle, read from the first to the last: opcodes and what follows them. Private
-/// to this folder.
+/// Reads a pickle byte by byte: opcodes and their arguments. Not thread-safe. Private to this
+/// folder.
 class PickleInput {
  public:
   /// `name` is the field of errors. Keeps a reference to `bytes`.
   PickleInput(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
 
  protected:
-  /// Reads the opcode, which Refuse names from now on.
+  /// Reads the next opcode, which Refuse names from now on.
   void NextOpcode() {
     start_ = at_;
     opcode_ = Byte();
@@ -59,7 +59,7 @@ class PickleInput {
     Take(1);
     return line;
   }
-  /// The number on a line; none beyond T.
+  /// The number on a line. None if T cannot hold it.
   template <typename T>
   std::optional<T> NumberIn(std::string_view line) const {
     T number{};
@@ -68,12 +68,12 @@ class PickleInput {
     if (error != std::errc() || end != line.data() + line.size()) Refuse("no number follows");
     return number;
   }
-  /// A place in the memo, on a line of its own.
+  /// Reads an index of the memo on a line of its own.
   uint64_t Index() { return NumberIn<uint64_t>(Line()).value_or(UINT64_MAX); }
 
   std::string name_;
   std::string_view bytes_;
-  size_t at_ = 0, start_ = 0;  // the next byte's place, and the opcode's
+  size_t at_ = 0, start_ = 0;  // positions of the next byte and of the opcode
   int opcode_ = 0;
 };
 

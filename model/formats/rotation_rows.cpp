@@ -20,9 +20,9 @@ constexpr double kNoSixD = 0.5;       // mean Skew; networks deviate far less
 
 /// An array as frames of values.
 struct Rows {
-  std::vector<int64_t> shape;  ///< as stated
+  std::vector<int64_t> shape;  ///< as in the file
   int64_t frames = 0, width = 0;
-  int64_t last = 0, last_but_one = 0;  ///< extents, 0 if missing
+  int64_t last = 0, last_but_one = 0;  ///< last two extents, 0 if missing
   Eigen::MatrixXd values;              ///< [width, frames]
 };
 
@@ -83,15 +83,15 @@ Eigen::MatrixXd FromMatrices(const Rows& rows, const std::string& key) {
 
 using SixD = Eigen::Matrix<double, 6, 1>;
 
-// The deviation of six numbers from two orthonormal vectors; `step`: the distance of a vector's
-// numbers.
+// The deviation of six numbers from two orthonormal vectors. `step`: the distance between a
+// vector's numbers.
 double Skew(const SixD& six, Eigen::Index step) {
   const Eigen::Index next = step == 1 ? 3 : 1;
   const Eigen::Vector3d a = six(Eigen::seqN(0, 3, step)), b = six(Eigen::seqN(next, 3, step));
   return std::abs(a.dot(b)) + std::abs(a.squaredNorm() - 1) + std::abs(b.squaredNorm() - 1);
 }
 
-// Vectors one after the other may be rows or columns; interleaved ones, as in [.., 3, 2], are
+// Converts 6D. Consecutive vectors may be rows or columns; interleaved ones, as in [.., 3, 2], are
 // columns.
 Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   Eigen::MatrixXd turns(rows.width / 2, rows.frames);
@@ -123,8 +123,8 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
     }
   }
   if (is_mixed) return turns;
-  // Sum of the hinges' bends, negative for backwards. `first`: the body joint with which the array
-  // begins.
+  // The sum of the hinges' bends, negative for backwards. `first`: the array's first joint of the
+  // body.
   const Skeleton& smpl = Skeleton::Smpl24();
   const Eigen::Index first = rows.width / 6 == 21 || rows.width / 6 == 23 ? 1 : 0;
   double bend = 0;
@@ -137,7 +137,8 @@ Eigen::MatrixXd FromSixD(const Rows& rows, const std::string& key) {
   return bend < 0 ? Eigen::MatrixXd(-turns) : turns;
 }
 
-// The real part is first or last: the larger one, as joints turn by less than half a turn.
+// Converts quaternions. The real part is first or last, whichever is larger, because joints turn by
+// less than half a turn.
 Eigen::MatrixXd FromQuaternions(const Rows& rows, const std::string& key) {
   double first = 0, last = 0;
   for (Eigen::Index at = 0; at + 4 <= rows.values.size(); at += 4) {
