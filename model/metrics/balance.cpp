@@ -14,7 +14,7 @@ constexpr double kMinHover = 0.15;           // m, of the lowest joint
 constexpr double kCentreOutside = 0.10;      // m
 constexpr double kZeroMomentOutside = 0.15;  // m
 
-// The longest run, in frames, above `least` that is not a flight.
+// The longest run, in frames, with all joints above `least` that is not a flight.
 int LongestHover(const JointTrack& track, const std::vector<Balance>& balance, double least) {
   int longest = 0;
   for (size_t from = 0; from < track.size();) {

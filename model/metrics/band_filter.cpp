@@ -28,7 +28,7 @@ void RunForwards(double fps, double hz, Eigen::VectorXd& x) {
 Eigen::VectorXd LowPass(const Eigen::VectorXd& values, double fps, double hz) {
   const Eigen::Index count = values.size();
   if (count < 4) return values;
-  // Three periods of the edge, which forget a wrong start.
+  // Three periods of the edge frequency, after which the filter has forgotten its initial state.
   const auto pad = std::min<Eigen::Index>(count - 1, std::lround(std::ceil(3 * fps / hz)));
   Eigen::VectorXd padded(count + 2 * pad);
   padded.segment(pad, count) = values;

@@ -5,21 +5,20 @@
 #include "model/metrics/joint_track.h"
 #include "model/motion/velocity_factors.h"
 
-/// How well a transition follows its controls: the three figures of paper C, Section 4.3, Eq.
-/// 12-16. Each gives one number per transition; LRP is then averaged over transitions, AVF (Eq. 13)
-/// and ART (Eq. 15) are the share of transitions below a tolerance. All throw
-/// Error(kInvalidArgument) for no frames, or different frame counts. Pure, thread-safe.
+/// Measures how well a transition follows its controls: the three figures of paper C, Section 4.3,
+/// Eq. 12-16. Each function returns one number per transition. LRP is the mean over transitions;
+/// AVF (Eq. 13) and ART (Eq. 15) are the share of transitions below a tolerance. All throw
+/// Error(kInvalidArgument) for no frames or different frame counts. Pure, thread-safe.
 namespace choreo {
 
-/// LRP of one transition, Eq. 12: the L2 distance of the root-relative positions of all joints but
-/// the root together, mean over frames; metres (the paper: cm). Root-relative: minus the root's
-/// position, along world axes.
+/// LRP of one transition, Eq. 12: the L2 norm, over all joints but the root, of the difference of
+/// root-relative positions (along world axes), mean over frames; metres (the paper: cm).
 double RootRelativeDistance(const JointTrack& danced, const JointTrack& real);
 
 /// Velocity factors, metres a frame: [kBodyParts, frames].
 using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
 
-/// Velocity factors of each step of a track, which begins with the frame before the transition.
+/// The velocity factors of each step of a track that begins with the frame before the transition.
 FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrack& track);
 
 /// g_v of one transition, Eq. 14: the absolute difference of measured and requested velocity
@@ -30,10 +29,9 @@ double VelocityDeviation(const FactorTrack& danced, const FactorTrack& asked);
 /// mean over frames, metres. `asked` is [3, frames].
 double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked);
 
-/// How much a dance trembles (our measure): the share above kTremorHz of the energy of all joint
-/// velocities relative to the root, at `fps` frames a second, 0 to 1; 0 if nothing moves. Each
-/// velocity is taken minus its mean under a Hann window. Throws for fewer than 9 frames, too few to
-/// resolve 4 Hz.
+/// The tremor of a dance (our measure): the share above kTremorHz of the energy of all joint
+/// velocities relative to the root, 0 to 1; 0 if nothing moves. Subtracts each velocity's mean and
+/// applies a Hann window. Throws for fewer than 9 frames, too few to resolve 4 Hz.
 inline constexpr double kTremorHz = 4;
 double TremorShare(const JointTrack& track, double fps);
 

@@ -14,8 +14,8 @@ constexpr size_t kFolds = 5, kDeals = 5;
 constexpr double kStill = 0.005;  // m/s
 constexpr uint64_t kSeed = 24;
 
-// The features plus fixed random rectifiers of them, which can express "too slow or too fast";
-// [features, windows].
+// Extends features [features, windows] by fixed random rectified projections, which can express
+// "too slow or too fast".
 class Lift {
  public:
   Lift(Eigen::Index features, int projections)
@@ -52,7 +52,7 @@ struct Scale {
   }
 };
 
-// Windows of each kind whose clip is in the fold, or of all other clips.
+// The windows whose clip is in the fold, or those of all other clips.
 Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) {
   std::vector<Eigen::VectorXd> chosen;
   for (size_t i = 0; i < windows.clips.size(); ++i) {
@@ -61,7 +61,7 @@ Eigen::MatrixXd Gather(const CriticWindows& windows, size_t fold, bool of_fold) 
   return SideBySide(chosen);
 }
 
-// The direction from real to danced windows; both kinds have equal weight.
+// Fits the direction from real to danced windows. Both kinds have equal weight.
 Eigen::VectorXd Learn(const Eigen::MatrixXd& features, Eigen::Index real) {
   const auto count = static_cast<double>(features.cols());
   const Eigen::Index danced = features.cols() - real;
@@ -73,7 +73,7 @@ Eigen::VectorXd Learn(const Eigen::MatrixXd& features, Eigen::Index real) {
 }
 
 // The critic's features of a window: logarithms of SpeedSpectrum and of each joint's least and
-// greatest speed. Speeds below kStill look still to the eye and count as such.
+// greatest speed. Speeds below kStill look still and count as kStill.
 Eigen::VectorXd CriticFeatures(const JointTrack& track, double fps) {
   const Eigen::MatrixXd power = SpeedSpectrum(track, fps);
   const Eigen::Index joints = track[0].cols();
@@ -143,7 +143,7 @@ double RealAgainstReal(const CriticWindows& real) {
   Random random(kSeed, /*stream=*/1);
   for (size_t deal = 0; deal < kDeals; ++deal) {
     CriticWindows sides[2];
-    // Windows come clip by clip; each pair of neighbours is split between the sides.
+    // Windows are in clip order. Each pair of neighbours is split between the sides.
     for (size_t i = 0; i + 1 < real.clips.size(); i += 2) {
       const size_t first = random.Next() % 2;
       for (size_t which = 0; which < 2; ++which) {

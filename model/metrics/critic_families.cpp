@@ -27,7 +27,7 @@ struct Window {
   size_t frames() const { return track.size(); }
 };
 
-// The limbs' ends that critics look at.
+// The ends of limbs that critics use.
 struct Limbs {
   std::array<int, 4> feet;
   std::array<int, 2> wrists;
@@ -131,7 +131,7 @@ Values ContactFeatures(const Window& window, const Limbs& limbs) {
   return features;
 }
 
-// Left and right together, as a dance and its mirror image are equivalent.
+// Combines left and right, because a dance and its mirror image are equivalent.
 Values SpectrumFeatures(const Window& window, const Limbs& limbs) {
   const Eigen::MatrixXd power =
       SpeedSpectrum({window.track.begin(), window.track.end()}, window.fps);

@@ -7,7 +7,7 @@
 /// Linear algebra shared by several metrics.
 namespace choreo {
 
-/// Vectors, or matrices with equal row counts, side by side; empty for no parts.
+/// Joins vectors, or matrices with equal row counts, side by side. Empty for no parts.
 template <typename Part>
 Eigen::MatrixXd SideBySide(const std::vector<Part>& parts) {
   Eigen::Index columns = 0;
@@ -21,8 +21,8 @@ Eigen::MatrixXd SideBySide(const std::vector<Part>& parts) {
   return all;
 }
 
-/// Ridge regression on features of mean 0 and variance 1: the weights from their covariance (lower
-/// triangle) and `right`, their covariance with the target.
+/// Solves a ridge regression on features of mean 0 and variance 1. Returns the weights, given the
+/// features' covariance (lower triangle) and `right`, their covariance with the target.
 template <typename Right>
 Right SolveRidge(Eigen::MatrixXd covariance, const Right& right) {
   constexpr double kRidge = 0.1;  // relative to a feature's variance

@@ -5,13 +5,13 @@
 
 #include "model/metrics/joint_track.h"
 
-/// The distance of a generated dance from the real one, frame by frame. All throw
+/// Distances of a generated dance from the real one, frame by frame. All throw
 /// Error(kInvalidArgument) if the frame counts differ.
 namespace choreo {
 
-/// L2P: distance of global joint positions, mean over joints and frames, metres. Paper F, Eq. 10
-/// (after Harvey et al. 2020) takes the norm over all joints together; a mean per joint has a
-/// tangible unit, and ratios to a baseline are similar.
+/// L2P: the distance of global joint positions, mean over joints and frames, metres. Paper F, Eq.
+/// 10 (after Harvey et al. 2020) takes the norm over all joints together. The mean per joint is
+/// easier to interpret, and its ratios to a baseline are similar.
 double L2P(const JointTrack& danced, const JointTrack& real);
 
 /// Key pose distance, paper F, 4.5.3: the mean *squared* distance of joint positions, m^2, of two
@@ -23,16 +23,15 @@ double KeyPoseDistance(const Eigen::Matrix3Xd& danced, const Eigen::Matrix3Xd& r
 Eigen::MatrixXd GlobalQuaternions(const Skeleton& skeleton, std::span<const Pose> poses);
 
 /// L2Q, Harvey et al. 2020, Section 5: the norm of the difference of all global joint quaternions,
-/// mean over frames; no unit. A quaternion and its negative are the same rotation: the nearer
-/// counts.
+/// mean over frames; no unit. A quaternion and its negative are the same rotation, so the nearer
+/// one counts.
 double L2Q(const Eigen::MatrixXd& danced, const Eigen::MatrixXd& real);
 
 /// Normalized power spectrum similarity (Gopalakrishnan et al. 2019, Section 4.1; of transitions:
-/// Harvey et al. 2020): the earth mover's distance between two features' (GlobalQuaternions)
-/// distributions of power over frequencies, averaged over windows and features, weighted by the
-/// real motion's power. 0 means equal; no unit. Returns the weighted sum and the weights
-/// separately, for means over windows. Both inputs are [features, frames]; features without power
-/// in either motion do not count.
+/// Harvey et al. 2020): the earth mover's distance between the power spectra of a feature in both
+/// motions (GlobalQuaternions), averaged over windows and features, weighted by the real motion's
+/// power. 0 means equal; no unit. Holds the weighted sum and the weights separately, for means over
+/// windows.
 struct Npss {
   double sum = 0, weight = 0;
 };

@@ -16,7 +16,7 @@ constexpr double kSigma = 3.0 / 60;  // seconds
 constexpr double kTolerance = 0.07;  // seconds of tolerance for a beat
 constexpr double kAround =
     10.0 / 60;  // seconds on each side within which a motion beat is the slowest
-// A rise shows when a sound enters the window, half its length before the centre.
+// A rise appears when a sound enters the window, half the window's length before its centre.
 constexpr double kOnsetDelay = kFftSize / 2.0 / kModelSampleRate;  // seconds
 
 // Onsets row by row: mean rises of the mel bands, dB; none in the first row.
@@ -48,7 +48,8 @@ std::vector<Onset> RowOnsets(const Eigen::MatrixXf& rows) {
 }
 
 // Frames of the strict minima among the steps within kAround. The published code puts a standstill
-// ahead of the first step, so finds none within kAround of it. The last step is none, either.
+// before the first step, so it finds none within kAround of it. The last step does not count,
+// either.
 std::vector<int64_t> MotionBeats(std::span<const float> speeds, double fps) {
   const auto count = static_cast<int64_t>(speeds.size());
   const int64_t order = std::max(int64_t{1}, static_cast<int64_t>(std::lround(kAround * fps)));

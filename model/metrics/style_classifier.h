@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// Classifies dance styles by how joints move within a second: one-against-all ridge regression on
-/// the critic's features. Only for measuring. Immutable; thread-safe.
+/// Classifies dance styles by the joints' movement within a second: one-against-all ridge
+/// regression on the critic's features. Only for measuring. Immutable; thread-safe.
 class StyleClassifier {
  public:
   /// `windows.clips` holds the style of each window, from 0 to `styles` - 1; styles have equal
