@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// How fast joints move in each band of SpeedSpectrum: the root of danced over real power, left and
-/// right together, one row per joint. Neither may be empty.
+/// The speed of joints in each band of SpeedSpectrum: the square root of danced over real power,
+/// left and right combined, one row per joint. `real` and `danced` are not empty.
 Table BandTable(const Evaluation& evaluation, const Method& method, const LivelyDances& real,
                 const LivelyDances& danced);
 

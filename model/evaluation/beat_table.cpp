@@ -39,7 +39,7 @@ void BeatTable::Add(const std::string& name, size_t clip, int start,
   int others = 0;
   for (size_t other = 0; other < set_.beats.size(); ++other) {
     if (other == clip || set_.beats[other].empty()) continue;
-    // Scores as much of the dance as the other song covers.
+    // Scores the part of the dance that the other song covers.
     const auto length =
         std::min(speeds.size(), static_cast<size_t>(set_.clips[other].audio.cols()) - 1);
     const BeatFigures figures = ScoreBeats(std::span(speeds).first(length), set_.beats[other], fps);

@@ -9,28 +9,29 @@
 
 namespace choreo {
 
-/// How many kinematic beats fall on the music's (paper F, 4.5.1: maxima of the mean joint speed, at
-/// most two frames away), and how many there are per music beat. `music`: frames, ascending;
-/// ignores those outside the dance.
+/// How well kinematic beats (maxima of the mean joint speed; paper F, 4.5.1) match the music's.
+/// Beats at most two frames apart are aligned.
 struct BeatFigures {
   double hit_rate = 0;   ///< B_a / B_k: aligned beats over kinematic beats
   double coverage = 0;   ///< B_k / B_m: kinematic beats over music beats
   double alignment = 0;  ///< BeatAlignmentScore
 };
+/// `music`: beats in frames, ascending; those outside the dance do not count.
 BeatFigures ScoreBeats(std::span<const float> speeds, const std::vector<double>& music, double fps);
 
-/// Scores each dance on its own song and, for chance, on the set's other songs from their
-/// beginnings, which it hits by density and tempo alone.
+/// Scores each dance on its own song and, as chance level, on the set's other songs from their
+/// beginnings, whose beats it hits only by density and tempo.
 class BeatTable {
  public:
   /// The set must outlive the table.
   explicit BeatTable(const ClipSet& set) : set_(set) {}
 
-  /// Adds a dance to the row `name`, for frames `start` on of a clip; mean joint speeds step by
-  /// step. Ignores clips without beats.
+  /// Adds a dance to the row `name`. It goes with the clip's frames from `start` on. `speeds`: mean
+  /// joint speed of each step, m/s. Ignores clips without beats.
   void Add(const std::string& name, size_t clip, int start, const std::vector<float>& speeds);
 
-  /// Rows in the order in which they were first added, "real" first; intervals over songs.
+  /// The rows in the order in which they were first added, but "real" first. Intervals are over
+  /// songs.
   Table Finish() const;
 
  private:

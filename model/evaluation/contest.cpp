@@ -38,7 +38,7 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
   return others;
 }
 
-// The engine of a model, from the kernels at the end of its fingerprint. For float32 the
+// The engine of a model, read from the kernels at the end of its fingerprint. For float32, the
 // instruction set does not matter.
 std::string EngineOf(const ModelInfo& model, EngineKind kind) {
   const size_t packed = model.fingerprint.find("/packed ");

@@ -10,12 +10,12 @@
 
 namespace choreo {
 
-/// The requested choice of methods to compare.
+/// The methods to compare, as requested on the command line.
 struct ContestOptions {
   std::filesystem::path model;  ///< checkpoint
   std::vector<std::string> baselines = {"real", "interpolation", "music_only"};
   std::vector<std::string> others;  ///< NAME=CHECKPOINT
-  std::string engine = "auto";      ///< ParseEngineKind
+  std::string engine = "auto";      ///< as ParseEngineKind reads it
   std::string name = "model";       ///< the judged model's name in tables
 };
 
@@ -28,14 +28,15 @@ struct Contest {
   Sampler& judged() const { return *samplers.front(); }
 };
 
-/// Throws Error(kInvalidArgument, "--other") for text that is not NAME=CHECKPOINT, a name that
-/// another row has (--name, if it is that one's), or a model on another skeleton; otherwise what
-/// MakeSampler throws. Checks names before loading anything.
+/// Loads the models. Throws Error(kInvalidArgument, "--other") for text that is not
+/// NAME=CHECKPOINT, a name that another row has (with field --name if that is the judged model's),
+/// or a model on another skeleton; otherwise what MakeSampler throws. Checks names before it loads
+/// anything.
 Contest MakeContest(const ContestOptions& options);
 
-/// The clips in each folder that belong to the group `split`, with their beats, as a set named
-/// after the folder. Throws Error(kInvalidArgument, "--data") for two folders of one name, or
-/// another skeleton than `skeleton`; otherwise what LoadClips throws.
+/// Loads the clips of each folder in the group `split`, with their beats, as a set named after the
+/// folder. Throws Error(kInvalidArgument, "--data") for two folders with one name, or a skeleton
+/// other than `skeleton`; otherwise what LoadClips throws.
 std::vector<ClipSet> LoadSets(const std::vector<std::filesystem::path>& folders,
                               const std::filesystem::path& splits, const std::string& split,
                               const Skeleton& skeleton);

@@ -11,45 +11,46 @@
 
 namespace choreo {
 
-/// The rows that answer requests with controls: real motion, interpolation along the path, and each
-/// engine of `methods`: the network alone, if any, and as served; without keys, as served.
+/// The rows of tables about controls: real motion, interpolation along the path, and each engine of
+/// `methods`: the network alone (if any) and as served; engines without keys only as served.
 std::vector<Method> WaysOf(const std::vector<Method>& methods);
 
-/// Velocity factors of each of `danced`, which follows `before`.
+/// The velocity factors of each pose of `danced`, which follows `before`.
 FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
                           const std::vector<Pose>& danced);
 
-/// Share of the steps in which a foot skates (QualityReport::skate_ratio).
+/// The share of steps in which a foot skates (QualityReport::skate_ratio).
 double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
                     const std::vector<Pose>& danced);
 
-/// A real transition, and the controls for dancing it again.
+/// A real transition and the controls that request it again.
 struct ControlledWindow : EvalWindow {
   Pose before = {};  ///< the last history pose
   std::vector<Pose> real = {};
-  Pose key = {};  ///< the last of `real`, unless it was moved
+  Pose key = {};  ///< the last pose of `real`, unless moved
   Eigen::Matrix3Xd path = {};
-  FactorTrack factors = {};  ///< no columns: none requested
+  FactorTrack factors = {};  ///< requested; no columns: none
 };
 
-/// The windows of one length, for any method to dance. The evaluation must outlive it.
+/// The windows of one length and their requests, which any method can dance. The evaluation must
+/// outlive the course.
 class ControlCourse {
  public:
   ControlCourse(const Evaluation& evaluation, int frames);
 
-  /// Requests a path that no dancer recorded, as the service follows it, and no factors. `draw` may
-  /// move the key, and returns points with frames counted from the transition's first.
+  /// Requests drawn paths in place of recorded ones, and no factors. `draw` may move the key. It
+  /// returns points whose frames count from the transition's first.
   using Draw = std::function<RootPath(ControlledWindow*)>;
   void Redraw(const Draw& draw);
 
-  /// Requests constant speeds, metres a frame, instead of the real dance's.
+  /// Requests constant speeds, metres per frame, in place of the real dance's.
   void AskConstant(const std::array<float, kBodyParts>& speeds);
 
-  /// One dance per window with its controls: the real path and factors, unless replaced above;
-  /// factors times `scale` if the method takes any. None if the method can't dance that long.
+  /// One dance per window with its controls: the real path and factors unless replaced above, with
+  /// factors times `scale` if the method takes any. Empty if the method cannot dance that long.
   Dances Dance(const Method& way, double scale = 1) const;
 
-  /// A figure of each window.
+  /// A figure of one window.
   using Figure = std::function<double(const ControlledWindow&, const std::vector<Pose>& danced)>;
   std::vector<ClipFigure> FiguresOf(const Dances& dances, const Figure& figure) const;
 

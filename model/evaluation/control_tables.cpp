@@ -26,7 +26,7 @@ JointTrack FacingTrack(const Skeleton& skeleton, const std::vector<Pose>& poses)
   return track;
 }
 
-// The methods that take no controls, as text.
+// Names the methods that take no controls.
 std::string WithoutControls(const std::vector<Method>& ways) {
   std::string names;
   for (const Method& way : ways) {
@@ -60,15 +60,15 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
   return table;
 }
 
-// A table with one figure, at each length.
+// A table of one figure at each length.
 struct ControlFigure {
   const char *name, *title, *note;
   int digits;
-  bool averaged;  ///< over the lengths, too
+  bool averaged;  ///< whether it also has the mean over lengths
   ControlCourse::Figure figure;
 };
 
-// The first is LRP.
+// The figures of all tables; the first is LRP.
 std::vector<ControlFigure> ControlFigures(const Skeleton& skeleton, double fps) {
   return {
       {"lrp", "LRP, cm",

@@ -22,7 +22,7 @@ constexpr std::pair<const char*, Drawing> kPaths[] = {{"as danced", Drawing::kDa
 
 Eigen::Vector2d OnFloor(const Eigen::Vector3d& place) { return {place.x(), place.z()}; }
 
-// Gives no heights: they lead from the dancer's to the key's.
+// Draws a path without heights, which lead from the dancer's to the key's.
 RootPath Draw(Drawing way, ControlledWindow* window) {
   const Eigen::Vector3d start = window->before.root_position;
   Eigen::Vector3d& end = window->key.root_position;

@@ -11,7 +11,7 @@ struct EncodedFigures {
   double fid = NAN, variability = NAN, diversity = NAN;
 };
 
-/// Measures an engine or real motion; NaN without an encoder or with too little motion.
+/// Measures an engine or real motion. NaN without an encoder or with too little motion.
 EncodedFigures MeasureEncoded(const Evaluation& evaluation, const Method& method);
 
 }  // namespace choreo

@@ -9,15 +9,15 @@
 
 namespace choreo {
 
-/// STEM_NAME.png beside the JSON file; NAME loses characters that suit no file name.
+/// The path STEM_NAME.png beside the JSON file. Drops characters of NAME that are invalid in file
+/// names.
 std::filesystem::path PictureBeside(const std::filesystem::path& json, std::string name);
 
-/// Creates missing folders. Throws Error(kInvalidArgument, "--json") with the path if a file could
-/// not be written: before the long work, not after.
+/// Creates missing folders. Throws Error(kInvalidArgument, "--json"), naming the path, if a file
+/// could not be written. Call it before the long work.
 void CheckReportPath(const std::filesystem::path& json);
 
-/// Writes the JSON file, starting with `head`, which all tables share, and the tables' plots beside
-/// it.
+/// Writes the JSON file, which begins with `head`, and the tables' plots beside it.
 void WriteReport(const std::filesystem::path& json, nlohmann::json head,
                  const std::vector<Table>& tables);
 

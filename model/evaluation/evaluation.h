@@ -14,23 +14,23 @@ namespace choreo {
 
 class MotionEncoder;
 
-/// A method: one row of a table.
+/// A method of making dances: one row of a table.
 struct Method {
   enum class Kind {
     kReal,           ///< the real dance
     kInterpolation,  ///< lerp and slerp between last pose and key, unprocessed
-    kModel,          ///< a sampler, through model/dance as in the server
+    kModel,          ///< a sampler, driven by model/dance as in the server
   };
   std::string name;
   Kind kind = Kind::kModel;
   Sampler* sampler = nullptr;  ///< for kModel; not owned
-  bool keys = true;            ///< kModel: false for dances to the music alone
-  bool network = true;         ///< kModel: false for one that was not trained
-  bool finished = true;        ///< kModel: as served, with arrival and footwork
+  bool keys = true;            ///< kModel: whether requests have keys; false for the music alone
+  bool network = true;         ///< kModel: whether the sampler is a trained network
+  bool finished = true;        ///< kModel: whether with arrival and footwork, as served
 
-  /// A network that gets tables of its own besides its rows.
+  /// Whether it is a network with tables of its own.
   bool Judged() const { return kind == Kind::kModel && network && keys; }
-  /// Whether it can dance that many frames.
+  /// Whether it can dance `frames` frames.
   bool Lasts(int frames) const {
     return kind != Kind::kModel || frames <= sampler->model().max_transition_frames;
   }
@@ -50,17 +50,17 @@ struct Method {
 /// Options shared by all rows of an evaluation.
 struct EvalOptions {
   std::vector<int> lengths{kComparedFrames.begin(),
-                           kComparedFrames.end()};  ///< frames of the transitions
+                           kComparedFrames.end()};  ///< of transitions, frames
   int windows_per_clip = 8;
-  int best_of = 10;  ///< samples per window, of which the nearest counts
+  int best_of = 10;  ///< samples per window, the nearest of which counts
   float temperature = 0;
-  bool own_temperatures = false;  ///< each method's own instead, in tables that say so
-  int long_seeds = 50;            ///< long dances of each kind; 0: none
+  bool own_temperatures = false;  ///< each method's own temperature, in tables that say so
+  int long_seeds = 50;            ///< number of long dances of each kind; 0: none
   int long_frames = kMaxTransitionFrames;
-  int free_dances = 20;  ///< without keys, in the liveliness table; 0: none
+  int free_dances = 20;  ///< number of dances without keys in the liveliness table; 0: none
 };
 
-/// One data set, and the methods that dance on it. Owns nothing.
+/// The context of an evaluation: one data set and the methods that dance on it. Owns nothing.
 struct Evaluation {
   const ClipSet& set;
   const std::vector<Method>& methods;  ///< the judged model is last
@@ -78,7 +78,8 @@ struct Evaluation {
                : options.temperature;
   }
 
-  /// An empty table for this set; a table of one method has its name, except the judged one's.
+  /// An empty table for this set. A table of one method has that method's name, except the judged
+  /// method's.
   Table NewTable(const std::string& name, const std::string& title, std::vector<std::string> labels,
                  const Method* of = nullptr) const {
     const bool named = of != nullptr && of != &judged();
@@ -90,14 +91,14 @@ struct Evaluation {
   }
 };
 
-// Each plans inputs, has the runner dance them, and returns tables of the results: none if there is
-// nothing to say of this set or model. All are deterministic.
+// Each function plans inputs, runs them, and returns tables of results, or none if the set or model
+// has nothing to measure. All are deterministic.
 
 /// Transitions between real poses (paper F, Table 2 and the key columns of Table 1). All methods
 /// have the same temperature, windows, music, seeds and post-processing.
 ///
 ///   transitions_SET  every method: distances to the real dance and the usual metrics
-///   keys_SET         every method: how far it misses keys, raw and as served
+///   keys_SET         every method: the distance from keys, raw and as served
 std::vector<Table> EvaluateTransitions(const Evaluation& evaluation);
 
 /// liveliness_l2p_SET for every judged method: L2P over interpolation's at temperature 0, at the
@@ -117,7 +118,7 @@ std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
 std::vector<Table> EvaluateLiveliness(const Evaluation& evaluation);
 
 /// liveliness_styles_SET: how often a classifier, trained on the styles of the set's training clips
-/// (metrics/style_classifier.h), recognises the style requested of dances without keys.
+/// (metrics/style_classifier.h), recognises the requested style in dances without keys.
 std::vector<Table> EvaluateStyles(const Evaluation& evaluation);
 
 /// Long dances of the judged method beside the clips:
@@ -136,36 +137,38 @@ std::vector<Table> EvaluateLongDances(const Evaluation& evaluation);
 std::vector<Table> EvaluateEncoded(const Evaluation& evaluation);
 
 /// stress_SET: paper F, Section 5.2, where its model failed: to a lying pose in 30 frames and
-/// fewer, and to a key that almost equals the present pose. Whether the stream would warn
-/// (RequiredSpeed::TooFast), whether the dancer freezes, how demanding the transition is.
+/// fewer, and to a key that almost equals the present pose. Shows whether the stream would warn
+/// (RequiredSpeed::TooFast), whether the dancer freezes, and how demanding the transition is.
 std::vector<Table> EvaluateStress(const Evaluation& evaluation);
 
-/// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4),
-/// for models with these controls, like all below. Other methods appear without them.
+/// Transitions that follow the real dance's root path and velocity factors (paper C, Section 4).
+/// This and all tables below are for models with these controls; other methods have rows without
+/// them.
 ///
-///   lrp_SET, avf_SET, art_SET  its Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
+///   lrp_SET, avf_SET, art_SET  the paper's Tables 2-4 at 10, 50, 100 and 150 frames: real motion,
 ///                              interpolation along the path, each network alone and as served
 ///                              (arrival, footwork), and without keys
 ///   lrp_ratio_SET, lrp_turned_SET, control_skate_SET, tremor_SET  of the same dances
 std::vector<Table> EvaluateControls(const Evaluation& evaluation);
 
-/// How the speed of each part follows its velocity factor, on the real path between real poses:
+/// How closely each part's speed follows its velocity factor, on the real path between real poses:
 ///
 ///   multipliers_SET  the real dance's factors times 0.5, 1 and 1.5, over that dance's speeds
 ///   constant_SET     the model's first reference times 0.5, 1 and 1.5 in every frame, over that
 ///                    reference
 ///
-/// Means over windows and frames. Methods without velocity factors have one row in each.
+/// Figures are means over windows and frames. Methods without velocity factors have one row in each
+/// table.
 std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation);
 
-/// repetition_SET, at 100 to 250 frames: how much of a dance repeats itself, and how much of its
-/// ending holds still.
+/// repetition_SET, at 100 to 250 frames: the shares of a dance that repeat it, and of its ending
+/// that hold still.
 std::vector<Table> EvaluateRepetition(const Evaluation& evaluation);
 
-/// drawn_SET: root paths that no dancer recorded, between real poses: straight at constant speed,
-/// on the spot (the key is moved there), and a bow; compared with the real ones. Requests no
-/// velocity factors. For methods with keys that take a path: how much feet skate, how well key and
-/// path are met.
+/// drawn_SET: drawn root paths between real poses, compared with the real ones: straight at
+/// constant speed, on the spot (with the key moved there), and a bow. Requests no velocity factors.
+/// For methods with keys that take a path. Shows how much feet skate and how closely the dance
+/// meets key and path.
 std::vector<Table> EvaluateDrawnPaths(const Evaluation& evaluation);
 
 }  // namespace choreo

@@ -9,16 +9,16 @@
 
 namespace choreo {
 
-/// Dances to mono samples at 22 050 Hz as served: streams all of them and ends with them. `config`
-/// must not describe the music or its format. Throws what DanceStream throws, and the error that
-/// ends it.
+/// Makes the dance that the server would make to mono samples at 22,050 Hz: streams all of them,
+/// and ends with them. `config` must not describe the music or its format. Throws what DanceStream
+/// throws, and the error with which the stream ends.
 std::vector<Pose> DanceTo(SampleQueue& queue, std::span<const float> mono, DanceConfig config,
                           std::span<const Key> keys = {}, const ControlRequest& controls = {});
 
-/// Makes keys for another dance: this one's poses every two seconds, in place.
+/// Makes keys for another dance from this one's poses every two seconds, in place.
 std::vector<Key> KeysOf(std::span<const Pose> dance);
 
-/// A path once around every 24 s, a metre and a half wide.
+/// A circular path, once around every 24 s, 1.5 m wide.
 ControlRequest Circle(size_t frames);
 
 }  // namespace choreo

@@ -21,18 +21,19 @@ namespace {
 
 constexpr int kHeardSeconds = 4;
 constexpr size_t kHeardFrames = kHeardSeconds * size_t{30};
-// Frames at the start of a part that are not judged: their transition began with the music of the
-// part before.
+// Frames at the start of a part that do not count, because their transition began with the music of
+// the part before.
 constexpr size_t kSettles = 2 * kTypicalFrames;
 constexpr double kSongSeconds = 80, kHitSeconds = 60;
 
 // Seconds of a song before its drop, of the calm that precedes it, and after it.
 constexpr double kBeforeDrop = 20, kCalm = 6, kAfterDrop = 12;
-// With three seeds 36 dances: the burst of 12 comes, by chance, after 0.4 to 1.7 s.
+// Three seeds give 36 dances. With 12, the burst would come after 0.4 to 1.7 s, by chance.
 constexpr int kDropsASeed = 12;
-// A made song begins with up to a second of hiss. Drums may sound so many seconds before a beat.
+// A synthetic song begins with up to kMadeLead seconds of hiss. Drums may sound kEarlyDrums seconds
+// before a beat.
 constexpr double kMadeLead = 1, kEarlyDrums = 0.01;
-// The frames with which a burst is compared: before the drop, and when it has settled.
+// The frames with which a response is compared: before the drop, and after the dance has settled.
 constexpr size_t kBefore = 60, kSettledFrom = 120, kSettledTo = 300;
 constexpr size_t kSmooth = 11;  // frames of a moving mean
 
@@ -81,7 +82,7 @@ std::vector<double> LoudnessOf(std::span<const float> mono) {
   return loudness;
 }
 
-/// A made song of so many seconds that begins with its first beat.
+/// A synthetic song of `seconds` that begins with its first beat.
 std::vector<float> FromFirstBeat(uint64_t seed, double seconds) {
   MadeSong song = MakeSong({.seed = seed, .seconds = seconds + kMadeLead});
   const auto at = [](double second) { return std::llround(second * kModelSampleRate); };
@@ -90,14 +91,14 @@ std::vector<float> FromFirstBeat(uint64_t seed, double seconds) {
   return std::move(song.mono);
 }
 
-/// Concatenates parts to a song.
+/// Joins parts into a song.
 std::vector<float> Join(std::initializer_list<const std::vector<float>*> parts) {
   std::vector<float> song;
   for (const std::vector<float>* part : parts) song.insert(song.end(), part->begin(), part->end());
   return song;
 }
 
-/// Mean distance of joints, metres, with both dancers moved to one place and facing.
+/// The mean distance of joints, metres, with both dancers moved to one place and heading.
 double Apart(const Skeleton& skeleton, std::span<const Pose> a, std::span<const Pose> b) {
   const auto joints = [&](const Pose& pose) {
     return JointPositions(skeleton, GroundFrame::Of(pose).ToLocal(pose));
@@ -115,7 +116,8 @@ class Judge {
 
   void Parts();
   void Loudness(const std::string& name, const std::vector<std::vector<float>>& songs);
-  /// Seconds from a drop to the burst that answers it, if a calm part precedes: a pad, or silence.
+  /// Measures the seconds from a drop, after a calm part (a pad or silence), to the dance's
+  /// response.
   void Drops(const std::string& calm, bool is_pad);
   void Form();
   void Hits();
@@ -123,7 +125,7 @@ class Judge {
   void Fastest();
 
  private:
-  /// A figure at usual settings and at those that change what `matters`; a dash for others.
+  /// Adds a figure at the settings that it depends on, `matters`, and a dash for others.
   template <typename Figure>
   void Row(const std::string& label, int digits, const std::vector<const Setting*>& matters,
            Figure of) {
@@ -141,7 +143,7 @@ class Judge {
     if (!setting.live) Know(mono, &config);
     return Dance(mono, config, setting);
   }
-  /// Tells what the song's file tells, as `choreo dance` does.
+  /// Fills in the facts that a song's file provides, as `choreo dance` does.
   void Know(const std::vector<float>& mono, DanceConfig* config) {
     const uint64_t id = MusicId(mono);
     if (!known_.contains(id)) known_[id] = AnalyseMusic(mono);

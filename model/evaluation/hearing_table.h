@@ -8,23 +8,23 @@
 
 namespace choreo {
 
-/// A song that is danced to, 22 050 Hz.
+/// A song to dance to: mono samples at 22,050 Hz.
 struct NamedSong {
   std::string name;
   std::vector<float> mono;
 };
 
 struct HearingOptions {
-  uint64_t first_seed = 2'000'000;  ///< of made songs; development used lower ones
+  uint64_t first_seed = 2'000'000;  ///< of synthetic songs; development used lower ones
   int seeds = 3;                    ///< dances per song, and songs of each kind
-  int part_seconds = 20;            ///< of assembled songs, above 4
-  /// Speeds in Olivia's recordings, m/s, mean of the joints (`eval --liveliness --split
-  /// validation`): the fastest frame, and the speed that one frame in a thousand exceeds.
+  int part_seconds = 20;            ///< length of a part of assembled songs, above 4
+  /// Mean joint speeds in Olivia's recordings, m/s (`eval --liveliness --split validation`): of the
+  /// fastest frame, and the speed that one frame in a thousand exceeds.
   double top_speed = 4.73, rare_speed = 2.79;
 };
 
-/// hearing: how much a dance responds to its music, at usual settings and at others. Dances are
-/// streamed as served, to synthetic songs (audio/made_song.h) and to `songs`.
+/// The table "hearing": how much a dance responds to its music, at usual and at other settings.
+/// Dances are streamed as served, to synthetic songs (audio/made_song.h) and to `songs`.
 ///
 ///   drums ÷ pad, silence ÷ drums  mean joint speeds in parts of one song, from its fifth second on
 ///   loudness and speed            their correlation over windows of 4 s, mean over seeds

@@ -4,12 +4,12 @@
 
 namespace choreo {
 
-/// The baseline of paper F's Table 2 as a model in the same pipeline (arrival, footwork): linear
-/// for the root, spherical for joints, from the last history pose to the key, or on the requested
-/// path. Without a target it holds its posture.
+/// The baseline of paper F's Table 2 as a sampler in the same pipeline (arrival, footwork).
+/// Interpolates from the last history pose to the key, linearly for the root and spherically for
+/// joints, or along the requested path. Without a target it holds its posture.
 class InterpolationSampler : public Sampler {
  public:
-  /// Resembles `model` in everything that a request depends on.
+  /// Copies from `model` everything on which requests depend.
   explicit InterpolationSampler(ModelInfo model);
 
   Slices<Plan> Begin(const ValidSpec& spec) override;

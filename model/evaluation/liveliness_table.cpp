@@ -23,18 +23,19 @@ constexpr int kFrechetFrames = 60;
 constexpr int kSparse = 240;                        // frames between few keys
 constexpr double kMinRatio = 0.7, kMaxRatio = 1.4;  // relative to real motion's median speed
 
-// The music's facts that a dance gets.
+// The facts about music in a request.
 struct Song {
   double bpm = 0;
   double phase = 0;
   bool shuffled = false;
 };
-// The first three vary the tempo, the next the phase, then a control; the last is for the range.
-constexpr size_t kTimedSong = 1;  // whose jerk is told
+// The first three vary the tempo, the next the phase, the next is a control; the last is for the
+// range.
+constexpr size_t kTimedSong = 1;  // the song whose jerk is in the table
 constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, true},
                            {60, 0}, {75, 0},  {150, 0}, {180, 0}};
 
-// All dances through keys, and the recorded ones for comparison.
+// All dances through keys, and recorded ones for comparison.
 struct KeyedDances {
   LivelyDances real, locked;
   LivelyDances sparse;  // few keys, seed 0
@@ -132,7 +133,7 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
   add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
   add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
-  // Does timing to beats make the dancer jerk?
+  // Shows whether timing to beats adds jerk.
   const Song& song = kSongs[kTimedSong];
   const LivelyDances& timed = dances.songs[kTimedSong];
   Add("jerk below 8 Hz, " + std::to_string(std::lround(song.bpm)) + " bpm m/s³", {}, {},
@@ -145,7 +146,7 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
 }
 
-// Mean distance of all joints between equal frames of two dances of each plan, cm.
+// The mean distance of all joints between the same frames of two dances of each plan, cm.
 std::vector<ClipFigure> DistancesCm(const LivelyDances& a, const LivelyDances& b) {
   std::vector<ClipFigure> figures;
   for (size_t i = 0; i < a.size(); ++i)
@@ -268,7 +269,7 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDan
   AddDanced("free: frozen %", share([&](const auto& one) { return real.Frozen(one); }), table);
   AddDanced("free: exploded %", share([&](const auto& one) { return real.Exploded(one); }), table);
   AddDanced("free: drifted %", share([&](const auto& one) { return real.Drifted(one); }), table);
-  // Recordings do not say where the audience is: dancers face it on average.
+  // Recordings do not state where the audience is; dancers face it on average.
   double real_away = 0, away = 0;
   for (const PreparedClip& clip : evaluation.set.clips) {
     const std::vector<Pose>& poses = clip.motion.frames;

@@ -15,12 +15,13 @@ namespace choreo {
 struct LongFigures {
   double seconds = 0;
   double median_speed = 0;  ///< of the mean joint speed, m/s
-  double late_speed = 0;    ///< the same over its last fifth: shows freezing
-  double stillest = 0;      ///< its least value over any fifth, tried every fiftieth of the dance
-  double top_speed = 0;     ///< of any frame: shows explosion
-  double reach_m = 0;       ///< largest distance of the root from its start, on the floor
-  /// Slope of the least-squares line through the root's floor distance from its start, metres a
-  /// minute: positive if it walks away, near 0 if it comes back or stays.
+  double late_speed = 0;    ///< the same over the last fifth: shows freezing
+  double stillest =
+      0;  ///< the least such value over any fifth, tried at every fiftieth of the dance
+  double top_speed = 0;  ///< the fastest frame's: shows explosion
+  double reach_m = 0;    ///< largest distance of the root from its start, on the floor
+  /// Slope of the least-squares line through the root's floor distance from its start, metres per
+  /// minute: positive if the dancer walks away, near 0 if it comes back or stays.
   double away_m_per_min = 0;
   /// Mean height of the root over the last 10 s minus that over the first (halves below 20 s), m.
   double rise_m = 0;
@@ -39,25 +40,25 @@ struct LongFigures {
 LongFigures MeasureLong(const Skeleton& skeleton, double fps, std::span<const Pose> poses,
                         const std::vector<int>& key_frames);
 
-/// The range of a set's real motion.
+/// The ranges of a set's real motion.
 struct RealRange {
-  std::vector<double> low, high;  ///< [joints] 5th and 95th percentile of its speeds, m/s
+  std::vector<double> low, high;  ///< [joints] 5th and 95th percentile of each joint's speed, m/s
   double median_speed = 0;        ///< of the mean joint speed, over all frames
   double top_speed = 0;
   double p95_acceleration = 0;  ///< mean over clips
   /// The most that any clip moves away, rises or sinks, and changes pace (as a factor of at least
-  /// 1); at least 3 m/min (five centimetres a second), 0.15 m and 2, for sets of a few calm clips.
+  /// 1). At least 3 m/min (5 cm/s), 0.15 m and 2, for the sake of sets of a few calm clips.
   double away_m_per_min = 3, rise_m = 0.15, pace_change = 2;
 
-  /// Whether a dance whose last fifth has this speed has frozen: it is slower than a quarter of
-  /// real motion. A dance that is still in its middle but moves at its end has not; only
+  /// Whether a dance whose last fifth has this speed is frozen: slower than a quarter of real
+  /// motion. A dance that pauses in its middle but moves at its end is not; only
   /// LongFigures::stillest shows that.
   bool Frozen(double speed) const { return speed < 0.25 * median_speed; }
   bool Frozen(const LongFigures& dance) const { return Frozen(dance.late_speed); }
   bool Exploded(const LongFigures& dance) const { return dance.top_speed > top_speed; }
-  /// Whether it leaves its place, height or pace by more than real motion does.
+  /// Whether a dance leaves its place, height or pace by more than real motion does.
   bool Drifted(const LongFigures& dance) const;
-  /// Share of the joints whose median speed is within low and high.
+  /// The share of joints whose median speed is between low and high.
   double JointsWithin(const LongFigures& dance) const;
 };
 
@@ -65,7 +66,7 @@ struct RealRange {
 RealRange RangeOf(const std::vector<LongFigures>& real, const std::vector<JointTrack>& tracks,
                   double fps);
 
-/// A set's clips as dances with keys at their own frames every 2 s, and the range of those.
+/// A set's clips, measured as dances with keys at their own frames every 2 s, and their ranges.
 struct RealDances {
   std::vector<LongFigures> clips;
   RealRange range;

@@ -13,7 +13,7 @@ constexpr int kEqualInterval = 100;
 constexpr int kMinInterval = 15;  // between keys on beats
 constexpr int kMinSeconds = 20, kMaxSpans = 30;
 
-// Frame `at` of a clip traversed forwards, backwards, forwards.
+// The pose at frame `at` of a clip that is played forwards, backwards, forwards, ...
 const Pose& WalkedPose(const PreparedClip& clip, int at) {
   const int last = static_cast<int>(clip.motion.frames.size()) - 1;
   const int phase = at % (2 * std::max(last, 1));

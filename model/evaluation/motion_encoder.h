@@ -12,12 +12,12 @@ namespace choreo {
 /// The motion encoder for FID, variability and diversity (paper F, 4.5.2 and 4.5.4): the principal
 /// components of training motion, recomputed in each evaluation. A window of 30 frames, relative to
 /// its middle frame's position and heading, becomes 32 numbers (fewer with fewer training windows)
-/// with variance 1 over training; windows begin every 10 frames. Figures only compare under equal
-/// version()s, the hash of settings and training clips. Immutable; thread-safe.
+/// with variance 1 over training; windows begin every 10 frames. Figures are comparable only if
+/// version(), the hash of settings and training clips, is equal. Immutable; thread-safe.
 class MotionEncoder {
  public:
-  /// Learns from every window of the sets, all clips alike. Throws Error(kInvalidArgument) for
-  /// fewer than two windows.
+  /// Fits the components to all windows of the sets. Throws Error(kInvalidArgument) for fewer than
+  /// two windows.
   explicit MotionEncoder(const std::vector<ClipSet>& training);
 
   /// Codes of all windows of a dance, [codes, windows].

@@ -43,7 +43,7 @@ Next NextOf(const ModelInfo& model, const LongPlan& plan, const LongDance& chain
   }
   if (plan.audio.cols() > 0 && model.hearing) {
     const int history = model.history_frames;
-    // Nothing is danced after the plan's end, whatever its audio.
+    // The dance ends with the plan, even if the audio is longer.
     MusicRows& music = spec.music.emplace();
     music.history = plan.audio.middleCols(at, history);
     music.rows = Eigen::MatrixXf::Zero(plan.audio.rows(), spec.frames);

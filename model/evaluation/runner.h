@@ -14,8 +14,8 @@
 
 namespace choreo {
 
-/// A long dance beside a clip, as a chain of transitions like a stream's: its frame f goes with the
-/// clip's frame start + f.
+/// The plan of a long dance beside a clip, a chain of transitions like a stream's. The dance's
+/// frame f goes with the clip's frame start + f.
 struct LongPlan {
   size_t clip = 0;  ///< index in its set
   int start = 0;
@@ -39,17 +39,17 @@ struct LongDance {
 
 using Dances = std::vector<std::vector<Pose>>;  ///< [dances] of [frames]
 
-/// Makes the dances that tables request, like the server. Not thread-safe.
+/// Makes the dances of tables, as the server does. Not thread-safe.
 class Runner {
  public:
-  /// `danced` is called with each transition's number of frames.
+  /// Calls `danced` with the number of frames of each transition.
   explicit Runner(std::function<void(int)> danced = {}) : danced_(std::move(danced)) {}
 
-  /// The poses of each request. Throws what TransitionRun throws.
+  /// Returns the poses of each request. Throws what TransitionRun throws.
   Dances Dance(Sampler& sampler, std::span<const TransitionSpec> requests) const;
 
-  /// Dances each plan transition by transition (TransitionEnd). No dance depends on the others.
-  /// Throws Error(kInternal) at the first value that is not finite.
+  /// Makes each plan's dance transition by transition (TransitionEnd). No dance depends on the
+  /// others. Throws Error(kInternal) at the first value that is not finite.
   std::vector<LongDance> DanceLong(Sampler& sampler, std::span<const LongPlan> plans) const;
 
  private:

@@ -40,7 +40,7 @@ constexpr Case kCases[] = {
     {"almost the same pose", 90, KeyKind::kAlmostTheSame, 0.02},
 };
 
-// A dancer on the back at the place of `standing`, with the head behind it.
+// A dancer who lies on the back at the position of `standing`, the head behind it.
 Pose Lying(const Skeleton& skeleton, const Pose& standing) {
   Pose pose;
   pose.rotations = Eigen::Matrix3Xd::Zero(3, skeleton.joints());
@@ -52,7 +52,7 @@ Pose Lying(const Skeleton& skeleton, const Pose& standing) {
   return pose;
 }
 
-// A case's key, derived from the real one; none if it has none.
+// A case's key, derived from the real one. None for a case without a key.
 std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
                             const TransitionSpec& request) {
   if (one.kind == KeyKind::kReal) return request.target;

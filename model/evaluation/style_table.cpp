@@ -16,7 +16,7 @@ int StyleIn(const std::vector<std::string>& styles, const std::string& style) {
   return found == styles.end() ? -1 : static_cast<int>(found - styles.begin());
 }
 
-// Those that can be requested of the model and are present in its training clips.
+// The styles that the model accepts and that its training clips contain.
 std::vector<std::string> RecordedStyles(const ModelInfo& model, const ClipSet& training) {
   std::vector<std::string> styles;
   for (const std::string& style : model.styles) {

@@ -62,7 +62,7 @@ Cell Mean(const std::vector<ClipFigure>& figures) { return MeanOfMeans({figures}
 Cell MeanOfMeans(const std::vector<std::vector<ClipFigure>>& groups) {
   std::vector<ClipFigure> above, below;
   for (const std::vector<ClipFigure>& group : groups) {
-    // All groups have equal weight, whatever their number of windows.
+    // All groups have equal weight, independent of their number of windows.
     const double weight = groups.size() == 1 ? 1 : 1 / static_cast<double>(group.size());
     for (const ClipFigure& figure : group) {
       above.push_back({figure.clip, weight * figure.value});

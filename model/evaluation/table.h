@@ -13,7 +13,7 @@
 
 namespace choreo {
 
-/// A figure, or NaN for none (a dash in Markdown, null in JSON).
+/// A figure, or NaN for none, which is a dash in Markdown and null in JSON.
 struct Cell {
   Cell(double v = NAN, std::optional<Interval> i = {}) : value(v), interval(i) {}
   double value;
@@ -26,8 +26,8 @@ struct ClipFigure {
   double value = 0;
 };
 
-/// One figure for each of `some`, times `unit`, with its clip. `figure`: a member or a function of
-/// one.
+/// A figure of each element of `some`, times `unit`, with the element's clip. `figure`: a member or
+/// a function.
 template <typename Figures, typename Figure>
 std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, Figure figure,
                                   double unit = 1) {
@@ -36,9 +36,10 @@ std::vector<ClipFigure> FiguresOf(const std::vector<Figures>& some, Figure figur
   return figures;
 }
 
-/// The sum of `above` over the sum of `below`, with its interval over clips; NaN if that is 0.
+/// The sum of `above` over the sum of `below`, with its interval over clips. NaN if the sum of
+/// `below` is 0.
 Cell Ratio(const std::vector<ClipFigure>& above, const std::vector<ClipFigure>& below);
-/// The mean over windows, with its interval over clips; NaN for none.
+/// The mean over windows, with its interval over clips. NaN for none.
 Cell Mean(const std::vector<ClipFigure>& figures);
 template <typename Figures, typename Figure>
 Cell Mean(const std::vector<Figures>& some, Figure figure, double unit = 1) {
@@ -60,7 +61,7 @@ struct TableRow {
 
 /// A table of results, for printing, JSON, and Markdown that can be pasted.
 struct Table {
-  std::string name;  ///< names its JSON entry and its plot's file: "transitions_dancedb"
+  std::string name;  ///< of its JSON entry and its plot's file, such as "transitions_dancedb"
   std::string title;
   std::string note;  ///< one paragraph: what was measured, on how much data
   std::vector<std::string> label_headings;
@@ -74,7 +75,7 @@ struct Table {
   void Put(const std::string& heading, int digits, Cell cell);
 };
 
-/// A heading, the note, and the table, padded to read well as plain text.
+/// Heading, note and table as Markdown, padded to be readable as plain text.
 std::string ToMarkdown(const Table& table);
 nlohmann::json ToJson(const Table& table);
 

@@ -13,8 +13,8 @@
 namespace choreo {
 namespace {
 
-// Both begin with kFramesBefore frames of history, so that accelerations and skating include a jolt
-// at the start; other figures start after them.
+// `danced` and `real` begin with kFramesBefore frames of history, so that accelerations and skating
+// include a jolt at the start. Other figures start after them.
 WindowFigures MeasureWindow(const Skeleton& skeleton, double fps, const std::vector<Pose>& danced,
                             const std::vector<Pose>& real) {
   WindowFigures figures;

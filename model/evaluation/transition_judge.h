@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-inline constexpr int kFramesBefore = 2;  ///< frames of history before what is measured
+inline constexpr int kFramesBefore = 2;  ///< frames of history before the measured ones
 
 /// The figures of one transition by one method.
 struct WindowFigures {
@@ -23,8 +23,8 @@ struct WindowFigures {
   double pfc = 0;
   double skate_ratio = 0, p95_acceleration = 0, max_acceleration = 0;  ///< quality_report.h
   double key_distance = 0;                     ///< KPD at the last frame, m^2
-  double final_key_m = 0, final_key_deg = 0;   ///< ComparePoses there: the worst joint
-  double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival, footwork
+  double final_key_m = 0, final_key_deg = 0;   ///< ComparePoses at the last frame
+  double raw_key_distance = 0, raw_key_m = 0;  ///< the same without arrival and footwork
   Pace pace;
   Eigen::VectorXd kinetic, geometric;  ///< geometric: empty if the skeleton has none
 };
@@ -36,8 +36,8 @@ struct RealFeatures {
 };
 RealFeatures GatherRealFeatures(const ClipSet& set, int frames);
 
-/// Frechet distance to real motion, and mean distance of pairs, in units of the real features'
-/// spread (Li et al. 2021); NaN for fewer than two windows or no features.
+/// The Frechet distance to real motion and the mean distance of pairs, in units of the real
+/// features' spread (Li et al. 2021). NaN for fewer than two windows or no features.
 struct FeatureFigures {
   double distance = NAN, diversity = NAN;
 };
@@ -45,20 +45,20 @@ FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Eigen::MatrixX
 FeatureFigures CompareFeatures(const Eigen::MatrixXd& real, const Figures& windows,
                                Eigen::VectorXd WindowFigures::*features);
 
-/// Has methods dance a set's windows at one length and measures them. Its arguments must outlive
-/// it.
+/// Runs methods on a set's windows at one length and measures the dances. Its arguments must
+/// outlive it.
 class TransitionJudge {
  public:
   TransitionJudge(const Evaluation& evaluation, const ModelInfo& model, int frames);
 
   const std::vector<EvalWindow>& windows() const { return windows_; }
 
-  /// `candidate` numbers the samples of an engine.
+  /// Measures a method. `candidate` numbers the samples of an engine.
   Figures Run(const Method& method, float temperature, uint32_t candidate = 0) const;
-  /// Linear for the root, spherical for the joints.
+  /// The interpolation baseline: linear for the root, spherical for joints.
   Figures Interpolation() const { return Run({"", Method::Kind::kInterpolation}, 0); }
 
-  /// Fills in an engine's raw key figures: the same noise, without arrival and footwork.
+  /// Fills in an engine's raw key figures, with the same noise but without arrival and footwork.
   void AddRawKeys(Method method, float temperature, Figures* figures) const;
 
  private:

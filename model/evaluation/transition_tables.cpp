@@ -108,7 +108,7 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
     table.note +=
         " " + std::to_string(windows.size()) + " windows of " + std::to_string(frames) + " frames;";
     if (windows.empty()) continue;
-    const Figures line = judge.Interpolation();  // whether or not it has a row
+    const Figures line = judge.Interpolation();  // even if it has no row
     const RealFeatures real = GatherRealFeatures(set, frames);
     for (const Method& method : evaluation.methods) {
       Figures figures = judge.Run(method, temperature);
@@ -117,7 +117,7 @@ std::vector<Table> EvaluateTransitions(const Evaluation& evaluation) {
       AddCells(figures, line, real, &table);
       keys.Begin({std::to_string(frames), method.name});
       AddKeyCells(figures, &keys);
-      // Methods without keys are far away and would squeeze the others together.
+      // The distance of methods without keys is large and would compress the other curves.
       if (method.kind != Method::Kind::kReal && method.keys)
         AddPoint(&plot, method.name, frames, table.rows.back().cells[1].value);
       const double raw = Largest(figures, &WindowFigures::raw_key_m);

@@ -6,8 +6,8 @@ class App;
 
 namespace choreo {
 
-/// `choreo-lab weigh DATA...`: prints how prepared clips stand on their floor, clip by clip and
-/// averaged over each set, because a model learns to hover from clips that hover.
+/// Adds `choreo-lab weigh DATA...`, which prints how prepared clips stand on their floor, clip by
+/// clip and averaged over each set. A model learns to hover from clips that hover.
 void AddWeighCommand(CLI::App& app);
 
 }  // namespace choreo

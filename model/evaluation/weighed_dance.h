@@ -9,13 +9,13 @@
 
 namespace choreo {
 
-/// Figures of a dance's (or recording's) weight.
+/// Figures of the weight of a dance or recording.
 struct WeighedDance {
   size_t clip = 0;  ///< index in its set
   WeightFigures weight;
   double floor = 0;  ///< DancedFloor, m
   double half_turns = 0,
-         whole_turns = 0;  ///< share of windows of 2 s that turn > 150 and > 270 degrees
+         whole_turns = 0;  ///< shares of windows of 2 s that turn > 150 and > 270 degrees
   double lean = 0;         ///< the median TrunkLean, degrees
   double bent = 0;         ///< share of poses that lean > 45 degrees
   double at_rest = 0;      ///< HandsAtRest
@@ -24,8 +24,8 @@ struct WeighedDance {
 };
 using WeighedDances = std::vector<WeighedDance>;
 
-/// `turns`: WindowTurns. Throws Error(kInvalidArgument) for a skeleton that BalanceGauge doesn't
-/// fit.
+/// Measures a dance. `turns`: its WindowTurns. Throws Error(kInvalidArgument) for a skeleton that
+/// BalanceGauge doesn't fit.
 WeighedDance Weigh(const Skeleton& skeleton, double fps, size_t clip, const JointTrack& track,
                    const std::vector<double>& turns);
 
@@ -35,10 +35,10 @@ struct WeightRow {
   double (*figure)(const WeighedDance&);
   double unit;  ///< tables multiply figures by this
 };
-/// The rows about standing and falling, and those about variation.
+/// All rows: those about standing and falling, then those about variation.
 std::span<const WeightRow> WeightRows();
 
-/// Mean over the dances in which the figure is a number.
+/// The mean over the dances in which the figure is not NaN.
 Cell MeanOfKnown(const WeighedDances& dances, double (*figure)(const WeighedDance&), double unit);
 
 }  // namespace choreo

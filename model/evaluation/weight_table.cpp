@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurn = 60;  // degrees
 
-// The share of windows with a real turn that turn the same way by as many half turns.
+// The share of windows with a real turn in which dances turn the same way by as many half turns.
 Cell SameWayRound(const LivelyDances& real, const std::vector<LivelyDances>& keyed) {
   std::vector<ClipFigure> windows;
   for (const LivelyDances& seed : keyed) {

@@ -45,7 +45,7 @@ struct Arguments {
   EvalOptions options;
   float temperature = -1;
   std::span<const Evaluate> tables = kAll;
-  bool controls = false;  // only tables of controls, which choose their own lengths
+  bool controls = false;  // only the tables about controls, which have their own lengths
   bool encode = true, sheets = false;
   std::vector<std::filesystem::path> music;
 };
@@ -66,7 +66,7 @@ void WarnOfEmptyLengths(const std::vector<ClipSet>& sets, int history,
 void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& lengths) {
   const int longest = std::ranges::max(lengths);
   for (const Method& method : methods) {
-    // The other engines have the limit of the judged one, and built-in names.
+    // Other engines have the judged one's limit, and their names are built in.
     if (!method.Judged()) continue;
     const ModelInfo& model = method.sampler->model();
     if (longest <= model.max_transition_frames) continue;
@@ -77,7 +77,7 @@ void CheckLengths(const std::vector<Method>& methods, const std::vector<int>& le
   }
 }
 
-// CLI::Range lets NaN pass.
+// CLI::Range accepts NaN.
 std::string CheckTemperature(const std::string& text) {
   float value = 0;
   if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= kMaxTemperature) return "";
@@ -85,7 +85,7 @@ std::string CheckTemperature(const std::string& text) {
 }
 
 std::string Summary(const Arguments& arguments, const Contest& contest) {
-  // Takes only the model's part of the fingerprint: builds differ, figures hardly do.
+  // Includes only the model's part of the fingerprint. Figures hardly depend on the build.
   const std::string& print = contest.judged().model().fingerprint;
   char temperature[32];
   std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);
@@ -108,7 +108,7 @@ std::vector<Table> MakeTables(const std::vector<ClipSet>& sets, const Contest& c
       std::ranges::move(evaluate(evaluation), std::back_inserter(tables));
   }
   progress.Finish();
-  // Every table states it, as tables are quoted one by one.
+  // Every table states the engine, because pages quote single tables.
   for (Table& table : tables)
     table.note += (table.note.empty() ? "Engine: " : " Engine: ") + contest.engine + ".";
   return tables;

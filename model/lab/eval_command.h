@@ -6,7 +6,7 @@ class App;
 
 namespace choreo {
 
-/// `choreo-lab eval`.
+/// Adds the command `choreo-lab eval`.
 void AddEvalCommand(CLI::App& app);
 
 }  // namespace choreo

@@ -9,11 +9,12 @@ namespace choreo {
 struct HearArguments {
   std::filesystem::path model;               ///< checkpoint
   std::vector<std::filesystem::path> music;  ///< songs, or folders of songs
-  std::filesystem::path json;                ///< or empty
+  std::filesystem::path json;                ///< report to write; empty: none
 };
 
-/// Prints EvaluateHearing's table and writes it if asked to. Throws Error(kInvalidArgument,
-/// "--music") for a folder without songs; otherwise what MakeSampler and DecodeAudioFile throw.
+/// Prints EvaluateHearing's table, and writes it to `json`, if given. Throws
+/// Error(kInvalidArgument, "--music") for a folder without songs; otherwise what MakeSampler and
+/// DecodeAudioFile throw.
 void HearSongs(const HearArguments& arguments);
 
 }  // namespace choreo

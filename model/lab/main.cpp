@@ -17,7 +17,7 @@
 
 namespace {
 
-/// The single device with this name: a model is trained on one.
+/// The device with this name. Throws for several, because a model is trained on one.
 std::string OneDevice(const std::string& name) {
   const auto devices = choreo::ParseDevices(name, choreo::TorchDevices());
   if (devices.size() > 1)
@@ -27,7 +27,7 @@ std::string OneDevice(const std::string& name) {
 
 }  // namespace
 
-/// choreo-lab prepares data, trains models and measures them. choreod serves.
+/// choreo-lab prepares data, trains models and measures them; choreod serves them.
 int main(int argc, char** argv) {
   CLI::App app("Prepare data, train models, measure them", "choreo-lab");
   app.set_version_flag("--version", CHOREO_VERSION);

@@ -9,8 +9,8 @@ class App;
 
 namespace choreo {
 
-/// `choreo-lab train`. `read_device` parses --device ("cpu", "cuda:N") and throws Error for a
-/// device that does not exist.
+/// Adds the command `choreo-lab train`. `read_device` parses --device ("cpu", "cuda:N") and throws
+/// Error for a device that does not exist.
 void AddTrainCommand(CLI::App& app,
                      const std::function<std::string(const std::string&)>& read_device);
 
