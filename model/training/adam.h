@@ -10,19 +10,19 @@
 
 namespace choreo {
 
-/// Their Euclidean norm together; undefined ones count as zero.
+/// The Euclidean norm of all gradients together. Undefined ones count as zero.
 double NormOf(const std::vector<torch::Tensor>& gradients);
 
-/// Adam (Kingma & Ba 2015) over named parameters. Ours, because its moments are saved in the run's
-/// safetensors by name and restored to the bit, which torch's optimiser state (keyed by address, in
-/// a format that changes between releases) does not offer.
+/// Adam (Kingma & Ba 2015) over named parameters. Its moments are saved by name in the run's
+/// safetensors and restored to the bit. torch's optimiser state cannot do that: it is keyed by
+/// address, in a format that changes between releases. Not thread-safe.
 class Adam {
  public:
-  /// All parameters of `module`.
+  /// Optimises all parameters of `module`.
   explicit Adam(const torch::nn::Module& module);
 
-  /// Clips the gradient's norm to `max_norm` (0: no clipping), then updates. Skips gradients that
-  /// are not finite.
+  /// Clips the gradient's norm to `max_norm` (0: no clipping), then updates the parameters. Skips
+  /// steps whose gradient is not finite.
   void Step(double learning_rate, double max_norm);
   void ZeroGrad();
 

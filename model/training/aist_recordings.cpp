@@ -46,7 +46,7 @@ std::map<std::string, fs::path> FindSongs(const fs::path& input) {
   for (const auto& entry : fs::recursive_directory_iterator(input)) {
     if (!kMusicExtensions.contains(entry.path().extension().string())) continue;
     fs::path& song = songs[entry.path().stem().string()];
-    // Takes the first of several by path, whatever the folder's order.
+    // Takes the first path of several, independent of the folder's order.
     if (song.empty() || entry.path() < song) song = entry.path();
   }
   return songs;
@@ -65,7 +65,7 @@ std::string SongOf(const std::string& name) {
 
 Recording ReadAistRecording(const std::string& name, const fs::path& path, const fs::path& song) {
   const NpzArchive arrays = ParsePickledArrays(ReadFile(path), path.string());
-  // The motion would be read as another layout without its scaling.
+  // Without smpl_scaling, the motion would be read as another layout.
   for (const char* key : {"smpl_poses", "smpl_trans", "smpl_scaling"}) {
     if (!arrays.Has(key)) throw InvalidArgument(path.string(), std::string("has no ") + key);
   }

@@ -4,7 +4,7 @@
 
 namespace choreo {
 
-/// The beats that motion was made for. Beat k, k >= 0, is at offset_s + k x period_s; beat 0 begins
+/// The beats to which a motion was danced. Beat k >= 0 is at offset_s + k * period_s; beat 0 begins
 /// a bar.
 struct BeatGrid {
   double period_s = 0.5;
@@ -12,11 +12,11 @@ struct BeatGrid {
   int per_bar = 4;
 };
 
-/// The same beats for a clip that begins `skipped_s` later. Its beat 0 is the first one that begins
-/// a bar.
+/// The same beats for a clip that begins `skipped_s` later. Beat 0 is the first one that begins a
+/// bar.
 BeatGrid Skip(BeatGrid grid, double skipped_s);
 
-/// The share of changes of the joints' mean speed at this period: 0 to 1. Throws
+/// The share of the power of the joints' mean speed at this period, 0 to 1. Throws
 /// Error(kInvalidArgument) for a clip with fewer than three frames.
 double SpeedPowerAt(const PositionClip& clip, double period_s);
 

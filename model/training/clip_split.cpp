@@ -37,7 +37,8 @@ Groups ReadGroups(const std::filesystem::path& splits_file) {
   return groups;
 }
 
-// Two sets may share clip names; a folder named like one of them holds that one's clips.
+// Finds a clip's group. If two sets share clip names, a folder's clips are those of the set with
+// its name.
 std::string GroupOf(const Groups& groups, const std::filesystem::path& folder,
                     const std::string& clip, const std::filesystem::path& splits_file) {
   std::optional<std::string> found;

@@ -60,8 +60,8 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
   sum /= frames;
   for (int lag = 0; lag < lags; ++lag)
     sum.col(lag) *= std::exp(-0.5 * std::pow(lag / kCovarianceSigma, 2));
-  // Positions are not in the dancer's frame, so sideways and forwards are alike; left and right
-  // are, too.
+  // Positions are not in the dancer's frame, so sideways and forwards are equivalent; so are left
+  // and right.
   const Eigen::RowVectorXd floor = 0.5 * (sum.row(0) + sum.row(2));
   sum.row(0) = sum.row(2) = floor;
   Eigen::MatrixXd covariance = sum;
@@ -69,7 +69,7 @@ Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const Cli
     covariance.middleRows<3>(3 + 3 * j) =
         0.5 * (sum.middleRows<3>(3 + 3 * j) + sum.middleRows<3>(3 + 3 * pairs[j]));
   }
-  // Joints that recordings lack never move.
+  // Keeps a minimum, because joints that recordings lack never move.
   covariance.col(0) = covariance.col(0).cwiseMax(kMinSpeed * kMinSpeed);
   return covariance;
 }
@@ -101,7 +101,8 @@ UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> 
   for (int j = 0; j < joints; ++j) usual.pose.rotations.col(j) = LogMap(NearestRotation(turns[j]));
   visit([&](const Pose& pose) {
     const Eigen::Vector3d off = usual.pose.root_position - pose.root_position;
-    const double floor = 0.5 * (off.x() * off.x() + off.z() * off.z());  // any facing
+    const double floor =
+        0.5 * (off.x() * off.x() + off.z() * off.z());  // independent of the heading
     usual.variance.head<3>() += Eigen::Vector3d(floor, off.y() * off.y(), floor) / poses;
     for (int j = 0; j < joints; ++j) {
       usual.variance.segment<3>(3 + 3 * j) +=

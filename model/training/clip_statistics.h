@@ -10,14 +10,14 @@
 
 namespace choreo {
 
-/// Medians over all frames, metres a frame.
+/// The medians of the velocity factors over all frames, metres per frame.
 std::array<double, kBodyParts> MedianFactors(std::span<const ClipTrack> tracks);
 
-/// [dimensions, lags] Covariance of velocities, symmetrised over sides, for MotionPrior.
+/// The autocovariance of velocities, [dimensions, lags], symmetrised over sides, for MotionPrior.
 Eigen::MatrixXd VelocityCovariance(const Skeleton& skeleton, std::span<const ClipTrack> tracks,
                                    int lags);
 
-/// The pose that dancers return to: the mean, symmetrised over sides, and the spread about it.
+/// The pose to which dancers return: the mean, symmetrised over sides, and the spread about it.
 UsualPose MeasureUsualPose(const Skeleton& skeleton, std::span<const ClipTrack> tracks);
 
 }  // namespace choreo

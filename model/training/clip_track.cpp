@@ -12,7 +12,7 @@
 namespace choreo {
 namespace {
 
-constexpr double kEnergySigma = 6;  // frames: energy is an average, not every swing
+constexpr double kEnergySigma = 6;  // frames: energy is an average over swings
 constexpr double kFastBeat = 11,
                  kSlowBeat = 24;  // frames between beats that are derived from a dance
 constexpr double kUneven = 0.3;   // tolerated unevenness of such beats
@@ -75,8 +75,8 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
   const double period = Note(clip, "beat_period_s"), fps = clip.motion.fps;
   if (period > 0) {
     const double last = static_cast<double>(track.poses.size()) + fps;
-    // Steps land on a grid's beats; kinematic beats (paper F, Section 4.2), by which dances are
-    // judged, are where they are fastest: halfway between.
+    // Steps land on a grid's beats. Kinematic beats (paper F, Section 4.2), which evaluations
+    // count, are where steps are fastest: halfway between.
     for (double at = Note(clip, "beat_offset_s") + period / 2; at * fps / tempo < last;
          at += period)
       track.beats.push_back(at * fps / tempo);

@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-/// One term of a training loss: its running mean and its last gradient's norm, weighted as in
-/// training; 0 until computed.
+/// A term of a training loss: its running mean and its last gradient's norm, weighted as in
+/// training. 0 until computed.
 struct LossFigure {
   double value = 0, gradient = 0;
 };

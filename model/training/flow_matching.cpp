@@ -11,14 +11,14 @@ using torch::Tensor;
 namespace {
 
 constexpr double kAtNoise = 0.2;  // share of samples at t = 0, half of them without noise
-constexpr double kStands = 1e-3;  // metres: points that move less stand
-// Weights of errors in joint positions, and in the travel of standing feet per frame, in squares of
-// a window's joint spread; white coordinates have 1. They stay small: at equal weight the pelvis
-// would compensate for what limbs can't know, and stand still.
+constexpr double kStands = 1e-3;  // metres: metres: points that move less are standing
+// Weights of errors in joint positions and in the travel of standing feet per frame, in squares of
+// a window's joint spread. White coordinates have weight 1. The weights are small, because with
+// equal weights the pelvis would compensate for the limbs' unpredictable movement and stand still.
 constexpr double kPlaces = 0.06, kSlips = 12;
-// White coordinates weigh each frame's change alike, so errors that add up over a window hardly
-// count. A key bounds those; without one these two weigh where a window leads: joints relative to
-// the pelvis, and each coordinate.
+// White coordinates give each frame's change the same weight, so errors that add up over a window
+// hardly count. A key bounds them. Without a key, these two weights apply to where a window leads:
+// joints relative to the pelvis, and each coordinate.
 constexpr double kPosture = 0.5, kDrift = 0.5;
 constexpr double kUnmoved = 1e-12;      // square metres or radians: no coordinate moves less
 constexpr double kStandingStep = 0.01;  // metres that a standing foot may move in a frame
@@ -29,7 +29,7 @@ Tensor SpreadsOf(const std::vector<MotionPrior::Bridge>& bridges) {
   return torch::stack(spreads);
 }
 
-// Square metres that the joints move on average when this joint turns by a radian about any axis.
+// The mean square movement of all joints, m^2, if one joint turns by a radian about any axis.
 Tensor ReachOf(const Skeleton& skeleton) {
   const Eigen::Matrix3Xd rest = JointPositions(skeleton, RestPose(skeleton));
   const int joints = skeleton.joints();
@@ -44,7 +44,8 @@ Tensor ReachOf(const Skeleton& skeleton) {
   return reach;
 }
 
-// [batch, w, dimensions] of white coordinates → displacements; `spreads` [dimensions, w, w].
+// Converts white coordinates [batch, w, dimensions] to displacements. `spreads`: [dimensions, w,
+// w].
 Tensor Colour(const Tensor& spreads, const Tensor& z) {
   return torch::matmul(spreads, z.permute({2, 1, 0})).permute({2, 1, 0});
 }
@@ -100,14 +101,14 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor variance =
       torch::where(batch.keyed > 0, spreads.to_key.square().sum(torch::IntArrayRef{1, 2}),
                    spreads.free.square().sum(torch::IntArrayRef{1, 2}));
-  // Metres that a coordinate of the window is expected to move joints: half of its weight, so that
-  // the body's turn counts more than a wrist's.
+  // The expected movement of joints by each coordinate of the window, metres. It is half of the
+  // coordinate's weight, so that the body's rotation counts more than a wrist's.
   const Tensor expected = variance * batch.scales.square().mean(1);
   const Tensor importance = (expected * reach_).sqrt();
   const Tensor weights = 0.5 + 0.5 * importance / importance.mean(1, true);
   const Tensor strays = importance.square().sum(1).view({-1, 1, 1}) / window + kStands * kStands;
-  // Measures the motion where F says that the flow ends, not F itself, which says little near the
-  // end.
+  // Measures the motion in which the flow ends according to F, because F itself says little near
+  // the end.
   const Tensor way = motion(miss);
   const Tensor moved = ((1 - t) / a.sqrt()).unsqueeze(-1) * body_.Move(batch, way);
   const Tensor drift = way.square() * window / (expected + kUnmoved).unsqueeze(1);

@@ -18,23 +18,24 @@ class FlowMatching {
 
   const FlowModelParts& parts() const { return parts_; }
 
-  /// Squared errors only, whose minimum is the mean of all possible motions: of F in white
-  /// coordinates, which teaches how dancers move; of the joint positions of the motion that F ends
-  /// in; and of its feet's travel per frame where real feet stand. Times and noise come from
-  /// torch's generator. The batch's tensors are on the model's device.
+  /// Computes the losses. All are squared errors, whose minimum is the mean of all possible
+  /// motions: of F in white coordinates, which teaches how dancers move; of the joint positions of
+  /// the motion in which F ends; and of the travel per frame of that motion's feet where real feet
+  /// stand. Times and noise come from torch's generator. The batch's tensors are on the model's
+  /// device.
   LossTerms Losses(ContinuousFlow& model, const WindowBatch& batch);
 
  private:
   struct Spreads {
     torch::Tensor to_key, free;  // [dimensions, w, w] Cholesky factors
-    torch::Tensor stage;         // [3, w, w] the root's, in place of the first three of `free`
+    torch::Tensor stage;         // [3, w, w] for the root, in place of the first three of `free`
   };
   const Spreads& Of(int frames, int to_key);
   FlowModelParts parts_;
   torch::Device device_;
   WindowBody body_;
   torch::Tensor mixing_;  // transposed
-  torch::Tensor reach_;   // [dimensions] square metres that joints move per square unit, on average
+  torch::Tensor reach_;   // [dimensions] mean square movement of joints per square unit, m^2
   std::map<std::pair<int, int>, Spreads> spreads_;
 };
 

@@ -92,7 +92,8 @@ class FlowMatchingRun : public TrainingRun {
   }
 
   void TrainStep() override {
-    // Each batch has its own random numbers, so it does not matter how many are drawn ahead.
+    // Each batch has its own random numbers, so the result does not depend on how many are drawn
+    // ahead.
     const size_t ahead = std::max(2U, std::thread::hardware_concurrency()) - 1;
     while (drawn_.size() < ahead) {
       const int64_t at = step() + std::ssize(drawn_);
@@ -151,7 +152,8 @@ class FlowMatchingRun : public TrainingRun {
     Safetensors weights;
     ExportTensors(*blended, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
-      // Stores weights as bfloat16: half the bytes, the same figures. The prior stays exact.
+      // Stores weights as bfloat16, in half the bytes and with the same figures. The prior stays
+      // exact.
       if (name.ends_with(".weight")) RoundToBfloat16(&tensor);
     }
     return SaveContinuousFlow(path, blended, weights, card);
@@ -169,7 +171,7 @@ class FlowMatchingRun : public TrainingRun {
     return kTraining.lengths[static_cast<size_t>(which)];
   }
 
-  // Moves the average by `share` of the way to the weights.
+  // Moves the average towards the weights by `share` of the difference.
   void Copy(double share) {
     const torch::NoGradGuard no_grad;
     const auto from = model_->parameters(), to = average_->parameters();
@@ -204,7 +206,7 @@ class FlowMatchingRun : public TrainingRun {
     model_->SetCurve({});
   }
 
-  // The average, as far as options say, and for the rest where the run started.
+  // The moving average, blended with the initial weights by the option `blend`.
   ContinuousFlow Blended() const {
     const torch::NoGradGuard no_grad;
     Safetensors weights;
@@ -275,7 +277,7 @@ class FlowMatchingRun : public TrainingRun {
   ContinuousFlow model_{nullptr}, average_{nullptr};
   Safetensors from_;  // the weights that the run started with
   std::unique_ptr<FlowMatching> matching_;
-  std::deque<std::future<WindowBatch>> drawn_;  // for this step and later ones; ends first
+  std::deque<std::future<WindowBatch>> drawn_;  // for this step and later ones; destroyed first
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 constexpr double kShrinkage = 0.02;  // shrinkage of correlations between dimensions towards zero
 constexpr double kRare = 0.025;      // share of windows at either end that are clipped as rare
 constexpr size_t kMinWindows = 16;   // needed to learn how energy counts
-constexpr double kPriorStyleWindows = 20;  // windows without difference that each style starts with
+constexpr double kPriorStyleWindows = 20;  // number of average windows that each style starts with
 constexpr size_t kMinEnergyWindows = 100;  // windows needed to learn the energy of the next
 constexpr size_t kMinTurnWindows = 100;    // windows needed to learn which way round dancers turn
 constexpr int kNewtonRounds = 12;
@@ -149,8 +149,8 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
         energy = EnergyLevel(energy, medians[static_cast<size_t>(part)]);
     }
   }
-  // Each clip relative to its own mean, as dancers differ. Logarithms of stillness are unbounded,
-  // so the range of levels is that of the livelier frames.
+  // Measures each clip relative to its own mean, because dancers differ. Logarithms of stillness
+  // are unbounded, so the range of levels is that of the livelier frames.
   Square all = Square::Zero();
   EnergyPrior::Levels above = EnergyPrior::Levels::Zero(), lively = above;
   Eigen::Index frames = 0;
@@ -164,8 +164,7 @@ EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
   all /= static_cast<double>(std::max<Eigen::Index>(1, frames));
   EnergyCurve curve;
   for (int lag = 0; lag < EnergyCurve::kLags; ++lag) {
-    double squares =
-        0;  // squared differences over this many frames; half their mean is what is lost
+    double squares = 0;  // of differences over this lag; half their mean is the loss of correlation
     Eigen::Index count = 0;
     for (const Eigen::MatrixXd& clip : levels) {
       const Eigen::Index pairs = std::max<Eigen::Index>(0, clip.cols() - lag);
@@ -219,7 +218,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
       ++of_style[style];
     }
     if (keyed) measured.spread = left.llt().matrixL();
-    // Averages factors, not their logarithms: a still dancer's logarithm is unbounded.
+    // Averages factors, not their logarithms, because a still dancer's logarithm is unbounded.
     const EnergyPrior::Levels spread = measured.Variance();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
     for (const LivelyWindow& window : windows) {

@@ -9,29 +9,29 @@
 #include "model/training/clip_track.h"
 #include "model/training/window_batch.h"
 
-/// The continuous flow's measurements on batches of real windows before training.
+/// Statistics of real windows that the continuous flow measures before training.
 namespace choreo {
 
-/// Measures how far real windows deviate from the mean of `prior`, whose powers are all zero.
+/// Measures the deviation of real windows from the mean of `prior`, whose powers are all zero.
 VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches);
 
-/// The distribution of real windows' energy, which all body parts must give, by what is known of
-/// the windows.
+/// Measures the distribution of real windows' energy, given what is known of the windows. All body
+/// parts' energy must be given.
 EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowRequest>& requests);
 
-/// Measures how the energy of body parts rises and falls in real dances; unknown if no clip is
+/// Measures how the energy of body parts rises and falls in real dances. Unknown if no clip is
 /// longer than its correlation.
 EnergyCurve MeasureCurve(std::span<const ClipTrack> tracks,
                          const std::array<double, kBodyParts>& medians);
 
-/// The liveliness of sampled windows that were given real windows' energy, over `requests`, which
-/// give all body parts'. `model` has no response yet. Unknown for too few windows.
+/// Measures how energetic sampled windows are if they request real windows' energy. `requests` give
+/// all body parts' energy. `model` has no response yet. Unknown for too few windows.
 EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& network,
                                const std::vector<WindowRequest>& requests);
 
-/// Measures which way round real dancers turn to a key, by what is known of the windows; `turning`
-/// is theirs.
+/// Measures which way round real dancers turn to a key, given what is known of the windows. Their
+/// `turning` is the real one.
 TurnPrior MeasureTurns(const Skeleton& skeleton, const std::vector<WindowRequest>& requests);
 
 /// Statistics of real windows: the correlation of white coordinates over dimensions, as a Cholesky

@@ -13,10 +13,10 @@ namespace choreo {
 namespace {
 
 constexpr double kSpeed = 11;    // m/s of a joint between frames
-constexpr int kMaxSteps = 3;     // consecutive steps that may be that fast; more is a real swing
+constexpr int kMaxSteps = 3;     // consecutive fast steps of a jolt; more are a real swing
 constexpr double kContrast = 2;  // a jolt is this many times faster than the steps around it
 constexpr double kBridge = 0.1;  // s interpolated before and after a jolt
-constexpr double kMaxBridgeSeconds = 0.8;  // s; denser jolts are left alone
+constexpr double kMaxBridgeSeconds = 0.8;  // s; longer bridges are not made
 
 using Span = std::pair<int, int>;  // first, last frame to interpolate
 

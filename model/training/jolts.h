@@ -7,21 +7,22 @@
 
 namespace choreo {
 
-/// A limb hangs from a joint with three or more children (pelvis, chest); the joints between those
-/// are the trunk. Speeds are relative to the root, so that a running dancer does not snap.
+/// Finds and repairs jolts of recordings. A limb hangs from a joint with three or more children
+/// (pelvis, chest); the joints between those are the trunk. Speeds are relative to the root, so
+/// that running is no jolt.
 
-/// Frames at which to cut a motion: in the step to them, the whole body snaps (the trunk, or two
-/// limbs at once), or a limb does so too near to an end to be bridged. Ascending.
+/// The frames at which to cut a motion, ascending. In the step to each, the whole body snaps (the
+/// trunk, or two limbs at once), or a limb does, too near to an end to be bridged.
 std::vector<int> FindBreaks(const Skeleton& skeleton, const Motion& motion);
 
 struct LimbRepair {
-  int frames = 0;  ///< interpolated, counted per limb
+  int frames = 0;  ///< interpolated frames, counted per limb
   int left = 0;    ///< jolts that were too dense
 };
 
-/// Captured limbs sometimes snap: a knee to the other side of its leg, a wrist across the body.
-/// Interpolates such a limb's rotations from shortly before to shortly after, and changes nothing
-/// else.
+/// Repairs limbs that snap, as in some recordings: a knee to the other side of its leg, a wrist
+/// across the body. Interpolates such a limb's rotations from shortly before to shortly after, and
+/// changes nothing else.
 LimbRepair RepairLimbs(const Skeleton& skeleton, Motion& motion);
 
 }  // namespace choreo

@@ -4,17 +4,17 @@
 
 #include <vector>
 
-/// Terms of training losses. Units and reductions belong to a loss's definition: a sum of metres
-/// would vanish beside nats.
+/// Terms of training losses. Units and reductions are part of a loss's definition, because a sum of
+/// metres would vanish beside nats.
 namespace choreo {
 
-/// Losses of lengths are in decimetres, which makes those of papers F and C about 1.
+/// Losses of lengths are in decimetres, which makes those of papers F and C nearly 1.
 inline constexpr double kDecimetresPerMetre = 10;
 
 /// One term of a loss.
 struct LossTerm {
   const char* name;     ///< with its unit, as in curves.csv
-  double weight;        ///< in the sum (paper F, Eq. 8)
+  double weight;        ///< weight in the sum (paper F, Eq. 8)
   torch::Tensor value;  ///< scalar, unweighted
 };
 using LossTerms = std::vector<LossTerm>;

@@ -29,12 +29,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kTopSpeed = 15;  // m/s of any joint; faster means a defective recording
+constexpr double kTopSpeed = 15;  // m/s: a faster joint means a defective recording
 constexpr int kMinFrames = 60;
 constexpr int kMaxCalibrationFrames = 6;  // frames
 constexpr double kMusicSlack = 0.5;       // s by which music may be shorter than its dance
 
-// The frames in which a joint is too far from its place in the frame before.
+// The frames in which a joint is too far from its position in the frame before.
 std::vector<int> FindJumps(const PositionClip& clip) {
   std::vector<int> jumps;
   for (int f = 1; f < std::ssize(clip.frames); ++f) {
@@ -66,8 +66,8 @@ int SkipCalibration(const PositionClip& clip) {
   return begin;
 }
 
-// Cuts a fitted motion where the body snaps and keeps the longest run; returns the number of frames
-// lost.
+// Cuts a fitted motion where the body snaps and keeps the longest run. Returns the number of frames
+// removed.
 int KeepLongestRun(const Skeleton& skeleton, Motion& motion, double& skipped_s, json& warnings) {
   const std::vector<int> breaks = FindBreaks(skeleton, motion);
   if (breaks.empty()) return 0;

@@ -35,7 +35,7 @@ PreparedClip ReadPreparedClip(const std::filesystem::path& path) {
   PreparedClip clip;
   clip.name = content.metadata["name"];
   clip.source = content.metadata["source"];
-  // A file names the skeleton that every reader knows, and holds any other.
+  // A file only names SMPL's skeleton, but contains any other.
   const std::string& skeleton = content.metadata["skeleton"];
   clip.skeleton =
       skeleton == Skeleton::Smpl24().name ? Skeleton::Smpl24() : SkeletonFromJson(skeleton);

@@ -18,12 +18,12 @@ namespace choreo {
 ///   root_positions [frames, 3] metres, Y up, floor y = 0; rotations [frames, joints, 3]
 ///   axis-angle, local, radians; contacts [frames, 4]; audio [frames, 40] MFCC rows
 ///   (FeatureStream's), absent for a dance without music; and in the metadata: name, source,
-///   fps, skeleton (motion/skeleton_json.h), terms, what preparation did ("corrections",
+///   fps, skeleton (motion/skeleton_json.h), terms, the preparation's steps ("corrections",
 ///   "fit_error_m", ...), and for motion on beats of its own beat_period_s, beat_offset_s and
 ///   beats_per_bar (training/beat_grid.h).
 struct PreparedClip {
   std::string name;
-  std::string source;  ///< its original layout: "tang2018", "bvh", ...
+  std::string source;  ///< the original layout: "tang2018", "bvh", ...
   Skeleton skeleton;
   Motion motion;                             ///< on that skeleton
   Eigen::MatrixXf contacts;                  ///< [4, frames]
@@ -38,12 +38,13 @@ void WritePreparedClip(const std::filesystem::path& folder, const PreparedClip& 
 /// Every .clip in a folder, sorted by name. Throws Error if there is none, or no folder.
 std::vector<std::filesystem::path> ListPreparedClips(const std::filesystem::path& folder);
 
-/// XXH3 of all clips' names and motions, in order, 16 hex digits: identifies the data behind a
-/// checkpoint or a motion encoder. `before` is hashed first: settings, or the hash of other clips.
+/// The XXH3 hash of all clips' names and motions, in order, 16 hex digits. It identifies the data
+/// behind a checkpoint or a motion encoder. `before`, such as settings or the hash of other clips,
+/// is hashed first.
 std::string HashOfClips(std::span<const PreparedClip> clips, std::string_view before = {});
 
-/// The style in a clip's name, such as Sophie_Afraid_v2 (afraid) or DANCE_W_12 (waltz): the mood or
-/// genre by requests' name; "" if none.
+/// The style (mood or genre) in a clip's name, as requests name it: "afraid" for Sophie_Afraid_v2,
+/// "waltz" for DANCE_W_12. "" if there is none.
 std::string StyleOf(const std::string& clip_name);
 
 }  // namespace choreo

@@ -40,8 +40,8 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
   FloorPlane plane;
   plane.height = Quantile(heights, kFloorQuantile);
   if (Extent(feet.row(0)) < kMinExtent || Extent(feet.row(2)) < kMinExtent) return plane;
-  // Quantile regression by iteratively reweighted least squares. The height may drift in time,
-  // piecewise linearly between knots: otherwise a dancer who crosses a drifting floor once would
+  // Quantile regression by iteratively reweighted least squares. The height drifts in time,
+  // piecewise linearly between knots. Otherwise a dancer who crosses a drifting floor once would
   // seem to climb a slope.
   const auto count = static_cast<int>(feet.cols());
   const int knots =
@@ -67,7 +67,7 @@ FloorPlane FitFloorPlane(const PositionClip& clip, const std::vector<int>& foot_
       normal += weight * row * row.transpose();
       right += weight * feet(1, i) * row;
     }
-    // Knots during which no foot comes down follow the overall height.
+    // Knots at which no foot comes down follow the overall height.
     for (int knot = 0; knot < knots; ++knot) {
       normal(knot, knot) += 1e-3 * count;
       right[knot] += 1e-3 * count * plane.height;

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sources fitted to a skeleton made from all of them. Unreadable recordings are skipped here and
-// named in their turn.
+// Fits sources to a skeleton made from all of them. Skips unreadable recordings, which are named
+// later, when they are read.
 std::vector<RecordingSource> OnNativeSkeleton(const std::vector<RecordingSource>& sources) {
   std::vector<PositionClip> clips;
   for (const RecordingSource& source : sources) {
@@ -48,7 +48,8 @@ Recording ReadBvhRecording(const std::filesystem::path& path, const std::string&
   recording.positions = BvhToPositions(bvh, 1.0);
   recording.positions.fps = ForClip(options.frame_rates, name, bvh.fps());
   recording.mapping = BvhSource(recording.positions);
-  // A BVH does not state its unit: the dancer's legs tell centimetres from inches.
+  // A BVH does not state its unit. The length of the dancer's legs distinguishes centimetres from
+  // inches.
   const BoneNormaliser normaliser(recording.skeleton, recording.mapping,
                                   recording.positions.joint_names);
   const double scale = normaliser.Measure(recording.positions).scale;

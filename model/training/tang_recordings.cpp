@@ -14,14 +14,14 @@ using nlohmann::json;
 constexpr double kFps = 25;
 constexpr double kMetresPerUnit = 0.01;
 constexpr double kCutoffHz = 8;        // removes interpolated frames and jitter, keeps dance steps
-constexpr double kTimeScale = 1.0125;  // with this, waltz and rumba lock to their music
+constexpr double kTimeScale = 1.0125;  // with this factor, waltz and rumba match their music
 // Cha-chas, rumbas and waltzes have 0.04 to 0.34 of the power at the beat, tangos less than 0.01.
 constexpr double kMinBeatPower = 0.02;
 
 struct Metre {
   double beat_frames;
   int per_bar;
-  double pulse_frames;  // the period of fast and slow in this metre
+  double pulse_frames;  // the period of the metre's fast and slow steps
 };
 constexpr Metre kFourFour = {12.5, 4, 25};
 constexpr Metre kWaltz = {48.4 / 3, 3, 48.4};

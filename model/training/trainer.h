@@ -10,25 +10,25 @@
 
 namespace choreo {
 
-/// Frames between keys at which models are compared: those of paper F, Table 2, and ten.
+/// Frames between keys at which models are compared: those of paper F, Table 2, and 10.
 inline constexpr std::array kComparedFrames{10, 30, 60, 90};
 /// The same for paper C's network (paper C, Tables 2-4).
 inline constexpr std::array kControlledFrames{10, 50, 100, 150};
 
-/// One training run, fully determined by this and the data: on one machine the same options give
-/// the same checkpoint. The papers' presets add options (model/papers/training/paper_options.h).
+/// The options of a training run. On one machine, the same options and data give the same
+/// checkpoint. The papers' presets add options (model/papers/training/paper_options.h).
 struct TrainOptions {
   std::string preset = "default";
   std::string name;  ///< the model's name in servers' lists; empty: the preset's
   std::vector<std::filesystem::path> data;  ///< folders of prepared clips
   std::filesystem::path splits;             ///< JSON, see LoadClips
-  std::filesystem::path from;  ///< checkpoint that the network starts from; empty: from scratch
+  std::filesystem::path from;  ///< checkpoint with the initial weights; empty: from scratch
   std::filesystem::path run;   ///< folder for state, curves and the finished checkpoint
   std::string device = "cpu";  ///< "cpu" or "cuda:N"
-  /// Keeps the statistics of `from`'s data, for continuous flows, and measures only missing ones.
+  /// For continuous flows: keeps the statistics of `from`'s data, and measures only missing ones.
   bool keep_statistics = false;
-  /// The trained weights' share in the checkpoint of a continuous flow; the rest is `from`'s
-  /// (Wortsman et al. 2022). Also rewrites a finished run with it.
+  /// The share of the trained weights in a continuous flow's checkpoint; the rest is `from`'s
+  /// (Wortsman et al. 2022). Also applies to a finished run, whose checkpoint is rewritten.
   double blend = 1;
   bool resume = false;         ///< continue from the run's state if there is one
   int64_t report_every = 250;  ///< steps between validation, curves and saved state
@@ -37,7 +37,7 @@ struct TrainOptions {
   int batch = 64;      ///< windows per step; longer windows get fewer, at equal frames
   double rate = 1e-3;  ///< peak learning rate; warm-up, then cosine to a twentieth
   double clip = 1;     ///< limit of a step's gradient norm; 0: no clipping
-  double tempo = 0.5;  ///< share of windows danced faster or slower
+  double tempo = 0.5;  ///< share of windows played faster or slower
   uint64_t seed = 1;
 
   virtual ~TrainOptions() = default;
@@ -45,15 +45,15 @@ struct TrainOptions {
   virtual std::string Command() const;
   /// The options that a resumed run must repeat: all of Command() except names and paths.
   virtual std::string Fixed() const;
-  /// Throws Error(kInvalidArgument) naming the option.
+  /// Throws Error(kInvalidArgument), naming the option, for an invalid value.
   virtual void Validate() const;
 };
 
 /// Throws Error(kInvalidArgument, option) unless `good`: "VALUE, but it must be LIMIT".
 void Require(bool good, const char* option, const std::string& value, const std::string& limit);
 
-/// Calls `visit(option, value, what)` for each option of every preset that a run must keep, except
-/// --preset and --from.
+/// Calls `visit(option, value, what)` for each option of every preset that a resumed run must
+/// repeat, except --preset and --from.
 void VisitFixed(auto& options, auto&& visit) {
   visit("--steps", options.steps, "Steps of the run");
   visit("--batch", options.batch, "Windows per step");
@@ -68,7 +68,7 @@ void VisitFixedOfDefault(auto& options, auto&& visit) {
         "With --from: keep its statistics of the data, and measure only missing ones");
 }
 
-/// Writes options as they are typed: a visitor for VisitFixed.
+/// A visitor for VisitFixed that writes options as typed on a command line.
 class OptionText {
  public:
   void operator()(const char* option, const auto& value, const char* /*what*/) {

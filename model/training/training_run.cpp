@@ -42,8 +42,8 @@ std::map<std::string, std::string> OptionsOf(const std::string& text) {
   return options;
 }
 
-// Whether a run started as `before` may continue as `now`. Earlier versions also wrote unused
-// options at their defaults.
+// Whether a run with the options `before` may be resumed with `now`. Earlier versions also wrote
+// unused options at their defaults.
 bool IsSameRun(const std::string& before, const std::string& now) {
   const auto started = OptionsOf(before), asked = OptionsOf(now);
   for (const auto& [option, value] : asked) {
@@ -218,7 +218,7 @@ void TrainingRun::Load() {
     throw Error(ErrorCode::kFailedPrecondition, StatePath().string(),
                 "the run was started on other data (hash " + state.metadata.at("data") + ")");
   }
-  // Compares hashes, not names: most checkpoints share a name.
+  // Compares hashes, because most checkpoints share a name.
   const auto from = state.metadata.find("from");
   const std::string base = from == state.metadata.end() ? "" : from->second;
   if (base != BaseHash()) {

@@ -20,14 +20,14 @@
 
 namespace choreo {
 
-/// The clips, at least one in each set, all on one skeleton.
+/// The clips of a run: at least one in each group, all on one skeleton.
 struct TrainingClips {
   std::vector<PreparedClip> train, validation;
 };
 
-/// The common part of all training: takes steps, reports, saves its state and resumes exactly as if
-/// never interrupted. For that, each step draws from its own generators, keyed by its number:
-/// RandomOf(step()), and torch's.
+/// The base of all training runs. Takes steps, reports, saves its state and resumes to the bit. For
+/// that, each step has its own random generators, seeded by its number: RandomOf(step()) and
+/// torch's.
 class TrainingRun {
  public:
   virtual ~TrainingRun() = default;
@@ -41,8 +41,8 @@ class TrainingRun {
   /// loads any state in it. Throws Error(kFailedPrecondition) if the run was started with other
   /// data or options, or must not be resumed.
   void Open(torch::nn::Module* network);
-  /// Records the checkpoint of --from. Throws Error(kInvalidArgument, "--from") if its skeleton is
-  /// not the clips'.
+  /// Records the checkpoint of --from for the card. Throws Error(kInvalidArgument, "--from") if its
+  /// skeleton is not the clips'.
   template <typename Checkpoint>
   void StartFrom(const Checkpoint& base) {
     if (!(base.model->skeleton() == train_.front().skeleton)) {
@@ -52,11 +52,11 @@ class TrainingRun {
     base_ = {{"hash", base.hash}, {"card", nlohmann::json::parse(base.card)}};
   }
 
-  /// Runs before the very first step.
+  /// Called before the very first step.
   virtual void Prepare() {}
-  /// Calls Descend at least once; the optimiser's step follows.
+  /// Must call Descend at least once. The optimiser's step follows.
   virtual void TrainStep() = 0;
-  /// Runs after the optimiser has changed the network.
+  /// Called after the optimiser has changed the network.
   virtual void AfterStep() {}
   /// Figures on validation clips, by name.
   virtual NamedFigures Validate() = 0;
@@ -68,8 +68,8 @@ class TrainingRun {
   /// The model's limits, for its card.
   virtual std::string Limits() const = 0;
 
-  /// Adds the gradient of the weighted sum; before a report also measures each term's own, to show
-  /// terms that vanish or dominate.
+  /// Adds the gradient of the weighted sum. Before a report, also measures each term's own
+  /// gradient, to show terms that vanish or dominate.
   void Descend(const LossTerms& terms);
 
   const TrainOptions& options() const { return options_; }
@@ -80,10 +80,10 @@ class TrainingRun {
 
  private:
   std::filesystem::path StatePath() const { return options_.run / "state.safetensors"; }
-  /// Reports, and writes a checkpoint, so that a run can be judged and used before it ends.
+  /// Reports and writes a checkpoint, so that a run can be judged and used before its end.
   void Report(ProgressBar* progress);
-  /// A checkpoint's card: data and their terms, the command, validation figures, limits, and the
-  /// base model, whose terms apply, too.
+  /// A checkpoint's card: the data and their terms, the command, validation figures, limits, and
+  /// the base model, whose terms also apply.
   nlohmann::json Card() const;
   /// Hash of the base checkpoint; empty: from scratch.
   std::string BaseHash() const;
@@ -104,7 +104,7 @@ class TrainingRun {
   Curves curves_;
 };
 
-/// Makes a run of class `Run` from options and clips.
+/// Loads the clips and makes a run of class `Run`.
 template <typename Run, typename Options>
 void TrainBy(const Options& options) {
   options.Validate();
@@ -116,8 +116,8 @@ void TrainBy(const Options& options) {
 /// The seed of validation, the same in every run.
 inline constexpr uint64_t kValidationSeed = 20240607;
 
-/// Windows of this length per step: `batch` at 60 frames; fewer longer ones with as many frames in
-/// total; at most three times as many short ones; at least 8.
+/// The number of windows of this length per step: `batch` at 60 frames, and otherwise as many as
+/// have the same number of frames in total, but at least 8 and at most three times `batch`.
 int WindowsOf(int batch, int frames);
 
 }  // namespace choreo

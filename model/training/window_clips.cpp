@@ -19,12 +19,13 @@ namespace {
 constexpr double kTempi[] = {1.0, 0.8, 0.9, 1.12, 1.25};
 constexpr double kDrawnSigma = 6;  // frames: smooths a path as if drawn by hand
 constexpr double kConstant = 0.3;  // share of energies that are given as their mean
-// How far from where dancers stand windows begin: with a key, in spreads of velocities; without
-// one, in spreads of poses, as nothing bounds a free dance.
+// The distance from usual poses at which astray windows begin: with a key, in spreads of
+// velocities; without one, in spreads of poses, because nothing bounds a free dance.
 constexpr double kAstray = 3, kFreeAstray = 1;
 
-// Displaces the first `tau` poses equally, to where no dancer stands, and leads the following ones
-// back within about a second and before the last. `most_far`: the largest spread of the offset.
+// Displaces the first `tau` poses by one offset, to poses that no dancer takes, and leads the
+// following ones back within about a second and before the last. `most_far`: the largest spread of
+// the offset.
 void LeadAstray(const Eigen::VectorXd& most_far, int tau, Random* random,
                 std::vector<Pose>* poses) {
   const int64_t most = static_cast<int64_t>(poses->size()) - tau;
@@ -45,7 +46,7 @@ void LeadAstray(const Eigen::VectorXd& most_far, int tau, Random* random,
 }
 
 // Leads from `before`, at least tau + turn poses of another motion, into the first poses after the
-// history, where these stand and face.
+// history, at their place and heading.
 void LeadOver(std::span<const Pose> before, int tau, int64_t turn, std::vector<Pose>* poses) {
   const GroundFrame theirs = GroundFrame::Of(before[tau - 1]),
                     ours = GroundFrame::Of((*poses)[tau - 1]);
@@ -57,8 +58,8 @@ void LeadOver(std::span<const Pose> before, int tau, int64_t turn, std::vector<P
   }
 }
 
-// Puts a history in another style first, from which the dance turns into its own: from a dancer's
-// own history alone the network would know the style and ignore the label.
+// Puts a history in another style first, from which the dance changes to its own. From a dancer's
+// own history alone, the network would know the style and ignore the label.
 void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
                     std::vector<Pose>* poses) {
   const int64_t turn = std::min<int64_t>(random->Integer(12, 25), std::ssize(*poses) - tau);
@@ -67,14 +68,14 @@ void BeginOtherwise(const ClipTrack& other, int style, int tau, Random* random,
   LeadOver(std::span(other.poses).subspan(random->Integer(0, room)), tau, turn, poses);
 }
 
-// Stands still first, as dances begin.
+// Puts standing still first, as dances begin.
 void BeginStanding(const Skeleton& skeleton, int tau, Random* random, std::vector<Pose>* poses) {
   const int64_t turn = std::min<int64_t>(random->Integer(12, 40), std::ssize(*poses) - tau);
   LeadOver(std::vector<Pose>(tau + turn, StandingPose(skeleton)), tau, turn, poses);
 }
 
-// The request for a window of `frames` frames, the track's from `first` on. `history`, `way`, which
-// ends in the key, and `stage` are in the canonical frame.
+// The request for a window of `frames` frames of the track from `first` on. `history`, `stage`, and
+// `way`, which ends in the key, are in the canonical frame.
 WindowRequest MakeRequest(std::span<const Pose> history, std::span<const Pose> way,
                           const GroundFrame& stage, const ClipTrack& track, int64_t first,
                           const WindowClips::Variation& variation, int frames, Random* random) {

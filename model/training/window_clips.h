@@ -10,24 +10,24 @@
 
 namespace choreo {
 
-/// Prepared clips with their labels: energy of body parts, root path, beats, style. Immutable after
-/// construction.
+/// Draws training windows from prepared clips with their labels: energy of body parts, root path,
+/// beats, style. Immutable after construction; thread-safe.
 class WindowClips {
  public:
   explicit WindowClips(const std::vector<PreparedClip>& clips);
 
-  /// Probabilities of each variation in training. All zero: whole keys, no other label.
+  /// The probability of each variation in training. All zero: whole keys and no other labels.
   struct Variation {
     double mirror = 0;
     double tempo = 0;  ///< played up to a third faster or slower
     double no_key = 0;
-    double partial_key = 0;                             ///< joints or the root's position are open
+    double partial_key = 0;  ///< joints or the root position are left open
     double beats = 0, energy = 0, path = 0, style = 0;  ///< the label is given
     double stage = 0;                                   ///< the stage is given
-    double hold_history = 0;  ///< only the last few poses are known, and the earliest is held
-    double other_style = 0;   ///< begins in another style, if the label is given
+    double hold_history = 0;  ///< only the last few poses are known; the earliest of them is held
+    double other_style = 0;   ///< begins in another style, if the style label is given
     double even_styles =
-        0;                ///< draws a style first, all equally likely; else any place in the clips
+        0;  ///< first draws a style, all equally likely; otherwise any place in the clips
     double standing = 0;  ///< begins from StandingPose, as dances do
     double astray = 0;    ///< starts out of balance, as a model's dances do, and recovers
   };
@@ -35,7 +35,7 @@ class WindowClips {
   WindowBatch Draw(const FlowModelParts& model, int batch, int frames, int to_key,
                    const Variation& variation, Random* random) const;
 
-  /// The longest distance to a key after `history` frames in any clip.
+  /// The longest distance, frames, to a key after `history` frames in any clip.
   int Longest(int history) const;
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<std::string>& styles() const { return styles_; }

@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// Compares sampled windows with real ones, at each of kComparedFrames: the mean's distance over
-/// interpolation's, how far two seeds are apart, and speed and jerk over the real ones'.
+/// Compares sampled windows with real ones at each of kComparedFrames: the mean's distance over
+/// interpolation's, the distance between two seeds, and speed and jerk over the real ones'.
 NamedFigures CompareWindows(const FlowNetwork& network, const FlowModelParts& parts,
                             const WindowClips& clips, int windows);
 

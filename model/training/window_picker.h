@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// Draws windows from clips, all places equally likely.
+/// Draws the places of windows in clips, all equally likely.
 class WindowPicker {
  public:
   /// `clips`: frames of each. One more frame precedes a window, for its first velocity. Throws
