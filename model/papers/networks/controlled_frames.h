@@ -4,8 +4,8 @@
 
 #include "model/motion/skeleton.h"
 
-/// Motion as the controllers network sees it: paper C's p^r, o^r, p^b and c (Section 3.1) in
-/// batches, canonical frame, metres.
+/// Motion as tensors for the controllers network: batches of paper C's p^r, o^r, p^b and c (Section
+/// 3.1), in the canonical frame, metres.
 namespace choreo {
 
 /// T consecutive frames.
@@ -24,27 +24,29 @@ FrameTensors Join(const FrameTensors& a, const FrameTensors& b);
 /// The inputs of a batch of equally long transitions.
 struct ControlledTransition {
   int64_t frames = 0;           ///< N
-  FrameTensors history;         ///< tau frames; the last one stands above the origin and faces +Z
+  FrameTensors history;         ///< tau frames; the last one is above the origin and faces +Z
   torch::Tensor target_joints;  ///< [batch, joints - 1, 3]
-  torch::Tensor target_turn;    ///< [batch] heading of the target, including the way round
+  torch::Tensor target_turn;    ///< [batch] heading of the target, radians; counts whole turns
   torch::Tensor has_target;     ///< [batch, 1] in {0, 1}
-  torch::Tensor path;           ///< [batch, N, 3] where the root should be
+  torch::Tensor path;           ///< [batch, N, 3] requested root positions
   torch::Tensor factors;        ///< [batch, N, 5] velocity factors, metres a frame
 };
 
-/// Vectors [..., 3] turned about +Y by headings [..., 2] (sine, cosine; broadcast), or back.
+/// Rotates vectors [..., 3] about +Y by headings [..., 2] (sine, cosine; broadcast), or back.
 torch::Tensor Turn(const torch::Tensor& vectors, const torch::Tensor& facing);
 torch::Tensor TurnBack(const torch::Tensor& vectors, const torch::Tensor& facing);
-/// Sine and cosine of a + b, of a - b.
+/// Sine and cosine of the angles a + b and a - b.
 torch::Tensor AddHeadings(const torch::Tensor& a, const torch::Tensor& b);
 torch::Tensor SubtractHeadings(const torch::Tensor& a, const torch::Tensor& b);
 torch::Tensor HeadingOf(const torch::Tensor& angle);  ///< [...] -> [..., 2]
 
-/// [batch, T, joints, 3]: the root first, then the other joints from it, axes the scene's.
+/// Positions [batch, T, joints, 3]: the root's, then the other joints' relative to the root, in the
+/// scene's axes.
 torch::Tensor RelativePositions(const FrameTensors& frames);
 /// Differences of RelativePositions from frame to frame, [batch, T - 1, joints, 3].
 torch::Tensor Steps(const FrameTensors& frames);
-/// Paper C's Eq. 1 of those differences: [..., joints, 3] and shares [5, joints] -> [..., 5].
+/// Velocity factors [..., 5] (paper C, Eq. 1) of those differences [..., joints, 3], given `shares`
+/// [5, joints].
 torch::Tensor FactorsOf(const torch::Tensor& steps, const torch::Tensor& shares);
 torch::Tensor SharesOf(const Skeleton& skeleton);  ///< WeighBodyParts, [5, joints]
 

@@ -19,10 +19,10 @@ struct ControllersCheckpoint : CheckpointOf<ControllersModel> {
 /// Whether this file holds a controllers network (by its metadata).
 bool HoldsControllers(const Safetensors& content);
 
-/// `name` is what errors call it. Throws like ParseCheckpoint.
+/// `name` is the file's name in errors. Throws what ParseCheckpoint throws.
 ControllersCheckpoint ParseControllers(const Safetensors& content, const std::string& name);
 
-/// Writes atomically; returns the content hash.
+/// Writes a checkpoint atomically. Returns the content hash.
 std::string SaveControllers(const std::filesystem::path& path, ControllersModel& model,
                             const std::array<double, kBodyParts>& median_factors,
                             const nlohmann::json& card);

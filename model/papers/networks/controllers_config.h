@@ -10,24 +10,25 @@ namespace choreo {
 /// Shape and switches of the controllers network (paper C, Section 3.2). Stored in every
 /// checkpoint.
 struct ControllersConfig {
-  std::string name = "controllers-paper";  ///< what servers call it; the preset's unless named
-  int history_frames = kHistoryFrames;     ///< tau
+  std::string name =
+      "controllers-paper";  ///< the model's name in servers' lists; by default the preset's
+  int history_frames = kHistoryFrames;  ///< tau
   int max_transition_frames = 600;
 
-  /// Both controllers: window u; heads, width and layers of encoder and decoder; hidden width of
-  /// their feed-forward networks; width of their output.
+  /// Of both controllers: window u; heads, width and layers of encoder and decoder; hidden width of
+  /// the feed-forward networks; width of the output.
   int window = 7, heads = 8, width = 32, layers = 2, feed_forward = 256, controller = 256;
   int encoder_hidden = 512,
       encoding = 256;        ///< of state encoder, velocity encoder and target controller
   int lstm = 256;            ///< each of the two
   int decoder_hidden = 512;  ///< of the first hidden layer; the second has half
 
-  /// False (the paper): the network outputs whole frames. True: it outputs what to add to
-  /// interpolation on the path; a ramp forces this to 0 at both ends, so that keys and path are met
-  /// whatever it has learnt.
+  /// False (the paper): the network outputs whole frames. True: it outputs an offset from
+  /// interpolation on the path. A ramp forces the offset to 0 at both ends, so that keys and path
+  /// are always met.
   bool residual = false;
-  /// How it knows the progress of a transition (Eq. 2): by the place on the path, by the share of
-  /// frames.
+  /// The inputs that encode the progress of a transition (Eq. 2): the position on the path, and the
+  /// share of frames.
   bool absolute_position = true, relative_position = true;
 
   /// Switches of the ablations (paper C, Section 4.2).

@@ -16,11 +16,11 @@ using torch::Tensor;
 namespace {
 
 constexpr int64_t kEmbedding = 32;  // width of an embedded frame count
-constexpr double kRampFrames = 6;   // over which the residual grows from a fixed end
-constexpr double kStep = 0.02;      // metres a frame that count as one
-constexpr double kHeight = 0.2;     // metres of height that count as one
-constexpr double kBeside = 0.1;     // metres beside the path that count as one
-constexpr double kTurnStep = 0.05;  // radians a frame that count as one
+constexpr double kRampFrames = 6;   // frames over which the residual grows from a fixed end
+constexpr double kStep = 0.02;      // scale of steps, metres per frame
+constexpr double kHeight = 0.2;     // scale of heights, metres
+constexpr double kBeside = 0.1;     // scale of distances from the path, metres
+constexpr double kTurnStep = 0.05;  // scale of heading changes, radians per frame
 constexpr int64_t kContacts = 4;
 
 torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidden, int64_t out,
@@ -43,8 +43,8 @@ torch::nn::Sequential Connected(int64_t in, std::initializer_list<int64_t> hidde
   return layers;
 }
 
-// Windows of `size` frames around each of N, [batch, N, size, features]. `before` holds the frames
-// before the first; the last frame is repeated.
+// Windows of `size` frames around each of N frames, [batch, N, size, features]. `before` holds the
+// frames before the first; the last frame is repeated.
 Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
   const int64_t half = size / 2;
   const Tensor last = given.narrow(1, given.size(1) - 1, 1);
@@ -100,7 +100,7 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
   second_ = lstm("second_lstm", into);
   if (!config.residual && !config.absolute_position && !config.relative_position)
     throw InvalidArgument("relative_position", "without it, the absolute position is wanted");
-  // AP and RP: the frame's place on the path and the progress of the transition.
+  // AP and RP: the frame's position on the path and the progress of the transition.
   const int64_t code =
       config.residual ? 3 + 1 + 1 + kEmbedding
                       : (config.absolute_position ? 3 : 0) + (config.relative_position ? 1 : 0);
@@ -215,7 +215,7 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
   const int64_t half = config_.window / 2;
   const FrameTensors now = walked.Narrow(half, frames), before = walked.Narrow(half - 1, frames);
 
-  // The mixture segments: the past as walked, the future as given.
+  // The mixture segments: the past as computed, the future as given.
   const auto decode = [&](const WindowController& controller, const Tensor& memory,
                           const Tensor& past, const Tensor& window) {
     const Tensor mixture =

@@ -18,16 +18,16 @@
 
 namespace choreo {
 
-/// Everything about a transition's N frames that does not depend on frames already made. Tensors
+/// The network's inputs for a transition's N frames that do not depend on earlier outputs. Tensors
 /// are [batch, N, ...]; Narrow selects frames.
 ///
-/// A frame is the decoders' output added to `root`, `ahead` and `joints`. These are the canonical
-/// frame's origin at pelvis height, its heading and the mean posture, or, for a residual network,
-/// the path and interpolation.
+/// The decoders' output is added to `root`, `ahead` and `joints`. These are the canonical frame's
+/// origin at pelvis height, its heading and the mean posture or, for a residual network, the path
+/// and interpolation.
 struct ControlledGiven {
   torch::Tensor root;           ///< [batch, N, 3]
   torch::Tensor ahead;          ///< [batch, N, 2]
-  torch::Tensor ramp;           ///< [batch, N, 1] factor of the decoders' output, [0, 1]
+  torch::Tensor ramp;           ///< [batch, N, 1] factor of the decoders' output, in [0, 1]
   torch::Tensor joints;         ///< [batch, N, joints - 1, 3]
   torch::Tensor path_window;    ///< [batch, N, window, 3]
   torch::Tensor factor_window;  ///< [batch, N, window, 5]
@@ -35,21 +35,21 @@ struct ControlledGiven {
   torch::Tensor code;                        ///< [batch, N, width] added at the second LSTM
   torch::Tensor target_joints;               ///< [batch, 1, joints - 1, 3]
   torch::Tensor target_facing;               ///< [batch, 1, 2]
-  torch::Tensor end;                         ///< [batch, 1, 3] of the path
+  torch::Tensor end;                         ///< [batch, 1, 3] the path's last position
   torch::Tensor has_target;                  ///< [batch, 1, 1]
   torch::Tensor target;  ///< [batch, 1, encoding] the encoded target, unless residual
 
   ControlledGiven Narrow(int64_t first, int64_t count) const;
 };
 
-/// The network's frames, and the velocities that it predicts beside them: [batch, n, joints, 3],
-/// the root's and the others' relative to the root, metres a frame, in the scene's axes.
+/// The network's frames and the velocities that it also predicts: [batch, n, joints, 3], the root's
+/// and the others' relative to the root, metres per frame, in the scene's axes.
 struct ControlledOutput {
   FrameTensors frames;
   torch::Tensor velocities;
 };
 
-/// Hidden and cell state of both LSTMs; none means zeros.
+/// The hidden and cell states of both LSTMs. None means zeros.
 struct ControllersState {
   torch::optional<std::tuple<torch::Tensor, torch::Tensor>> first, second;
 };
@@ -61,21 +61,21 @@ class ControllersModelImpl : public torch::nn::Module {
 
   const ControllersConfig& config() const { return config_; }
   const Skeleton& skeleton() const { return skeleton_; }
-  /// The number of frames before the first that Walk needs.
+  /// The number of frames before the first one that Walk needs.
   int lead() const { return config_.window / 2 + 1; }
   /// [5, joints], as FactorsOf takes them.
   const torch::Tensor& shares() const { return shares_; }
 
-  /// Mean and spread of real joints [joints - 1, 3] and of velocity factors [5].
+  /// Sets mean and spread of real joints [joints - 1, 3], and the spread of velocity factors [5].
   void SetNormalisation(const torch::Tensor& joint_mean, const torch::Tensor& joint_std,
                         const torch::Tensor& factor_std);
 
   ControlledGiven Prepare(const ControlledTransition& transition);
-  /// Makes n frames. `walked`: the lead() frames before the first of them, then all of them but the
-  /// last, either real or as emitted.
+  /// Computes n frames. `walked`: the lead() frames before the first of them, then all of them but
+  /// the last, either real or as computed.
   ControlledOutput Walk(const ControlledGiven& given, const FrameTensors& walked,
                         ControllersState* state);
-  /// Makes all frames, each from those made before it.
+  /// Computes all frames, each from the ones before it.
   FrameTensors RollOut(const ControlledTransition& transition);
 
  private:
@@ -86,7 +86,7 @@ class ControllersModelImpl : public torch::nn::Module {
   ControllersConfig config_;
   Skeleton skeleton_;
   int64_t others_;                        // joints but the root
-  double place_;                          // metres from given.root that count as one
+  double place_;                          // scale of positions relative to given.root, metres
   torch::Tensor joint_mean_, joint_std_;  // [joints - 1, 3]
   torch::Tensor factor_std_, shares_;     // [5], [5, joints]
 

@@ -29,7 +29,7 @@ Tensor CouplingNetworkImpl::RunFused(const Tensor& input, CouplingState* state) 
 
 Tensor CouplingNetworkImpl::forward(const Tensor& input, CouplingState* state) {
   const auto inside = last_->weight.scalar_type(), outside = input.scalar_type();
-  // Serving uses LibTorch's own layer, the reference.
+  // Without gradients, LibTorch's own layer runs, which is the reference.
   if (torch::GradMode::is_enabled() && input.is_cpu() && inside == torch::kFloat32 &&
       outside == torch::kFloat32)
     return last_(RunFused(input, state));

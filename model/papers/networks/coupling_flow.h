@@ -11,8 +11,8 @@
 #include "model/papers/networks/lstm_layer.h"
 
 /// The conditional normalizing flow of paper F, Section 3.2.2 and Figure 3: K times ActNorm →
-/// invertible linear (PLU) → affine coupling. Works on standardised features, [batch, time, width];
-/// conditions are [batch, time, condition]. A module is used by one thread at a time.
+/// invertible linear (PLU) → affine coupling. Works on standardised features [batch, time, width];
+/// conditions are [batch, time, condition]. Not thread-safe.
 namespace choreo {
 
 /// Recurrent state of every coupling, flattened: [batch, StateWidth()].
@@ -22,12 +22,12 @@ inline constexpr int kLstmLayers = 2;  ///< of a coupling's network
 /// The state of one coupling, layer by layer.
 using CouplingState = std::array<LstmState, kLstmLayers>;
 
-/// The network [a, b] = f(h_lo, condition) of one coupling (Eq. 7): 2-layer LSTM, last layer
-/// zero-initialised.
+/// The network [a, b] = f(h_lo, condition) of one coupling (Eq. 7): a 2-layer LSTM and a linear
+/// layer that starts at zero.
 class CouplingNetworkImpl : public torch::nn::Module {
  public:
   CouplingNetworkImpl(int input, int hidden, int output);
-  /// `state` is read and replaced.
+  /// Reads and replaces `state`.
   torch::Tensor forward(const torch::Tensor& input, CouplingState* state);
   int StateWidth() const { return 2 * kLstmLayers * hidden_; }
 
@@ -50,10 +50,10 @@ class FlowStepImpl : public torch::nn::Module {
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const torch::Tensor& inverse_weight, CouplingState* state,
                         torch::Tensor* log_det);
-  /// (W^-1)^T of the invertible linear layer, [width, width]; in float64 inside.
+  /// (W^-1)^T of the invertible linear layer, [width, width]; computed in float64.
   torch::Tensor InverseWeight() const;
-  /// Data-dependent initialisation of ActNorm, so that `x` leaves it with zero mean and unit
-  /// variance. Returns x after the whole step.
+  /// Initialises ActNorm so that `x` leaves it with zero mean and unit variance. Returns x after
+  /// the whole step.
   void InitialiseActNorm(const torch::Tensor& x);
   int StateWidth() const { return network_->StateWidth(); }
 
@@ -77,8 +77,8 @@ class CouplingFlowImpl : public torch::nn::Module {
   /// x → z, adding to `log_det` [batch, time]; `state` starts as zeros and is replaced.
   torch::Tensor Forward(const torch::Tensor& x, const torch::Tensor& condition, FlowState* state,
                         torch::Tensor* log_det);
-  /// z → x. `inverse_weights` from InverseWeights(): computed once per roll-out, not once per
-  /// frame.
+  /// z → x. `inverse_weights` are those of InverseWeights(), to be computed once per roll-out, not
+  /// once per frame.
   torch::Tensor Inverse(const torch::Tensor& z, const torch::Tensor& condition,
                         const std::vector<torch::Tensor>& inverse_weights, FlowState* state,
                         torch::Tensor* log_det);

@@ -8,7 +8,7 @@ namespace {
 // Raised when the meaning of a stored tensor or field changes.
 constexpr const char* kFlowFormat = "choreo-flow-1";
 
-// Refuses a former network by name.
+// Refuses a former kind of network by its name.
 struct NoFormerFlow {};
 void from_json(const nlohmann::json& config, NoFormerFlow& /*none*/) {
   if (config.contains("planner") && config["planner"].value("width", 0) > 0) {

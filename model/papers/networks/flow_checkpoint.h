@@ -11,13 +11,13 @@ namespace choreo {
 
 using Checkpoint = CheckpointOf<FlowModel>;
 
-/// Parses a file's content; `name` is what errors call it. Throws Error(kInvalidArgument) for
-/// another format version, a wrong hash, or tensors that do not fit the configuration; the message
-/// says which.
+/// Parses a file's content. `name` is the file's name in errors. Throws Error(kInvalidArgument),
+/// which states the cause, for another format version, a wrong hash, or tensors that do not fit the
+/// configuration.
 Checkpoint ParseCheckpoint(const Safetensors& content, const std::string& name);
 
-/// Writes atomically; returns the content hash. `card` is JSON. `weights` replace the network's
-/// tensors.
+/// Writes a checkpoint atomically. Returns the content hash. `card` is JSON. `weights` replace the
+/// network's tensors.
 std::string SaveCheckpoint(const std::filesystem::path& path, FlowModel& model, Safetensors weights,
                            const nlohmann::json& card);
 /// The same with the network's own tensors.

@@ -22,7 +22,7 @@ Tensor BoundSample(const Tensor& x) {
   return inside + (x - inside).tanh();
 }
 
-// log |dy/dx| of that, summed over features: -2 log cosh of what lies beyond the bound.
+// log |dy/dx| of the bound, summed over features: -2 log cosh of the excess over the bound.
 Tensor BoundLogDet(const Tensor& x) {
   const Tensor beyond = (x.abs() - kSampleBound).clamp_min(0);
   return -2 * (beyond + torch::log1p((-2 * beyond).exp()) - std::numbers::ln2).sum(-1);
@@ -95,7 +95,7 @@ Tensor FlowModelImpl::Aim(const Tensor& past, const Tensor& static_condition) co
   const Tensor last = past.select(-2, config_.history_frames - 1).narrow(-1, 0, pose);
   const Tensor before = past.select(-2, config_.history_frames - 2).narrow(-1, 0, pose);
   const Tensor way = key - last;
-  // Gives only the way if the number of frames left is unknown.
+  // If the number of frames left is unknown, aims with the distance alone.
   const Tensor aim = torch::where(left > 0,
                                   AccelerationTo<Tensor>(way, last - before, left.clamp_min(1)) /
                                       drawn_spread_.narrow(0, 0, pose),
@@ -169,8 +169,8 @@ std::pair<Tensor, Tensor> FlowModelImpl::Windows(const Tensor& features, const T
   Tensor seen = past.clamp(-kFeatureClamp, kFeatureClamp);
   if (is_training()) {
     if (config_.history_noise > 0) seen = seen + config_.history_noise * torch::randn_like(seen);
-    // Drops whole frames without scaling up the rest: sampling has all of them, and the encoder
-    // sees both cases.
+    // Drops whole frames without scaling up the rest, because sampling has all of them and the
+    // encoder learns both cases.
     const Tensor keep =
         (torch::rand({batch, frames, tau, 1}, seen.options()) >= config_.history_dropout)
             .to(seen.dtype());
@@ -226,7 +226,7 @@ void FlowModelImpl::SetFeatureNormalisation(const Tensor& mean, const Tensor& st
 void FlowModelImpl::FitPrediction(const Tensor& windows, const Tensor& floor) {
   torch::NoGradGuard no_grad;
   const int64_t tau = config_.history_frames;
-  // [width, n, tau] and [width, n, 1]; features that never move are predicted to stay.
+  // [width, n, tau] and [width, n, 1]; features that never move are predicted to stay constant.
   const Tensor standard = Standardise(windows).to(torch::kFloat64).permute({2, 0, 1});
   const Tensor past = standard.narrow(2, 0, tau), now = standard.narrow(2, tau, 1);
   const Tensor across = past.transpose(1, 2);

@@ -19,7 +19,7 @@ constexpr const char* kInbetweenerFormat = "choreo-inbetweener-1";
 
 constexpr double kVeil = 0.5;                       // standard deviation, Section 3.4
 constexpr double kNoVeilBelow = 5, kFullVeil = 30;  // frames left
-constexpr double kStepScale = 0.125;  // deviations that an output of 1 moves a feature
+constexpr double kStepScale = 0.125;  // deviations by which an output of 1 changes a feature
 constexpr int64_t kFootContacts = 4;
 
 // lambda_target of Section 3.4.

@@ -19,12 +19,12 @@ namespace choreo {
 
 /// The baseline of both papers, after Harvey et al. 2020, "Robust Motion In-Betweening": a
 /// recurrent network predicts frame by frame from the last pose. Its inputs are the key, the
-/// difference to it and, added to all encodings, the number of frames left (their Section 3.3). In
-/// training, noise hides the key while it is far away (Section 3.4). Deterministic, without music
-/// input. It has no adversarial losses and is a quarter as wide as theirs.
+/// difference from it and, added to all encodings, the number of frames left (their Section 3.3).
+/// In training, noise hides the key while it is far away (Section 3.4). It is deterministic and has
+/// no music input. Unlike theirs, it has no adversarial losses, and it is a quarter as wide.
 ///
-/// Features and key conditions are those of paper F (PoseCodec, key_condition.h), of which it makes
-/// poses and contacts; velocities are zeros, which nothing reads.
+/// Features and key conditions are those of paper F (PoseCodec, key_condition.h). It outputs poses
+/// and contacts; velocities are zeros, which nothing reads. Not thread-safe.
 class InbetweenerImpl : public torch::nn::Module {
  public:
   InbetweenerImpl(const FlowConfig& config, const Skeleton& skeleton);
@@ -35,16 +35,16 @@ class InbetweenerImpl : public torch::nn::Module {
 
   /// Zeros.
   LstmState InitialState(int64_t batch) const;
-  /// The features [batch, width] of the frame after `past` [batch, n + 1, width], whose last n
-  /// frames are new to `state`. `condition`: [batch, KeyConditionWidth]. `veil`: noise added to its
-  /// encodings of the key, [batch, 2 * width], or undefined.
+  /// Computes the features [batch, width] of the frame after `past` [batch, n + 1, width], whose
+  /// last n frames are new to `state`. `condition`: [batch, KeyConditionWidth]. `veil`: noise for
+  /// the encodings of the key, [batch, 2 * width], or undefined.
   torch::Tensor Step(const torch::Tensor& past, const torch::Tensor& condition,
                      const torch::Tensor& veil, LstmState* state);
-  /// N frames made autoregressively, [batch, N, width], from `history` [batch, tau, width] and
-  /// conditions [batch, N, KeyConditionWidth]. Adds the veil in training mode. Differentiable.
+  /// Computes N frames autoregressively, [batch, N, width], from `history` [batch, tau, width] and
+  /// `conditions` [batch, N, KeyConditionWidth]. Adds the veil in training mode. Differentiable.
   torch::Tensor Rollout(const torch::Tensor& history, const torch::Tensor& conditions);
 
-  /// Mean and deviation of features, [width] each.
+  /// Sets mean and standard deviation of features, [width] each.
   void SetNormalisation(const torch::Tensor& mean, const torch::Tensor& std);
 
  private:
@@ -52,7 +52,7 @@ class InbetweenerImpl : public torch::nn::Module {
 
   FlowConfig config_;
   Skeleton skeleton_;
-  int width_, pose_;  ///< sizes of a frame's features and of its pose among them
+  int width_, pose_;  ///< numbers of a frame's features and of the pose's among them
   torch::Tensor mean_, std_;
   torch::nn::Sequential state_encoder_{nullptr}, offset_encoder_{nullptr}, target_encoder_{nullptr},
       decoder_{nullptr};
@@ -60,12 +60,12 @@ class InbetweenerImpl : public torch::nn::Module {
 };
 TORCH_MODULE(Inbetweener);
 
-/// Its checkpoints (see model/flow/checkpoint.h).
+/// Checkpoints of the baseline (see model/flow/checkpoint.h).
 using InbetweenerCheckpoint = CheckpointOf<Inbetweener>;
 bool HoldsInbetweener(const Safetensors& content);
-/// `name` is what errors call it. Throws like ParseCheckpoint.
+/// `name` is the file's name in errors. Throws what ParseCheckpoint throws.
 InbetweenerCheckpoint ParseInbetweener(const Safetensors& content, const std::string& name);
-/// Writes atomically; returns the content hash.
+/// Writes a checkpoint atomically. Returns the content hash.
 std::string SaveInbetweener(const std::filesystem::path& path, Inbetweener& model,
                             const nlohmann::json& card);
 

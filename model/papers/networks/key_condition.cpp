@@ -18,7 +18,7 @@ Eigen::MatrixXf KeyConditions(const FlowConfig& config, int joints, int feature_
   Eigen::VectorXf asked = Eigen::VectorXf::Zero(pose + joints + 1);
   for (int joint = 0; joint < joints; ++joint) {
     if (!mask.Constrains(joint)) continue;
-    // Takes the branch of least angle, however far the pose is wound up.
+    // Takes the branch of least angle, even if the pose is wound up.
     asked.segment<3>(3 + 3 * joint) = LogMap(ExpMap(key->rotations.col(joint))).cast<float>();
     asked[pose + joint] = 1;
   }

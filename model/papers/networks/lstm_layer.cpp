@@ -13,7 +13,7 @@ using torch::autograd::tensor_list;
 
 Tensor TimeFirst(const Tensor& x) { return x.transpose(0, 1).contiguous(); }
 
-// Its own tensors have time before batch.
+// The graph node of a layer. Its own tensors have time before batch.
 class LstmNode : public torch::autograd::Function<LstmNode> {
  public:
   static tensor_list forward(AutogradContext* context, const Tensor& input, const Tensor& h0,
@@ -25,7 +25,7 @@ class LstmNode : public torch::autograd::Function<LstmNode> {
     const Tensor gates =
         torch::addmm(input_bias + hidden_bias, x.view({time * batch, -1}), from_input.t())
             .view({time, batch, 4 * hidden});
-    // The states, with the one before the first step in front.
+    // The states, beginning with the one before the first step.
     const Tensor hs = torch::empty({time + 1, batch, hidden}, x.options());
     const Tensor cs = torch::empty_like(hs), squashed = torch::empty_like(hs);
     hs[0].copy_(h0);

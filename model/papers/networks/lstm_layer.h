@@ -15,9 +15,9 @@ struct LstmState {
 /// hidden].
 using LstmWeights = std::array<torch::Tensor, 4>;
 
-/// One LSTM layer on the CPU, float32: `x` [batch, time, in] → [batch, time, hidden]; `state` is
-/// read and replaced. Computes the same as torch's layer with one graph node for all steps, because
-/// on few cores the number of nodes limits training.
+/// Runs one LSTM layer on the CPU in float32: `x` [batch, time, in] → [batch, time, hidden]. Reads
+/// and replaces `state`. Equals torch's layer, but has one graph node for all steps, because the
+/// number of nodes limits training on few cores.
 torch::Tensor RunLstmLayer(const torch::Tensor& x, const LstmWeights& weights, LstmState* state);
 
 }  // namespace choreo

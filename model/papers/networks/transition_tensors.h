@@ -7,7 +7,7 @@
 
 namespace choreo {
 
-/// A network's input: a batch of transitions of equal length; canonical frame, metres, radians,
+/// A batch of transitions of equal length as a network's input; canonical frame, metres, radians,
 /// float32.
 struct TransitionTensors {
   int64_t frames = 0;              ///< N
@@ -24,20 +24,20 @@ struct TrajectoryTensors {
   torch::Tensor position, rotation;
 };
 
-/// Interpolation from the last history pose to the key (lerp and slerp, the field's first
-/// baseline); degrees of freedom outside the key's mask stay unchanged. Frame N-1 is the key.
+/// Interpolates from the last history pose to the key by lerp and slerp, the usual baseline.
+/// Degrees of freedom outside the key's mask stay unchanged. Frame N-1 is the key.
 TrajectoryTensors Interpolate(const TransitionTensors& transition);
 
-/// Features [batch, N, width], which may be a network's output, → poses (motion/pose_codec.h).
-/// Differentiable.
+/// Decodes features [batch, N, width], which may be a network's output, to poses
+/// (motion/pose_codec.h). Differentiable.
 TrajectoryTensors DecodePoses(const Skeleton& skeleton, const torch::Tensor& features);
 
-/// KeyConditions of each transition (key_condition.h), [batch, N, KeyConditionWidth], on its
-/// device.
+/// KeyConditions of each transition (key_condition.h), [batch, N, KeyConditionWidth], on the
+/// transition's device.
 torch::Tensor KeyConditionTensors(const FlowConfig& config, const Skeleton& skeleton,
                                   const TransitionTensors& transition);
 
-/// EmbedCountAt for all places: `counts` [...] → [..., width].
+/// EmbedCountAt for all elements: `counts` [...] → [..., width].
 torch::Tensor TimeEmbedding(const torch::Tensor& counts, int64_t width);
 
 }  // namespace choreo

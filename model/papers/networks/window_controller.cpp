@@ -28,8 +28,8 @@ class AttentionImpl : public torch::nn::Module {
         key_value_(memory).view({rows, memory.size(1), 2, heads_, deep}).permute({2, 0, 3, 1, 4});
     const Tensor score =
         torch::matmul(query, key_value[0].transpose(-1, -2)) / std::sqrt(static_cast<double>(deep));
-    // A softmax by hand: LibTorch's does not vectorise rows as short as a window. Normalised inputs
-    // keep scores small; the bound is for safety.
+    // A softmax of our own, because LibTorch's does not vectorise rows as short as a window.
+    // Normalised inputs keep scores small; the bound is for safety.
     const Tensor power = score.clamp(-kMaxScore, kMaxScore).exp();
     const Tensor mixed = torch::matmul(power / power.sum(-1, true), key_value[1]);
     return out_(mixed.transpose(1, 2).reshape({rows, window, width}));
@@ -93,7 +93,7 @@ class TransformerController : public WindowControllerImpl {
     return x;
   }
   Tensor Decode(const Tensor& memory, const Tensor& mixture) override {
-    // The skip connection of Figure 3 leads the encoder's output past the attention.
+    // The skip connection of Figure 3: the encoder's output bypasses the attention.
     Tensor x = embed_mixture_(mixture) + Code(mixture) + memory;
     for (const auto& layer : *decoders_) x = layer->as<Layer>()->forward(x, memory);
     return out_(x.flatten(1));

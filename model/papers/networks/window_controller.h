@@ -8,21 +8,23 @@
 
 namespace choreo {
 
-/// The root trajectory controller and the velocity factor controller of paper C (Section 3.2,
-/// Figure 3): they see the controls around a frame, and the same window with its past replaced by
-/// frames made.
+/// The root trajectory controller or velocity factor controller of paper C (Section 3.2, Figure 3).
+/// Its inputs are a window of controls around a frame, and the same window with its past replaced
+/// by computed frames.
 class WindowControllerImpl : public torch::nn::Module {
  public:
   virtual ~WindowControllerImpl() = default;
-  /// The half that depends only on the controls: [M, window, features] -> [M, window, width].
-  /// Encodes all frames at once.
+  /// The half that depends only on the controls, for all frames at once: [M, window, features] ->
+  /// [M, window, width].
   virtual torch::Tensor Encode(const torch::Tensor& given) = 0;
-  /// `memory` of Encode and the mixture segment [M, window, features] -> [M, controller].
+  /// The other half: Encode's `memory` and the mixture segment [M, window, features] -> [M,
+  /// controller].
   virtual torch::Tensor Decode(const torch::Tensor& memory, const torch::Tensor& mixture) = 0;
 };
 using WindowController = std::shared_ptr<WindowControllerImpl>;
 
-/// Transformers, or two fully connected layers if config.transformers is false.
+/// Makes a controller of transformers, or of two fully connected layers if config.transformers is
+/// false.
 WindowController MakeWindowController(int features, const ControllersConfig& config);
 
 }  // namespace choreo

@@ -13,18 +13,19 @@
 
 namespace choreo {
 
-/// The flow's inputs from a transition: the features of the last tau frames as arrival has steered
-/// them, and the last tau + 1 music rows. Call Advance, Fill and Finish for each frame; they
-/// allocate nothing.
+/// The flow's inputs during a transition: the features of the last tau frames after arrival, and
+/// the last tau + 1 music rows. Call Advance, Fill and Finish for each frame; they allocate
+/// nothing.
 class TransitionWindow {
  public:
   TransitionWindow(const ModelInfo& model, int audio_features, const TransitionSpec& spec);
 
-  /// Moves on to the next frame. `previous`: the frame danced before it; null for the first.
+  /// Moves to the next frame. `previous`: the pose before it; null for the first.
   void Advance(const Pose* previous);
-  /// The inputs of the frame; they point into this window and are valid until the next Advance.
+  /// Sets the inputs of the frame, which point into this window and are valid until the next
+  /// Advance.
   void Fill(FlowFrame* frame) const;
-  /// The frame as the model has made it.
+  /// Decodes the frame that the model has made.
   const PoseCodec::Decoded& Finish(const FlowFrame& frame);
 
  private:
@@ -70,7 +71,7 @@ TransitionWindow::TransitionWindow(const ModelInfo& model, int audio_features,
   for (const Pose& pose : spec.history)
     placements.push_back(ForwardKinematics(model.skeleton, pose));
   for (int t = 0; t < tau; ++t) {
-    // The first frame takes its speed from the next step.
+    // The first frame takes its velocity from the next step.
     const auto before = static_cast<size_t>(std::max(0, t - 1));
     const auto now = static_cast<size_t>(t == 0 ? std::min(1, tau - 1) : t);
     contacts_.Next(placements[before].positions, placements[now].positions, model.fps);
@@ -141,7 +142,7 @@ Slices<Plan> AutoregressiveFlowSampler::Begin(const ValidSpec& valid) {
   plan.poses.reserve(frames);
   plan.contacts.reserve(frames);
   plan.log_likelihoods.reserve(frames);
-  Pose steered;  // the previous frame
+  Pose steered;  // the previous frame, after arrival
   for (size_t at = 0; at < frames; ++at) {
     window.Advance(at == 0 ? nullptr : &steered);
     window.Fill(&frame);

@@ -10,9 +10,8 @@
 
 namespace choreo {
 
-/// Samples paper F's flow with any stepper; a slice is a frame. Features are encoded again from
-/// the poses that arrival has steered, so a transition depends on poses alone. Made by
-/// paper_samplers.h.
+/// Samples paper F's flow with any stepper; a slice is a frame. Encodes features again from poses
+/// after arrival, so a transition depends only on poses. Made by paper_samplers.h.
 class AutoregressiveFlowSampler : public Sampler {
  public:
   /// Makes a stepper for one transition.

@@ -17,11 +17,11 @@ namespace {
 
 using torch::Tensor;
 
-// Positions do not determine how arms are twisted. From this long before a key the twist follows
-// the key's; otherwise arrival would have to do it all.
+// Positions do not determine the twist of arms. From this time before a key on, the twist
+// approaches the key's; otherwise arrival would have to make the whole change.
 constexpr double kTurnSeconds = 1;
-// The share of its last turn with which a joint is expected to continue. With 0 it lags behind the
-// network's output; with nearly 1 elbows overshoot.
+// The share of its last rotation with which a joint is expected to continue. With 0 it lags behind
+// the network's output; near 1 elbows overshoot.
 constexpr double kCarry = 0.3;
 
 Tensor RowsOf(Eigen::MatrixXf columns) {  // [features, N] -> [1, N, features]
@@ -35,10 +35,9 @@ FrameTensors ToTensors(const FacingPose& pose, const Contacts& contacts) {
           RowsOf(Eigen::Map<const Eigen::Vector4f>(contacts.data()))};
 }
 
-// Leaves out hands: in the recordings they hardly move, and the network's output for so short a
-// bone would break wrists, so they keep the keys' bend. No body fits all of the network's
-// positions, which are off by centimetres, so joints prefer their usual rotations to its exact
-// places.
+// Leaves out hands, which hardly move in the recordings and keep the keys' bend: the network's
+// output for so short a bone would break wrists. No body fits all of the network's positions, which
+// are off by centimetres, so joints prefer their usual rotations to exact positions.
 SourceMapping DrawnPositions(const Skeleton& skeleton) {
   SourceMapping mapping = IdentitySource(skeleton, /*hands=*/0);
   mapping.accuracy_m = 0.02;
@@ -50,7 +49,7 @@ constexpr FitOptions kFitOptions = {
 
 }  // namespace
 
-/// Makes a transition frame by frame.
+/// Computes a transition frame by frame.
 class ControllersWalk {
  public:
   ControllersWalk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec);
@@ -64,8 +63,8 @@ class ControllersWalk {
   int frames_;
   ControlledGiven given_;
   ControllersState state_;
-  FrameTensors walked_;  // the lead frames before the next
-  Pose before_, last_;   // the two frames danced before it
+  FrameTensors walked_;  // the lead() frames before the next
+  Pose before_, last_;   // the two frames before the next
   std::optional<Pose> target_;
   PositionFitter fitter_;
 };
@@ -90,7 +89,7 @@ ControllersWalk::ControllersWalk(const ModelInfo& model, ControllersModel networ
   const Pose& last = spec.history.back();
   Pose target = last;
   if (spec.target) {
-    // A joint that the key leaves open keeps its rotation; arrival leaves it open, too.
+    // A joint that the key leaves open keeps its rotation, as in arrival.
     target = Masked(spec.target->pose, {.root_position = false, .joints = spec.target->mask.joints},
                     last);
   }
@@ -118,7 +117,8 @@ void ControllersWalk::Step(int frame, Plan* plan) {
       Eigen::Map<const Eigen::Matrix3Xf>(relative.data_ptr<float>(), 3, relative.size(2))
           .cast<double>();
   positions.rightCols(positions.cols() - 1).colwise() += positions.col(0).eval();
-  // The fit corrects bones of wrong length; correcting each beforehand would move hands and feet.
+  // The fit corrects bones of wrong length. Correcting each bone before it would move hands and
+  // feet.
   fitter_.Reset(InterpolatePoses(before_, last_, 1 + kCarry));
   std::optional<Pose> after;
   const int left = frames_ - frame;

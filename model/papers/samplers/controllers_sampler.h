@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// The controllers network (model/papers/networks): a slice is a frame. Deterministic: seed,
-/// candidate and temperature change nothing. It has no music input. Made by paper_samplers.h.
+/// Samples the controllers network (model/papers/networks); a slice is a frame. Deterministic:
+/// seed, candidate and temperature change nothing. Ignores music. Made by paper_samplers.h.
 class ControllersSampler : public Sampler {
  public:
   ControllersSampler(ModelInfo info, ControllersModel network);

@@ -8,7 +8,7 @@
 namespace choreo {
 namespace {
 
-constexpr int kVelocityFrames = 3;  // of history from which the root's velocity is taken
+constexpr int kVelocityFrames = 3;  // frames of history that determine the root's velocity
 constexpr double kStopFrames =
     8;  // after which a root without a target has lost most of its velocity
 
@@ -36,7 +36,7 @@ Eigen::Matrix3Xd SmoothPath(const TransitionSpec& spec) {
   for (int t = 0; t < spec.frames; ++t) {
     Eigen::Vector3d coast = velocity * kStopFrames * (1 - std::exp(-(t + 1) / kStopFrames));
     coast.y() = 0;
-    // Cubic Hermite; arrives with the mean velocity of the way.
+    // A cubic Hermite curve that arrives with the path's mean velocity.
     const double u = (t + 1) / frames, v = 1 - u;
     const Eigen::Vector3d mean = end - from;
     const Eigen::Vector3d way =

@@ -18,7 +18,7 @@ void InbetweenerStepper::Begin(Eigen::MatrixXf conditions) {
 void InbetweenerStepper::Step(FlowFrame* frame) {
   const c10::InferenceMode inference;
   const int64_t width = model_->feature_width();
-  // The first step sees the whole history, later ones only the frame that is new.
+  // The first step has the whole history as input, later ones only the new frame.
   std::vector<float> seen(frame->past.begin(), frame->past.end());
   Tensor past = torch::from_blob(seen.data(), {1, std::ssize(seen) / width, width});
   if (frame->frame > 0) past = past.narrow(1, past.size(1) - 2, 2);

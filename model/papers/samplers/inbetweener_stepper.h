@@ -8,8 +8,7 @@
 
 namespace choreo {
 
-/// Steps the baseline without a flow, by LibTorch on the CPU. It draws no noise and has no
-/// likelihood.
+/// Runs the baseline without a flow, with LibTorch on the CPU. It has neither noise nor likelihood.
 class InbetweenerStepper : public FlowStepper {
  public:
   /// `model`: in eval mode.

@@ -16,7 +16,7 @@ namespace {
 
 using Matrix = RowMajorMatrix;
 
-// Two of LibTorch's linear maps, [out, in], as one map of their concatenated inputs.
+// Joins two of LibTorch's linear maps, [out, in], into one map of their concatenated inputs.
 Matrix Stacked(const Eigen::Map<const Matrix>& left, const Eigen::Map<const Matrix>& right) {
   Matrix weight(left.cols() + right.cols(), left.rows());
   weight << left.transpose(), right.transpose();
@@ -41,7 +41,7 @@ PackedLinear Unmix(const PackedKernels& kernels, const PackedTensors& tensors,
           -tensors.Get(name + "norm_bias", width)};
 }
 
-// The gain in log-likelihood from bending outliers: the sum of 2 log cosh of the excess over the
+// The gain in log-likelihood by limiting outliers: the sum of 2 log cosh of the excess over the
 // bound.
 float BendSurprise(std::span<const float> x) {
   double sum = 0;
@@ -102,7 +102,7 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
              tensors.Get(lstm + "bias_hh_" + layer, gates);
     };
     Coupling& coupling = couplings.emplace_back();
-    // z_lo comes first in checkpoints, then the live part of the condition, then the static one.
+    // In checkpoints z_lo comes first, then the live part of the condition, then the static one.
     const int fixed = encoded ? 0 : static_width;
     const auto seen = tensors.Get(lstm + "weight_ih_l0", gates, low() + condition + fixed);
     Matrix weight(input_width(), gates);
@@ -211,7 +211,7 @@ void PackedStepper::Condition(const FlowFrame& frame) {
   if (flow.aimed > 0) Aim(frame, fixed + flow.encoding, input_.Row(0) + flow.encoding);
 }
 
-// Goes from `input_` to `hidden_`, the input of the last layer.
+// Computes `hidden_`, the input of the last layer, from `input_`.
 void PackedStepper::Hidden(int frame, int step) {
   const PackedFlow& flow = *flow_;
   const PackedFlow::Coupling& coupling = flow.couplings[static_cast<size_t>(step)];

@@ -17,26 +17,26 @@ namespace choreo {
 /// The flow's weights in PackedStepper's layout, read from a checkpoint's tensors by name.
 /// Read-only; shared by the engines of a process.
 ///
-/// Every coupling's network sees [condition of the frame | z_lo | own hidden state], a row of
-/// `input_width` floats. The part of a raw condition that is known when the transition begins has
-/// no columns there: `hoisted` maps it to the initial value of the first product.
+/// The input of every coupling's network is [condition of the frame | z_lo | own hidden state], a
+/// row of `input_width` floats. The part of a raw condition that is known when the transition
+/// begins has no columns in it: `hoisted` maps it to the initial value of the first product.
 struct PackedFlow {
   /// The inverse of one step of the flow.
   struct Coupling {
     PackedLinear first;    ///< [input_width] -> gates of the first LSTM layer
-    PackedLinear hoisted;  ///< [static_width] -> the same, bias included; encoded: none
+    PackedLinear hoisted;  ///< [static_width] -> the same, including bias; none if encoded
     PackedLinear second;   ///< [hidden | own hidden state] -> gates of the second
     PackedLinear last;     ///< [hidden] -> [a, b]
     PackedLinear unmix;    ///< inverse of ActNorm and invertible linear map, folded in double
   };
 
-  /// Throws Error(kInvalidArgument) naming a tensor that is missing or does not fit the
-  /// configuration. `products` are for the networks: `kernels`, or less exact ones with the same
-  /// panel. Products between noise and features use `kernels`.
+  /// `products` computes the networks' products: `kernels`, or less exact kernels with the same
+  /// panel. Products between noise and features use `kernels`. Throws Error(kInvalidArgument),
+  /// naming a tensor that is missing or does not fit the configuration.
   PackedFlow(const Safetensors& content, const FlowConfig& config, const Skeleton& skeleton,
              const PackedKernels& kernels, const PackedKernels& products);
 
-  /// Appends, with innovations, the standardised key, its mask and the frames left to each frame's
+  /// With innovations, appends the standardised key, its mask and the frames left to each frame's
   /// encoding, [static_width(), frames].
   Eigen::MatrixXf WithAims(const Eigen::MatrixXf& encodings,
                            const Eigen::MatrixXf& conditions) const;
@@ -45,7 +45,7 @@ struct PackedFlow {
   }
   int low() const { return width / 2; }
   int high() const { return width - low(); }
-  /// Floats of a transition's recurrent state: for each step h and c of both layers.
+  /// Floats of a transition's recurrent state: h and c of both layers of each step.
   int state_width() const { return config.flow_steps * 4 * config.hidden; }
   /// Floats per frame of the couplings' hoisted values.
   long hoisted_width() const { return config.flow_steps * couplings.front().first.padded(); }
@@ -54,29 +54,30 @@ struct PackedFlow {
   const PackedKernels& kernels;
   const FlowConfig config;
   int width;         ///< of a frame's features
-  bool encoded;      ///< one shared condition encoding, else the raw condition
+  bool encoded;      ///< whether there is one shared encoding of the condition
   int live;          ///< floats of past and music in a frame's condition
   int encoding;      ///< width of the shared encoding, or `live` without one
-  int aimed;         ///< with innovations, the features that aim at the key: the pose's; else 0
-  int condition;     ///< columns of the condition that couplings see: the sum of both
+  int aimed;         ///< with innovations, the number of features that aim at the key, the pose's;
+                     ///< otherwise 0
+  int condition;     ///< columns of the condition in couplings' inputs: the sum of both
   int key_width;     ///< of a frame's key condition
   int static_width;  ///< the same after `encode_static`, if encoded
   Eigen::VectorXf feature_mean, feature_std, feature_scale;  ///< scale = 1 / std
-  /// The prediction's weights, [width, tau], and the spread of the output, standardised; empty
-  /// without innovations.
+  /// Weights of the prediction, [width, tau], and spread of the output, standardised. Empty without
+  /// innovations.
   Eigen::MatrixXf predict;
   Eigen::VectorXf drawn_spread;
   Eigen::VectorXf audio_mean, audio_scale;
-  float log_det = 0;  ///< the part common to all frames
+  float log_det = 0;  ///< the part of the log-determinant common to all frames
   PackedLinear encode_static, encode_live, encode;
   std::vector<Coupling> couplings;
 };
 
-/// Steps the flow on the calling CPU thread. A step allocates nothing.
+/// Runs the flow on the calling CPU thread. A step allocates nothing.
 ///
-/// Terms that do not depend on earlier frames are computed ahead, in one product over kAhead
-/// frames: when a transition starts, and again whenever these frames have been made. So long
-/// transitions start fast and take little memory.
+/// Computes terms that do not depend on earlier frames ahead, in one product over kAhead frames:
+/// when a transition starts, and again after each kAhead frames. So long transitions start fast and
+/// need little memory.
 class PackedStepper : public FlowStepper {
  public:
   explicit PackedStepper(std::shared_ptr<const PackedFlow> flow);
@@ -91,8 +92,8 @@ class PackedStepper : public FlowStepper {
   void Condition(const FlowFrame& frame);
   double Couple(int frame, int step);
   void Hidden(int frame, int step);
-  // Computes, with innovations, the value that would reach the key; and turns `x`, in place, from
-  // the flow's output into the standardised frame.
+  // With innovations: Aim computes the value that would reach the key; AddPrediction converts `x`
+  // in place from the flow's output to the standardised frame.
   void Aim(const FlowFrame& frame, const float* fixed, float* aim) const;
   void AddPrediction(std::span<const float> past, float* x) const;
 

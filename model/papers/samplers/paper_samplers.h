@@ -7,9 +7,10 @@
 
 namespace choreo {
 
-/// Makes samplers of the papers' networks: paper F's flow, paper C's controllers or the baseline of
-/// both, depending on the checkpoint; files of no other network are read as paper F's. `name` is
-/// what errors call the file. Throws like ParseCheckpoint and ChooseKernels.
+/// Makes a factory for samplers of the papers' networks: paper F's flow, paper C's controllers or
+/// the baseline of both, depending on the checkpoint. A file that holds neither of the latter is
+/// read as paper F's. `name` is the file's name in errors. Throws what ParseCheckpoint and
+/// ChooseKernels throw.
 SamplerFactory LoadPaperModel(const Safetensors& content, const std::string& name,
                               const EngineRequest& request);
 

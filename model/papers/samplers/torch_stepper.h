@@ -18,8 +18,8 @@ struct TorchWeights {
   torch::Device device{torch::kCPU};
 };
 
-/// Steps the flow by LibTorch, with inputs and outputs in host memory. It is the reference for
-/// PackedStepper, and runs on CUDA.
+/// Runs the flow with LibTorch on the CPU or CUDA, with inputs and outputs in host memory. It is
+/// the reference for PackedStepper.
 class TorchStepper : public FlowStepper {
  public:
   explicit TorchStepper(std::shared_ptr<TorchWeights> weights);
@@ -28,8 +28,8 @@ class TorchStepper : public FlowStepper {
   void Step(FlowFrame* frame) override;
 
  private:
-  /// Two rows, the second of them padding (zeros): LibTorch computes the last elements of a tensor
-  /// one by one and the others as vectors, which may round otherwise.
+  /// Two rows, of which the second is padding (zeros). LibTorch computes the last elements of a
+  /// tensor one by one and the others as vectors, which may round differently.
   static constexpr int64_t kRows = 2;
 
   /// Columns of the input.
@@ -39,7 +39,7 @@ class TorchStepper : public FlowStepper {
 
   std::shared_ptr<TorchWeights> weights_;
   std::vector<float> static_condition_;  ///< [frames, static_width]
-  int64_t begin_[kParts + 1];            ///< of each part, in columns
+  int64_t begin_[kParts + 1];            ///< [parts] first column of each
 
   // A step's inputs and outputs, here (pinned for CUDA) and on the device; the same on the CPU.
   torch::Tensor host_input_, input_;  ///< [kRows, begin_[kParts]]

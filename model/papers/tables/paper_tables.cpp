@@ -13,7 +13,7 @@
 namespace choreo {
 namespace {
 
-// Each method, preceded by its network alone.
+// Each method, preceded by its raw network.
 std::vector<Method> WithRaw(const std::vector<Method>& methods) {
   std::vector<Method> all;
   for (const Method& method : methods) {
@@ -31,7 +31,7 @@ bool HasMusic(const ClipSet& set) {
   return std::ranges::any_of(set.clips, [](const auto& clip) { return clip.audio.cols() > 0; });
 }
 
-// How a long dance met beats and keys.
+// The beats and keys of one long dance.
 struct LongScore {
   size_t clip = 0;
   BeatFigures beats;
@@ -161,8 +161,8 @@ std::vector<Table> EvaluatePaperDances(const Evaluation& evaluation) {
   Table table = evaluation.NewTable("paper_dances", "Paper F, Table 1", {"method"});
   table.note =
       "Keys are the clip's own poses each 100 frames. KPD: mean squared distance of joints at "
-      "keys; key norm: of all joints at once. FID, variability and diversity of dances of 10 s with "
-      "a key each 2 s, in codes of an encoder of our own.";
+      "keys; key norm: of all joints at once. FID, variability and diversity of dances of 10 s "
+      "with a key each 2 s, in codes of an encoder of our own.";
   Table beats = evaluation.NewTable("paper_beats", "Paper F, Table 4: beat hit rate", {"method"});
   beats.note = "Keys at equal distances, and each on the beat nearest to there.";
   for (const Method& method : WithRaw(evaluation.methods))

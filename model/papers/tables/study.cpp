@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr int kMaxMethods = 8;
 
-/// Films of a folder by clip.
+/// The films of a method by clip.
 std::map<std::string, std::filesystem::path> FilmsOf(const StudyMethod& method) {
   if (!std::filesystem::is_directory(method.folder))
     throw InvalidArgument("--method", method.folder.string() + " is no folder");
@@ -61,8 +61,8 @@ std::vector<std::string> Ranking(const std::filesystem::path& file, const Json& 
   return ranking;
 }
 
-/// One method's results by person (or clip): sums of ranks and of firsts, and the number of
-/// answers.
+/// One method's results by participant (or clip): sums of ranks and of first places, and the number
+/// of answers.
 struct Sums {
   std::vector<double> ranks, firsts, counts;
 

@@ -6,8 +6,9 @@ class App;
 
 namespace choreo {
 
-/// `choreo-lab study dance` films models' dances, `study make` writes a blinded page on which
-/// people rank films (study.h), and `study score` prints the results.
+/// Adds the commands `choreo-lab study dance`, which films models' dances; `study make`, which
+/// writes a blinded page on which people rank films (study.h); and `study score`, which prints the
+/// results.
 void AddStudyCommand(CLI::App& app);
 
 }  // namespace choreo

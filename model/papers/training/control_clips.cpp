@@ -21,17 +21,17 @@ using torch::Tensor;
 constexpr double kControlTempi[] = {1.0, 0.75, 1.33};
 constexpr double kHandSmoothness = 9;  // frames: the smoothness of a drawn path
 constexpr double kMinScale = 0.5, kMaxScale = 1.5;
-constexpr float kScaledWeight = 0.15F;  // weight of real motion if factors were changed
+constexpr float kScaledWeight = 0.15F;  // weight of real motion if factors are scaled
 
-// Low-pass of x [..., time, features] over time: a Gaussian of `sigma` frames, normalised at the
-// ends, too.
+// Smooths x [..., time, features] in time with a Gaussian of `sigma` frames, normalised at the
+// ends.
 Tensor SmoothInTime(const Tensor& x, double sigma) {
   const Tensor at = torch::arange(x.size(-2), x.options());
   const Tensor apart = (at.unsqueeze(0) - at.unsqueeze(1)) / sigma;
   return torch::matmul(torch::softmax(-0.5 * apart.square(), 1), x);
 }
 
-// Blurs the path [N, 3] and keeps its ends; it starts from `before` [3].
+// Smooths the path [N, 3], which starts from `before` [3], and keeps its ends.
 Tensor DrawnPath(const Tensor& path, const Tensor& before) {
   const Tensor all = torch::cat({before.unsqueeze(0), path}, 0);
   const int64_t last = all.size(0) - 1;

@@ -11,25 +11,26 @@
 
 namespace choreo {
 
-/// A batch of windows of real motion, with controls that describe it.
+/// A batch of windows of real motion, with controls that describe them.
 struct ControlBatch {
   ControlledTransition transition;
-  FrameTensors truth;  ///< the N frames
+  FrameTensors truth;     ///< the N frames
+  torch::Tensor factors;  ///< [batch, N, 5] expected factors: the real ones, scaled if the controls
+                          ///< are scaled
   torch::Tensor
-      factors;           ///< [batch, N, 5] wanted: the real ones, scaled if the controls are scaled
-  torch::Tensor weight;  ///< [batch] how well the real motion fits these controls
+      weight;  ///< [batch] weight of the real motion: small if it does not match the controls
 };
 
-/// Clips in the controllers network's form, in memory: turned, at several tempi, and mirrored.
-/// Immutable after construction.
+/// Draws training windows for the controllers network from clips at several tempi, mirrored or not.
+/// Immutable after construction; thread-safe.
 class ControlClips {
  public:
   explicit ControlClips(const std::vector<PreparedClip>& clips);
 
-  /// Probabilities of variations in training. All zero: real windows with their own controls.
+  /// The probability of each variation in training. All zero: real windows with their own controls.
   struct Variation {
     double mirror = 0;
-    double tempo = 0;  ///< danced faster or slower
+    double tempo = 0;  ///< played faster or slower
     double no_target = 0;
     double smooth_path = 0;     ///< the path is smoothed, as if drawn by hand
     double smooth_factors = 0;  ///< the factors are averaged over time
@@ -39,9 +40,9 @@ class ControlClips {
   ControlBatch Draw(int batch, int history, int frames, const Variation& variation,
                     Random* random) const;
 
-  /// The longest window that Draw finds at the clips' own tempo, in frames.
+  /// The longest window at the clips' own tempo, frames.
   int64_t Longest() const;
-  /// The median of each velocity factor over all frames, metres a frame.
+  /// The median of each velocity factor over all frames, metres per frame.
   std::array<double, kBodyParts> MedianFactors() const;
 
  private:

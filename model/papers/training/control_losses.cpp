@@ -12,7 +12,7 @@ using torch::Tensor;
 // Paper C, Section 3.3.
 constexpr double kRec = 0.3, kCon = 0.2, kRoot = 0.15, kKey = 0.2, kFactor = 0.15;
 constexpr int64_t kKeyFrames = 5;  // m
-// Units, which the paper does not state: a decimetre, a centimetre a frame, a third of a radian
+// Units, which the paper does not state: a decimetre, a centimetre per frame, a third of a radian
 // (which moves a hand by a decimetre), a contact.
 constexpr double kPlace = 10, kSpeed = 100, kTurn = 3;
 
@@ -32,7 +32,7 @@ Tensor KeyframeLoss(const Tensor& positions, const Tensor& first, const Tensor& 
     return (to_first.narrow(1, 0, m).sum(1) + to_last.narrow(1, frames - m, m).sum(1)) /
            static_cast<double>(2 * m);
   }
-  // The paper swaps the two weights, which would draw frames to the farther pose.
+  // The paper swaps the two weights, which would pull frames to the farther pose.
   const Tensor u = torch::arange(1, frames + 1, positions.options()) / static_cast<double>(frames);
   return ((1 - u) * to_first + u * to_last).mean(1);
 }

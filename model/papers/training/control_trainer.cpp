@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kNormalisationWindows = 512;
 constexpr int kControlValidationWindows = 48;
-constexpr int kOwnPasses = 2;  // passes of scheduled sampling; each costs a third of a step
+constexpr int kOwnPasses =
+    2;  // passes of scheduled sampling, each of which costs a third of a step
 
 ControllersConfig ConfigOf(const PaperOptions& options) {
   ControllersConfig config;
@@ -121,8 +122,8 @@ class ControlRun : public PaperRun {
                        random);
   }
 
-  // Scheduled sampling: the frame before each is the real one with probability `truth_share`, else
-  // the network's own. The network's frames are made in parallel (Duckworth et al. 2019): first
+  // Scheduled sampling: the frame before each is real with probability `truth_share`, otherwise the
+  // network's own. The network's frames are computed in parallel (Duckworth et al. 2019): first
   // from real frames, then from the result.
   LossTerms Walk(const ControlBatch& batch, const ControlledGiven& given, double truth_share) {
     const int64_t lead = model_->lead(), frames = batch.transition.frames;

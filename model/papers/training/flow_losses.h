@@ -10,24 +10,24 @@
 /// Training losses of paper F's flow and the baseline.
 namespace choreo {
 
-/// Adds noise of `share` of the features' spread, so that binary contacts, derived velocities and
-/// joints that never move cannot make the density unbounded.
+/// Adds noise of `share` times the features' spread, so that binary contacts, derived velocities
+/// and joints that never move cannot make the density unbounded.
 torch::Tensor Dequantise(FlowModel& model, const torch::Tensor& features, double share);
 
-/// L_flows of one batch (Eq. 6), nats a frame, mean over frames, for features dequantised by
+/// L_flows of one batch (Eq. 6), nats per frame, mean over frames, for features dequantised by
 /// `noise`.
 LossTerms LikelihoodLoss(FlowModel& model, const MotionBatch& batch,
                          const torch::Tensor& static_condition, double noise);
 
-/// Weights of the terms for a sampled roll-out (Eq. 8); a term with weight 0 is not computed.
+/// Weights of the terms for a sampled roll-out (Eq. 8). A term with weight 0 is not computed.
 struct RolloutWeights {
   double key = 0.5, feet = 0.1;
-  double way = 0;  ///< ours
+  double way = 0;  ///< for the distance from real frames; not in the paper
 };
 
-/// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`:
-/// |FK(x'_N) - FK(key)|, mean over joints, decimetres; |c' - c|, mean over feet and frames; ours:
-/// the distance of all frames from the real ones, which keeps roll-outs from wandering off.
+/// L_key pose and L_feet of one sampled roll-out (Section 3.2.3) at `temperature`: |FK(x'_N) -
+/// FK(key)|, mean over joints, decimetres; |c' - c|, mean over feet and frames. Also, not in the
+/// paper: the distance of all frames from the real ones, which keeps roll-outs from drifting.
 LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const MotionBatch& batch,
                       const torch::Tensor& static_condition, double temperature,
                       const RolloutWeights& weights);
@@ -35,8 +35,8 @@ LossTerms RolloutLoss(FlowModel& model, const TorchKinematics& kinematics, const
 /// The last frame alone.
 TrajectoryTensors LastFrame(const TrajectoryTensors& poses);
 
-/// L2P of paper F's Table 2: distance of global joint positions, mean over joints and frames,
-/// metres. [batch]
+/// L2P of paper F's Table 2, [batch]: the distance of global joint positions, mean over joints and
+/// frames, metres.
 torch::Tensor JointDistance(const TorchKinematics& kinematics, const TrajectoryTensors& a,
                             const TrajectoryTensors& b);
 

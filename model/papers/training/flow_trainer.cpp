@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kNormalisationBatches = 24;
 constexpr int kValidationWindows = 64;
-// Standardised features keep at least these spreads: metres, radians, m/s and rad/s, contacts.
+// The least spreads for standardising features: metres, radians, m/s and rad/s, contacts.
 constexpr double kPositionFloor = 0.005, kRotationFloor = 0.01, kVelocityFloor = 0.02,
                  kContactFloor = 0.1;
-constexpr double kInnovationFloor = 0.1;  // as a share of those
+constexpr double kInnovationFloor = 0.1;  // the same for innovations, as a share of those
 constexpr double kAudioVarianceFloor = 1e-4;
 
 FlowConfig ConfigOf(const PaperOptions& options, const std::vector<PreparedClip>& clips) {
@@ -127,8 +127,8 @@ class FlowRun : public PaperRun {
                         /*temperature=*/1, rollout_));
   }
 
-  // Measures on fixed windows, without arrival: one roll-out at temperature 1, its L2P over
-  // interpolation's; -log p, nats a dimension; the mean joint distance at its key frame.
+  // Measures on fixed windows, without arrival, one roll-out at temperature 1: its L2P over
+  // interpolation's, and the mean joint distance at its key frame; and -log p, nats per dimension.
   NamedFigures Validate() override {
     const torch::NoGradGuard no_grad;
     model_->eval();
@@ -169,7 +169,7 @@ class FlowRun : public PaperRun {
     Safetensors weights;
     ExportTensors(*model_, "", &weights);
     for (auto& [name, tensor] : weights.tensors) {
-      // Halves the file. Tensors that are inverted stay exact.
+      // Halves the file. Tensors that the flow inverts stay exact.
       if (name.find("weight") != std::string::npos) RoundToBfloat16(&tensor);
     }
     return SaveCheckpoint(path, model_, std::move(weights), card);

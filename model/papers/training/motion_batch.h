@@ -18,28 +18,28 @@ struct MotionBatch {
   torch::Tensor audio;      ///< [batch, tau + N, audio_features], zeros where there is none
   torch::Tensor has_audio;  ///< [batch, 1]
 
-  MotionBatch First(int64_t windows) const;  ///< the first ones, at least one
+  MotionBatch First(int64_t windows) const;  ///< the first `windows` of the batch, at least one
 };
 
-/// Variations in training. All zero: plain windows with their key and music.
+/// Variations in training. All zero: unchanged windows with their key and music.
 struct MotionVariation {
   bool mirror = false;
   double drop_key = 0;     ///< probability that a window has no key
   double drop_audio = 0;   ///< probability that its music is masked
   double partial_key = 0;  ///< probability that the key leaves joints or the root's position open
-  double tempo = 0;        ///< probability that it is danced up to a third faster or slower
-  /// Probability that only the last few poses are known and the earliest of them is held.
+  double tempo = 0;        ///< probability that it is played up to a third faster or slower
+  /// Probability that only the last few poses are known; the earliest of them is held.
   double hold_history = 0;
 };
-/// Draws `batch` windows of N = `frames` after `history` frames, of clips of one skeleton, onto
-/// `device`. Throws Error(kInvalidArgument, "frames") if none is long enough.
+/// Draws `batch` windows of N = `frames` frames after `history` frames from clips of one skeleton.
+/// Tensors are on `device`. Throws Error(kInvalidArgument, "frames") if none is long enough.
 MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int history, int frames,
                        const MotionVariation& variation, torch::Device device, Random* random);
 
-/// Draws the length of a step's windows, from shortest to longest. Half of the draws are quadratic
-/// towards the short end, because short transitions are common in use and cheap.
+/// Draws the length of a step's windows, between shortest and longest. Half of the draws favour
+/// short windows (quadratically), because short transitions are common and cheap.
 int DrawnLength(const PaperOptions& options, Random* random);
-/// Variations for paper F's flows and for the networks compared with them.
+/// The variations for paper F's flows and for the networks compared with them.
 MotionVariation VariationOf(const PaperOptions& options, bool keys);
 
 }  // namespace choreo

@@ -11,37 +11,38 @@ namespace choreo {
 
 /// Options of paper F's flows, the presets `paper`, `paper-f` and `ablation`.
 struct FlowOptions {
-  int flow_steps = 0, hidden = 0;  ///< K, width of the LSTMs; 0: the preset's
+  int flow_steps = 0, hidden = 0;  ///< K, and width of the LSTMs; 0: the preset's
   int condition_width = -1;        ///< of the shared encoding, 0: none; -1: the preset's
   double rollout_share = 1;        ///< share of a step's windows sampled for L_key and L_feet
-  int64_t rollout_from = 0;        ///< first step with L_key and L_feet; samples are noise before
-  double rollout_loss = 0;         ///< weight of the roll-out's distance from the real motion; ours
-  double temperature = 1;          ///< default in serving
+  int64_t rollout_from = 0;        ///< first step with L_key and L_feet; earlier samples are noise
+  double rollout_loss =
+      0;  ///< weight of the roll-out's distance from the real motion; not in the paper
+  double temperature = 1;  ///< default when served
   double dequantise =
       0.05;  ///< noise added to the likelihood's features, as a share of their spread
-  bool no_innovations = false;  ///< draws features as the paper does, whatever the preset
+  bool no_innovations = false;  ///< samples features as the paper does, in any preset
   bool no_keys = false, no_time_embedding = false, forward_embedding = false;  ///< Table 1
 };
 
 /// Options of paper C's network, the preset `controllers-paper`: ablations (Tables 2-4).
 struct ControllersOptions {
   double truth_decay = 0.99995;  ///< decay per step of the share of real frames fed back
-  bool residual = false;         ///< ControllersConfig::residual, ours
+  bool residual = false;         ///< ControllersConfig::residual; not in the paper
   bool no_absolute_position = false, no_relative_position = false;
   bool one_lstm = false, condition_fc = false, one_decoder = false, no_velocity_factors = false;
 };
 
-/// Lengths of transitions, frames, both included.
+/// A range of lengths of transitions, frames, both ends included.
 struct LengthRange {
   int least, most;
   bool operator==(const LengthRange&) const = default;
 };
-/// Paper C's curriculum at a step, of `steps` in all: the longest grows from `shortest` by one
-/// frame an epoch until it is `longest`, the shortest by four every five epochs. All epochs have
-/// equally many steps.
+/// Paper C's curriculum at a step of `steps`: the longest length grows from `shortest` to `longest`
+/// by one frame per epoch, the shortest by four every five epochs. All epochs have the same number
+/// of steps.
 LengthRange CurriculumAt(int64_t step, int64_t steps, int shortest, int longest);
 
-/// A run of one of the papers' presets.
+/// The options of a run of one of the papers' presets.
 struct PaperOptions : TrainOptions {
   int shortest = 5, longest = 100;  ///< N of the windows, frames
   bool no_key_loss = false;         ///< of flows and controllers
@@ -98,7 +99,8 @@ void VisitFixedOfPapers(auto& options, auto&& visit) {
         "Ablation of controllers");
 }
 
-/// Trains paper F's flow (`paper`, `paper-f`, `ablation`) like TrainContinuousFlow.
+/// Trains paper F's flow (`paper`, `paper-f`, `ablation`). Output and errors are those of
+/// TrainContinuousFlow, also below.
 void TrainFlow(const PaperOptions& options);
 /// Trains the baseline of both papers, with TrainFlow's windows, on the CPU.
 void TrainInbetweener(const PaperOptions& options);
