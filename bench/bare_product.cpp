@@ -27,7 +27,7 @@ BareProducts::BareProducts(const std::vector<Shape>& shapes, int most_rows, bool
   using Tag = dnnl::memory::format_tag;
   using Type = dnnl::memory::data_type;
   const Type type = bf16 ? Type::bf16 : Type::f32;
-  // The same value everywhere, as one float or two bfloat16: values don't affect speed.
+  // One value for all weights, as one float or two bfloat16, because values don't affect speed.
   const auto value = std::bit_cast<float>(0x3c003c00U);
   for (const Shape& shape : shapes) {
     const int rows = shape.rows > 0 ? shape.rows : most_rows;

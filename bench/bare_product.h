@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// The limit for an engine: oneDNN's matrix products with weights of the same shapes, which oneDNN
-/// packs itself, on one thread, and nothing else.
+/// The speed limit of an engine: only oneDNN's matrix products with weights of the same shapes,
+/// which oneDNN packs itself, on one thread.
 class BareProducts {
  public:
   struct Shape {

@@ -4,7 +4,7 @@
 
 namespace choreo::bench {
 
-/// Prints the rises for BarPatterns() from `songs` made songs of each pattern.
+/// Prints the rises for BarPatterns(), measured on `songs` synthetic songs of each pattern.
 void PrintBarPatterns(uint64_t first_seed, int songs);
 
 }  // namespace choreo::bench

@@ -1,8 +1,8 @@
 // Measures beat tracking, without a shift between beats and songs: the F measure at 70 ms, from the
 // first second and from the tenth, for whole songs (FindBeats) and for predictions, either of a
-// live dance with transitions of 2 s (MusicBeats) or of `choreo live` (BeatEar). Songs: with a
-// tempo map (SONG.beats beside SONG.ogg: seconds, one per line), or made ones at every tempo and
-// metre, whose downbeats are known, too. An octave error is named and counts half.
+// live dance with transitions of 2 s (MusicBeats) or of `choreo live` (BeatEar). Songs have a tempo
+// map (SONG.beats beside SONG.ogg: seconds, one per line), or are synthetic, at every tempo and
+// metre, with known downbeats. An octave error is named and counts half.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<double> EverySecond(const std::vector<double>& beats, size_t first) 
   return half;
 }
 
-/// "", or the octave at which the beats fit.
+/// The octave at which the beats fit, or "".
 std::string Octave(const std::vector<double>& found, const std::vector<double>& map) {
   constexpr double kFits = 0.8;
   const double plain = BeatFMeasure(found, map);
@@ -61,7 +61,7 @@ std::vector<double> HearLive(const std::vector<float>& mono) {
   return report.reported();
 }
 
-/// Whether a server does not report a beat, because the music has fallen silent.
+/// Whether a server would not report a beat, because the music has fallen silent.
 bool IsInSilence(const std::vector<Onset>& onsets, double beat, double step) {
   const auto heard = static_cast<size_t>(std::llround(beat * kOnsetRate)) + 1;
   return EndInPause(std::span(onsets).first(std::min(heard, onsets.size())), step);
@@ -161,7 +161,7 @@ Scores Judge(const Judged& song) {
           BeatFMeasure(client, song.beats)};
 }
 
-/// What predictions reach of what is found in whole songs.
+/// Prints the accuracy of predictions relative to that of whole songs.
 void PrintLiveShare(const std::map<int, std::vector<Scores>>& by_tempo) {
   std::printf("\nsteady songs: mean F in files, as PCM and with `choreo live`, and their shares\n");
   for (const auto& [bpm, songs] : by_tempo) {
@@ -197,7 +197,7 @@ void JudgeFiles(const std::vector<std::string>& songs, const std::string& libros
   }
 }
 
-/// One of each kind and tempo.
+/// Judges one synthetic song of each kind and tempo.
 void JudgeMade(uint64_t seed) {
   std::map<std::string, std::vector<double>> by_kind;
   std::map<int, std::vector<Scores>> by_tempo;

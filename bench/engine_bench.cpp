@@ -24,12 +24,12 @@
 #include "model/samplers/samplers.h"
 
 /// Measures transitions of both engines beside their limits: bare matrix products of the same
-/// shapes, and memory. Everything runs on one thread and is measured in that thread's CPU time, so
-/// that other load disturbs less; quote ratios from one run.
+/// shapes, and memory bandwidth. Everything runs on one thread and is measured in that thread's CPU
+/// time, which other load affects less. Quote ratios from one run.
 ///
-/// `default` is the shipped model, a continuous flow that samples a whole transition; `paper` has
-/// paper F's size and random weights, and makes frame after frame. With a GPU, `paper` runs there,
-/// too.
+/// `default` is the shipped model, a continuous flow that samples a whole transition. `paper` has
+/// paper F's size and random weights, and samples frame by frame. With a GPU, `paper` also runs
+/// there.
 namespace choreo {
 namespace {
 
@@ -93,7 +93,7 @@ void Transitions(benchmark::State& state, Sampler& sampler, const std::vector<do
   state.SetItemsProcessed(state.iterations());
 }
 
-/// The work that serving adds to a sampled transition: footwork.
+/// The work that the server adds to a sampled transition: footwork.
 void Feet(benchmark::State& state, Sampler& sampler) {
   const TransitionSpec spec = Spec(sampler.model(), 1);
   const std::vector<Pose> drawn = sampler.Begin(ValidSpec(spec, sampler.model())).Finish().poses;
@@ -157,8 +157,8 @@ void Bare(benchmark::State& state, BareProducts& products, int times) {
                                                benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Reads several places at once with the widest vectors: a core that reads word after word does not
-/// reach full bandwidth.
+/// Reads several places at once with the widest vectors, because a core that reads word after word
+/// does not reach full bandwidth.
 [[gnu::target_clones("avx512f", "avx2", "default")]] uint64_t SumOf(const uint64_t* words,
                                                                     size_t count) {
   constexpr size_t kPlaces = 8, kLanes = 8;

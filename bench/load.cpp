@@ -88,8 +88,8 @@ class Load {
     }
   }
 
-  /// Concurrent real-time streams, with music in chunks of 100 ms. Admitted ones dance; the others
-  /// are asked to retry later.
+  /// Concurrent real-time streams, with music in chunks of 100 ms. Admitted streams dance; the
+  /// others are asked to retry later.
   void Streams() {
     std::printf(
         "\n| streams | from addresses | admitted | refused, with a time to come back | told after "
@@ -160,7 +160,7 @@ class Load {
     }
   }
 
-  /// Memory of streams that wait for music; more than the defaults admit.
+  /// Memory of streams that wait for music, more than the defaults admit.
   void Idle() {
     constexpr int kStreams = 256;
     const double before = Mebibytes();
@@ -195,7 +195,8 @@ class Load {
     }
     const auto samples = size_t{kFrames} * kFeatureHop;
     for (int minute = 1; minute <= kMinutes; ++minute) {
-      // Like a player, but faster: sends a minute of music when the previous one has been danced.
+      // Like a player, but faster: sends a minute of music once the previous minute's frames have
+      // arrived.
       const double before = CpuSeconds(server_->process());
       for (Stream& stream : streams) {
         const size_t ahead = minute == 1 ? size_t{kModelSampleRate} : 0;
@@ -226,7 +227,8 @@ class Load {
         "\n| beside one live dance | frames p50 ms | p95 | p99 | max | missed %% | others' "
         "frames/s |\n|---|---|---|---|---|---|---|\n");
   }
-  // `others` runs until shortly after the flag it gets, and returns how many frames it received.
+  // Makes one dance beside `others`, which runs until shortly after its flag is set and returns the
+  // number of frames it received.
   void DanceBeside(const std::string& name,
                    const std::function<int64_t(const std::atomic<bool>&)>& others) {
     std::atomic<bool> over = false;
@@ -292,7 +294,8 @@ class Load {
   }
 
   Lateness Live(int streams, double shortest_s, double longest_s, int addresses = 1) {
-    // The first one connects directly; limits per address disappear with it.
+    // The first client connects directly. Relays give the others addresses of their own, which
+    // limits per address need.
     std::vector<std::unique_ptr<Relay>> relays;
     std::vector<client::Client> clients;
     for (int i = 0; i < addresses; ++i) {

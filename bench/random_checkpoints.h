@@ -8,8 +8,8 @@
 #include "model/papers/networks/controllers_config.h"
 #include "model/papers/networks/flow_config.h"
 
-/// Checkpoints with random weights, the same for the same seed: they dance nothing, but run every
-/// path. Their cards say so. For tests and benchmarks.
+/// Write checkpoints with random weights, the same for the same seed, for tests and benchmarks.
+/// They dance nothing useful, but exercise every path. Their cards say so.
 namespace choreo {
 
 void WriteRandomCheckpoint(const std::filesystem::path& path, const FlowConfig& config,

@@ -7,7 +7,7 @@
 namespace choreo::bench {
 
 /// Gives clients another address of this machine: connections to `address` reach the server from
-/// 127.0.0.`number`. Two threads per connection.
+/// 127.0.0.`number`. Uses two threads per connection.
 class Relay {
  public:
   /// `server`: 127.0.0.1:PORT. Throws Error(kUnavailable) if the machine has no such address.

@@ -19,8 +19,8 @@
 #include "model/core/error.h"
 #include "server/process_usage.h"
 
-/// Runs one choreod for a long time with well-behaved and misbehaving clients, and checks whether
-/// its memory, threads and descriptors grow, and whether the well-behaved get later.
+/// Runs one choreod for a long time with well-behaved and misbehaving clients. Checks whether its
+/// memory, threads and descriptors grow, and whether lateness of well-behaved clients increases.
 namespace choreo::bench {
 namespace {
 
@@ -151,7 +151,7 @@ class Soak {
     }
   }
 
-  // Begins dances, goes silent, and leaves without a word.
+  // Begins dances, sends nothing more, and disconnects.
   void BeSilent() {
     while (!IsOver()) {
       const client::Client client(ClientOptions());
@@ -163,7 +163,7 @@ class Soak {
     }
   }
 
-  // Requests more than it takes: endless alternatives, and dances that it does not read.
+  // Requests more than it reads: endless alternatives, and dances.
   void BeGreedy() {
     const client::Client client(ClientOptions());
     while (!IsOver()) {

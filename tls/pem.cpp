@@ -68,7 +68,7 @@ X509Pointer FirstOf(const std::string& certificates) {
   return {PEM_read_bio_X509(Reader(certificates).get(), nullptr, nullptr, nullptr), X509_free};
 }
 
-// Of each certificate; one without a readable date never expires.
+// The expiry of each certificate. One without a readable date never expires.
 std::vector<int64_t> ExpiriesOf(const std::string& certificates) {
   const Bio reader = Reader(certificates);
   std::vector<int64_t> expiries;
@@ -82,7 +82,7 @@ std::vector<int64_t> ExpiriesOf(const std::string& certificates) {
   return expiries;
 }
 
-// OpenSSL would ask on the terminal.
+// Keeps OpenSSL from asking on the terminal.
 int NoPassphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* was_asked) {
   *static_cast<bool*>(was_asked) = true;
   return -1;
@@ -109,7 +109,8 @@ void RequireRegularFile(const std::string& field, const std::filesystem::path& p
 std::string ReadSmallFile(const std::string& field, const std::filesystem::path& path,
                           size_t most) {
   RequireRegularFile(field, path);
-  // It may have been replaced: without O_NONBLOCK a FIFO would block until somebody writes to it.
+  // The file may have been replaced. Without O_NONBLOCK, a FIFO would block until somebody writes
+  // to it.
   const Descriptor file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
   if (file.fd < 0) throw Absent(field, path, errno);
   struct stat status {};
