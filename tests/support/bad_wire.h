@@ -25,21 +25,21 @@
 
 namespace choreo {
 
-/// Two network namespaces of their own, joined by nothing but a wire that can be as bad as a test
-/// wants: it loses IP packets, delays them, puts them out of order, or is cut. Needs root.
+/// Two network namespaces, joined only by a wire with faults: it loses IP packets, delays them,
+/// reorders them, or is cut. Needs root.
 class BadWire {
  public:
   struct Badness {
     double loss = 0;                      ///< share of the packets
     std::chrono::milliseconds delay{0};   ///< for each packet
-    std::chrono::milliseconds spread{0};  ///< additional, at most: later packets may overtake
+    std::chrono::milliseconds spread{0};  ///< largest additional delay; later packets may overtake
   };
 
-  /// Whether this process may create one.
+  /// Whether this process has the rights to create one.
   static bool MayMake() { return geteuid() == 0 && access("/dev/net/tun", R_OK | W_OK) == 0; }
 
-  /// Moves the calling thread, and those it starts, to the near end; the process's earlier threads
-  /// stay. Calls `at_far_end` once at the far end.
+  /// Moves the calling thread, and threads that it starts later, to the near end. The process's
+  /// other threads stay. Calls `at_far_end` once at the far end.
   template <typename AtFarEnd>
   explicit BadWire(AtFarEnd&& at_far_end) {
     ends_[1] = EnterNewNamespace(kFar);
@@ -79,8 +79,8 @@ class BadWire {
     if (!done) throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
   }
 
-  // Enters a namespace with loopback and a device at this address, whose packets are read and
-  // written here.
+  // Enters a new namespace with loopback and a TUN device at this address. Returns the device's
+  // descriptor.
   static int EnterNewNamespace(const char* address) {
     Require(unshare(CLONE_NEWNET) == 0, "a network namespace");
     const int device = open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC);

@@ -15,7 +15,7 @@ struct Certificate {
   std::filesystem::path certificate, key;
 };
 
-/// Signs certificates that are valid for a day; all files are in one folder.
+/// A certificate authority, whose certificates are valid for a day. All files are in one folder.
 class Authority {
  public:
   Authority(std::filesystem::path folder, const std::string& name)
@@ -26,7 +26,7 @@ class Authority {
 
   const std::filesystem::path& certificate() const { return ca_.certificate; }
 
-  /// For localhost and 127.0.0.1.
+  /// Issues a certificate for localhost and 127.0.0.1.
   Certificate Issue(const std::string& name) const {
     const Certificate issued{folder_ / (name + ".pem"), folder_ / (name + ".key")};
     Run("openssl req -x509 -subj /CN=" + name + " -days 1 -CA " + ca_.certificate.string() +
@@ -37,7 +37,7 @@ class Authority {
     return issued;
   }
 
-  /// Expired yesterday.
+  /// Issues a certificate that expired yesterday.
   Certificate IssueExpired(const std::string& name) const {
     const Certificate issued{folder_ / (name + ".pem"), folder_ / (name + ".key")};
     const std::string request = (folder_ / (name + ".csr")).string();

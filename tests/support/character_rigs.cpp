@@ -43,7 +43,7 @@ std::string NodeName(const CharacterRig& rig, int joint) {
   return rig.prefix + NameInRig(rig.rig, rig.body.joint_names[static_cast<size_t>(joint)]);
 }
 
-// Its accessors are the last ones.
+// Removes the animation, whose accessors are the last ones.
 void ForgetAnimation(Glb* glb) {
   json& document = glb->document;
   const size_t first = document["animations"][0]["samplers"][0]["input"].get<size_t>();

@@ -5,16 +5,16 @@
 
 #include "tests/support/proportions.h"
 
-/// Characters for tests: the doll with other names and bones.
+/// Character files for tests: the doll with other names and bones.
 namespace choreo::testing_support {
 
 struct CharacterRig {
-  std::string rig = "Mixamo and HumanIK";  ///< its naming (fit/human_bones.h); empty: no names
+  std::string rig = "Mixamo and HumanIK";  ///< the naming (fit/human_bones.h); empty: no names
   std::string prefix = "mixamorig:";
-  Skeleton body = Skeleton::Smpl24();  ///< its proportions
+  Skeleton body = Skeleton::Smpl24();  ///< the proportions
   double arms_down = 0;                ///< at rest, degrees: 45 is an A-pose
-  bool rolled = false;                 ///< bones have odd frames
-  /// Scale of a node above all, turned by -90 degrees about X; the bones are scaled back.
+  bool rolled = false;                 ///< bones have unusual frames
+  /// Scale of a node above all bones, rotated by -90 degrees about X. The bones are scaled back.
   double armature_scale = 1;
   double facing = 0;  ///< at rest, degrees
 };

@@ -6,8 +6,8 @@
 
 namespace choreo {
 
-/// Polls, for what other threads or processes bring about; false if it has not come about within
-/// the limit.
+/// Polls a condition that other threads or processes bring about. Returns false if it does not hold
+/// within the limit.
 inline bool Eventually(const std::function<bool()>& condition,
                        std::chrono::seconds limit = std::chrono::seconds(20)) {
   const auto end = std::chrono::steady_clock::now() + limit;

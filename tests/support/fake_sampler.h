@@ -16,16 +16,16 @@
 
 namespace choreo {
 
-/// Joints in which the fake model shows velocity factors, by BodyPart.
+/// The joints whose rotations show the velocity factors in the fake model's dances, by BodyPart.
 inline const std::array<std::string, kBodyParts> kTellingJoints = {
     "head", "left_hand", "right_hand", "left_foot", "right_foot"};
 
-/// A model without a network, for testing what surrounds models. Each degree of freedom walks,
-/// damped, towards the target (or its last history value if it is open), is shaken by the counter
-/// noise, nods on beats, and turns its last joint by the music's energy; in models with music
-/// input, rows shake it, too. A dancer with an open position goes to the middle of the stage.
-/// Deterministic. It misses its target slightly, like a real model. It follows controls exactly:
-/// the root is on the path, and the first number of a telling joint's rotation is the velocity
+/// A deterministic model without a network, for testing the code around models. Each degree of
+/// freedom moves, damped, towards the target (or its last history value if the target leaves it
+/// open), with counter-based noise; in models with music input, rows shake it, too. The last joint
+/// shows beats, style and the music's energy. A dancer with an open position moves to the middle of
+/// the stage. The model misses its target slightly, like a real one. It follows controls exactly:
+/// the root is on the path, and the first number of a kTellingJoints rotation is the velocity
 /// factor of its part.
 class FakeSampler : public Sampler {
  public:
@@ -40,13 +40,13 @@ class FakeSampler : public Sampler {
     model_.likelihood = true;
   }
 
-  /// Hook for subclasses after each frame: may change the plan, throw, or wait.
+  /// A hook for subclasses, called after each frame. It may change the plan, throw, or wait.
   virtual void OnFrame(const TransitionSpec& /*spec*/, Plan* /*plan*/) {}
 
   Slices<Plan> Begin(const ValidSpec& spec) override;
 };
 
-/// A transition of the fake model.
+/// A transition of the fake model, frame by frame.
 class FakeTransition {
  public:
   FakeTransition(FakeSampler& sampler, const TransitionSpec& spec)
@@ -76,7 +76,7 @@ class FakeTransition {
       energy += z * z;
       velocity_[d] += 0.004 * spec_.temperature * z;
     }
-    // Music sways arms and trunk, not feet.
+    // Music moves arms and trunk, not feet.
     Eigen::VectorXd next = now + velocity_;
     for (int d = 3; d < Width(); ++d) next[d] += 0.003 * music * std::sin(0.7 * d + frame);
     for (const double beat : spec_.beats)
@@ -107,7 +107,7 @@ class FakeTransition {
     return flat;
   }
 
-  // The target, with the history's last pose on the stage in open degrees of freedom.
+  // The target. Open degrees of freedom are the history's last pose, in the middle of the stage.
   Eigen::VectorXd Goal() const {
     Pose last = spec_.history.back();
     const Eigen::Vector3d middle = spec_.stage.value_or(GroundFrame()).origin;
@@ -116,7 +116,7 @@ class FakeTransition {
     return Flat(spec_.target ? Masked(spec_.target->pose, spec_.target->mask, last) : last);
   }
 
-  // Shows controls in the dance for tests.
+  // Makes the controls visible in the dance.
   void Obey(int frame, Eigen::VectorXd* next) const {
     const Controls& controls = spec_.controls;
     if (controls[kRootPath].IsGiven()) next->head<3>() = controls[kRootPath].values.col(frame);
@@ -147,7 +147,7 @@ inline Slices<Plan> FakeSampler::Begin(const ValidSpec& spec) {
   co_return plan;
 }
 
-/// A model with more music input than beats, so it waits for a whole transition's music.
+/// A model with music input besides beats, which waits for a whole transition's music.
 class HearingSampler : public FakeSampler {
  public:
   HearingSampler() {
@@ -169,7 +169,7 @@ class ControlledSampler : public FakeSampler {
   }
 };
 
-/// Samplers of one model, one per worker.
+/// Makes samplers of one model, one per worker.
 template <typename Model = FakeSampler>
 std::vector<std::unique_ptr<Sampler>> FakeSamplers(int workers = 1) {
   std::vector<std::unique_ptr<Sampler>> samplers;

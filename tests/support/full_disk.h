@@ -5,8 +5,8 @@
 
 namespace choreo {
 
-/// While it exists, this process's files cannot grow beyond a number of bytes: writing fails as on
-/// a full disk.
+/// Limits the size of files that this process writes, while it exists: writing more bytes fails as
+/// on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) : handler_(signal(SIGXFSZ, SIG_IGN)) {

@@ -10,7 +10,7 @@
 
 namespace choreo::testing_support {
 
-/// tang2018's own skeleton, measured on one of our dancers.
+/// tang2018's own skeleton, measured on a synthetic dance of ours.
 inline const NativeTang2018& Native() {
   static const NativeTang2018 native = [] {
     const PositionClip clip = Tang2018Markers(fixtures::SmoothMotion(Skeleton::Smpl24(), 1, 60));

@@ -12,8 +12,8 @@
 #include "model/formats/bvh.h"
 #include "model/motion/rotation.h"
 
-/// Rigs for tests, as other programs export them: a body in centimetres that stands with arms held
-/// out, faces +Z, and moves as requested.
+/// Rigs for tests, as other programs export them: a body in centimetres that at rest stands with
+/// arms held out and faces +Z.
 namespace choreo::testing_support {
 
 struct RigJoint {
@@ -58,7 +58,7 @@ inline Eigen::Matrix3d About(double x, double y, double z, double degrees) {
       .toRotationMatrix();
 }
 
-/// Arms hang, legs step, the trunk turns a little.
+/// A walk: arms hang, legs step, the trunk turns a little.
 inline Eigen::Matrix3d Walk(const std::string& bone, int frame) {
   const double swing = std::sin(frame * 0.3);
   const double side = bone.starts_with("left_") ? 1 : -1;
@@ -114,8 +114,8 @@ struct BvhRig {
   };
 };
 
-/// As other tools write it: ZXY angles, six channels at the root. Rest frames are the file's axes
-/// turned by `zero`, and offsets are in them.
+/// Makes a BVH as other tools write it: ZXY angles, six channels at the root. Rest frames are the
+/// file's axes rotated by `zero`, and offsets are in these frames.
 inline BvhFile MakeBvh(const BvhRig& rig) {
   BvhFile file;
   std::map<std::string, int> at;
@@ -173,7 +173,7 @@ inline BvhFile MakeBvh(const BvhRig& rig) {
   return file;
 }
 
-/// A glTF that gains a rig with each call.
+/// Builds a glTF file with any number of rigs.
 class GlbRigs {
  public:
   using Json = nlohmann::json;
@@ -203,8 +203,8 @@ class GlbRigs {
     return static_cast<int>(document["nodes"].size()) - 1;
   }
 
-  /// In metres, displaced by `aside`. Returns the first node's index; the others follow in the
-  /// order of RigBody.
+  /// Adds RigBody in metres, displaced by `aside`. Returns the first node's index; the others
+  /// follow in RigBody's order.
   int AddBody(const RigNames& names, double aside = 0) {
     const auto first = static_cast<int>(document["nodes"].size());
     for (const RigJoint& joint : RigBody()) {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Whether this program runs under a sanitizer: LibTorch can't, and freed memory is kept.
+/// Whether this program is built with a sanitizer, which cannot run LibTorch and keeps freed
+/// memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else

@@ -4,7 +4,7 @@
 
 namespace choreo {
 
-/// A number from the environment that makes a short test long (scripts/faults.sh).
+/// Reads a number from the environment, by which scripts/faults.sh makes a short test long.
 inline int Setting(const char* name, int otherwise) {
   const char* value = std::getenv(name);
   return value == nullptr ? otherwise : std::atoi(value);

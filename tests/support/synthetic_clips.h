@@ -12,7 +12,7 @@
 
 namespace choreo::testing_support {
 
-/// A made-up clip: a dancer walks in a circle and swings the limbs, each joint at its own rate.
+/// A synthetic clip: a dancer walks in a circle and swings the limbs, each joint at its own rate.
 inline PreparedClip SyntheticClip(const std::string& name, int frames, double phase, bool music,
                                   const Skeleton& skeleton = Skeleton::Smpl24()) {
   PreparedClip clip;
@@ -43,7 +43,7 @@ inline PreparedClip SyntheticClip(const std::string& name, int frames, double ph
     clip.audio.resize(40, frames);
     for (int f = 0; f < frames; ++f) {
       for (int i = 0; i < 40; ++i) {
-        const double beat = f % 15 < 2 ? 4 : 0;  // two a second, which can be heard
+        const double beat = f % 15 < 2 ? 4 : 0;  // two audible beats a second
         clip.audio(i, f) = static_cast<float>(0.1 * std::sin(0.3 * f + i) + beat);
       }
     }
@@ -51,8 +51,8 @@ inline PreparedClip SyntheticClip(const std::string& name, int frames, double ph
   return clip;
 }
 
-/// Five training clips, two of them with music, one for validation and one for testing, and their
-/// splits.json.
+/// Writes seven synthetic clips, five for training (two with music), one for validation and one for
+/// testing, and their splits.json.
 inline void WriteSyntheticData(const std::filesystem::path& folder,
                                const Skeleton& skeleton = Skeleton::Smpl24()) {
   std::filesystem::create_directories(folder);

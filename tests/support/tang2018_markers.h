@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// tang2018's markers on one of our dancers.
+/// tang2018's markers on a motion of SMPL's body.
 inline PositionClip Tang2018Markers(const Motion& motion) {
   PositionClip clip;
   clip.fps = motion.fps;
@@ -51,7 +51,7 @@ inline PositionClip Tang2018Markers(const Motion& motion) {
   return clip;
 }
 
-/// tang61's rows on one of our dancers.
+/// tang61's rows on a motion of SMPL's body.
 inline PositionClip Tang61Markers(const Motion& motion) {
   const PositionClip markers = Tang2018Markers(motion);
   PositionClip clip;

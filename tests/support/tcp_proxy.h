@@ -14,11 +14,11 @@
 
 namespace choreo {
 
-/// Forwards bytes of one connection between a client and a server on this machine until it is
-/// silenced: then each side receives nothing more, not even the end.
+/// Forwards the bytes of one connection between a client and a server on this machine until
+/// FallSilent. Then neither side receives anything more, not even the end of the connection.
 class TcpProxy {
  public:
-  /// `upward`: after this many bytes falls silent towards the server only.
+  /// `upward`: the number of bytes after which the proxy falls silent towards the server only.
   explicit TcpProxy(int server_port, int64_t upward = std::numeric_limits<int64_t>::max())
       : listening_(socket(AF_INET, SOCK_STREAM, 0)), upward_(upward) {
     sockaddr_in address = Local(0);
@@ -78,7 +78,7 @@ class TcpProxy {
     close(server);
   }
 
-  // False once one of them is gone.
+  // Returns false once either side has closed.
   template <class Budget>
   static bool Pass(int from, int to, Budget& budget) {
     std::array<char, 65536> bytes;

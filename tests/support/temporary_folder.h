@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// An empty folder for the running test, removed with it.
+/// An empty folder for the running test. The destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -17,7 +17,7 @@ class TemporaryFolder {
     for (char& c : name) {
       if (c == '/') c = '_';
     }
-    // Includes the process, so that concurrently tested builds have separate folders.
+    // Includes the process id, so that builds tested concurrently have separate folders.
     path_ = std::filesystem::path(testing::TempDir()) /
             ("choreo." + name + "." + std::to_string(getpid()));
     std::filesystem::remove_all(path_);

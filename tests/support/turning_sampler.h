@@ -5,14 +5,16 @@
 
 namespace choreo {
 
-/// Turns on the spot by `step` radians a frame, leaning by `tilt`; so does its left elbow.
+/// A model that turns on the spot by `step` radians per frame, leaning by `tilt`. Its left elbow
+/// does the same.
 class TurningSampler final : public FakeSampler {
  public:
   TurningSampler(double step, double tilt) : step_(step), tilt_(tilt) {}
 
   void OnFrame(const TransitionSpec& spec, Plan* plan) override {
     const auto here = std::ssize(plan->poses);
-    // The elbow continues from where it is; the root's heading is relative to the canonical frame.
+    // The elbow continues across transitions; the root's heading is relative to the canonical
+    // frame.
     plan->poses.back().rotations.col(0) = Turned(here);
     plan->poses.back().rotations.col(model_.skeleton.left_elbow) = Turned(spec.first_frame + here);
   }
