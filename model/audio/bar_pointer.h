@@ -11,24 +11,26 @@
 
 namespace choreo {
 
-/// Where onsets tend to fall in a bar: mean onsets relative to their mean over three seconds.
+/// A rhythm pattern: the mean onsets at each position in a bar, relative to their mean over three
+/// seconds.
 struct BarPattern {
   static constexpr size_t kPlaces = 4;
   using Bands = std::array<double, Onset::kBands>;
 
   int beats = 4;
-  /// Positions within a beat, starting with the beat itself; those from `places` on are unused.
+  /// Positions within a beat, as shares of it, starting with the beat itself. Those from `places`
+  /// on are unused.
   std::array<double, kPlaces> place{0, 0.5, 0.25, 0.75};
   size_t places = 4;
   double slowest_bpm = 48, fastest_bpm = 208;
   std::vector<Bands> rise{};  ///< [beat * kPlaces + place]
 };
 
-/// 4/4, 4/4 with triplets, 3/4, 6/8. Their rises are means over made songs.
+/// The patterns 4/4, 4/4 with triplets, 3/4 and 6/8. Their rises are means over synthetic songs.
 std::span<const BarPattern> BarPatterns();
 
-/// Onsets divided by their mean over the last three seconds, per band, so that loud and soft
-/// passages look alike. -1 for a silent band.
+/// Divides onsets by their mean over the last three seconds, per band, so that loud and soft
+/// passages look alike. -1 for a silent band. Not thread-safe.
 class EvenOnsets {
  public:
   static constexpr float kLoudest = 8;  ///< limits the weight of a crash
@@ -38,7 +40,7 @@ class EvenOnsets {
 
   std::array<float, Onset::kBands> Even(const Onset& onset);
 
-  /// Begins as if this music had played before; else its beginning would count for too much.
+  /// Starts as if this music had played before; otherwise its beginning would have too much weight.
   void Settle(std::span<const Onset> onsets) {
     for (int round = 0; round < kRounds; ++round) {
       for (const Onset& onset : onsets.first(std::min(onsets.size(), kSettled))) Even(onset);
@@ -73,12 +75,12 @@ class BarPointer {
 
   BarPointer(std::span<const BarPattern> patterns, const Limits& limits);
 
-  /// Calls EvenOnsets::Settle. Call before the first Add.
+  /// EvenOnsets::Settle. Call it before the first Add.
   void Settle(std::span<const Onset> onsets) { even_.Settle(onsets); }
   void Add(const Onset& onset);
 
   /// The beats of the best path to the last frame, ascending, without those before the first frame.
-  /// Costs 1 kB per frame.
+  /// Needs 1 kB of memory per frame.
   std::vector<Step> Path() const;
 
  private:

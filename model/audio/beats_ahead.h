@@ -10,31 +10,32 @@
 
 namespace choreo {
 
-/// The beats of music that goes on.
+/// The beats of music that continues.
 struct HeardBeats {
   BeatTrack track;
-  /// How well predictions from its earlier beats met onsets, relative to the beats found: about 1
-  /// in music; in speech or noise, whose best beats mean nothing, mostly less than 0.7.
+  /// How well predictions from earlier beats match onsets, relative to the beats found. About 1 in
+  /// music; mostly less than 0.7 in speech or noise, whose best beats are meaningless.
   double foresight = 0;
 
   bool Certain() const;
 };
 
-/// Finds the beats of a stretch of music (TrackBeats). `first`: the frame of the first onset, which
-/// counts for the result's frames. Pure.
+/// Finds the beats of a stretch of music (TrackBeats). `first`: the frame of the first onset, to
+/// which the result's frames refer. Pure.
 HeardBeats HearBeats(std::span<const Onset> onsets, int64_t first);
 
-/// Beats to come, seconds, ascending, and those of them that begin a bar.
+/// Future beats, seconds, ascending, and those of them that begin a bar.
 struct BeatsAhead {
   std::vector<double> beats = {}, downbeats = {};
-  std::optional<double> confidence = {};  ///< of the beats that predict them, 0 to 1; none: known
+  std::optional<double> confidence =
+      {};  ///< of the beats that predict them, 0 to 1; none: they are known
 
   /// Keeps only those in [from, to].
   void Keep(double from, double to);
 };
 
-/// Continues beats at their latest tempo, from second `now` until `until`. None if they are too few
-/// to be sure of the tempo, or none of them is in the last seconds.
+/// Continues beats at their latest tempo from `now` until `until`, seconds. None if there are too
+/// few beats to be sure of the tempo, or none in the last seconds.
 BeatsAhead PredictBeats(const BeatTrack& track, double now, double until);
 
 }  // namespace choreo

@@ -9,8 +9,8 @@
 
 namespace choreo {
 
-/// Applies `of` to each frame of mono audio: `size` samples centred at sample f * `hop`,
-/// padded with `before` and `after` outside the audio. There are 1 + samples / `hop` frames. Throws
+/// Applies `of` to each frame f of mono audio: `size` samples centred at sample f * `hop`, padded
+/// with `before` and `after` outside the audio. There are 1 + samples / `hop` frames. Throws
 /// Error(kInvalidArgument) for no samples.
 template <typename Of>
 auto OfCentredFrames(std::span<const float> mono, int size, int hop, Of&& of, float before = 0,

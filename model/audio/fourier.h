@@ -7,10 +7,9 @@
 
 namespace choreo {
 
-/// The power of real signals of one length by frequency, in double precision: Fourier transforms by
-/// decimation in time (Cooley and Tukey 1965), four samples or butterflies at a time. All CPUs give
-/// the same bits, and those of kissfft, which are in golden files. Holds work space: use one per
-/// thread.
+/// Computes power spectra of real signals of one length in double precision, by Fourier transforms
+/// with decimation in time (Cooley and Tukey 1965), four samples or butterflies at a time. All CPUs
+/// give the same bits, which equal kissfft's in golden files. Not thread-safe: it holds work space.
 class FourierPower {
  public:
   /// `size`: samples, a power of two from 32 on.

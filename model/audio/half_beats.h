@@ -9,21 +9,22 @@
 #include "model/audio/meter.h"
 #include "model/audio/onset.h"
 
-/// Decides whether beats are half beats, and the metre. Patterns show these badly, because any part
-/// of a beat may be struck in any pattern; so the music's repetition decides.
+/// Decides by the music's repetition whether beats are half beats, and which metre it has. Patterns
+/// show these badly, because any part of a beat may be struck in any pattern.
 namespace choreo {
 
 /// The onsets at each half of each beat of a path: EvenOnsets' bands, the strongest nearby. Beats
-/// in parts whose onsets are weak beside the strongest part's, as without drums, decide nothing.
+/// in parts with weak onsets relative to the strongest part, as without drums, do not count.
+/// Immutable.
 class HalfBeats {
  public:
   HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path);
 
-  /// The period of the middle one of the beats that decide, in frames; 0: none does.
+  /// The median period of the beats that count, frames; 0 without any.
   int Period() const;
 
-  /// Whether both halves of beats sound the same in all bands, so that each is a beat: the weaker
-  /// one's mean is at least this share of the stronger one's.
+  /// Whether both halves of beats sound the same in all bands, so that each is a beat: the mean of
+  /// the weaker one is at least `share` of the stronger one's.
   bool AreAlike(double share) const;
 
   /// Whether the bass drum sounds halfway between nearly all beats and hardly on them, so that
@@ -31,12 +32,12 @@ class HalfBeats {
   bool BassIsBetween() const;
 
   /// The half of nearly all beats, 0 or 1, on which a snare sounds while a bass drum sounds on the
-  /// other, so that each half is a beat; -1: neither. A hat between the beats has too little
-  /// middle, and beats that are not halves have too little bass between them.
+  /// other, so that each half is a beat; -1: neither. A hi-hat between the beats has too weak
+  /// middle bands, and beats that are not halves have too little bass between them.
   int SnareHalf() const;
 
-  /// Compares bars: music in 4/4 repeats after eight eighths, in 3/4 and 6/8 after six, and 6/8 is
-  /// more alike after three eighths than after two.
+  /// The metre, found by comparing bars: music in 4/4 repeats after eight eighths, in 3/4 and 6/8
+  /// after six, and 6/8 is more similar after three eighths than after two.
   Meter MeterOf() const;
 
  private:
@@ -49,13 +50,13 @@ class HalfBeats {
   std::vector<int> periods_;  // of the beats that count
 };
 
-/// The same path, each beat half a beat earlier, and one more after the last, among `frames`. Bars
-/// keep their place: patterns expect a backbeat's snare just after their first beat.
+/// The path with each beat half a beat earlier, and one more after the last, within `frames`. Bars
+/// keep their position, because patterns expect a backbeat's snare just after their first beat.
 std::vector<BarPointer::Step> HalfABeatEarly(const std::vector<BarPointer::Step>& path,
                                              int64_t frames);
 
-/// The same path with a beat added halfway to each next one that is at least `slow` frames away, in
-/// bars of four that begin with a first (0) or a second half.
+/// The path with a beat added halfway to each next one that is at least `slow` frames away, in bars
+/// of four that begin with a first (`half` 0) or a second half (1).
 std::vector<BarPointer::Step> Doubled(const std::vector<BarPointer::Step>& path, int slow,
                                       int half = 0);
 

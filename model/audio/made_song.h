@@ -6,8 +6,8 @@
 
 #include "model/audio/meter.h"
 
-/// Endless songs with known beats, synthesized from our own grooves, basses and chords. Beat
-/// trackers are developed on some seeds and judged on others.
+/// The plan of a synthetic song with known beats, made from our own grooves, basses and chords.
+/// Beat trackers are developed on some seeds and judged on others.
 namespace choreo {
 
 struct SongPlan {
@@ -18,10 +18,10 @@ struct SongPlan {
     double begin, end;  // seconds
   };
 
-  uint64_t seed = 1;  ///< decides groove, instruments, harmony, timing accuracy and loudness
+  uint64_t seed = 1;  ///< determines groove, instruments, harmony, timing accuracy and loudness
   double seconds = 40;
-  /// Ascending in time; linear in between, constant outside. Two at the same second make a step at
-  /// the next beat.
+  /// Ascending in time; tempo is linear between entries and constant outside. Two entries at the
+  /// same second make a step at the next beat.
   std::vector<Tempo> tempo{{0, 120}};
   Meter meter = Meter::kFour;
   bool swing = false;                 ///< beats are divided by three; 4/4 only
@@ -36,7 +36,7 @@ struct MadeSong {
   std::vector<double> beats, downbeats;  ///< seconds, ascending
 };
 
-/// The same plan gives the same bits on one machine.
+/// Synthesises a song. The same plan gives the same bits on one machine.
 MadeSong MakeSong(const SongPlan& plan);
 
 }  // namespace choreo

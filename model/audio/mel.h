@@ -16,7 +16,7 @@ inline constexpr int kFeatureHop = kModelSampleRate / static_cast<int>(kModelFps
 inline constexpr int kFftSize = 2048;  ///< samples at 22 050 Hz in an analysis window
 /// Slaney's bands between 0 and 11 025 Hz, each of unit area.
 inline constexpr int kMelBands = 128;
-inline constexpr size_t kBassBands = 4;  ///< of them: up to 130 Hz, where the bass drum is
+inline constexpr size_t kBassBands = 4;  ///< the first bands, up to 130 Hz, where the bass drum is
 
 /// Each mel band's 10 log10(power), floored at 1e-10 (-100 dB).
 using MelBandsDb = std::array<double, kMelBands>;
@@ -27,11 +27,11 @@ struct MelBand {
 };
 MelBand MelBandAt(size_t band);
 
-/// The mel spectrum of one window of samples: periodic Hann window, squared magnitude of the
-/// Fourier transform, triangular bands. Holds work space: use one per thread.
+/// Computes the mel spectrum of one window of samples: periodic Hann window, squared magnitude of
+/// the Fourier transform, triangular bands. Not thread-safe: it holds work space.
 class MelSpectrum {
  public:
-  /// `samples`: kFftSize or more; further ones are ignored.
+  /// `samples`: at least kFftSize; ignores further ones.
   MelBandsDb Decibels(std::span<const float> samples);
 
  private:

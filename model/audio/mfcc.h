@@ -8,7 +8,7 @@
 
 namespace choreo {
 
-/// One row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
+/// Computes a row of cepstral coefficients: the first kMfccCount of the orthonormal DCT-II of a mel
 /// spectrum in dB.
 void MfccOfMelDb(std::span<const double, kMelBands> db, std::span<float, kMfccCount> row);
 

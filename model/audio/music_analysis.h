@@ -8,17 +8,18 @@
 
 namespace choreo {
 
-/// What a complete piece of music tells.
+/// The analysis of a complete piece of music.
 struct MusicAnalysis {
   std::vector<double> beats = {};       ///< seconds, ascending
   std::vector<double> downbeats = {};   ///< those of the beats that begin a bar
-  std::vector<double> confidence = {};  ///< of each beat, as BeatTrack's; empty if not found here
+  std::vector<double> confidence = {};  ///< [beats] as in BeatTrack; empty for known beats
   std::vector<Passage> passages = {};   ///< repeats
   std::vector<float> energies = {};     ///< SongEnergies (music_dynamics.h)
   uint64_t id = 0;                      ///< MusicId
 };
 
-/// Finds the beats of mono samples at 22 050 Hz, and the rest. Throws like FindOnsets. Thread-safe.
+/// Analyses mono samples at 22 050 Hz, including their beats. Throws what FindOnsets throws.
+/// Thread-safe.
 MusicAnalysis AnalyseMusic(std::span<const float> mono);
 /// The same for music whose beats are known.
 MusicAnalysis AnalyseMusic(std::span<const float> mono, std::vector<double> beats,

@@ -17,7 +17,7 @@ inline constexpr double kOnsetRate =
 /// Samples in an onset's window, half of them before its centre.
 inline constexpr int kOnsetWindow = 1024;
 
-/// How strongly sound begins at a frame.
+/// The strength of an onset at a frame.
 struct Onset {
   static constexpr size_t kBands = 3;
   /// Mean rise in dB over two frames of the Fourier bands below 160 Hz (bass drum and bass), up to
@@ -28,9 +28,8 @@ struct Onset {
   friend bool operator==(const Onset&, const Onset&) = default;
 };
 
-/// Measures onsets frame by frame. Ignores DC and whatever lies more than 50 dB below the loudest
-/// band of the last two seconds. An onset depends on at most the kMemory frames before it. Not
-/// thread-safe.
+/// Measures onsets frame by frame. Ignores DC, and levels more than 50 dB below the loudest band of
+/// the last two seconds. An onset depends on at most the kMemory frames before it. Not thread-safe.
 class OnsetMeter {
  public:
   static constexpr size_t kLoudFrames = 180;  // two seconds
@@ -55,7 +54,8 @@ class OnsetMeter {
 /// DC offset has no onset. Throws Error(kInvalidArgument) for no samples.
 std::vector<Onset> FindOnsets(std::span<const float> mono);
 
-/// One value per frame: the mean over bands, with the bass weighted like the others together.
+/// The onset envelope, one value per frame: the mean over bands, with the bass weighted like the
+/// others together.
 std::vector<float> OnsetStrength(std::span<const Onset> onsets);
 
 }  // namespace choreo

@@ -9,14 +9,14 @@
 
 namespace choreo {
 
-/// How much of `on`, what begins on beats, exceeds `even`, the same of evenly spread onsets: 0
-/// to 1.
+/// The share of `on`, the onsets on beats, in excess of `even`, the value for evenly spread onsets:
+/// 0 to 1.
 inline double Excess(double on, double even) { return on > even ? 1 - even / on : 0; }
 
 /// Sums onsets over frames and around beats.
 class OnsetSums {
  public:
-  static constexpr int64_t kBeatFrames = 4;  // a beat's: from one before it to two after
+  static constexpr int64_t kBeatFrames = 4;  // of a beat: from one before it to two after it
 
   explicit OnsetSums(std::span<const Onset> onsets) {
     for (const float strength : OnsetStrength(onsets)) sums_.push_back(sums_.back() + strength);

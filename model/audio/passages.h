@@ -13,22 +13,22 @@
 
 namespace choreo {
 
-/// When music counts as repeating.
+/// The conditions for music to count as repeating.
 struct PassageOptions {
   /// The least similarity of two moments: the cosine of their harmony and timbre, relative to all
   /// music so far.
   double alike = 0.5;
   /// The least similarity of a passage: the sum over its seconds of the similarity above `alike`.
   double least = 1.0;
-  /// The least number of seconds after which a dancer repeats.
+  /// The least distance of a repeat, seconds.
   double soonest = 12;
 };
 
-/// Detects, while music arrives, whether it repeats. Compares harmony (chroma) and timbre (loudness
-/// by band) of each moment with all before it and follows the likeliest path through the lags
-/// between them (Viterbi's algorithm over the lags of a self-similarity matrix; Müller,
-/// "Fundamentals of Music Processing", chapter 4). A moment depends only on samples before its end.
-/// Not thread-safe.
+/// Detects, while music arrives, whether it repeats. Compares the harmony (chroma) and timbre
+/// (loudness by band) of each moment with those of all earlier ones, and follows the likeliest path
+/// through the lags between them (Viterbi's algorithm over the lags of a self-similarity matrix;
+/// Müller, "Fundamentals of Music Processing", chapter 4). A moment depends only on samples before
+/// its end. Not thread-safe.
 class PassageListener {
  public:
   /// Samples at 22 050 Hz between moments, 0.2 s.
@@ -43,7 +43,8 @@ class PassageListener {
   void Add(std::span<const float> window);
 
   int64_t moments() const { return moments_; }
-  /// How many moments ago one like the last was; none if it is new.
+  /// The distance, in moments, from the last moment back to the one that it repeats; none if it is
+  /// new.
   std::optional<int64_t> Lag() const;
   /// All passages, using the likeliest path kTempoWindowSeconds after each moment.
   std::vector<Passage> Passages() const;

@@ -9,15 +9,15 @@
 
 namespace choreo {
 
-/// Measures how many seconds after its original a repeated passage comes, to a hundredth: where
-/// their onsets coincide. Not thread-safe.
+/// Measures the lag of a repeated passage behind its original to a hundredth of a second, by
+/// aligning their onsets. Not thread-safe.
 class RepeatLag {
  public:
   /// Takes the next mono samples at 22 050 Hz.
   void Hear(std::span<const float> mono);
 
-  /// The lag within half a second of `lag` at which [from, to) is most like what precedes it by the
-  /// lag. `lag` itself where nothing begins. Seconds.
+  /// The lag within half a second of `lag` at which [from, to) is most similar to the music before
+  /// it. `lag` itself without onsets. Seconds.
   double Near(double lag, double from, double to) const;
 
  private:

@@ -22,9 +22,9 @@ class Resampler {
 
   /// Takes whole interleaved frames, all finite (the caller checks).
   void Push(std::span<const float> interleaved);
-  /// Ends the input; call once. The last output sample is the last one within the audio.
+  /// Ends the input. Call once. The last output sample is the last one within the audio.
   void Finish();
-  /// Appends all output samples that are ready to `mono`, in order.
+  /// Appends all output samples that are ready, in order, to `mono`.
   void Pull(std::vector<float>& mono);
 
   /// Absolute index, at 22 050 Hz, of the first output sample: 0 or, in a stream that starts later,

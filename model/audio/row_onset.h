@@ -7,10 +7,10 @@
 
 namespace choreo {
 
-/// How strongly sound begins, row by row of a FeatureStream: the rise in dB of its mel bands over
-/// two rows (67 ms), averaged over all bands and over the bass. Ignores whatever lies more than 40
-/// dB below the loudest band of the last two seconds. A row's value is known with the row and
-/// depends on at most the kMemory rows before it. Not thread-safe.
+/// Measures onsets row by row of a FeatureStream: the rise in dB of its mel bands over two rows (67
+/// ms), averaged over all bands and over the bass. Ignores levels more than 40 dB below the loudest
+/// band of the last two seconds. A row's value needs no later rows, and depends on at most the
+/// kMemory rows before it. Not thread-safe.
 class RowOnset {
  public:
   static constexpr size_t kRiseRows = 2, kLoudRows = 60;

@@ -8,10 +8,10 @@
 
 namespace choreo {
 
-/// Frames of Onset in a row: the first is centred with it.
+/// Onset frames per row; the first has the row's centre.
 inline constexpr int kRowOnsets = kFeatureHop / kOnsetHop;
 static_assert(kRowOnsets * kOnsetHop == kFeatureHop);
-/// A row's onsets depend on at most so many rows before it.
+/// The largest number of earlier rows on which a row's onsets depend.
 inline constexpr int kRowSoundMemory = RowOnset::kMemory;
 static_assert(OnsetMeter::kMemory <= kRowOnsets * kRowSoundMemory);
 
@@ -27,7 +27,7 @@ struct RowSound {
 /// The powers of a row with these bands, without its onset.
 RowSound PowersOf(const MelBandsDb& db);
 
-/// LUFS of a mean power of rows.
+/// Converts a mean power of rows to LUFS.
 double Loudness(double power);
 
 }  // namespace choreo

@@ -12,13 +12,13 @@ namespace choreo {
 /// A source of bytes to decode. Not thread-safe.
 struct ByteSource {
   int64_t size = 0;
-  /// Copies bytes from `offset` on and returns how many: fewer than asked near the end, 0 beyond
-  /// it.
+  /// Copies bytes from `offset` on and returns their number: fewer than requested near the end, 0
+  /// beyond it.
   std::function<size_t(int64_t offset, std::span<std::byte> bytes)> read_at;
 
   /// Whether `text` is at `offset`.
   bool Has(int64_t offset, const std::string& text) const;
-  /// Little-endian; 0 beyond the end.
+  /// The little-endian word at `offset`; 0 beyond the end.
   uint32_t Word(int64_t offset) const;
 };
 

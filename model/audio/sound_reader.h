@@ -11,8 +11,9 @@
 
 namespace choreo {
 
-/// Decodes a sound file piece by piece to the end of its data, whatever its header says. Errors are
-/// Error(kInvalidArgument); the field is the name passed when the reader was made. Not thread-safe.
+/// Decodes a sound file piece by piece to the end of its data, even if its header disagrees. Errors
+/// are Error(kInvalidArgument), whose field is the name passed to the reader's factory. Not
+/// thread-safe.
 class SoundReader {
  public:
   virtual ~SoundReader() = default;
@@ -24,7 +25,7 @@ class SoundReader {
   /// read per channel, or 0 at the end.
   virtual int64_t Read(std::span<float> interleaved) = 0;
 
-  /// Notes for listeners, such as "its header says 5 samples, 4 are there". Complete after the end.
+  /// Notes for users, such as "its header says 5 samples, 4 are there". Complete after the end.
   const std::vector<std::string>& notes() const { return notes_; }
 
  protected:
@@ -49,10 +50,10 @@ std::unique_ptr<SoundReader> ReadMpeg(const ByteSource& source, const std::strin
 /// FLAC packets in an Ogg stream.
 std::unique_ptr<SoundReader> ReadOggFlac(const ByteSource& source, const std::string& name);
 
-/// Where an ID3v2 tag that begins at `at` ends, or `at` where there is none.
+/// The end of an ID3v2 tag that begins at `at`, or `at` if there is none.
 int64_t TagEnd(const ByteSource& source, int64_t at);
 
-/// Whether frames of MPEG audio, layer 1 to 3, follow each other near the beginning.
+/// Whether there are successive frames of MPEG audio, layer 1 to 3, near the beginning.
 bool LooksLikeMpeg(const ByteSource& source);
 
 }  // namespace choreo
