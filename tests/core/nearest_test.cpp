@@ -4,7 +4,7 @@
 
 namespace choreo::nearest_test {
 
-TEST(Nearest, SuggestsWhatAMisspeltWordMayMeanOrNamesAll) {
+TEST(Nearest, SuggestsTheNearestWordOrListsAll) {
   const std::vector<std::string> poses = {"kick", "dab", "bow"};
   EXPECT_EQ(DidYouMean("kik", poses), "did you mean kick?");
   EXPECT_EQ(DidYouMean("Kick", poses), "did you mean kick?");

@@ -83,7 +83,7 @@ TEST(NpyTest, FilesRoundTrip) {
   EXPECT_THROW(WriteNpy("/nonexistent/folder/a.npy", {{1}, std::vector<float>{1}}), Error);
 }
 
-TEST(NpyTest, FortranOrderIsTurnedIntoCOrder) {
+TEST(NpyTest, FortranOrderIsConvertedToCOrder) {
   // [[1, 2, 3], [4, 5, 6]], stored column by column.
   const NpyArray matrix = Parse(Bytes(1, "{'descr': '<i4', 'fortran_order': True, 'shape': (2, 3)}",
                                       Raw<int32_t>({1, 4, 2, 5, 3, 6})));
@@ -148,7 +148,7 @@ TEST(NpyTest, ForeignAndDamagedBytesAreRefusedByName) {
               HasSubstr("5 dimensions"));
 }
 
-TEST(NpyTest, AShapeThatDoesNotHoldTheValuesIsNotWritten) {
+TEST(NpyTest, AShapeThatDoesNotMatchTheValuesIsRefused) {
   EXPECT_THROW(SerializeNpy({{2, 2}, std::vector<float>{1, 2, 3}}), Error);
 }
 

@@ -4,7 +4,7 @@
 
 namespace choreo::printable_test {
 
-TEST(PrintableTest, TextStaysAndControlCharactersAreNamed) {
+TEST(PrintableTest, KeepsTextAndEscapesControlCharacters) {
   EXPECT_EQ(Printable("pas de bourrée 舞 🕺"), "pas de bourrée 舞 🕺");
   EXPECT_EQ(Printable("\x1b[2Jkick\n\x7f"), "\\x1b[2Jkick\\x0a\\x7f");
   EXPECT_EQ(Printable("a\xc2\x9b"

@@ -60,7 +60,7 @@ TEST_F(ProgressBarTest, ElsewhereWritesALineEveryTenSeconds) {
   EXPECT_THAT(stream_.str(), Not(HasSubstr("\r")));
 }
 
-TEST_F(ProgressBarTest, EndsItsLineWhenAJobBreaksOff) {
+TEST_F(ProgressBarTest, EndsItsLineWhenAJobFails) {
   {
     ProgressBar bar("train", 3, Output(true));
     Pass(1);

@@ -99,7 +99,7 @@ TEST(FillNormalTest, DependsOnItsCoordinatesAlone) {
 
 // Bits must not change between runs; these also pin them between builds: the same seed must keep
 // giving the same dance.
-TEST(FillNormalTest, RecurrencesCorrelateByTheirVariation) {
+TEST(FillNormalTest, RepeatsCorrelateByTheirVariation) {
   const auto like = [](double variation) {
     std::vector<float> out(50'000);
     FillNormalLike(7, 3, 900, 100, variation, out);

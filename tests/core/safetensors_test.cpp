@@ -64,7 +64,7 @@ TEST_F(SafetensorsTest, Bfloat16ValuesTakeHalfTheBytes) {
   EXPECT_EQ(ContentHash(read), ContentHash(content));
 }
 
-TEST_F(SafetensorsTest, TensorsMayStandInAnyOrder) {
+TEST_F(SafetensorsTest, TensorsMayBeInAnyOrder) {
   Write(8, 16, 0, 8);
   EXPECT_EQ(ReadSafetensors(path_).tensors.at("a").data, (std::vector<float>{3, 4}));
   Write(0, 16, 8, 8);  // an empty one lies nowhere

@@ -29,7 +29,7 @@ Slices<std::string> Nested(int first, int second, Log* log) {
   co_return std::to_string(one + other);
 }
 
-TEST(Slices, PauseWhereTheInnermostDoes) {
+TEST(Slices, PauseWhereTheInnermostPauses) {
   Log log;
   Slices<std::string> work = Nested(3, 2, &log);
   EXPECT_TRUE(log.empty()) << "nothing runs before the first slice";
@@ -65,7 +65,7 @@ Slices<> Guarded(Log* log) {
   co_await Fail(log);
 }
 
-TEST(Slices, PassExceptionsToWhoAwaits) {
+TEST(Slices, PassExceptionsToTheAwaiter) {
   Log log;
   EXPECT_THROW(Guarded(&log).Finish(), std::runtime_error);
   EXPECT_THAT(log, ElementsAre("1", "failed", "1"));

@@ -58,7 +58,7 @@ TEST(Plot, DrawsEachLineWhereItsValuesAre) {
   EXPECT_GT(falling.front(), level.back() + 40);
 }
 
-TEST(Plot, LeavesOutPointsThatAreNoNumbers) {
+TEST(Plot, OmitsPointsThatAreNotFinite) {
   const TemporaryFolder folder;
   Plot plot = Example();
   plot.series.resize(1);
@@ -121,7 +121,7 @@ TEST(Plot, TheAxisCanBeginAtZero) {
   EXPECT_LT(apart(), 110);
 }
 
-TEST(Plot, BarsOfNamedPlacesStandSideBySideOnZero) {
+TEST(Plot, BarsAreSideBySideFromZero) {
   const TemporaryFolder folder;
   Plot plot;
   plot.x_names = {"one song", "another song", "a third"};

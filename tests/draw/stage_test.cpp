@@ -50,7 +50,7 @@ Stage Turning() {
   return stage;
 }
 
-TEST(Stage, CamerasStandWhereTheyAreAskedFor) {
+TEST(Stage, CamerasAreOnTheRequestedSide) {
   const Stage stage = Turning();
   const auto azimuth = [&](std::optional<CameraSide> side, int64_t frame) {
     return ViewsOf(stage, {{frame, {0, 0}}}, 1, side).at(0).azimuth;

@@ -76,7 +76,7 @@ VideoOptions Small(const std::filesystem::path& song = {}) {
   return options;
 }
 
-TEST(VideoViews, FollowsUnhurriedlyFromOneSide) {
+TEST(VideoViews, FollowSmoothlyFromOneSide) {
   Motion motion{.fps = 30, .frames = std::vector<Pose>(120, RestPose(kSmpl))};
   for (size_t frame = 60; frame < 120; ++frame) motion.frames[frame].root_position.x() += 1;
   const std::vector<View> views = VideoViews({{kSmpl, motion}}, 16.0 / 9);
@@ -153,7 +153,7 @@ TEST(Video, TheSameDanceGivesTheSameBytes) {
   EXPECT_EQ(first, bytes("b.mp4"));
 }
 
-TEST(Video, AKeyShowsAtTheEdgeAlone) {
+TEST(Video, AKeyShowsOnlyAtTheEdge) {
   if (!HaveFfmpeg()) GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   const TemporaryFolder folder;
   // The mean brightness of one frame's inner half, and of its upper edge.
@@ -176,7 +176,7 @@ TEST(Video, AKeyShowsAtTheEdgeAlone) {
   EXPECT_LT(key.second, plain.second - 30);
 }
 
-TEST(Video, FailsWithFfmpegsOwnWordsAndLeavesNothing) {
+TEST(Video, FailsWithFfmpegsMessageAndLeavesNoFile) {
   if (!HaveFfmpeg()) GTEST_SKIP() << "no ffmpeg here (scripts/install_packages.sh video)";
   const TemporaryFolder folder;
   std::ofstream(folder / "noise.wav") << "no music";
@@ -195,7 +195,7 @@ TEST(Video, FailsWithFfmpegsOwnWordsAndLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out.mp4.partial"));
 }
 
-TEST(Video, SaysThatFfmpegIsMissing) {
+TEST(Video, NamesAMissingFfmpeg) {
   const TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder / "nothing").c_str(), 1);

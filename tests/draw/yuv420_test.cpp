@@ -14,7 +14,7 @@ std::array<double, 3> Shown(double luma, double cb, double cr) {
   return {255 * red, 255 * (y - 0.2126 * red - 0.0722 * blue) / 0.7152, 255 * blue};
 }
 
-TEST(Yuv420, PlayersShowTheColoursAgain) {
+TEST(Yuv420, PlayersReproduceTheColours) {
   for (const std::array<uint8_t, 3>& colour : std::vector<std::array<uint8_t, 3>>{
            {0, 0, 0}, {255, 255, 255}, {236, 230, 220}, {217, 154, 0}, {255, 0, 0}, {0, 0, 255}}) {
     Picture picture{.width = 4, .height = 2, .rgb = {}};
@@ -30,7 +30,7 @@ TEST(Yuv420, PlayersShowTheColoursAgain) {
 }
 
 // Half a pixel further right, as the mean of four would be, colours would leave their shapes.
-TEST(Yuv420, ColourIsThatOfTheLeftColumn) {
+TEST(Yuv420, ChromaIsThatOfTheLeftColumn) {
   Picture picture{.width = 12, .height = 2, .rgb = std::vector<uint8_t>(72)};
   const auto paint = [&](int column) {
     picture.rgb.assign(72, 9);
@@ -44,7 +44,7 @@ TEST(Yuv420, ColourIsThatOfTheLeftColumn) {
   EXPECT_EQ(paint(5), (std::vector{none, none, quarter, quarter, none, none}));
 }
 
-TEST(Yuv420, LumaIsOfEachPixelAndColourOfTwoRows) {
+TEST(Yuv420, LumaIsPerPixelAndChromaPerTwoRows) {
   const std::vector<uint8_t> upper = {255, 0, 0, 0, 255, 0, 9, 9, 9, 9, 9, 9},
                              lower = {0, 0, 255, 0, 0, 0, 9, 9, 9, 250, 9, 9};
   Picture picture{.width = 4, .height = 2, .rgb = upper};

@@ -24,7 +24,7 @@ ClipSet TwoClips() {
           {SyntheticClip("walk_a", 150, 0.1, true), SyntheticClip("turn_b", 150, 0.9, false)}};
 }
 
-TEST(Runner, DancesEachAsIfAlone) {
+TEST(Runner, DancesDoNotDependOnEachOther) {
   const ClipSet set = TwoClips();
   HearingSampler sampler;
   std::vector<TransitionSpec> requests;

@@ -153,7 +153,7 @@ TEST(Liveliness, InterpolationMovesInStraightLines) {
   }
 }
 
-TEST(Liveliness, SeparatesSeedsAndSongsAndRepeatsItself) {
+TEST(Liveliness, SeparatesSeedsAndSongsAndIsDeterministic) {
   FakeSampler sampler;
   const ClipSet set = Clips(700);
   InterpolationSampler line(sampler.model());
@@ -181,7 +181,7 @@ TEST(Liveliness, SeparatesSeedsAndSongsAndRepeatsItself) {
   for (const TableRow& row : tables.back().rows) EXPECT_LE(row.cells[3].value, row.cells[2].value);
 }
 
-TEST(Liveliness, ClipsThatAreTooShortLeaveRowsOut) {
+TEST(Liveliness, ClipsThatAreTooShortHaveNoRows) {
   FakeSampler sampler;
   const auto tables = Evaluate(Clips(400), {{"model", Method::Kind::kModel, &sampler}});
   EXPECT_TRUE(std::isnan(Value(tables[0], "median speed cm/s", "danced")));

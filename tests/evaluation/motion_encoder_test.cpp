@@ -38,7 +38,7 @@ TEST(MotionEncoder, ItsCodesAreUncorrelatedAndOfUnitVarianceInTraining) {
   EXPECT_GT(encoder.explained(), 0.95);
 }
 
-TEST(MotionEncoder, DoesNotSeeWhereTheDancerStandsOrFaces) {
+TEST(MotionEncoder, DoesNotDependOnPlaceOrHeading) {
   const ClipSet set = Clips(300);
   const MotionEncoder encoder({set});
   std::vector<Pose> moved = set.clips[0].motion.frames;
@@ -51,7 +51,7 @@ TEST(MotionEncoder, DoesNotSeeWhereTheDancerStandsOrFaces) {
             1e-3);
 }
 
-TEST(MotionEncoder, NamesItsDataAndNeedsSome) {
+TEST(MotionEncoder, HashesItsDataAndNeedsSome) {
   const std::string version = MotionEncoder({Clips(300)}).version();
   EXPECT_THAT(version, testing::MatchesRegex("linear-1/[0-9a-f]{16}"));
   EXPECT_EQ(MotionEncoder({Clips(300)}).version(), version);

@@ -51,7 +51,7 @@ TEST(CharacterBody, StandsLikeSmplFromAnyRestPose) {
   }
 }
 
-TEST(CharacterBody, LyingFilesAndThoseWithoutToesAreStoodUp) {
+TEST(CharacterBody, LyingRigsAndThoseWithoutToesAreSetUpright) {
   const Eigen::Matrix3Xd places = JointPositions(Smpl(), RestPose(Smpl()));
   HumanBones bones = FindHumanBones(Smpl().joint_names);
   // Z is up, and a unit is a centimetre.

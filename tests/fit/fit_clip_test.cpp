@@ -67,7 +67,7 @@ TEST(Ground, IgnoresASunkenFoot) {
   }
 }
 
-TEST(Fit, ReportsWhatItDid) {
+TEST(Fit, ReportsItsErrors) {
   const PositionClip clip = Positions(Smpl(), fixtures::SmoothMotion(Smpl(), 14, 20));
   const FitResult result = FitClip(clip, IdentitySource(Smpl()), Smpl());
   EXPECT_GT(result.mean_error_m, 0);

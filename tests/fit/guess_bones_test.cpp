@@ -34,7 +34,7 @@ TEST(GuessBones, FindsABodyByItsPosition) {
   }
 }
 
-TEST(GuessBones, WhicheverAxisIsUpAndAhead) {
+TEST(GuessBones, FindsABodyWithAnyAxes) {
   const Skeleton& body = Smpl();
   const Eigen::Matrix3Xd places = JointPositions(body, RestPose(body));
   for (const Eigen::Vector3d& up :

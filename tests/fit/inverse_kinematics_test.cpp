@@ -55,7 +55,7 @@ TEST(DrawJoints, MeetsReachableTargetsWithPlantedFeet) {
   }
 }
 
-TEST(DrawJoints, MovesAFootAsItIsTurned) {
+TEST(DrawJoints, AMovedFootKeepsItsRotation) {
   const Pose standing = Standing();
   const Eigen::Vector3d place = At(standing, "left_foot") + Eigen::Vector3d(0.3, 0, 0.3);
   const DrawnPose drawn = DrawJoints(Body(), standing, std::vector{Target("left_foot", place)});
@@ -73,7 +73,7 @@ TEST(DrawJoints, AnArmReachesBeforeTheTrunkLeans) {
   EXPECT_LT((At(drawn.pose, "right_hand") - At(standing, "right_hand")).norm(), 0.06);
 }
 
-TEST(DrawJoints, SaysHowFarOffItEnded) {
+TEST(DrawJoints, ReportsTheFinalDistance) {
   const DrawnPose drawn =
       DrawJoints(Body(), Standing(), std::vector{Target("left_hand", {0.2, 4, 0})});
   EXPECT_GT(drawn.missed_m[0], 1.5);

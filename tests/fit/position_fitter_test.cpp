@@ -211,7 +211,7 @@ TEST(Fit, StartsFromAnyPose) {
   }
 }
 
-TEST(Fit, FindsItsWayBackAfterAJump) {
+TEST(Fit, RecoversAfterAJump) {
   const Motion motion = fixtures::SmoothMotion(Smpl(), 11, 300);
   PositionFitter fitter(Smpl(), IdentitySource(Smpl()));
   fitter.Next(JointPositions(Smpl(), motion.frames[0]));

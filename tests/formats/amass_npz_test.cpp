@@ -149,7 +149,7 @@ TEST(AmassNpz, ReadsWhatNumpyWrote) {
   }
 }
 
-TEST(AmassNpz, ReadsTheLayoutsOfOthers) {
+TEST(AmassNpz, ReadsOtherLayouts) {
   std::vector<double> upright(72, 0.0);
   upright[0] = kPi / 2;
   std::vector<double> wide = upright;
@@ -202,7 +202,7 @@ TEST(AmassNpz, KeepsContacts) {
   EXPECT_EQ(npz.Array("contacts").As<float>(), (std::vector<float>{1, 0, 1, 0, 0, 1, 0.5f, 1}));
 }
 
-TEST(AmassNpz, NumpyFindsThePelvisWhereWeSaidItIs) {
+TEST(AmassNpz, NumpyFindsThePelvisAtOurPosition) {
   if (!HaveNumpy()) GTEST_SKIP() << "no python3 with numpy here";
   const TemporaryFolder folder;
   NpzArchive npz;

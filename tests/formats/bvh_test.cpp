@@ -137,7 +137,7 @@ TEST(Bvh, KnowsOtherNamesOfSmplsJointsAlone) {
   });
 }
 
-TEST(Bvh, EulerAnglesGoThroughTheLockWithoutJumps) {
+TEST(Bvh, EulerAnglesAreContinuousThroughGimbalLock) {
   // A joint whose middle angle (x) passes 90 degrees, and one that makes whole turns.
   Motion motion;
   for (int frame = 0; frame <= 120; ++frame) {
@@ -208,7 +208,7 @@ TEST(Bvh, NamesLineTokenAndExpectation) {
   });
 }
 
-TEST(Bvh, SaysWhichFileIsMissing) {
+TEST(Bvh, NamesAMissingFile) {
   const TemporaryFolder folder;
   ExpectError(ErrorCode::kNotFound, "nowhere.bvh", [&] { ReadBvh(folder / "nowhere.bvh"); });
   const BvhFile file = MotionToBvh(kSmpl, fixtures::SmoothMotion(kSmpl, 1, 1));

@@ -224,7 +224,7 @@ TEST_F(CharacterTest, BonesThatHangElsewhereAreMovedAlong) {
   }
 }
 
-TEST_F(CharacterTest, ScalesThatDifferByAxisBendNothingMuch) {
+TEST_F(CharacterTest, ScalesThatDifferByAxisBendLittle) {
   DanceChanged([](Glb& glb) { glb.document["nodes"].back()["scale"] = {1.1, 0.95, 1.0}; });
   EXPECT_LT(WorstDirection(), 15);
 }

@@ -86,7 +86,7 @@ TEST_F(GltfTest, HoldsTheRestBodyAndTheMotion) {
   EXPECT_NEAR(high, 1.8, 0.05);  // with the bun
 }
 
-TEST_F(GltfTest, ARootOnTheFloorCarriesTheDancerOrNobodyDoes) {
+TEST_F(GltfTest, ARootOnTheFloorCarriesTheDancerOrNoneDoes) {
   const auto scene = [&](RootMotion root) {
     WriteGlb(folder_ / "a.glb", kSmpl, motion_, root);
     return ReadGltfScene(folder_ / "a.glb");

@@ -177,7 +177,7 @@ TEST_F(HandsTest, FingersOfKnownRigsBendTowardsThePalm) {
   }
 }
 
-TEST_F(HandsTest, HandsGoFromKeyToKey) {
+TEST_F(HandsTest, HandsMoveFromKeyToKey) {
   WriteWithFingers(kMakers[0], 0, false);
   const CharacterFile file(folder_ / "hero.glb");
   const HumanBones bones = file.FindBones();
@@ -214,7 +214,7 @@ TEST_F(HandsTest, HandsGoFromKeyToKey) {
   EXPECT_NEAR(turn(1).angularDistance(turn(2)), turn(2).angularDistance(turn(3)), 1e-3);
 }
 
-TEST_F(HandsTest, RigsWithoutFingersAndRestingHandsAreAsBefore) {
+TEST_F(HandsTest, RigsWithoutFingersAndRestingHandsAreUnchanged) {
   WriteCharacter(folder_ / "hero.glb", {});
   const CharacterFile bare(folder_ / "hero.glb");
   EXPECT_TRUE(CurlFingers(bare.rig(), bare.FindBones(), HandPose::kFist).empty());

@@ -137,7 +137,7 @@ TEST(Npz, RefusesInvalidFiles) {
               [&] { NpzArchive::Read(folder / "flip.npz"); });
 }
 
-TEST(Npz, SaysWhereItCannotWrite) {
+TEST(Npz, NamesAnUnwritablePath) {
   const TemporaryFolder folder;
   ExpectError(ErrorCode::kInternal, "cannot be written",
               [&] { Example().Write(folder / "absent/a.npz"); });

@@ -68,7 +68,7 @@ TEST(PickleTest, ReadsNumbersThatNumpyPickled) {
   }
 }
 
-TEST(PickleTest, RunsNothing) {
+TEST(PickleTest, RunsNoCode) {
   const TemporaryFolder folder;
   const std::filesystem::path made = folder / "made";
   const std::string command = "touch " + made.string();

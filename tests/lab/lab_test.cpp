@@ -39,7 +39,7 @@ std::vector<std::string> CommandsOf(const std::string& page) {
 
 const std::string kTrain = "train --data /absent --splits /absent.json --run /absent/run ";
 
-TEST(LabTest, ExplainsItself) {
+TEST(LabTest, HelpDescribesTheCommands) {
   EXPECT_EQ(Lab("--version").code, 0);
   for (const char* command : {"", "train", "eval"}) {
     const Outcome outcome = Lab(std::string(command) + " --help");

@@ -167,7 +167,7 @@ TEST(Kinematics, ComparePosesMeasuresMaskedJointsAlone) {
   EXPECT_THROW(ComparePoses(chain, a, b, {.root_position = true, .joints = {true}}), Error);
 }
 
-TEST(Skeleton, ValidateNamesTheFirstOffender) {
+TEST(Skeleton, ValidateNamesTheFirstInvalidJoint) {
   Skeleton broken = Chain();
   broken.parents[1] = 2;
   try {

@@ -61,14 +61,14 @@ TEST_F(VelocityFactorsTest, DoNotDependOnWhereTheSceneStands) {
   for (int part = 0; part < kBodyParts; ++part) EXPECT_NEAR(here[part], there[part], 1e-12);
 }
 
-TEST_F(VelocityFactorsTest, KnowTheirNames) {
+TEST_F(VelocityFactorsTest, HaveNames) {
   for (int part = 0; part < kBodyParts; ++part) {
     EXPECT_EQ(FindBodyPart(kBodyPartNames[part]), static_cast<BodyPart>(part));
   }
   EXPECT_EQ(FindBodyPart("tail"), std::nullopt);
 }
 
-TEST_F(VelocityFactorsTest, RefuseABodyThatTheyDoNotKnow) {
+TEST_F(VelocityFactorsTest, RefuseAnUnknownBody) {
   Skeleton odd = body_;
   odd.joint_names[odd.Find("head")] = "antenna";
   ExpectError(ErrorCode::kInvalidArgument, "'antenna' belongs to no body part",

@@ -130,7 +130,7 @@ TEST(LoadClips, FolderNamedAsASetIsThatSet) {
   EXPECT_THAT(Names(LoadClips({folder / "one"}, splits, kValidationGroup)), ElementsAre("last"));
 }
 
-TEST(LoadClips, SaysWhatIsWrongWithAFolder) {
+TEST(LoadClips, NamesTheFaultOfAFolder) {
   const TemporaryFolder folder;
   WriteSyntheticData(folder / "clips");
   std::filesystem::create_directories(folder / "empty");

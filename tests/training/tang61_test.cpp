@@ -93,7 +93,7 @@ TEST_F(Tang61Test, FindsTheBeatGridFromSpeed) {
     EXPECT_FALSE(Clip("DANCE_T_1").notes.contains(key)) << key;
 }
 
-TEST_F(Tang61Test, BeatsAreCountedFromTheFirstFrameThatIsKept) {
+TEST_F(Tang61Test, BeatsCountFromTheFirstKeptFrame) {
   PositionClip clip = Tang61Markers(Pulsing(25));
   for (size_t f = 0; f < 3; ++f) clip.frames[f].array() += 2;  // a calibration pose
   WriteRows(In() / "DANCE_R_1.npy", clip);

@@ -211,7 +211,7 @@ TEST_F(CasesTest, ReadsPositionsWithFramesLast) {
 }
 
 // Y up, and upright: up a staircase, away from where the floor was.
-TEST_F(CasesTest, ClimbingIsNoLying) {
+TEST_F(CasesTest, ClimbingIsNotLying) {
   const SmplArrays smpl(60);
   std::vector<double> poses, trans;
   for (size_t frame = 0; frame < 60; ++frame) {

@@ -145,7 +145,7 @@ TEST_F(CasesTest, TheLogOfBodiesInBvh) {
 }
 
 // One pose has no pace; whose head turns further than others sway is no root that spins on.
-TEST_F(CasesTest, FewAnglesAreTakenAsTheyAreTold) {
+TEST_F(CasesTest, FewAnglesHaveTheStatedUnit) {
   const RigNames names = NamesOf(kHumanIkRig);
   BvhFile one = InRadians(Spinning(names));
   one.values = one.values.rightCols(1).eval();

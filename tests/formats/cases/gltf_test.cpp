@@ -172,7 +172,7 @@ TEST_F(CasesTest, FindsBonesByTheirStructure) {
   }
 }
 
-TEST_F(CasesTest, WhoAsksForABodyIsToldOfAnimations) {
+TEST_F(CasesTest, AnUnknownBodyListsAnimations) {
   GlbRigs glb;
   const int body = glb.AddBody(NamesOf(kHumanIkRig));
   glb.AddAnimation("", body, Expressive, 20);

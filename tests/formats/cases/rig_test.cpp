@@ -121,7 +121,7 @@ TEST_F(CasesTest, NotesPositionsInAnotherUnit) {
   EXPECT_TRUE(read.Says("are its root's places in another unit than its bones?")) << Said(read);
 }
 
-TEST_F(CasesTest, ARestPoseThatIsNoBodyIsMadeOutOfTheClip) {
+TEST_F(CasesTest, AnUnusableRestPoseIsEstimatedFromTheClip) {
   // As Maya writes it: all bones along x.
   BvhRig rig{.turn = Walk, .frames = 60};
   rig.zero = [](const std::string& bone) -> Eigen::Matrix3d {

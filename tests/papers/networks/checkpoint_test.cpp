@@ -79,7 +79,7 @@ TEST_F(CheckpointTest, AnotherFormatIsRefused) {
   EXPECT_THAT(FailureOfLoading(), HasSubstr("choreo-flow-0"));
 }
 
-TEST_F(CheckpointTest, FlowsThatAreNoLongerDancedAreRefusedByName) {
+TEST_F(CheckpointTest, FormerFlowsAreRefusedByName) {
   const auto refusal_of = [this](const char* field, const nlohmann::json& value) {
     Safetensors content = ReadSafetensors(path_);
     nlohmann::json config = nlohmann::json::parse(content.metadata["config"]);

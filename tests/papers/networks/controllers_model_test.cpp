@@ -199,7 +199,7 @@ TEST_F(ControllersModelTest, ReceivesItsTargetAndDistance) {
   }
 }
 
-TEST_F(ControllersModelTest, WindowsThatAreNotVariedAnswerTheirControls) {
+TEST_F(ControllersModelTest, UnvariedWindowsMatchTheirControls) {
   const ControlBatch batch = Draw(20);
   EXPECT_LT(Difference(batch.transition.path, batch.truth.root), 1e-7);
   EXPECT_LT(Difference(batch.transition.factors, batch.factors), 1e-7);
@@ -215,7 +215,7 @@ TEST_F(ControllersModelTest, WindowsThatAreNotVariedAnswerTheirControls) {
   EXPECT_LT(varied.weight.max().item<float>(), 1);
 }
 
-TEST_F(ControllersModelTest, TheKeyframeLossDrawsEachEndToItsOwnPose) {
+TEST_F(ControllersModelTest, TheKeyframeLossPullsEachEndToItsOwnPose) {
   const Tensor first = torch::zeros({1, 1}), last = torch::ones({1, 1});
   // Long: 5 frames at 0.1 from the first pose, 5 at 0.2 from the last; what lies between is free.
   const Tensor far = torch::full({1, 12, 1}, 7.0);
@@ -257,7 +257,7 @@ TEST_F(ControllersModelTest, LossesVanishForRealMotion) {
   EXPECT_NEAR(loss(glide, "root"), 1, 1e-4);
 }
 
-TEST_F(ControllersModelTest, ContactsThatGlideAndLimbsThatStretchCost) {
+TEST_F(ControllersModelTest, SlidingContactsAndStretchingLimbsAddLoss) {
   ControllersModel model(Small(), Skeleton::Smpl24());
   const ControlBatch batch = Draw(20);
   const FrameTensors& history = batch.transition.history;

@@ -160,7 +160,7 @@ TEST(LstmLayerTest, ComputesAndLearnsAsTorchsOwn) {
     EXPECT_TRUE(torch::allclose(ours[i], theirs[i], 1e-4, 1e-4)) << i;
 }
 
-TEST_P(FlowTest, TrainingDrawsTheFramesThatServingDraws) {
+TEST_P(FlowTest, TrainingAndServingSampleTheSameFrames) {
   const int64_t frames = 5, width = model_->feature_width();
   const Tensor condition = model_->Begin(RandomTransition(2, frames));
   const Tensor history = 0.2 * torch::randn({2, 10, width});
@@ -173,7 +173,7 @@ TEST_P(FlowTest, TrainingDrawsTheFramesThatServingDraws) {
 }
 
 // Of the frame that is returned: outliers are bent, which makes them likelier.
-TEST_P(FlowTest, LikelihoodOfABentFrameIsItsOwn) {
+TEST_P(FlowTest, LikelihoodOfALimitedFrameIsItsOwn) {
   model_->to(torch::kFloat64);
   const int64_t width = model_->feature_width();
   const auto wide = torch::TensorOptions(torch::kFloat64);
@@ -303,7 +303,7 @@ TEST(TimeEmbeddingTest, IsEquationNine) {
   }
 }
 
-TEST(FlowPresets, HaveTheSizesThatTheyPromise) {
+TEST(FlowPresets, HaveTheirStatedSizes) {
   const auto parameters = [](const char* name) {
     FlowModel model(FlowConfig::Preset(name), Skeleton::Smpl24());
     int64_t count = 0;

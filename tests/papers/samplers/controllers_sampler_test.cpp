@@ -56,7 +56,7 @@ TEST_F(ControllersSamplerTest, ListsItsControls) {
   EXPECT_EQ(sampler_->device(), "cpu");
 }
 
-TEST_F(ControllersSamplerTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
+TEST_F(ControllersSamplerTest, GivesTheSameBitsAloneAndInterleaved) {
   std::vector<TransitionSpec> specs;
   for (uint64_t seed = 1; seed <= 8; ++seed)
     specs.push_back(Spec(seed, 8 + static_cast<int>(seed)));
@@ -94,7 +94,7 @@ TEST_F(ControllersSamplerTest, FollowsItsPathAndReachesItsKey) {
   EXPECT_LT((plan.poses.back().root_position - spec.target->pose.root_position).norm(), 0.01);
 }
 
-TEST_F(ControllersSamplerTest, DancesOnTheServedPipeline) {
+TEST_F(ControllersSamplerTest, RunsInTheServedPipeline) {
   TransitionSpec request;
   request.frames = 30;
   Pose there = RestPose(sampler_->model().skeleton);

@@ -37,7 +37,7 @@ TEST_P(CudaSamplerTest, SamplesAsTheCpuDoes) {
   }
 }
 
-TEST_P(CudaSamplerTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
+TEST_P(CudaSamplerTest, GivesTheSameBitsAloneAndInterleaved) {
   const auto sampler = Make();
   std::vector<TransitionSpec> specs;
   for (int i = 0; i < 20; ++i)

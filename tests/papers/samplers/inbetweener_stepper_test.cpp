@@ -41,7 +41,7 @@ TEST_F(InbetweenerStepperTest, IsDeterministicWithoutMusicInput) {
   EXPECT_FALSE(SettingsUsedBy(*sampler_).kind);
 }
 
-TEST_F(InbetweenerStepperTest, GivesTheSameBitsAloneAndInTurnWithOthers) {
+TEST_F(InbetweenerStepperTest, GivesTheSameBitsAloneAndInterleaved) {
   std::vector<TransitionSpec> specs;
   for (uint64_t seed = 1; seed <= 6; ++seed)
     specs.push_back(RandomSpec(sampler_->model(), seed, 8 + static_cast<int>(seed)));
@@ -60,7 +60,7 @@ TEST_F(InbetweenerStepperTest, NeitherSeedNorTemperatureChangeItAndItHasNoLikeli
   ExpectSameBits(once, SampleNow(*sampler_, spec));
 }
 
-TEST_F(InbetweenerStepperTest, DancesOnTheServedPipeline) {
+TEST_F(InbetweenerStepperTest, RunsInTheServedPipeline) {
   TransitionSpec request;
   request.frames = 30;
   Pose there = RestPose(sampler_->model().skeleton);

@@ -78,7 +78,7 @@ TEST_F(PaperTrainerTest, CheckpointHasItsNameAndMusicFlag) {
 }
 
 // An ablation leaves out one thing.
-TEST_F(PaperTrainerTest, WithoutKeyLossRolloutsStillTeach) {
+TEST_F(PaperTrainerTest, WithoutKeyLossRolloutsStillHaveGradients) {
   const auto curves = [&](PaperOptions options) {
     options.flow.rollout_loss = 0.5;
     TrainFlow(options);
@@ -147,7 +147,7 @@ TEST_F(PaperTrainerTest, AFlowMayDrawInnovations) {
   EXPECT_FALSE(model()->config().innovations);
 }
 
-TEST_F(PaperTrainerTest, AResumedRunIsTheUndisturbedOne) {
+TEST_F(PaperTrainerTest, AResumedRunEqualsAnUninterruptedOne) {
   TrainFlow(Options("whole", 4));
   // Killed after the report of step 2: what is left is its state. The learning rate must be that of
   // a run of 4 steps.
@@ -216,7 +216,7 @@ TEST_F(PaperTrainerTest, ResumesWithTheSamePretrainedCheckpoint) {
               testing::HasSubstr(HashOf(base.run)));
 }
 
-TEST_F(PaperTrainerTest, TheBaselineLearnsAndResumesAsIfUndisturbed) {
+TEST_F(PaperTrainerTest, TheBaselineLearnsAndResumesExactly) {
   PaperOptions options = Options("baseline", 12);
   options.preset = kInbetweenerPreset;
   options.flow.hidden = 32;
@@ -251,7 +251,7 @@ TEST_F(PaperTrainerTest, TheBaselineLearnsAndResumesAsIfUndisturbed) {
   EXPECT_EQ(checkpoint().metadata.at("hash"), whole);
 }
 
-TEST_F(PaperTrainerTest, ControllersResumeAsIfUndisturbed) {
+TEST_F(PaperTrainerTest, ControllersResumeExactly) {
   PaperOptions options = Options("controllers", 3);
   options.preset = "controllers-paper";
   options.batch = 4;
