@@ -32,6 +32,48 @@ bool IsShared(const std::vector<DollPart>& doll, const DollPart& part, const Dol
   });
 }
 
+// A circle of latitude on one of a capsule's balls.
+struct Ring {
+  double latitude;  // radians, towards ball b
+  bool at_b;
+};
+
+// `slope`: the sine of the tangent circles' latitude, which is beyond 1 if one ball contains the
+// other.
+std::vector<Ring> RingsOf(float slope) {
+  constexpr double kPole = M_PI / 2;
+  const bool nested = std::abs(slope) >= 1;
+  const double tangent = nested ? (slope > 0 ? kPole : -kPole) : std::asin(double{slope});
+  std::vector<Ring> rings;
+  const auto add_rings = [&](double from, double to, bool at_b) {
+    for (int i = 0; i <= kRings; ++i) {
+      const double latitude = from + (to - from) * i / kRings;
+      if (std::abs(latitude) < kPole - 1e-6) rings.push_back({latitude, at_b});
+    }
+  };
+  if (!nested || slope > 0) add_rings(-kPole, tangent, false);
+  if (!nested || slope < 0) add_rings(tangent, kPole, true);
+  return rings;
+}
+
+// Adds the triangles between a pole, which is vertex `first`, `rings` rings, and the last vertex,
+// the other pole.
+void AddTriangles(SkinPatch& patch, uint32_t first, size_t rings) {
+  const auto at = [&](size_t ring, int i) {
+    return first + 1 + static_cast<uint32_t>(ring) * kSegments +
+           static_cast<uint32_t>(i % kSegments);
+  };
+  const auto last = static_cast<uint32_t>(patch.positions.size()) - 1;
+  for (int i = 0; i < kSegments; ++i) {
+    patch.triangles.push_back({first, at(0, i + 1), at(0, i)});
+    for (size_t ring = 0; ring + 1 < rings; ++ring) {
+      patch.triangles.push_back({at(ring, i), at(ring, i + 1), at(ring + 1, i + 1)});
+      patch.triangles.push_back({at(ring, i), at(ring + 1, i + 1), at(ring + 1, i)});
+    }
+    patch.triangles.push_back({at(rings - 1, i), at(rings - 1, i + 1), last});
+  }
+}
+
 // Adds a capsule: a pole, rings of latitude over both balls, a pole. Balls and cone share their
 // normals on the tangent circles, so no edge shows.
 void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int joint_b) {
@@ -45,23 +87,7 @@ void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int join
   const Vector3f u = helper.cross(axis).normalized();
   const Vector3f v = axis.cross(u);
   const auto first = static_cast<uint32_t>(patch.positions.size());
-
-  struct Ring {
-    double latitude;
-    bool at_b;
-  };
-  constexpr double kPole = M_PI / 2;
-  const double tangent = nested ? (slope > 0 ? kPole : -kPole) : std::asin(double{slope});
-  std::vector<Ring> rings;
-  const auto add_rings = [&](double from, double to, bool at_b) {
-    for (int i = 0; i <= kRings; ++i) {
-      const double latitude = from + (to - from) * i / kRings;
-      if (std::abs(latitude) < kPole - 1e-6) rings.push_back({latitude, at_b});
-    }
-  };
-  if (!nested || slope > 0) add_rings(-kPole, tangent, false);
-  if (!nested || slope < 0) add_rings(tangent, kPole, true);
-
+  const std::vector<Ring> rings = RingsOf(slope);
   const auto vertex = [&](const Vector3f& normal, bool at_b) {
     const Vector3f& centre = at_b ? cone.b : cone.a;
     patch.positions.push_back(centre + (at_b ? cone.radius_b : cone.radius_a) * normal);
@@ -80,20 +106,7 @@ void AddCapsule(SkinPatch& patch, const RoundedCone& cone, int joint_a, int join
     }
   }
   vertex(axis, rings.back().at_b);
-
-  const auto at = [&](size_t ring, int i) {
-    return first + 1 + static_cast<uint32_t>(ring) * kSegments +
-           static_cast<uint32_t>(i % kSegments);
-  };
-  const auto last = static_cast<uint32_t>(patch.positions.size()) - 1;
-  for (int i = 0; i < kSegments; ++i) {
-    patch.triangles.push_back({first, at(0, i + 1), at(0, i)});
-    for (size_t ring = 0; ring + 1 < rings.size(); ++ring) {
-      patch.triangles.push_back({at(ring, i), at(ring, i + 1), at(ring + 1, i + 1)});
-      patch.triangles.push_back({at(ring, i), at(ring + 1, i + 1), at(ring + 1, i)});
-    }
-    patch.triangles.push_back({at(rings.size() - 1, i), at(rings.size() - 1, i + 1), last});
-  }
+  AddTriangles(patch, first, rings.size());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "model/core/error.h"
 #include "model/core/printable.h"
@@ -26,6 +27,48 @@ std::string Shown(const std::string& name) {
   return shown.substr(0, end) + "...";
 }
 
+// The bones whose names are in the left and the right column: on their joint's side, in the joints'
+// vertical order.
+std::array<std::vector<ChartBone>, 2> ColumnsOf(const std::vector<ChartBone>& bones,
+                                                const Eigen::AlignedBox3d& body) {
+  std::array<std::vector<ChartBone>, 2> columns;
+  std::vector<ChartBone> sorted = bones;
+  std::ranges::stable_sort(sorted, std::greater<>(),
+                           [](const ChartBone& b) { return b.place.y(); });
+  for (const ChartBone& bone : sorted) {
+    const double beside = bone.place.x() - body.center().x();
+    const bool right = std::abs(beside) > 0.01 * body.sizes().x()
+                           ? beside > 0
+                           : columns[1].size() < columns[0].size();
+    columns[right ? 1 : 0].push_back(bone);
+  }
+  return columns;
+}
+
+// Draws the names of one column and lines to their joints, whose pixels are `x` and `y`.
+void DrawColumn(const Canvas& canvas, const std::vector<ChartBone>& column, bool right, int height,
+                const auto& x, const auto& y) {
+  cairo_t* cr = canvas.cr();
+  const double edge = right ? kWidth - kEdge : kEdge;
+  const auto lines = static_cast<double>(std::max<size_t>(1, column.size()));
+  const double pitch = std::min((height - 2 * kEdge) / lines, 3 * kLine);
+  double line = (height - pitch * (lines - 1)) / 2;
+  for (const ChartBone& bone : column) {
+    const bool taken = !bone.means.empty();
+    const std::string text = Shown(bone.name) + (taken ? " = " + bone.means : "");
+    canvas.SetColour(taken ? kTaken : kQuiet);
+    canvas.Text(text, edge, line, kText, right ? Align::kRight : Align::kLeft, taken);
+    const double inner = canvas.TextWidth(text, kText, taken) + 4;
+    cairo_set_line_width(cr, 0.5);
+    cairo_move_to(cr, right ? edge - inner : edge + inner, line);
+    cairo_line_to(cr, x(bone), y(bone));
+    cairo_stroke(cr);
+    cairo_arc(cr, x(bone), y(bone), taken ? 4 : 2.5, 0, 2 * M_PI);
+    cairo_fill(cr);
+    line += pitch;
+  }
+}
+
 }  // namespace
 
 void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::path& png) {
@@ -36,16 +79,7 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
   Eigen::AlignedBox3d body;
   for (const ChartBone& bone : bones) body.extend(bone.place);
   const Eigen::Vector3d middle = body.center(), size = body.sizes();
-  // Names are in a column on their joint's side, in the joints' vertical order.
-  std::vector<ChartBone> columns[2], sorted = bones;
-  std::ranges::stable_sort(sorted, std::greater<>(),
-                           [](const ChartBone& b) { return b.place.y(); });
-  for (const ChartBone& bone : sorted) {
-    const double beside = bone.place.x() - middle.x();
-    const bool right =
-        std::abs(beside) > 0.01 * size.x() ? beside > 0 : columns[1].size() < columns[0].size();
-    columns[right ? 1 : 0].push_back(bone);
-  }
+  const auto columns = ColumnsOf(bones, body);
   const size_t most = std::max(columns[0].size(), columns[1].size());
   const int height =
       std::max(kMinHeight, static_cast<int>(kLine * static_cast<double>(most) + 2 * kEdge));
@@ -69,26 +103,7 @@ void DrawBoneChart(const std::vector<ChartBone>& bones, const std::filesystem::p
     cairo_line_to(cr, x(bone), y(bone));
     cairo_stroke(cr);
   }
-  for (const int side : {0, 1}) {
-    const double edge = side == 0 ? kEdge : kWidth - kEdge;
-    const auto lines = static_cast<double>(std::max<size_t>(1, columns[side].size()));
-    const double pitch = std::min((height - 2 * kEdge) / lines, 3 * kLine);
-    double line = (height - pitch * (lines - 1)) / 2;
-    for (const ChartBone& bone : columns[side]) {
-      const bool taken = !bone.means.empty();
-      const std::string text = Shown(bone.name) + (taken ? " = " + bone.means : "");
-      canvas.SetColour(taken ? kTaken : kQuiet);
-      canvas.Text(text, edge, line, kText, side == 0 ? Align::kLeft : Align::kRight, taken);
-      const double inner = canvas.TextWidth(text, kText, taken) + 4;
-      cairo_set_line_width(cr, 0.5);
-      cairo_move_to(cr, side == 0 ? edge + inner : edge - inner, line);
-      cairo_line_to(cr, x(bone), y(bone));
-      cairo_stroke(cr);
-      cairo_arc(cr, x(bone), y(bone), taken ? 4 : 2.5, 0, 2 * M_PI);
-      cairo_fill(cr);
-      line += pitch;
-    }
-  }
+  for (const size_t side : {0, 1}) DrawColumn(canvas, columns[side], side == 1, height, x, y);
   canvas.WritePng(png);
 }
 

@@ -156,13 +156,10 @@ void EvaluateAll(Arguments arguments) {
     DrawPairedSheets(set, contest.methods.back(), options.temperature, arguments.json);
 }
 
-}  // namespace
+using SharedArguments = std::shared_ptr<Arguments>;
 
-void AddEvalCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  EvalOptions& options = arguments->options;
-  CLI::App* command =
-      app.add_subcommand("eval", "Measure a model on held-out clips, as it is served");
+// The model, its data and outputs.
+void AddInputs(const SharedArguments& arguments, CLI::App* command) {
   command->add_option("--model", arguments->contest.model, "Checkpoint")->required();
   CLI::Option* data = command->add_option(
       "--data", arguments->data,
@@ -186,6 +183,10 @@ void AddEvalCommand(CLI::App& app) {
                  "Also draw each clip beside the dance through its poses, next to the JSON; a "
                  "text file says which is which")
       ->needs("--json");
+}
+
+// The choice of tables.
+void AddTableChoice(const SharedArguments& arguments, CLI::App* command) {
   command->add_flag("!--no-encoder", arguments->encode,
                     "Skip FID, variability and diversity, which learn an encoder from the "
                     "training clips of the data");
@@ -211,9 +212,11 @@ void AddEvalCommand(CLI::App& app) {
           "Only paper F's tables, every row raw and as served, at its own temperature")
       ->excludes("--controls")
       ->excludes("--liveliness");
-  command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
-      ->check(CheckTemperature);
-  command->option_defaults()->always_capture_default();
+}
+
+// Options whose defaults --help shows: rows and sizes of tables.
+void AddTableOptions(const SharedArguments& arguments, CLI::App* command) {
+  EvalOptions& options = arguments->options;
   command->add_option("--split", arguments->split,
                       "The group to measure: validation | test | any other group of clips "
                       "in the file, such as test_unseen_genre");
@@ -246,6 +249,20 @@ void AddEvalCommand(CLI::App& app) {
   count("--long-frames", options.long_frames, 60, 100000, "Frames of a long dance");
   count("--free-dances", options.free_dances, 0, 100000,
         "Dances without keys in the liveliness table; 0: none");
+}
+
+}  // namespace
+
+void AddEvalCommand(CLI::App& app) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("eval", "Measure a model on held-out clips, as it is served");
+  AddInputs(arguments, command);
+  AddTableChoice(arguments, command);
+  command->add_option("--temperature", arguments->temperature, "Instead of the model's own")
+      ->check(CheckTemperature);
+  command->option_defaults()->always_capture_default();
+  AddTableOptions(arguments, command);
   command->callback([arguments] {
     if (!arguments->music.empty())
       return HearSongs({arguments->contest.model, arguments->music, arguments->json});

@@ -35,6 +35,40 @@ void VisitAll(auto& options, auto&& visit) {
   });
 }
 
+// Throws Error(kInvalidArgument) for an option that the preset does not use, unless it has its
+// default: a card lists all options, so that it can be typed.
+void RefuseUnusedOptions(const CLI::App& command, const PaperOptions& options) {
+  VisitAll(options, [&](const char* option, const auto& value, bool is_used, const char*) {
+    const CLI::Option& given = *command.get_option(option);
+    if (is_used || given.empty() || given.results().front() == given.get_default_str()) return;
+    const bool flag = std::is_same_v<decltype(value), const bool&>;
+    throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
+                                      " of the preset " + options.preset);
+  });
+  if (options.blend != 1 && options.preset != kDefaultPreset)
+    throw InvalidArgument("--blend", "is no option of the preset " + options.preset);
+}
+
+void Train(PaperOptions options,
+           const std::function<std::string(const std::string&)>& read_device) {
+  const bool small = options.IsControllers() || options.IsInbetweener();
+  if (small && options.device == "auto") options.device = "cpu";
+  options.device = read_device(options.device);
+  if (small && options.device != "cpu") {
+    throw InvalidArgument(
+        "--device", options.device + ", but the preset " + options.preset + " trains on the CPU");
+  }
+  if (options.IsControllers()) {
+    TrainControllers(options);
+  } else if (options.IsInbetweener()) {
+    TrainInbetweener(options);
+  } else if (options.preset == kDefaultPreset) {
+    TrainContinuousFlow(TrainOptions(options));
+  } else {
+    TrainFlow(options);
+  }
+}
+
 }  // namespace
 
 void AddTrainCommand(CLI::App& app,
@@ -87,32 +121,8 @@ void AddTrainCommand(CLI::App& app,
   });
   command->get_option("--seed")->check(CLI::NonNegativeNumber);
   command->callback([command, options, read_device] {
-    VisitAll(*options, [&](const char* option, const auto& value, bool is_used, const char*) {
-      const CLI::Option& given = *command->get_option(option);
-      // A card lists all options, unused ones at their defaults, so that it can be typed.
-      if (is_used || given.empty() || given.results().front() == given.get_default_str()) return;
-      const bool flag = std::is_same_v<decltype(value), const bool&>;
-      throw InvalidArgument(option, std::string("is no ") + (flag ? "ablation" : "option") +
-                                        " of the preset " + options->preset);
-    });
-    if (options->blend != 1 && options->preset != kDefaultPreset)
-      throw InvalidArgument("--blend", "is no option of the preset " + options->preset);
-    const bool small = options->IsControllers() || options->IsInbetweener();
-    if (small && options->device == "auto") options->device = "cpu";
-    options->device = read_device(options->device);
-    if (small && options->device != "cpu") {
-      throw InvalidArgument("--device", options->device + ", but the preset " + options->preset +
-                                            " trains on the CPU");
-    }
-    if (options->IsControllers()) {
-      TrainControllers(*options);
-    } else if (options->IsInbetweener()) {
-      TrainInbetweener(*options);
-    } else if (options->preset == kDefaultPreset) {
-      TrainContinuousFlow(TrainOptions(*options));
-    } else {
-      TrainFlow(*options);
-    }
+    RefuseUnusedOptions(*command, *options);
+    Train(*options, read_device);
   });
 }
 

@@ -103,6 +103,50 @@ Eigen::MatrixXf MusicRows(const Recording& recording, size_t frames, double skip
   return rows;
 }
 
+// Levels a tilted or drifting floor.
+PositionClip OnLevelFloor(const PositionClip& clip, const SourceMapping& mapping, json& report) {
+  std::vector<int> feet;
+  for (const std::string& joint : mapping.feet) feet.push_back(IndexOf(clip.joint_names, joint));
+  const FloorPlane plane = FitFloorPlane(clip, feet);
+  report["floor_slope"] = std::hypot(plane.slope_x, plane.slope_z);
+  return RemoveHeightDrift(LevelFloor(clip, plane), feet);
+}
+
+// Corrects a recording's positions and fits rotations to them. Adds to the report. `skipped_s`
+// becomes the seconds cut from the beginning.
+Motion FitPositions(const Recording& recording, json& report, double& skipped_s) {
+  json& warnings = report["warnings"];
+  PositionClip clip = recording.positions;
+  ValidateClip(clip);
+  const int calibration = SkipCalibration(clip);
+  clip.frames.erase(clip.frames.begin(), clip.frames.begin() + calibration);
+  report["spikes_repaired"] = RemoveSpikes(kTopSpeed, 6, clip);
+  // Keeps the longest run in which no joint jumps.
+  const auto all = static_cast<int>(clip.frames.size());
+  const auto [begin, end] = LongestRun(FindJumps(clip), all);
+  int cut = calibration + all - (end - begin);
+  if (cut > calibration) {
+    warnings.push_back("a joint jumps: kept frames " + std::to_string(calibration + begin) +
+                       " to " + std::to_string(calibration + end - 1));
+  }
+  clip.frames = {clip.frames.begin() + begin, clip.frames.begin() + end};
+  skipped_s = static_cast<double>(calibration + begin) / clip.fps * recording.time_scale;
+  if (recording.cutoff_hz > 0) clip = LowPass(clip, recording.cutoff_hz);
+  if (recording.tilted_floor) clip = OnLevelFloor(clip, recording.mapping, report);
+  clip = ResamplePositions(clip, kModelFps, recording.time_scale);
+  FitResult fit = FitClip(clip, recording.mapping, recording.skeleton);
+  cut += KeepLongestRun(recording.skeleton, fit.motion, skipped_s, warnings);
+  const LimbRepair limbs = RepairLimbs(recording.skeleton, fit.motion);
+  report["limb_frames_repaired"] = limbs.frames;
+  if (limbs.left > 0) warnings.push_back(std::to_string(limbs.left) + " snapping limbs left");
+  report["fit_error_m"] = fit.mean_error_m;
+  report["fit_p95_m"] = fit.p95_error_m;
+  report["scale"] = fit.scale;
+  report["ground_shift_m"] = fit.ground_shift_m;
+  report["frames_cut"] = cut;
+  return std::move(fit.motion);
+}
+
 // The clip and its report.
 std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
                                          const PrepareOptions& options) {
@@ -117,43 +161,7 @@ std::pair<PreparedClip, json> PrepareOne(const RecordingSource& source,
     report["fit_error_m"] = 0.0;
     if (recording.ground) report["ground_shift_m"] = Ground(skeleton, motion);
   } else {
-    PositionClip clip = recording.positions;
-    ValidateClip(clip);
-    const int calibration = SkipCalibration(clip);
-    clip.frames.erase(clip.frames.begin(), clip.frames.begin() + calibration);
-    const int replaced = RemoveSpikes(kTopSpeed, 6, clip);
-    // Keeps the longest run in which no joint jumps.
-    const auto all = static_cast<int>(clip.frames.size());
-    const auto [begin, end] = LongestRun(FindJumps(clip), all);
-    int cut = calibration + all - (end - begin);
-    if (cut > calibration) {
-      warnings.push_back("a joint jumps: kept frames " + std::to_string(calibration + begin) +
-                         " to " + std::to_string(calibration + end - 1));
-    }
-    clip.frames = {clip.frames.begin() + begin, clip.frames.begin() + end};
-    skipped_s = static_cast<double>(calibration + begin) / clip.fps * recording.time_scale;
-    if (recording.cutoff_hz > 0) clip = LowPass(clip, recording.cutoff_hz);
-    if (recording.tilted_floor) {
-      std::vector<int> feet;
-      for (const std::string& joint : recording.mapping.feet)
-        feet.push_back(IndexOf(clip.joint_names, joint));
-      const FloorPlane plane = FitFloorPlane(clip, feet);
-      report["floor_slope"] = std::hypot(plane.slope_x, plane.slope_z);
-      clip = RemoveHeightDrift(LevelFloor(clip, plane), feet);
-    }
-    clip = ResamplePositions(clip, kModelFps, recording.time_scale);
-    FitResult fit = FitClip(clip, recording.mapping, skeleton);
-    motion = std::move(fit.motion);
-    cut += KeepLongestRun(skeleton, motion, skipped_s, warnings);
-    const LimbRepair limbs = RepairLimbs(skeleton, motion);
-    report["limb_frames_repaired"] = limbs.frames;
-    if (limbs.left > 0) warnings.push_back(std::to_string(limbs.left) + " snapping limbs left");
-    report["fit_error_m"] = fit.mean_error_m;
-    report["fit_p95_m"] = fit.p95_error_m;
-    report["scale"] = fit.scale;
-    report["ground_shift_m"] = fit.ground_shift_m;
-    report["spikes_repaired"] = replaced;
-    report["frames_cut"] = cut;
+    motion = FitPositions(recording, report, skipped_s);
   }
   if (motion.frames.size() < kMinFrames) {
     throw InvalidArgument(source.name, std::to_string(motion.frames.size()) +

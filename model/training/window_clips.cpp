@@ -11,7 +11,6 @@
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
 #include "model/motion/rotation.h"
-#include "model/training/window_picker.h"
 
 namespace choreo {
 namespace {
@@ -26,7 +25,7 @@ constexpr double kAstray = 3, kFreeAstray = 1;
 // Displaces the first `tau` poses by one offset, to poses that no dancer takes, and leads the
 // following ones back within about a second and before the last. `most_far`: the largest spread of
 // the offset.
-void LeadAstray(const Eigen::VectorXd& most_far, int tau, Random* random,
+void MoveAstray(const Eigen::VectorXd& most_far, int tau, Random* random,
                 std::vector<Pose>* poses) {
   const int64_t most = static_cast<int64_t>(poses->size()) - tau;
   const auto back = static_cast<double>(std::min(most, random->Integer(12, 40)));
@@ -128,6 +127,17 @@ WindowClips::WindowClips(const std::vector<PreparedClip>& clips)
   }
 }
 
+std::vector<WindowPicker> WindowClips::PickersByStyle(int64_t window) const {
+  std::vector<WindowPicker> pickers;
+  for (int style = 0; style < std::ssize(styles_); ++style) {
+    std::vector<int64_t> own;
+    for (const ClipTrack& track : tracks())
+      own.push_back(track.style == style ? std::ssize(track.poses) : 0);
+    if (std::ranges::max(own) > window) pickers.emplace_back(own, window);
+  }
+  return pickers;
+}
+
 WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames, int to_key,
                               const Variation& variation, Random* random) const {
   const int tau = model.config.history_frames;
@@ -138,12 +148,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
   for (const ClipTrack& track : tracks()) of_clips.push_back(std::ssize(track.poses));
   const WindowPicker of_all(of_clips, needed);
   std::vector<WindowPicker> of_style;
-  for (int style = 0; style < std::ssize(styles_) && variation.even_styles > 0; ++style) {
-    std::vector<int64_t> own = of_clips;
-    for (size_t i = 0; i < clips_; ++i)
-      if (tracks_[i].style != style) own[i] = 0;
-    if (std::ranges::max(own) > needed) of_style.emplace_back(own, needed);
-  }
+  if (variation.even_styles > 0) of_style = PickersByStyle(needed);
   const MotionPrior& prior = model.prior;
   Eigen::VectorXd astray = kAstray * prior.covariance().col(0).cwiseSqrt();
   if (variation.no_key > 0) astray = kFreeAstray * prior.usual().variance.cwiseSqrt();
@@ -167,7 +172,7 @@ WindowBatch WindowClips::Draw(const FlowModelParts& model, int batch, int frames
       BeginOtherwise(other, track.style, tau, random, &poses);
     }
     if (random->Uniform() < variation.standing) BeginStanding(skeleton_, tau, random, &poses);
-    if (random->Uniform() < variation.astray) LeadAstray(astray, tau, random, &poses);
+    if (random->Uniform() < variation.astray) MoveAstray(astray, tau, random, &poses);
     Eigen::Vector3d turning = Eigen::Vector3d::Zero();
     for (size_t i = tau; i < poses.size(); ++i)
       turning += RotationDifference(poses[i - 1].rotations.col(0), poses[i].rotations.col(0));

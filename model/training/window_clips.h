@@ -7,6 +7,7 @@
 #include "model/core/random.h"
 #include "model/training/clip_track.h"
 #include "model/training/window_batch.h"
+#include "model/training/window_picker.h"
 
 namespace choreo {
 
@@ -43,6 +44,9 @@ class WindowClips {
   std::span<const ClipTrack> tracks() const { return {tracks_.data(), clips_}; }
 
  private:
+  // Pickers of windows among the clips of each style that has long enough clips.
+  std::vector<WindowPicker> PickersByStyle(int64_t window) const;
+
   Skeleton skeleton_;
   std::vector<std::string> styles_;
   std::vector<ClipTrack> tracks_;  // by tempo, the clips' own first

@@ -11,7 +11,6 @@
 #include "model/motion/facing_pose.h"
 #include "model/motion/mirror.h"
 #include "model/motion/resample.h"
-#include "model/training/window_picker.h"
 
 namespace choreo {
 namespace {
@@ -39,6 +38,17 @@ Tensor DrawnPath(const Tensor& path, const Tensor& before) {
   const Tensor u = torch::arange(last + 1, all.options()).unsqueeze(1) / static_cast<double>(last);
   const Tensor mended = blurred + (1 - u) * (all[0] - blurred[0]) + u * (all[last] - blurred[last]);
   return mended.narrow(0, 1, last);
+}
+
+// Factors of the body parts' velocity factors, half of the time equal for all parts.
+Tensor DrawnScales(Random* random) {
+  std::vector<float> scales(kBodyParts);
+  const bool alike = random->Uniform() < 0.5;
+  for (size_t part = 0; part < scales.size(); ++part) {
+    scales[part] =
+        alike && part > 0 ? scales[0] : static_cast<float>(random->Uniform(kMinScale, kMaxScale));
+  }
+  return torch::tensor(scales);
 }
 
 }  // namespace
@@ -111,12 +121,24 @@ std::array<double, kBodyParts> ControlClips::MedianFactors() const {
   return medians;
 }
 
+ControlClips::Place ControlClips::DrawPlace(const WindowPicker& picker, int window,
+                                            const Variation& variation, Random* random) const {
+  auto [clip, start] = picker.Draw(random);
+  size_t tempo = 0;
+  if (random->Uniform() < variation.tempo) {
+    const auto other = static_cast<size_t>(random->Integer(1, static_cast<int64_t>(tempi_)));
+    const int64_t offered = std::max<int64_t>(0, At(clip, other, false).frames - window);
+    if (offered > 0) {
+      tempo = other;
+      start = random->Integer(0, offered) + 1;
+    }
+  }
+  return {At(clip, tempo, random->Uniform() < variation.mirror), start};
+}
+
 ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variation& variation,
                                 Random* random) const {
   const int window = history + frames;
-  const auto offered = [&](size_t clip, size_t tempo) {
-    return std::max<int64_t>(0, At(clip, tempo, false).frames - window);
-  };
   std::vector<int64_t> clips;
   for (size_t clip = 0; clip < clips_; ++clip) clips.push_back(At(clip, 0, false).frames);
   const WindowPicker picker(clips, window);
@@ -127,20 +149,12 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
   Tensor factors = torch::empty({batch, window, kBodyParts});
   Tensor has_target = torch::ones({batch, 1}), weight = torch::ones({batch});
   Tensor turn = torch::empty({batch});
-  std::vector<Tensor> paths, given, wanted;
+  std::vector<Tensor> paths, given, expected;
   for (int b = 0; b < batch; ++b) {
-    auto [clip, start] = picker.Draw(random);
-    size_t tempo = 0;
-    if (random->Uniform() < variation.tempo) {
-      const auto other = static_cast<size_t>(random->Integer(1, static_cast<int64_t>(tempi_)));
-      if (offered(clip, other) > 0) {
-        tempo = other;
-        start = random->Integer(0, offered(clip, other)) + 1;
-      }
-    }
-    const Track& track = At(clip, tempo, random->Uniform() < variation.mirror);
+    const Place place = DrawPlace(picker, window, variation, random);
+    const Track& track = place.track;
     const auto copy = [&](const std::vector<float>& from, const Tensor& to, int64_t width) {
-      std::copy_n(from.data() + start * width, window * width, to[b].data_ptr<float>());
+      std::copy_n(from.data() + place.start * width, window * width, to[b].data_ptr<float>());
     };
     copy(track.root, root, 3);
     copy(track.heading, heading, 1);
@@ -164,25 +178,19 @@ ControlBatch ControlClips::Draw(int batch, int history, int frames, const Variat
     if (random->Uniform() < variation.smooth_factors)
       control = SmoothInTime(real, std::exp(random->Uniform(std::log(5), std::log(200))));
     if (random->Uniform() < variation.scale_factors) {
-      std::vector<float> scales(kBodyParts);
-      const bool alike = random->Uniform() < 0.5;
-      for (size_t part = 0; part < scales.size(); ++part) {
-        scales[part] = alike && part > 0
-                           ? scales[0]
-                           : static_cast<float>(random->Uniform(kMinScale, kMaxScale));
-      }
-      control = control * torch::tensor(scales);
-      real = real * torch::tensor(scales);
+      const Tensor scales = DrawnScales(random);
+      control = control * scales;
+      real = real * scales;
       weight[b] = kScaledWeight;
     }
     given.push_back(control);
-    wanted.push_back(real);
+    expected.push_back(real);
   }
   const FrameTensors all{root, HeadingOf(heading), joints, contacts};
   return {.transition = {frames, all.Narrow(0, history), joints.select(1, window - 1), turn,
                          has_target, torch::stack(paths), torch::stack(given)},
           .truth = all.Narrow(history, frames),
-          .factors = torch::stack(wanted),
+          .factors = torch::stack(expected),
           .weight = weight};
 }
 

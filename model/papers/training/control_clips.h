@@ -8,6 +8,7 @@
 #include "model/motion/velocity_factors.h"
 #include "model/papers/networks/controlled_frames.h"
 #include "model/training/prepared_clip.h"
+#include "model/training/window_picker.h"
 
 namespace choreo {
 
@@ -51,7 +52,15 @@ class ControlClips {
     // Row-major: [frames, ...]
     std::vector<float> root, heading, joints, contacts, factors;
   };
+  // A window's place in a track.
+  struct Place {
+    const Track& track;
+    int64_t start;
+  };
+
   Track MakeTrack(const PreparedClip& clip, double tempo, bool mirrored) const;
+  Place DrawPlace(const WindowPicker& picker, int window, const Variation& variation,
+                  Random* random) const;
   const Track& At(size_t clip, size_t tempo, bool mirrored) const {
     return tracks_[(clip * tempi_ + tempo) * 2 + (mirrored ? 1 : 0)];
   }

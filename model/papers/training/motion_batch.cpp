@@ -18,6 +18,69 @@ namespace {
 
 const double kMaxTempoChange = std::log(4.0 / 3);  // faster or slower
 
+// A window of a clip: which of its frames, and how.
+struct DrawnWindow {
+  int64_t start = 0;
+  double rate = 1;  // frames of the clip per frame
+  bool mirrored = false;
+
+  // The clip's frame for frame t, of which frame 0 precedes the window.
+  double Source(int t) const { return static_cast<double>(start - 1) + t * rate; }
+};
+
+DrawnWindow DrawWindow(int64_t start, int64_t clip_frames, int window,
+                       const MotionVariation& variation, Random* random) {
+  DrawnWindow drawn{.start = start, .mirrored = variation.mirror && random->Uniform() < 0.5};
+  if (random->Uniform() < variation.tempo) {
+    const double other = std::exp(random->Uniform(-kMaxTempoChange, kMaxTempoChange));
+    const auto taken = static_cast<int64_t>(std::ceil(window * other)) + 1;
+    if (const int64_t spare = clip_frames - taken; spare > 0) {
+      drawn.rate = other;
+      drawn.start = random->Integer(0, spare) + 1;
+    }
+  }
+  return drawn;
+}
+
+// The pose before the window, then the window's poses, in the world.
+std::vector<Pose> PosesOf(const PreparedClip& clip, const DrawnWindow& drawn, int window) {
+  std::vector<Pose> poses;
+  for (int t = 0; t <= window; ++t) {
+    const double source = drawn.Source(t);
+    const auto at = static_cast<size_t>(source);
+    const Pose& pose = clip.motion.frames[at];
+    poses.push_back(drawn.rate == 1 ? pose
+                                    : InterpolatePoses(pose, clip.motion.frames[at + 1],
+                                                       source - static_cast<double>(at)));
+  }
+  if (drawn.mirrored) {
+    for (Pose& pose : poses) pose = Mirror(clip.skeleton, pose);
+  }
+  return poses;
+}
+
+Contacts ContactsAt(const PreparedClip& clip, const DrawnWindow& drawn, int t) {
+  Contacts contacts;
+  for (int foot = 0; foot < 4; ++foot) {
+    // Contacts are left, then right; mirroring swaps them.
+    contacts[foot] =
+        clip.contacts(drawn.mirrored ? (foot + 2) % 4 : foot, std::lround(drawn.Source(t)));
+  }
+  return contacts;
+}
+
+// Masks the key or a part of it. `mask`: ones for each joint and the root position.
+void VaryKey(const MotionVariation& variation, Random* random, torch::Tensor mask) {
+  if (random->Uniform() < variation.drop_key) {
+    mask.zero_();
+  } else if (random->Uniform() < variation.partial_key) {
+    const double keep = random->Uniform(0.3, 1.0);
+    for (int64_t j = 0; j < mask.size(0); ++j) {
+      if (random->Uniform() >= keep) mask[j] = 0;
+    }
+  }
+}
+
 }  // namespace
 
 MotionBatch MotionBatch::First(int64_t windows) const {
@@ -49,31 +112,10 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
   torch::Tensor mask = torch::ones({batch, joints + 1});
 
   for (int b = 0; b < batch; ++b) {
-    const auto [index, drawn] = picker.Draw(random);
+    const auto [index, start] = picker.Draw(random);
     const PreparedClip& clip = clips[index];
-    const bool mirrored = variation.mirror && random->Uniform() < 0.5;
-    int64_t start = drawn;
-    double rate = 1;  // frames of the clip per frame
-    if (random->Uniform() < variation.tempo) {
-      const double other = std::exp(random->Uniform(-kMaxTempoChange, kMaxTempoChange));
-      const auto taken = static_cast<int64_t>(std::ceil(window * other)) + 1;
-      if (const int64_t spare = of_clips[index] - taken; spare > 0) {
-        rate = other;
-        start = random->Integer(0, spare) + 1;
-      }
-    }
-    const auto source = [&](int t) { return static_cast<double>(start - 1) + t * rate; };
-    std::vector<Pose> poses;
-    for (int t = 0; t <= window; ++t) {
-      const auto at = static_cast<size_t>(source(t));
-      const Pose& pose = clip.motion.frames[at];
-      poses.push_back(rate == 1 ? pose
-                                : InterpolatePoses(pose, clip.motion.frames[at + 1],
-                                                   source(t) - static_cast<double>(at)));
-    }
-    if (mirrored) {
-      for (Pose& pose : poses) pose = Mirror(skeleton, pose);
-    }
+    const DrawnWindow drawn = DrawWindow(start, of_clips[index], window, variation, random);
+    std::vector<Pose> poses = PosesOf(clip, drawn, window);
     if (random->Uniform() < variation.hold_history) {
       const int64_t known = random->Integer(1, history);
       std::fill(poses.begin(), poses.begin() + (history - known + 1), poses[history - known + 1]);
@@ -82,13 +124,8 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
     Pose previous = frame.ToLocal(poses[0]);
     for (int t = 0; t < window; ++t) {
       const Pose pose = frame.ToLocal(poses[t + 1]);
-      Contacts contacts;
-      for (int foot = 0; foot < 4; ++foot) {
-        // Contacts are left, then right; mirroring swaps them.
-        contacts[foot] =
-            clip.contacts(mirrored ? (foot + 2) % 4 : foot, std::lround(source(t + 1)));
-      }
-      const Eigen::VectorXf x = codec.Encode(pose, previous, contacts, clip.motion.fps);
+      const Eigen::VectorXf x =
+          codec.Encode(pose, previous, ContactsAt(clip, drawn, t + 1), clip.motion.fps);
       std::copy(x.data(), x.data() + width, features[b][t].data_ptr<float>());
       Eigen::Map<Eigen::Vector3f>(position[b][t].data_ptr<float>()) =
           pose.root_position.cast<float>();
@@ -99,17 +136,10 @@ MotionBatch DrawMotion(const std::vector<PreparedClip>& clips, int batch, int hi
     if (clip.audio.size() > 0 && random->Uniform() >= variation.drop_audio) {
       has_audio[b][0] = 1;
       for (int t = 0; t < window; ++t)
-        std::copy_n(clip.audio.col(std::lround(source(t + 1))).data(), kMfccCount,
+        std::copy_n(clip.audio.col(std::lround(drawn.Source(t + 1))).data(), kMfccCount,
                     audio[b][t].data_ptr<float>());
     }
-    if (random->Uniform() < variation.drop_key) {
-      mask[b].zero_();
-    } else if (random->Uniform() < variation.partial_key) {
-      const double keep = random->Uniform(0.3, 1.0);
-      for (int j = 0; j <= joints; ++j) {
-        if (random->Uniform() >= keep) mask[b][j] = 0;
-      }
-    }
+    VaryKey(variation, random, mask[b]);
   }
 
   const torch::Tensor matrices = ExpMapBatch(rotation);
