@@ -6,7 +6,6 @@
 #include "model/body/doll.h"
 #include "model/draw/check_within.h"
 #include "model/draw/picture.h"
-#include "model/motion/rotation.h"
 
 namespace choreo {
 namespace {
@@ -18,10 +17,6 @@ constexpr double kBelow = 0.22;  // metres of floor below the dancer's feet
 constexpr double kAir = 1.08;
 
 }  // namespace
-
-double ThreeQuarterAzimuth(const Pose& pose) {
-  return WrapAngle(Heading(ExpMap(pose.rotations.col(0))) + kThreeQuarters);
-}
 
 double FitExtent(const Skeleton& skeleton, const std::vector<FramedPose>& poses, double aspect) {
   const std::vector<DollPart> doll = MakeDoll(skeleton);

@@ -19,9 +19,6 @@ struct View {
 
 inline constexpr double kThreeQuarters = 0.6;  ///< radians from the dancer's heading
 
-/// The azimuth that shows a pose three quarters from its front.
-double ThreeQuarterAzimuth(const Pose& pose);
-
 /// A pose and the floor position at the middle of its picture, metres.
 struct FramedPose {
   const Pose* pose;
