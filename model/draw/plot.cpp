@@ -174,8 +174,8 @@ Ranges RangesOf(const Plot& plot) {
   const bool from_zero = bars || plot.from_zero;
   if (from_zero) of.y.Add(0);
   const double floor = of.y.low;
-  of.x.Settle(plot.map ? 0.04 : 0);
-  of.y.Settle(0.04);
+  of.x.AddMargin(plot.map ? 0.04 : 0);
+  of.y.AddMargin(0.04);
   if (from_zero) of.y.low = floor;
   return of;
 }

@@ -26,7 +26,7 @@ struct Range {
   }
   /// Makes the range neither empty nor a single point, and adds `margin` times the extent on both
   /// sides.
-  void Settle(double margin) {
+  void AddMargin(double margin) {
     if (!(low <= high)) low = 0, high = 1;
     if (high - low < 1e-9 * std::max(1e-6, std::abs(high))) {
       const double half = std::max(std::abs(high) * 0.1, 1e-6);

@@ -68,13 +68,13 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& 
     throw Error(ErrorCode::kInternal, "", std::string("socketpair: ") + std::strerror(errno));
   input_ = ends[0];
   // ffmpeg's messages go to memory, so that it never waits for a reader.
-  said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
+  messages_ = memfd_create("ffmpeg", MFD_CLOEXEC);
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, said_, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, messages_, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, messages_, STDERR_FILENO);
   std::vector<std::string> arguments = Arguments(format, frames, file_.partial());
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
@@ -84,7 +84,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& 
   close(ends[1]);
   if (failed != 0) {
     close(input_);
-    close(said_);
+    close(messages_);
     if (failed == ENOENT) {
       throw Error(ErrorCode::kNotFound, "ffmpeg",
                   "is not installed, and videos need it: scripts/install_packages.sh video");
@@ -96,7 +96,7 @@ VideoEncoder::VideoEncoder(const std::filesystem::path& mp4, const VideoFormat& 
 VideoEncoder::~VideoEncoder() {
   if (process_ > 0) kill(process_, SIGKILL);
   Wait();
-  close(said_);
+  close(messages_);
 }
 
 void VideoEncoder::Write(std::span<const uint8_t> yuv) {
@@ -124,13 +124,14 @@ bool VideoEncoder::Wait() {
 
 void VideoEncoder::Fail() {
   Wait();
-  std::string said(4096, '\0');
-  const ssize_t count = pread(said_, said.data(), said.size(), 0);
-  said.resize(count > 0 ? static_cast<size_t>(count) : 0);
-  while (!said.empty() && said.back() == '\n') said.pop_back();
+  std::string messages(4096, '\0');
+  const ssize_t count = pread(messages_, messages.data(), messages.size(), 0);
+  messages.resize(count > 0 ? static_cast<size_t>(count) : 0);
+  while (!messages.empty() && messages.back() == '\n') messages.pop_back();
   // Keeps the first line of ffmpeg's messages, which names the cause.
-  throw Error(ErrorCode::kInternal, mp4_.string(),
-              "ffmpeg: " + (said.empty() ? "ended early" : said.substr(0, said.find('\n'))));
+  throw Error(
+      ErrorCode::kInternal, mp4_.string(),
+      "ffmpeg: " + (messages.empty() ? "ended early" : messages.substr(0, messages.find('\n'))));
 }
 
 }  // namespace choreo

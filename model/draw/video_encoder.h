@@ -47,8 +47,8 @@ class VideoEncoder {
   std::filesystem::path mp4_;
   AtomicFile file_;
   pid_t process_ = -1;
-  int input_ = -1;  // the write end of ffmpeg's standard input
-  int said_ = -1;   // ffmpeg's standard error
+  int input_ = -1;     // the write end of ffmpeg's standard input
+  int messages_ = -1;  // ffmpeg's standard error
 };
 
 }  // namespace choreo

@@ -151,10 +151,10 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
     // turn and stay so, with hips and shoulders in place.
     const Eigen::Matrix3d carried = parent < 0 ? Eigen::Matrix3d::Identity() : turns[parent];
     Eigen::Matrix3d correlation = (InTrunk(joint) ? kTrunkStays : kStays) * carried;
-    bool told = false;
+    bool has_evidence = false;
     for (int i = 0; i < marks_.size(); ++i) {
       if (!below[i] || (marks_[i].parent >= 0 && below[marks_[i].parent])) continue;
-      told = true;
+      has_evidence = true;
       correlation += marks_[i].weight * (targets.col(i) - pivot_target) *
                      (rest_.marks.col(i) - pivot_rest).transpose();
     }
@@ -168,7 +168,7 @@ Pose FitProblem::Start(const Eigen::Matrix3Xd& targets) const {
       const bool plausible = plane.norm() > kSineOfSureBend || plane.dot(carried * hinge.axis) > 0;
       if (plausible) correlation += 0.05 * plane * hinge.axis.transpose();
     }
-    turns[joint] = told ? NearestRotation(correlation) : carried;
+    turns[joint] = has_evidence ? NearestRotation(correlation) : carried;
     if (parent < 0) {
       places.col(0) =
           targets.col(0) - turns[0] * (rest_.marks.col(0) - rest_.joints.positions.col(0));

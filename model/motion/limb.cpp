@@ -84,10 +84,10 @@ double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& 
   const double a = thigh.norm(), b = shin.norm();
   const double distance = std::max(goal.norm(), std::abs(a - b) + 0.05 * b);
   const double in_plane = std::max(0.1, (shin - shin.dot(axis) * axis).norm() / b);
-  const double wanted =
+  const double new_bend =
       std::clamp(Knee{a, b, in_plane}.BendFrom(bend, (thigh + shin).norm(), distance), range.least,
                  range.most);
-  const Eigen::Matrix3d knee = Eigen::AngleAxisd(wanted - bend, axis).toRotationMatrix();
+  const Eigen::Matrix3d knee = Eigen::AngleAxisd(new_bend - bend, axis).toRotationMatrix();
   const Eigen::Matrix3d swing =
       Eigen::Quaterniond::FromTwoVectors(thigh + knee * shin, goal).toRotationMatrix();
 
@@ -100,7 +100,7 @@ double PlaceEnd(const Limb& limb, const Eigen::Vector3d& hinge, const Skeleton& 
   set(limb.upper, pelvis.transpose() * new_hip);
   set(limb.middle, new_hip.transpose() * new_knee);
   set(limb.end, new_knee.transpose() * turned(limb.end));
-  return wanted;
+  return new_bend;
 }
 
 std::array<Leg, 2> Leg::Of(const Skeleton& skeleton) {
