@@ -246,7 +246,7 @@ Motion ReadLayout(const NpzArchive& npz, const Layout& layout, const MotionReadi
   if (!aist && !slices) file.up = Eigen::Vector3d::UnitZ();
   if (!edge)
     file.root_offset = IsSmplX(npz, turns.rows() / 3) ? SmplXRestPelvis() : SmplRestPelvis();
-  return Settle(std::move(file), reading);
+  return CorrectMotion(std::move(file), reading);
 }
 
 }  // namespace

@@ -80,10 +80,11 @@ std::optional<BvhFile> FromRadians(const BvhFile& file, const MotionReading& rea
   return reading.angles == "radians" || may_be ? std::optional(std::move(turned)) : std::nullopt;
 }
 
-SkeletonMotion TakeBvh(const BvhFile& file, const Skeleton* wanted, const MotionReading& reading) {
+SkeletonMotion ReadOwnOrFit(const BvhFile& file, const Skeleton* preferred,
+                            const MotionReading& reading) {
   const Skeleton& smpl = Skeleton::Smpl24();
   const auto own = BvhSkeleton(file);
-  for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
+  for (const Skeleton* known : {preferred, &smpl, own ? &*own : nullptr}) {
     if (known == nullptr || reading.chooses()) continue;
     if (auto motion = BvhToMotion(file, *known)) return {*known, std::move(*motion)};
   }
@@ -92,7 +93,7 @@ SkeletonMotion TakeBvh(const BvhFile& file, const Skeleton* wanted, const Motion
 
 }  // namespace
 
-SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
+SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* preferred,
                           const MotionReading& reading) {
   BvhFile file = ReadBvh(path);
   for (const std::string& note : file.notes) reading.Note(note);
@@ -100,11 +101,11 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
   if (!file.states_rate && !(reading.fps > 0) && file.frames() > 1) reading.NoteRate(file.fps());
   if (file.frames() == 0) return {Skeleton::Smpl24(), {}};
   if (const std::optional<BvhFile> turned = FromRadians(file, reading)) {
-    if (!reading.angles.empty()) return TakeBvh(*turned, wanted, reading);
+    if (!reading.angles.empty()) return ReadOwnOrFit(*turned, preferred, reading);
     std::vector<std::string> notes;
     MotionReading quietly = reading;
     quietly.notes = &notes;
-    SkeletonMotion read = TakeBvh(*turned, wanted, quietly);
+    SkeletonMotion read = ReadOwnOrFit(*turned, preferred, quietly);
     // If degrees of a dancer who sways a little were read as radians, knees and elbows would bend
     // backwards.
     if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
@@ -116,7 +117,7 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wan
     reading.Note(
         "its angles are taken as degrees, though they are small; --angles radians says otherwise");
   }
-  return TakeBvh(file, wanted, reading);
+  return ReadOwnOrFit(file, preferred, reading);
 }
 
 }  // namespace choreo

@@ -8,10 +8,10 @@
 
 namespace choreo {
 
-/// Reads a BVH file of any skeleton. The motion is unchanged if the skeleton is `wanted` (if
+/// Reads a BVH file of any skeleton. The motion is unchanged if the skeleton is `preferred` (if
 /// given), SMPL's, or another one in our conventions; otherwise it is fitted to SMPL's body. Angles
 /// that look like radians count as radians, unless `reading` states the unit.
-SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* wanted,
+SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* preferred,
                           const MotionReading& reading);
 
 }  // namespace choreo

@@ -80,7 +80,7 @@ Motion ReadKind(const Kind& kind, const Rows& rows, const MotionReading& reading
   if (kind.root != Place::kPelvis)
     file.root_offset = kind.root == Place::kSmplX ? SmplXRestPelvis() : SmplRestPelvis();
   file.other_shape = kind.betas > 0 && !rows.middleRows<10>(kind.betas).isZero();
-  return Settle(std::move(file), reading);
+  return CorrectMotion(std::move(file), reading);
 }
 
 // Guo et al. 2022: half the root's turn about Y, its travel in its own frame, its height, then the

@@ -78,14 +78,14 @@ Motion FitOthers(const GltfScene& scene, const MotionReading& reading) {
 
 }  // namespace
 
-SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* wanted,
+SkeletonMotion ReadGlb(const std::filesystem::path& path, const Skeleton* preferred,
                        const MotionReading& reading) {
   try {
     const GltfScene scene = ReadGltfScene(path, reading);
     const Skeleton& smpl = Skeleton::Smpl24();
     const GltfNodes& nodes = scene.nodes;
     const auto own = OwnSkeleton(nodes.names, nodes.parents, PlacesOf(nodes.PlaceAtRest()));
-    for (const Skeleton* known : {wanted, &smpl, own ? &*own : nullptr}) {
+    for (const Skeleton* known : {preferred, &smpl, own ? &*own : nullptr}) {
       if (known == nullptr || reading.chooses()) continue;
       if (const auto ours = FindOurs(nodes, *known))
         return {*known, TakeOurs(scene, *ours, *known)};

@@ -158,7 +158,8 @@ Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& r
   }
   Motion motion = FitClip(clip, IdentitySource(body, kHandWeight), body, {.ground = false}).motion;
   reading.Note("joints alone do not say how head, hands and feet are turned: that is a guess");
-  return Settle({.skeleton = body, .motion = std::move(motion), .has_floor = false}, reading);
+  return CorrectMotion({.skeleton = body, .motion = std::move(motion), .has_floor = false},
+                       reading);
 }
 
 }  // namespace choreo

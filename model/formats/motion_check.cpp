@@ -244,7 +244,7 @@ double ShareOfFaults(const Skeleton& skeleton, const Motion& motion, std::string
   return static_cast<double>(bent) / static_cast<double>(std::max<size_t>(1, motion.frames.size()));
 }
 
-Motion Settle(FileMotion file, const MotionReading& reading) {
+Motion CorrectMotion(FileMotion file, const MotionReading& reading) {
   if (file.motion.frames.empty()) return std::move(file.motion);
   const Eigen::Vector3d up = FindUp(file, reading);
   Motion motion = file.motion;

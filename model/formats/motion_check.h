@@ -33,7 +33,7 @@ struct FileMotion {
 /// Turns the motion Y up, converts its unit to metres, puts the body on the floor if it certainly
 /// is not, and notes motions that do not move or bend impossibly. Throws Error(kInvalidArgument)
 /// for `reading.up`.
-Motion Settle(FileMotion file, const MotionReading& reading);
+Motion CorrectMotion(FileMotion file, const MotionReading& reading);
 
 /// The share of frames with an impossible bend (motion/pose_faults.h), 0 to 1. `example`, if given,
 /// receives a fault of the first of them.

@@ -100,8 +100,8 @@ void WriteNpz(const std::filesystem::path& path, const Skeleton& skeleton, const
 // A format of motion files. A new one is a new row below.
 struct Format {
   const char* extension;
-  // `wanted`: a skeleton to try first, or none.
-  SkeletonMotion (*read)(const std::filesystem::path& path, const Skeleton* wanted,
+  // `preferred`: a skeleton to try first, or none.
+  SkeletonMotion (*read)(const std::filesystem::path& path, const Skeleton* preferred,
                          const MotionReading& reading);
   // Null if it can only be read.
   void (*write)(const std::filesystem::path& path, const Skeleton& skeleton, const Motion& motion,
@@ -170,7 +170,7 @@ const Format& FormatOf(const std::filesystem::path& path, bool to_write) {
                                            "', must be " + Extensions(to_write) + way_out);
 }
 
-SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted,
+SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* preferred,
                     const MotionReading& reading) try {
   const std::string extension = SmallExtension(path);
   const bool gltf = extension == ".glb" || extension == ".gltf" || extension == ".vrma";
@@ -182,7 +182,7 @@ SkeletonMotion Read(const std::filesystem::path& path, const Skeleton* wanted,
   if (!reading.bones.empty() && !gltf && extension != ".bvh")
     throw InvalidArgument("--map",
                           "is for rigs, .bvh, .glb, .gltf and .vrma, not for " + path.string());
-  SkeletonMotion read = FormatOf(path, false).read(path, wanted, reading);
+  SkeletonMotion read = FormatOf(path, false).read(path, preferred, reading);
   if (read.motion.frames.empty()) throw InvalidArgument("", "has no frames");
   CheckMotionLimits(read.motion);
   return read;

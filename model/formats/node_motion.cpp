@@ -142,11 +142,11 @@ Motion FitNodes(RigNodes nodes, const NodeMotion& motion, const MotionReading& r
   CheckMotionLimits(fit.motion);
   NoteFit(fit, reading);
   NoteUnits(rig, fit, reading);
-  return Settle({.skeleton = Skeleton::Smpl24(),
-                 .motion = std::move(fit.motion),
-                 .rest_up = fit.up,
-                 .has_floor = false},
-                reading);
+  return CorrectMotion({.skeleton = Skeleton::Smpl24(),
+                        .motion = std::move(fit.motion),
+                        .rest_up = fit.up,
+                        .has_floor = false},
+                       reading);
 }
 
 }  // namespace choreo

@@ -76,15 +76,15 @@ Eigen::MatrixXd NpzRows(const NpzArchive& npz, const std::string& key,
     for (size_t i = 1; i < array.shape.size(); ++i) width *= array.shape[i];
     return width;
   };
-  const auto wanted_width = [&] {
+  const auto has_width = [&] {
     return std::find(columns.begin(), columns.end(), width_of()) != columns.end();
   };
   // A batch of one, or one frame.
-  if (!wanted_width() && array.shape.size() == 3 && array.shape[0] == 1)
+  if (!has_width() && array.shape.size() == 3 && array.shape[0] == 1)
     array.shape.erase(array.shape.begin());
   if (array.shape.size() == 1) array.shape.insert(array.shape.begin(), 1);
   const int64_t width = width_of();
-  if (!wanted_width() || array.shape.size() > 3) {
+  if (!has_width() || array.shape.size() > 3) {
     const auto text = [](int64_t size) { return std::to_string(size); };
     throw InvalidArgument(key, "has the shape [" + Joined(stated, text) + "], expected [frames, " +
                                    Joined(columns, text, " or ") + "]");

@@ -25,7 +25,7 @@ int FindRoot(const std::vector<std::string>& names, const std::vector<int>& pare
 
 // Whether a skeleton rests like ours: Y up, facing +Z, of a person's size. Rigs of other programs
 // with our joint names may not.
-bool StandsAsOurs(const Skeleton& skeleton) {
+bool RestsLikeOurs(const Skeleton& skeleton) {
   constexpr double kUpright = 0.8;                   // cosine
   constexpr double kMinLegs = 0.45, kMaxLegs = 1.4;  // metres
   const Eigen::Matrix3Xd at = JointPositions(skeleton, RestPose(skeleton));
@@ -73,7 +73,7 @@ std::optional<Skeleton> OwnSkeleton(const std::vector<std::string>& names,
   } catch (const Error&) {
     return std::nullopt;
   }
-  return StandsAsOurs(skeleton) ? std::optional(skeleton) : std::nullopt;
+  return RestsLikeOurs(skeleton) ? std::optional(skeleton) : std::nullopt;
 }
 
 }  // namespace choreo

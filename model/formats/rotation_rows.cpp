@@ -57,9 +57,9 @@ Rows ReadRows(const NpzArchive& npz, const std::string& key, const auto& is_widt
 [[noreturn]] void RefuseShape(const std::string& key, const Rows& rows,
                               const std::vector<int64_t>& joints) {
   const std::string shape = Joined(rows.shape, [](int64_t size) { return std::to_string(size); });
-  const std::string wanted = Joined(
+  const std::string widths = Joined(
       joints, [](int64_t count) { return std::to_string(3 * count); }, " or ");
-  throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + wanted +
+  throw InvalidArgument(key, "has the shape [" + shape + "], expected [frames, " + widths +
                                  "], or matrices, 6D or quaternions of as many joints");
 }
 
