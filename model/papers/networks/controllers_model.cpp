@@ -54,6 +54,21 @@ Tensor Windows(const Tensor& before, const Tensor& given, int64_t size) {
   return all.unfold(1, size, 1).transpose(-1, -2);
 }
 
+// Runs an LSTM over [batch, time, in]. Reads and replaces `memory`; none means zeros.
+Tensor RunLstm(torch::nn::LSTM& lstm, const Tensor& in,
+               torch::optional<std::tuple<Tensor, Tensor>>* memory) {
+  if (torch::GradMode::is_enabled() && in.is_cpu() && !*memory) {
+    // Training runs the whole sequence at once and needs no final state.
+    const std::vector<Tensor> weights = lstm->parameters();
+    const Tensor none = torch::zeros({in.size(0), weights[1].size(1)}, in.options());
+    LstmState start{none, none};
+    return RunLstmLayer(in, {weights[0], weights[1], weights[2], weights[3]}, &start);
+  }
+  auto [out, next] = lstm->forward(in, *memory);
+  *memory = next;
+  return out;
+}
+
 }  // namespace
 
 ControlledGiven ControlledGiven::Narrow(int64_t first, int64_t count) const {
@@ -99,7 +114,7 @@ ControllersModelImpl::ControllersModelImpl(const ControllersConfig& config,
   if (config.two_lstms) first_ = lstm("first_lstm", live);
   second_ = lstm("second_lstm", into);
   if (!config.residual && !config.absolute_position && !config.relative_position)
-    throw InvalidArgument("relative_position", "without it, the absolute position is wanted");
+    throw InvalidArgument("relative_position", "without it, absolute_position is required");
   // AP and RP: the frame's position on the path and the progress of the transition.
   const int64_t code =
       config.residual ? 3 + 1 + 1 + kEmbedding
@@ -249,21 +264,9 @@ ControlledOutput ControllersModelImpl::Walk(const ControlledGiven& given,
                             ? EncodeTarget(given, &now)
                             : given.target.expand({batch, frames, given.target.size(2)});
 
-  const auto run = [](torch::nn::LSTM& lstm, const Tensor& in, auto* memory) {
-    if (torch::GradMode::is_enabled() && in.is_cpu() && !*memory) {
-      // Training runs the whole sequence at once and needs no final state.
-      const std::vector<Tensor> weights = lstm->parameters();
-      const Tensor none = torch::zeros({in.size(0), weights[1].size(1)}, in.options());
-      LstmState start{none, none};
-      return RunLstmLayer(in, {weights[0], weights[1], weights[2], weights[3]}, &start);
-    }
-    auto [out, next] = lstm->forward(in, *memory);
-    *memory = next;
-    return out;
-  };
   Tensor hidden = torch::cat(live, -1);
-  if (config_.two_lstms) hidden = run(first_, hidden, &state->first);
-  hidden = run(second_, torch::cat({hidden, target}, -1) + given.code, &state->second);
+  if (config_.two_lstms) hidden = RunLstm(first_, hidden, &state->first);
+  hidden = RunLstm(second_, torch::cat({hidden, target}, -1) + given.code, &state->second);
 
   const int64_t pose = 3 * others_, all = 2 * pose + kContacts;
   const Tensor decoded = state_decoder_->forward(hidden);

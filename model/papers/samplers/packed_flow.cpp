@@ -52,6 +52,35 @@ float BendSurprise(std::span<const float> x) {
   return static_cast<float>(2 * sum);
 }
 
+// Reads the coupling whose tensors' names begin with `name`.
+PackedFlow::Coupling ReadCoupling(const PackedFlow& flow, const PackedTensors& tensors,
+                                  const std::string& name, const PackedKernels& products) {
+  const int hidden = flow.config.hidden, gates = 4 * hidden;  // of one LSTM layer
+  const std::string lstm = name + "network.lstm.";
+  const auto bias_of = [&](const std::string& layer) -> Eigen::VectorXf {
+    return tensors.Get(lstm + "bias_ih_" + layer, gates) +
+           tensors.Get(lstm + "bias_hh_" + layer, gates);
+  };
+  PackedFlow::Coupling coupling;
+  // In checkpoints z_lo comes first, then the live part of the condition, then the static one.
+  const int fixed = flow.encoded ? 0 : flow.static_width;
+  const auto seen = tensors.Get(lstm + "weight_ih_l0", gates, flow.low() + flow.condition + fixed);
+  Matrix weight(flow.input_width(), gates);
+  weight << seen.middleCols(flow.low(), flow.condition).transpose(),
+      seen.leftCols(flow.low()).transpose(),
+      tensors.Get(lstm + "weight_hh_l0", gates, hidden).transpose();
+  coupling.first = PackedLinear(products, weight, bias_of("l0"));
+  if (!flow.encoded)
+    coupling.hoisted = PackedLinear(products, seen.rightCols(fixed).transpose(), bias_of("l0"));
+  coupling.second = PackedLinear(products,
+                                 Stacked(tensors.Get(lstm + "weight_ih_l1", gates, hidden),
+                                         tensors.Get(lstm + "weight_hh_l1", gates, hidden)),
+                                 bias_of("l1"));
+  coupling.last = tensors.Linear(products, name + "network.last", hidden, 2 * flow.high());
+  coupling.unmix = Unmix(flow.kernels, tensors, name, flow.width);
+  return coupling;
+}
+
 }  // namespace
 
 PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config,
@@ -92,31 +121,10 @@ PackedFlow::PackedFlow(const Safetensors& content, const FlowConfig& flow_config
     encode = tensors.Linear(products, "encode", encoding, encoding);
   }
 
-  const int hidden = config.hidden, gates = 4 * hidden;  // of one LSTM layer
   double log_det_sum = 0;
   for (int k = 0; k < config.flow_steps; ++k) {
     const std::string name = "flow.steps." + std::to_string(k) + ".";
-    const std::string lstm = name + "network.lstm.";
-    const auto bias_of = [&](const std::string& layer) -> Eigen::VectorXf {
-      return tensors.Get(lstm + "bias_ih_" + layer, gates) +
-             tensors.Get(lstm + "bias_hh_" + layer, gates);
-    };
-    Coupling& coupling = couplings.emplace_back();
-    // In checkpoints z_lo comes first, then the live part of the condition, then the static one.
-    const int fixed = encoded ? 0 : static_width;
-    const auto seen = tensors.Get(lstm + "weight_ih_l0", gates, low() + condition + fixed);
-    Matrix weight(input_width(), gates);
-    weight << seen.middleCols(low(), condition).transpose(), seen.leftCols(low()).transpose(),
-        tensors.Get(lstm + "weight_hh_l0", gates, hidden).transpose();
-    coupling.first = PackedLinear(products, weight, bias_of("l0"));
-    if (!encoded)
-      coupling.hoisted = PackedLinear(products, seen.rightCols(fixed).transpose(), bias_of("l0"));
-    coupling.second = PackedLinear(products,
-                                   Stacked(tensors.Get(lstm + "weight_ih_l1", gates, hidden),
-                                           tensors.Get(lstm + "weight_hh_l1", gates, hidden)),
-                                   bias_of("l1"));
-    coupling.last = tensors.Linear(products, name + "network.last", hidden, 2 * high());
-    coupling.unmix = Unmix(kernels, tensors, name, width);
+    couplings.push_back(ReadCoupling(*this, tensors, name, products));
     log_det_sum += tensors.Get(name + "norm_log_scale", width).cast<double>().sum() +
                    tensors.Get(name + "log_diagonal", width).cast<double>().sum();
   }
@@ -254,15 +262,15 @@ double PackedStepper::Couple(int frame, int step) {
 void PackedStepper::Aim(const FlowFrame& frame, const float* fixed, float* aim) const {
   const PackedFlow& flow = *flow_;
   const float* last = frame.past.last(static_cast<size_t>(flow.width)).data();
-  const float *key = fixed, *asked = fixed + flow.aimed;
+  const float *key = fixed, *mask = fixed + flow.aimed;
   const float left = fixed[2 * flow.aimed];
   for (int i = 0; i < flow.aimed; ++i) {
     const float now = flow.Standard(last, i), before = flow.Standard(last - flow.width, i);
     const float way = key[i] - now;
-    const float wanted =
+    const float value =
         left > 0 ? AccelerationTo(way, now - before, left) / flow.drawn_spread[i] : way;
-    aim[i] = asked[i] * std::clamp(wanted, static_cast<float>(-kFeatureClamp),
-                                   static_cast<float>(kFeatureClamp));
+    aim[i] = mask[i] * std::clamp(value, static_cast<float>(-kFeatureClamp),
+                                  static_cast<float>(kFeatureClamp));
   }
 }
 
