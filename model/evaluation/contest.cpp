@@ -67,14 +67,14 @@ Contest MakeContest(const ContestOptions& options) {
   Sampler* judged = add(MakeSampler(options.model, Device{}, kind));
   const ModelInfo& model = judged->model();
   contest.engine = EngineOf(model, kind);
-  const std::set<std::string> wanted(options.baselines.begin(), options.baselines.end());
-  if (wanted.contains("real")) contest.methods.push_back({"real", Kind::kReal});
-  if (wanted.contains("interpolation")) {
+  const std::set<std::string> baselines(options.baselines.begin(), options.baselines.end());
+  if (baselines.contains("real")) contest.methods.push_back({"real", Kind::kReal});
+  if (baselines.contains("interpolation")) {
     contest.methods.push_back({"interpolation", Kind::kInterpolation});
     contest.methods.push_back({kFootworkLine, Kind::kModel,
                                add(std::make_unique<InterpolationSampler>(model)), true, false});
   }
-  if (wanted.contains("music_only"))
+  if (baselines.contains("music_only"))
     contest.methods.push_back({kFree, Kind::kModel, judged, false});
   for (const Other& other : others) {
     Sampler* sampler = add(MakeSampler(other.checkpoint, Device{}, kind));

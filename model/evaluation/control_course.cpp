@@ -68,10 +68,10 @@ TransitionSpec ControlCourse::RequestFor(size_t window) const {
 
 void ControlCourse::Redraw(const Draw& draw) {
   for (size_t i = 0; i < windows_.size(); ++i) {
-    ControlRequest asked;
-    asked.root_path = draw(&windows_[i]);
+    ControlRequest controls;
+    controls.root_path = draw(&windows_[i]);
     ControlTrack track(model_);
-    track.Set(asked, 0, "path");
+    track.Set(controls, 0, "path");
     TransitionSpec request = RequestFor(i);
     std::vector<Warning> warnings;
     track.FillControls("key", &request, &warnings);
@@ -80,7 +80,7 @@ void ControlCourse::Redraw(const Draw& draw) {
   }
 }
 
-void ControlCourse::AskConstant(const std::array<float, kBodyParts>& speeds) {
+void ControlCourse::RequestConstant(const std::array<float, kBodyParts>& speeds) {
   for (ControlledWindow& window : windows_) {
     for (int part = 0; part < kBodyParts; ++part)
       window.factors.row(part).setConstant(speeds[part]);

@@ -44,7 +44,7 @@ class ControlCourse {
   void Redraw(const Draw& draw);
 
   /// Requests constant speeds, metres per frame, in place of the real dance's.
-  void AskConstant(const std::array<float, kBodyParts>& speeds);
+  void RequestConstant(const std::array<float, kBodyParts>& speeds);
 
   /// One dance per window with its controls: the real path and factors unless replaced above, with
   /// factors times `scale` if the method takes any. Empty if the method cannot dance that long.

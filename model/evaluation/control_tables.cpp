@@ -110,7 +110,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (!model.Takes(kRootPath)) return {};
   const std::vector<Method> ways = WaysOf(evaluation.methods);
-  const std::string asked =
+  const std::string setting =
       "Transitions between real poses, with the real dance's root path and velocity factors" +
       WithoutControls(ways) + ". ";
   std::vector<ControlCourse> courses;
@@ -123,7 +123,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
   std::vector<Lengths> lrp;
   for (const ControlFigure& of : ControlFigures(model.skeleton, model.fps)) {
     Table& table = tables.emplace_back(evaluation.NewTable(of.name, of.title, {"method"}));
-    table.note = asked + of.note;
+    table.note = setting + of.note;
     std::vector<Lengths> all;
     for (size_t w = 0; w < ways.size(); ++w) {
       Lengths& lengths = all.emplace_back();
@@ -137,7 +137,7 @@ std::vector<Table> EvaluateControls(const Evaluation& evaluation) {
     if (lrp.empty()) lrp = std::move(all);
   }
   Table ratio = evaluation.NewTable("lrp_ratio", "LRP over interpolation's", {"method"});
-  ratio.note = asked + "Interpolation: slerp, its root on the path.";
+  ratio.note = setting + "Interpolation: slerp, its root on the path.";
   for (size_t w = 0; w < ways.size(); ++w) {
     ratio.Begin({ways[w].name});
     for (size_t i = 0; i < courses.size(); ++i)
@@ -151,19 +151,19 @@ std::vector<Table> EvaluateMultipliers(const Evaluation& evaluation) {
   const ModelInfo& model = evaluation.model();
   if (!model.Takes(kRootPath)) return {};
   ControlCourse course(evaluation, kFactorFrames);
-  const std::string asked = std::to_string(kFactorFrames) + " frames on the real path";
+  const std::string setting = std::to_string(kFactorFrames) + " frames on the real path";
   std::vector<Table> tables;
   tables.push_back(FactorTable(
       evaluation.NewTable("multipliers", "Velocity factors times a number", {"method", "times"}),
-      asked + ": mean speed of each part over the real dance's.", evaluation, course));
+      setting + ": mean speed of each part over the real dance's.", evaluation, course));
   if (model.velocity_references.empty()) return tables;
   const VelocityReference& reference = model.velocity_references.front();
-  course.AskConstant(reference.speeds);
-  tables.push_back(
-      FactorTable(evaluation.NewTable("constant", "Constant velocity factors", {"method", "times"}),
-                  asked + ", the same asked of every frame: " + "a number times the reference \"" +
-                      reference.name + "\". Mean speed of each part over that reference.",
-                  evaluation, course));
+  course.RequestConstant(reference.speeds);
+  tables.push_back(FactorTable(
+      evaluation.NewTable("constant", "Constant velocity factors", {"method", "times"}),
+      setting + ", the same asked of every frame: " + "a number times the reference \"" +
+          reference.name + "\". Mean speed of each part over that reference.",
+      evaluation, course));
   return tables;
 }
 

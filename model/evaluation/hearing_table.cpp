@@ -131,8 +131,8 @@ class Judge {
            Figure of) {
     table_.Begin({label});
     for (const Setting& setting : kSettings) {
-      const bool told = std::ranges::count(matters, &setting) > 0;
-      table_.Put(setting.name, digits, told ? of(setting) : NAN);
+      const bool applies = std::ranges::count(matters, &setting) > 0;
+      table_.Put(setting.name, digits, applies ? of(setting) : NAN);
     }
   }
   std::vector<Pose> Dance(const std::vector<float>& mono, int seed, const Setting& setting) {

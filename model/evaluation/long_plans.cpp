@@ -14,7 +14,7 @@ constexpr int kMinInterval = 15;  // between keys on beats
 constexpr int kMinSeconds = 20, kMaxSpans = 30;
 
 // The pose at frame `at` of a clip that is played forwards, backwards, forwards, ...
-const Pose& WalkedPose(const PreparedClip& clip, int at) {
+const Pose& PoseBackAndForth(const PreparedClip& clip, int at) {
   const int last = static_cast<int>(clip.motion.frames.size()) - 1;
   const int phase = at % (2 * std::max(last, 1));
   return clip.motion.frames[static_cast<size_t>(std::min(last, std::min(phase, 2 * last - phase)))];
@@ -63,7 +63,7 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
     if (music) plan.audio = clip.audio.middleCols(plan.start - history, history + plan.frames);
     plan.beats = set.BeatsBetween(plan.clip, plan.start, plan.frames);
     for (const int frame : KeyFrames(times, IntervalOf(times), plan.frames, plan.beats))
-      plan.keys[frame] = WalkedPose(clip, plan.start + frame);
+      plan.keys[frame] = PoseBackAndForth(clip, plan.start + frame);
     plan.seed = static_cast<uint64_t>(i);
     plan.temperature = options.temperature;
     plans.push_back(std::move(plan));
@@ -74,7 +74,7 @@ std::vector<LongPlan> PlanLongDances(const ModelInfo& model, const ClipSet& set,
 std::vector<Pose> RealMotionBeside(const LongPlan& plan, const ClipSet& set) {
   std::vector<Pose> poses;
   for (int frame = 0; frame < plan.frames; ++frame)
-    poses.push_back(WalkedPose(set.clips[plan.clip], plan.start + frame));
+    poses.push_back(PoseBackAndForth(set.clips[plan.clip], plan.start + frame));
   return poses;
 }
 

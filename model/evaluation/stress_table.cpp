@@ -68,7 +68,7 @@ std::optional<Target> KeyOf(const Case& one, const Skeleton& skeleton,
 struct Danced {
   Motion motion;
   std::optional<Target> key;
-  std::optional<RequiredSpeed> asked;  // none without a key
+  std::optional<RequiredSpeed> required;  // none without a key
 };
 
 std::vector<Danced> DanceCase(const Case& one, const Evaluation& evaluation) {
@@ -117,16 +117,16 @@ std::vector<Table> EvaluateStress(const Evaluation& evaluation) {
       hardest = std::max(hardest, MeasureMotion(model.skeleton, danced.motion).max_acceleration);
       speeds.push_back(static_cast<float>(
           Percentile(MeanSpeeds(TrackJoints(model.skeleton, poses), model.fps), 0.5)));
-      if (!danced.key || !danced.asked) continue;
-      root += danced.asked->root_m_per_s / count;
-      joint += danced.asked->joint_rad_per_s / count;
-      warned += danced.asked->TooFast() ? 1 : 0;
+      if (!danced.key || !danced.required) continue;
+      root += danced.required->root_m_per_s / count;
+      joint += danced.required->joint_rad_per_s / count;
+      warned += danced.required->TooFast() ? 1 : 0;
       const PoseError error = ComparePoses(model.skeleton, poses.back(), danced.key->pose);
       worst = std::max(worst, error.position_m);
     }
     const auto frozen =
         std::ranges::count_if(speeds, [&](float speed) { return range.Frozen(speed); });
-    const auto of_keys = [&](double value) { return all[0].asked ? value : NAN; };
+    const auto of_keys = [&](double value) { return all[0].required ? value : NAN; };
     table.Begin({one.name, std::to_string(one.frames)});
     table.Put("transitions", 0, count);
     table.Put("root m/s asked", 1, of_keys(root));

@@ -28,15 +28,15 @@ FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrac
   return factors;
 }
 
-double VelocityDeviation(const FactorTrack& danced, const FactorTrack& asked) {
-  CheckSameFrames(danced.cols(), asked.cols());
-  return (danced - asked).cwiseAbs().mean();
+double VelocityDeviation(const FactorTrack& danced, const FactorTrack& requested) {
+  CheckSameFrames(danced.cols(), requested.cols());
+  return (danced - requested).cwiseAbs().mean();
 }
 
-double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked) {
-  CheckSameFrames(danced.size(), asked.cols());
+double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& requested) {
+  CheckSameFrames(danced.size(), requested.cols());
   double sum = 0;
-  for (size_t i = 0; i < danced.size(); ++i) sum += (danced[i].col(0) - asked.col(i)).norm();
+  for (size_t i = 0; i < danced.size(); ++i) sum += (danced[i].col(0) - requested.col(i)).norm();
   return sum / danced.size();
 }
 

@@ -23,11 +23,11 @@ FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrac
 
 /// g_v of one transition, Eq. 14: the absolute difference of measured and requested velocity
 /// factors, mean over frames and parts; metres a frame.
-double VelocityDeviation(const FactorTrack& danced, const FactorTrack& asked);
+double VelocityDeviation(const FactorTrack& danced, const FactorTrack& requested);
 
 /// g_r of one transition, Eq. 16: the distance of the root (joint 0) from its requested position,
-/// mean over frames, metres. `asked` is [3, frames].
-double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& asked);
+/// mean over frames, metres. `requested` is [3, frames].
+double RootDeviation(const JointTrack& danced, const Eigen::Matrix3Xd& requested);
 
 /// The tremor of a dance (our measure): the share above kTremorHz of the energy of all joint
 /// velocities relative to the root, 0 to 1; 0 if nothing moves. Subtracts each velocity's mean and
