@@ -83,18 +83,20 @@ std::vector<int64_t> ExpiriesOf(const std::string& certificates) {
 }
 
 // Keeps OpenSSL from asking on the terminal.
-int NoPassphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* was_asked) {
-  *static_cast<bool*>(was_asked) = true;
+int NoPassphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* needs_passphrase) {
+  *static_cast<bool*>(needs_passphrase) = true;
   return -1;
 }
 
 KeyPointer ParseKey(const std::string& field, const std::filesystem::path& path,
                     const std::string& text) {
-  bool was_asked = false;
-  KeyPointer key(PEM_read_bio_PrivateKey(Reader(text).get(), nullptr, NoPassphrase, &was_asked),
-                 EVP_PKEY_free);
+  bool needs_passphrase = false;
+  KeyPointer key(
+      PEM_read_bio_PrivateKey(Reader(text).get(), nullptr, NoPassphrase, &needs_passphrase),
+      EVP_PKEY_free);
   if (key) return key;
-  if (was_asked) throw Unusable(field, path, "is encrypted; a key without a passphrase is needed");
+  if (needs_passphrase)
+    throw Unusable(field, path, "is encrypted; a key without a passphrase is needed");
   throw Unusable(field, path, text.empty() ? "is empty" : "holds no private key in PEM");
 }
 

@@ -68,7 +68,7 @@ std::string Quote(const std::set<std::string>& names) {
 
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file,
-                                    const std::string& wanted) {
+                                    const std::string& requested) {
   const Groups groups = ReadGroups(splits_file);
   std::vector<PreparedClip> clips;
   std::set<std::string> there;
@@ -85,14 +85,14 @@ std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& fo
       }
       const std::string& group =
           *there.insert(GroupOf(groups, folder, clip.name, splits_file)).first;
-      if (group == wanted) clips.push_back(std::move(clip));
+      if (group == requested) clips.push_back(std::move(clip));
     }
   }
   if (clips.empty()) {
     std::set<std::string> data;
     for (const auto& folder : folders) data.insert(folder.string());
-    throw InvalidArgument(splits_file.string(), "no clip of " + Quote(data) + " is in '" + wanted +
-                                                    "'; they are in " + Quote(there));
+    throw InvalidArgument(splits_file.string(), "no clip of " + Quote(data) + " is in '" +
+                                                    requested + "'; they are in " + Quote(there));
   }
   return clips;
 }

@@ -13,12 +13,12 @@ namespace choreo {
 inline const char* const kTrainGroup = "train";
 inline const char* const kValidationGroup = "validation";
 
-/// Reads all clips of `folders` in the group `wanted`, sorted by folder and name. If two sets share
-/// clip names, a folder's clips are those of the set with its name. Throws Error if a folder or the
-/// file is missing, the file has a clip in two groups, or two clips have different skeletons; and,
-/// naming the clips' groups, if no clip is in the group.
+/// Reads all clips of `folders` in the group `requested`, sorted by folder and name. If two sets
+/// share clip names, a folder's clips are those of the set with its name. Throws Error if a folder
+/// or the file is missing, the file has a clip in two groups, or two clips have different
+/// skeletons; and, naming the clips' groups, if no clip is in the group.
 std::vector<PreparedClip> LoadClips(const std::vector<std::filesystem::path>& folders,
                                     const std::filesystem::path& splits_file,
-                                    const std::string& wanted);
+                                    const std::string& requested);
 
 }  // namespace choreo

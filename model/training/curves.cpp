@@ -65,10 +65,10 @@ void Curves::Restore(const std::string& csv) {
 void Curves::Write(const std::filesystem::path& folder) const {
   WriteFile(folder / "curves.csv", Serialise());
   const auto plot = [&](const std::string& title, const std::string& y, const std::string& file,
-                        auto is_wanted) {
+                        auto is_shown) {
     Plot figure{.title = title, .x_label = "step", .y_label = y, .series = {}};
     for (size_t i = 2; i < names_.size(); ++i) {
-      if (!is_wanted(names_[i])) continue;
+      if (!is_shown(names_[i])) continue;
       PlotSeries series{.label = names_[i], .x = {}, .y = {}};
       for (const std::vector<double>& row : rows_) {
         if (i >= row.size() || row[i] == 0) continue;  // not computed yet
