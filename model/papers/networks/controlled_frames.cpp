@@ -13,10 +13,6 @@ FrameTensors FrameTensors::Narrow(int64_t first, int64_t count) const {
           joints.narrow(1, first, count), contacts.narrow(1, first, count)};
 }
 
-FrameTensors FrameTensors::Detach() const {
-  return {root.detach(), facing.detach(), joints.detach(), contacts.detach()};
-}
-
 FrameTensors Join(const FrameTensors& a, const FrameTensors& b) {
   return {torch::cat({a.root, b.root}, 1), torch::cat({a.facing, b.facing}, 1),
           torch::cat({a.joints, b.joints}, 1), torch::cat({a.contacts, b.contacts}, 1)};

@@ -17,7 +17,6 @@ struct FrameTensors {
 
   int64_t size() const { return root.size(1); }
   FrameTensors Narrow(int64_t first, int64_t count) const;
-  FrameTensors Detach() const;
 };
 FrameTensors Join(const FrameTensors& a, const FrameTensors& b);
 
