@@ -71,7 +71,7 @@ bool IsInSilence(const std::vector<Onset>& onsets, double beat, double step) {
 std::vector<double> HearByClient(const std::vector<float>& mono) {
   const double settled_s = live::LiveOptions().look_ahead_s;
   live::BeatEar ear;
-  std::vector<double> told;
+  std::vector<double> predicted;
   const auto piece = static_cast<size_t>(live::kPieceSeconds * kModelSampleRate);
   for (size_t at = 0; at < mono.size(); at += piece) {
     std::vector<double> ahead =
@@ -81,13 +81,13 @@ std::vector<double> HearByClient(const std::vector<float>& mono) {
     std::erase_if(ahead, [settled](double beat) { return beat < settled; });
     if (ahead.empty()) continue;
     const double half = ahead.size() > 1 ? (ahead[1] - ahead[0]) / 2 : 0;
-    std::erase_if(told, [&](double beat) { return beat > ahead.front() - half; });
-    told.insert(told.end(), ahead.begin(), ahead.end());
+    std::erase_if(predicted, [&](double beat) { return beat > ahead.front() - half; });
+    predicted.insert(predicted.end(), ahead.begin(), ahead.end());
   }
   const std::vector<Onset> onsets = FindOnsets(mono);
-  const double period = 60 / TempoOf(told);
-  std::erase_if(told, [&](double beat) { return IsInSilence(onsets, beat, period); });
-  return told;
+  const double period = 60 / TempoOf(predicted);
+  std::erase_if(predicted, [&](double beat) { return IsInSilence(onsets, beat, period); });
+  return predicted;
 }
 
 std::vector<double> ReadSeconds(const std::filesystem::path& path) {

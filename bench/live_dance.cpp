@@ -115,10 +115,10 @@ Lateness DanceLive(const client::Client& client, const client::Audio& song,
       }
     }
   } catch (const Error& error) {
-    const std::chrono::duration<double, std::milli> told = Clock::now() - start;
+    const std::chrono::duration<double, std::milli> until_refusal = Clock::now() - start;
     player.join();
     if (error.code() != ErrorCode::kResourceExhausted || !arrivals.empty()) throw;
-    lateness.refused_ms.push_back(told.count());
+    lateness.refused_ms.push_back(until_refusal.count());
     return lateness;
   }
   player.join();
@@ -131,8 +131,8 @@ Lateness DanceLive(const client::Client& client, const client::Audio& song,
     lateness.all_ms.push_back(
         std::chrono::duration<double, std::milli>(arrivals[frame] - chunk->at).count());
     if (frame == 0) lateness.first_ms.push_back(lateness.all_ms.back());
-    const double wanted_s = needs_s + request.longest_chunk_s + kAllowance_s;
-    if (arrivals[frame] > After(start, wanted_s)) ++lateness.missed;
+    const double needed_s = needs_s + request.longest_chunk_s + kAllowance_s;
+    if (arrivals[frame] > After(start, needed_s)) ++lateness.missed;
   }
   return lateness;
 }

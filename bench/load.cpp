@@ -127,7 +127,7 @@ class Load {
       });
     }
     DanceBeside("5,000 times 1800 frames, 32 candidates, with 1 ms each",
-                [this](const std::atomic<bool>& over) { return AskWithoutTime(5'000, over); });
+                [this](const std::atomic<bool>& over) { return CallAfterDeadline(5'000, over); });
   }
 
   /// One live dance beside others whose next key poses are dragged.
@@ -278,7 +278,7 @@ class Load {
   }
 
   // Calls whose deadline passes before they are handled.
-  int64_t AskWithoutTime(int calls, const std::atomic<bool>& over) const {
+  int64_t CallAfterDeadline(int calls, const std::atomic<bool>& over) const {
     constexpr int kCallers = 50;
     const client::Client client(
         {.addresses = {server_->address()}, .deadline_s = 1e-3, .retry_s = 0});

@@ -72,12 +72,12 @@ class Soak {
     {
       std::vector<std::jthread> clients;
       for (int i = 0; i < options_.dances; ++i) {
-        clients.emplace_back([this, i] { Behave(i); });
+        clients.emplace_back([this, i] { RunWellBehaved(i); });
         std::this_thread::sleep_for(milliseconds(500));  // spread over time
       }
       clients.emplace_back([this] { Crash(); });
-      clients.emplace_back([this] { BeSilent(); });
-      clients.emplace_back([this] { BeGreedy(); });
+      clients.emplace_back([this] { RunSilent(); });
+      clients.emplace_back([this] { RunGreedy(); });
       while (!IsOver()) {
         std::this_thread::sleep_for(seconds(1));
         server_->RequireRunning();
@@ -113,7 +113,7 @@ class Soak {
   }
 
   // One dance after another, in real time.
-  void Behave(int number) {
+  void RunWellBehaved(int number) {
     const client::Client client(ClientOptions());
     for (uint32_t round = 0; !IsOver(); ++round) {
       const double minute = MinutesSince(start_);
@@ -152,7 +152,7 @@ class Soak {
   }
 
   // Begins dances, sends nothing more, and disconnects.
-  void BeSilent() {
+  void RunSilent() {
     while (!IsOver()) {
       const client::Client client(ClientOptions());
       std::vector<std::unique_ptr<client::RemoteDance>> dances;
@@ -164,7 +164,7 @@ class Soak {
   }
 
   // Requests more than it reads: endless alternatives, and dances.
-  void BeGreedy() {
+  void RunGreedy() {
     const client::Client client(ClientOptions());
     while (!IsOver()) {
       std::vector<std::unique_ptr<client::RemoteDance>> dances;

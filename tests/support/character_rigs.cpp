@@ -44,7 +44,7 @@ std::string NodeName(const CharacterRig& rig, int joint) {
 }
 
 // Removes the animation, whose accessors are the last ones.
-void ForgetAnimation(Glb* glb) {
+void RemoveAnimation(Glb* glb) {
   json& document = glb->document;
   const size_t first = document["animations"][0]["samplers"][0]["input"].get<size_t>();
   json& accessors = document["accessors"];
@@ -63,7 +63,7 @@ void WriteCharacter(const std::filesystem::path& path, const CharacterRig& rig) 
   const Skeleton& body = rig.body;
   WriteGlb(path, body, {.fps = 30, .frames = {RestPose(body)}});
   Glb glb(path);
-  ForgetAnimation(&glb);
+  RemoveAnimation(&glb);
   const std::vector<Eigen::Quaterniond> rolls = Rolls(rig);
   const JointPlacement rest = ForwardKinematics(body, AtRest(rig));
   const Eigen::Quaterniond armature = rig.armature_scale == 1

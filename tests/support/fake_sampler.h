@@ -83,7 +83,7 @@ class FakeTransition {
       next[Width() - 1] += 0.01 * std::max(0.0, 1 - std::abs(beat - frame));
     if (spec_.style == "wild") next[Width() - 2] += 0.01;
     next[Width() - 3] += 0.01 * spec_.energy.now + 0.003 * spec_.energy.before;
-    Obey(frame, &next);
+    ApplyControls(frame, &next);
 
     Pose pose;
     pose.root_position = next.head<3>();
@@ -117,7 +117,7 @@ class FakeTransition {
   }
 
   // Makes the controls visible in the dance.
-  void Obey(int frame, Eigen::VectorXd* next) const {
+  void ApplyControls(int frame, Eigen::VectorXd* next) const {
     const Controls& controls = spec_.controls;
     if (controls[kRootPath].IsGiven()) next->head<3>() = controls[kRootPath].values.col(frame);
     const ControlCurve& factors = controls[kVelocityFactors];
