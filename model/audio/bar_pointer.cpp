@@ -2,9 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "model/audio/format.h"
+
+// Uses no fused multiply-add, which rounds differently (CMakeLists.txt).
+#if defined(__x86_64__)
+#define CHOREO_LANES_OF_EACH_CPU [[gnu::target_clones("avx2", "default")]]
+#else
+#define CHOREO_LANES_OF_EACH_CPU
+#endif
 
 namespace choreo {
 namespace {
@@ -21,6 +29,69 @@ constexpr double kWeight = 0.2;
 constexpr double kTempoCost = 100;  // Krebs et al. 2015
 
 int PeriodOf(double bpm) { return static_cast<int>(std::lround(kFramesPerMinute / bpm)); }
+
+// What changing to the next slower tempo costs, and staying, by period.
+struct Costs {
+  static constexpr int kLongest = 128;  // frames
+  std::array<float, kLongest> step{}, stay{};
+
+  Costs() {
+    for (int period = 1; period < kLongest; ++period) {
+      const auto i = static_cast<size_t>(period);
+      step[i] = static_cast<float>(kTempoCost * std::log((period + 1.0) / period));
+      double sum = 0;
+      for (int to = std::max(1, period / 2); to <= 2 * period; ++to)
+        sum += std::exp(-kTempoCost * std::abs(std::log(double{1} * to / period)));
+      stay[i] = static_cast<float>(std::log(sum));
+    }
+  }
+
+  static const Costs& Shared() {
+    static const Costs costs;
+    return costs;
+  }
+};
+
+// The beats of a bar, side by side in a register.
+typedef float Lanes __attribute__((vector_size(16)));
+typedef int IntLanes __attribute__((vector_size(16)));
+
+inline Lanes Load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+inline IntLanes LoadInts(const int* from) {
+  IntLanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+// Goes from each tempo to the next one, `ahead` or back, where that is better than what reaches
+// it. `cost` is of the step between a tempo and the next slower one.
+template <int kStep>
+inline void ChangeTempo(float* best, int* from, const float* cost, size_t tempi) {
+  constexpr std::ptrdiff_t kLanes = 4;
+  const std::ptrdiff_t first = kStep > 0 ? 0 : static_cast<std::ptrdiff_t>(tempi) - 1;
+  Lanes score = Load(best + first * kLanes);
+  IntLanes origin = LoadInts(from + first * kLanes);
+  for (size_t left = tempi; left > 1; --left) {
+    const std::ptrdiff_t by = kStep > 0 ? static_cast<std::ptrdiff_t>(tempi - left)
+                                        : static_cast<std::ptrdiff_t>(left) - 1;
+    const std::ptrdiff_t to = by + kStep;
+    const Lanes other = score - cost[kStep > 0 ? by : to], own = Load(best + to * kLanes);
+    const IntLanes better = other > own;
+    origin = better ? origin : LoadInts(from + to * kLanes);
+    score = other > own ? other : own;
+    std::memcpy(best + to * kLanes, &score, sizeof score);
+    std::memcpy(from + to * kLanes, &origin, sizeof origin);
+  }
+}
+
+CHOREO_LANES_OF_EACH_CPU void ChangeTempi(float* best, int* from, const float* cost, size_t tempi) {
+  ChangeTempo<1>(best, from, cost, tempi);
+  ChangeTempo<-1>(best, from, cost, tempi);
+}
 
 }  // namespace
 
@@ -40,28 +111,15 @@ std::array<float, Onset::kBands> EvenOnsets::Even(const Onset& onset) {
 BarPointer::BarPointer(std::span<const BarPattern> patterns, const Limits& limits)
     : patterns_(patterns.begin(), patterns.end()) {
   for (size_t pattern = 0; pattern < patterns_.size(); ++pattern) AddPart(pattern, limits);
-  size_t scores = 0;
-  int longest = 0;
-  for (Ring& ring : rings_) {
-    ring.first_score = static_cast<uint32_t>(scores);
-    scores += static_cast<size_t>(ring.period);
-    scores_.resize(scores, static_cast<float>(-std::log(ring.period)));
-    longest = std::max(longest, ring.period);
+  for (Tempo& tempo : tempi_) {
+    tempo.first_score = scores_.size();
+    scores_.resize(scores_.size() + static_cast<size_t>(tempo.period) * kBeats,
+                   static_cast<float>(-std::log(tempo.period)));
   }
-  place_scores_.resize(likelihood_.size() / Onset::kBands * kHistory);
+  place_scores_.resize(parts_.size() * kScores * kHistory);
   beginning_.resize(place_scores_.size());
-  best_.resize(rings_.size());
-  from_.resize(rings_.size());
-  step_cost_.resize(static_cast<size_t>(longest) + 2);
-  stay_cost_.resize(step_cost_.size());
-  for (int period = 1; period <= longest; ++period) {
-    const auto i = static_cast<size_t>(period);
-    step_cost_[i] = static_cast<float>(kTempoCost * std::log((period + 1.0) / period));
-    double sum = 0;
-    for (int to = std::max(1, period / 2); to <= 2 * period; ++to)
-      sum += std::exp(-kTempoCost * std::abs(std::log(double{1} * to / period)));
-    stay_cost_[i] = static_cast<float>(std::log(sum));
-  }
+  best_.resize(tempi_.size() * kBeats);
+  from_.resize(best_.size());
 }
 
 void BarPointer::AddPart(size_t nth, const Limits& limits) {
@@ -69,18 +127,25 @@ void BarPointer::AddPart(size_t nth, const Limits& limits) {
   const int shortest = PeriodOf(std::min(pattern.fastest_bpm, limits.fastest_bpm));
   const int longest = PeriodOf(std::max(pattern.slowest_bpm, limits.slowest_bpm));
   if (shortest > longest) return;
-  parts_.push_back({nth, static_cast<size_t>(pattern.beats), rings_.size(),
-                    static_cast<size_t>(longest - shortest + 1),
-                    likelihood_.size() / Onset::kBands});
-  for (const BarPattern::Bands& bands : pattern.rise) {
-    // Log of the exponential density, relative to that between the places.
-    for (const double mean : bands)
-      likelihood_.push_back(
-          {kWeight * std::log(kBetween / mean), kWeight * (1 / kBetween - 1 / mean)});
+  const size_t first = parts_.size() * kScores, beats = static_cast<size_t>(pattern.beats);
+  parts_.push_back(
+      {nth, beats, tempi_.size(), static_cast<size_t>(longest - shortest + 1), first, {}});
+  for (size_t beat = 0; beat < kBeats; ++beat)
+    parts_.back().previous[beat] = beat < beats ? (beat + beats - 1) % beats : beat;
+  for (size_t band = 0; band < Onset::kBands; ++band) {
+    constant_[band].resize(first + kScores);
+    slope_[band].resize(first + kScores);
+    for (size_t i = 0; i < pattern.rise.size(); ++i) {
+      const double mean = pattern.rise[i][band];
+      const size_t at = first + i % kPlaces * kBeats + i / kPlaces;
+      // Log of the exponential density, relative to that between the places.
+      constant_[band][at] = kWeight * std::log(kBetween / mean);
+      slope_[band][at] = kWeight * (1 / kBetween - 1 / mean);
+    }
   }
   for (int period = shortest; period <= longest; ++period) {
-    Ring ring{0, period, 0, {}};
-    ring.begin.fill(kNowhere);
+    Tempo tempo{0, period, 0, {}};
+    tempo.begin.fill(kNowhere);
     for (size_t place = 0; place < pattern.places; ++place) {
       const double at = pattern.place[place];
       // The first one counts of positions too close to distinguish at this tempo.
@@ -89,9 +154,9 @@ void BarPointer::AddPart(size_t nth, const Limits& limits) {
         return period * std::min(apart, 1 - apart) < kFrames + 1;
       };
       if (!std::any_of(pattern.place.begin(), &pattern.place[place], is_near))
-        ring.begin[place] = static_cast<int8_t>(std::lround(period * at) + kFirstFrame);
+        tempo.begin[place] = static_cast<int8_t>(std::lround(period * at) + kFirstFrame);
     }
-    rings_.insert(rings_.end(), kBeats, ring);
+    tempi_.push_back(tempo);
   }
 }
 
@@ -101,115 +166,113 @@ void BarPointer::Add(const Onset& onset) {
     Arrive(part);
   }
   back_.insert(back_.end(), from_.begin(), from_.end());
-  const auto even = even_.Even(onset);
-  for (size_t place = 0; place * even.size() < likelihood_.size(); ++place) {
-    double sum = 0;
-    for (size_t band = 0; band < even.size(); ++band) {
-      const auto& [constant, slope] = likelihood_[place * even.size() + band];
-      if (even[band] >= 0) sum += constant + slope * even[band];
-    }
-    place_scores_[At(place, frames_)] = static_cast<float>(sum);
-    float& beginning = beginning_[At(place, frames_ - kFrames + 1)];
-    beginning = 0;
-    for (int i = 0; i < kFrames; ++i) beginning += place_scores_[At(place, frames_ - i)];
-  }
+  Score(onset);
   ++frames_;
+}
+
+// Scores the places in this frame.
+void BarPointer::Score(const Onset& onset) {
+  const auto even = even_.Even(onset);
+  const size_t places = parts_.size() * kScores;
+  std::array<double, kScores> sum;
+  for (size_t first = 0; first < places; first += kScores) {
+    sum.fill(0);
+    for (size_t band = 0; band < even.size(); ++band) {
+      if (!(even[band] >= 0)) continue;
+      const double* constant = &constant_[band][first];
+      const double* slope = &slope_[band][first];
+      for (size_t i = 0; i < kScores; ++i) sum[i] += constant[i] + slope[i] * even[band];
+    }
+    std::ranges::copy(sum, &place_scores_[At(frames_) + first]);
+  }
+  float* beginning = &beginning_[At(frames_ - kFrames + 1)];
+  std::fill_n(beginning, places, 0.0F);
+  for (int i = 0; i < kFrames; ++i) {
+    const float* scores = &place_scores_[At(frames_ - i)];
+    for (size_t place = 0; place < places; ++place) beginning[place] += scores[place];
+  }
 }
 
 // Sets best_ of each beat to the path that stays at its tempo.
 void BarPointer::Leave(const Part& part) {
-  for (size_t tempo = 0; tempo < part.tempi; ++tempo) {
-    const size_t first = part.first_ring + tempo * kBeats;
-    const float stay = stay_cost_[static_cast<size_t>(rings_[first].period)];
-    for (size_t beat = 0; beat < part.beats; ++beat) {
-      Ring& ring = rings_[first + beat];
-      ring.zero = ring.zero == 0 ? ring.period - 1 : ring.zero - 1;
-      float score = scores_[ring.first_score + static_cast<size_t>(ring.zero)] - stay;
-      const int64_t start = frames_ - ring.period;
-      const size_t places = part.first_place + beat * BarPattern::kPlaces;
-      for (size_t place = 0; place < ring.begin.size(); ++place) {
-        if (ring.begin[place] != kNowhere)
-          score += beginning_[At(places + place, start + ring.begin[place])];
-      }
-      best_[first + (beat + 1) % part.beats] = score;
+  const Costs& costs = Costs::Shared();
+  for (size_t at = part.first_tempo; at < part.first_tempo + part.tempi; ++at) {
+    Tempo& tempo = tempi_[at];
+    tempo.zero = tempo.zero == 0 ? tempo.period - 1 : tempo.zero - 1;
+    Lanes score = Load(&scores_[tempo.first_score + static_cast<size_t>(tempo.zero) * kBeats]) -
+                  costs.stay[static_cast<size_t>(tempo.period)];
+    const int64_t start = frames_ - tempo.period;
+    const float* beginning = &beginning_[part.first_place];
+    for (size_t place = 0; place < kPlaces; ++place, beginning += kBeats) {
+      if (tempo.begin[place] != kNowhere) score += Load(beginning + At(start + tempo.begin[place]));
     }
+    std::array<float, kBeats> scores;
+    std::memcpy(scores.data(), &score, sizeof score);
+    for (size_t beat = 0; beat < kBeats; ++beat)
+      best_[at * kBeats + beat] = scores[part.previous[beat]];
   }
 }
 
 // Changes of tempo. Their cost adds up from period to period, so two passes find the best.
 void BarPointer::Arrive(const Part& part) {
-  const size_t first = part.first_ring, shortest = static_cast<size_t>(rings_[first].period);
-  float* best = &best_[first];
-  int* from = &from_[first];
-  const auto improve = [&](size_t to, size_t by, float cost) {
-    for (size_t beat = 0; beat < kBeats; ++beat) {
-      const float other = best[by * kBeats + beat] - cost;
-      float& own = best[to * kBeats + beat];
-      int& own_from = from[to * kBeats + beat];
-      own_from = other > own ? from[by * kBeats + beat] : own_from;
-      own = other > own ? other : own;
-    }
-  };
+  float* best = &best_[part.first_tempo * kBeats];
+  int* from = &from_[part.first_tempo * kBeats];
   for (size_t tempo = 0; tempo < part.tempi; ++tempo)
     std::fill_n(from + tempo * kBeats, kBeats, static_cast<int>(tempo));
-  for (size_t tempo = 1; tempo < part.tempi; ++tempo)
-    improve(tempo, tempo - 1, step_cost_[shortest + tempo - 1]);
-  for (size_t tempo = part.tempi - 1; tempo-- > 0;)
-    improve(tempo, tempo + 1, step_cost_[shortest + tempo]);
-  for (size_t r = first; r < first + part.tempi * kBeats; ++r)
-    scores_[rings_[r].first_score + static_cast<size_t>(rings_[r].zero)] = best_[r];
-}
-
-float BarPointer::ScoreSince(const Ring& ring, size_t first_place, int64_t start) const {
-  float sum = 0;
-  for (size_t place = 0; place < ring.begin.size(); ++place) {
-    if (ring.begin[place] == kNowhere) continue;
-    const int64_t begin = start + ring.begin[place];
-    for (int64_t frame = begin; frame < std::min(begin + kFrames, frames_); ++frame)
-      sum += place_scores_[At(first_place + place, frame)];
+  Tempo* tempi = &tempi_[part.first_tempo];
+  ChangeTempi(best, from, &Costs::Shared().step[static_cast<size_t>(tempi->period)], part.tempi);
+  for (size_t tempo = 0; tempo < part.tempi; ++tempo) {
+    std::copy_n(
+        best + tempo * kBeats, kBeats,
+        &scores_[tempi[tempo].first_score + static_cast<size_t>(tempi[tempo].zero) * kBeats]);
   }
-  return sum;
 }
 
-size_t BarPointer::BestRing(int* frames_since) const {
+BarPointer::State BarPointer::Best() const {
   float most = -std::numeric_limits<float>::infinity();
-  size_t best = 0;
-  for (const Part& part : parts_) {
-    for (size_t at = 0; at < part.tempi * kBeats; ++at) {
-      if (at % kBeats >= part.beats) continue;
-      const Ring& ring = rings_[part.first_ring + at];
-      for (int since = 0; since < ring.period; ++since) {
-        const auto start = static_cast<size_t>((ring.zero + since) % ring.period);
-        const float score = scores_[ring.first_score + start] +
-                            ScoreSince(ring, part.first_place + at % kBeats * BarPattern::kPlaces,
-                                       frames_ - 1 - since);
-        if (score <= most) continue;
-        most = score;
-        best = part.first_ring + at;
-        *frames_since = since;
+  State best{};
+  for (size_t nth = 0; nth < parts_.size(); ++nth) {
+    const Part& part = parts_[nth];
+    for (size_t at = part.first_tempo; at < part.first_tempo + part.tempi; ++at) {
+      const Tempo& tempo = tempi_[at];
+      Lanes own = Lanes{} - std::numeric_limits<float>::infinity();  // of each beat
+      IntLanes own_since{};
+      for (int since = 0; since < tempo.period; ++since) {
+        // By the frames so far.
+        Lanes sum{};
+        for (size_t place = 0; place < kPlaces; ++place) {
+          if (tempo.begin[place] == kNowhere) continue;
+          const int64_t begin = frames_ - 1 - since + tempo.begin[place];
+          for (int64_t frame = begin; frame < std::min(begin + kFrames, frames_); ++frame)
+            sum += Load(&place_scores_[At(frame) + part.first_place + place * kBeats]);
+        }
+        const auto start = static_cast<size_t>((tempo.zero + since) % tempo.period);
+        const Lanes score = Load(&scores_[tempo.first_score + start * kBeats]) + sum;
+        own_since = score > own ? IntLanes{} + since : own_since;
+        own = score > own ? score : own;
+      }
+      for (size_t beat = 0; beat < part.beats; ++beat) {
+        if (own[beat] <= most) continue;
+        most = own[beat];
+        best = {nth, at, beat, own_since[beat]};
       }
     }
   }
   return best;
 }
 
-const BarPointer::Part& BarPointer::PartOf(size_t ring) const {
-  return *std::ranges::find_if(
-      parts_, [ring](const Part& part) { return ring < part.first_ring + part.tempi * kBeats; });
-}
-
 std::vector<BarPointer::Step> BarPointer::Path() const {
   std::vector<Step> path;
-  if (rings_.empty() || frames_ == 0) return path;
-  int since = 0;
-  size_t ring = BestRing(&since);
-  const Part& part = PartOf(ring);
+  if (tempi_.empty() || frames_ == 0) return path;
+  auto [nth, tempo, beat, since] = Best();
+  const Part& part = parts_[nth];
   const auto beats = static_cast<int>(part.beats);
-  for (int64_t frame = frames_ - 1 - since; frame >= 0; frame -= rings_[ring].period) {
-    const auto beat = static_cast<int>((ring - part.first_ring) % kBeats);
-    path.push_back({frame, rings_[ring].period, beat, part.pattern, beats});
-    const size_t tempo = back_[static_cast<size_t>(frame) * rings_.size() + ring];
-    ring = part.first_ring + tempo * kBeats + static_cast<size_t>((beat + beats - 1) % beats);
+  for (int64_t frame = frames_ - 1 - since; frame >= 0; frame -= tempi_[tempo].period) {
+    const int period = tempi_[tempo].period;
+    path.push_back({frame, period, static_cast<int>(beat), part.pattern, beats});
+    const size_t state = static_cast<size_t>(frame) * tempi_.size() + tempo;
+    tempo = part.first_tempo + back_[state * kBeats + beat];
+    beat = part.previous[beat];
   }
   std::ranges::reverse(path);
   return path;

@@ -77,6 +77,8 @@ class BarPointer {
 
   /// EvenOnsets::Settle. Call it before the first Add.
   void Settle(std::span<const Onset> onsets) { even_.Settle(onsets); }
+  /// Makes room for so many frames in all, which saves time.
+  void Reserve(size_t frames) { back_.reserve(frames * from_.size()); }
   void Add(const Onset& onset);
 
   /// The beats of the best path to the last frame, ascending, without those before the first frame.
@@ -86,45 +88,51 @@ class BarPointer {
  private:
   static constexpr size_t kBeats = 4;      // in a bar, at most; shorter bars leave lanes unused
   static constexpr size_t kHistory = 128;  // frames; longer than any beat
+  static constexpr size_t kPlaces = BarPattern::kPlaces;
+  static constexpr size_t kScores = kPlaces * kBeats;  // of a pattern's places: [place][beat]
   static constexpr int8_t kNowhere = -128;
 
-  // One beat of a pattern at one tempo, with the scores of the best paths to its start in the last
-  // `period` frames, as a ring: `zero` is the latest.
-  struct Ring {
-    uint32_t first_score;
+  // A pattern at one tempo. The scores of the best paths to the start of each of its beats in the
+  // last `period` frames form a ring, [period][kBeats]: `zero` is the latest.
+  struct Tempo {
+    size_t first_score;
     int period, zero;
     // Where the frames that count as each place begin, from the beat's first frame on; kNowhere:
     // too close to an earlier place.
-    std::array<int8_t, BarPattern::kPlaces> begin;
+    std::array<int8_t, kPlaces> begin;
   };
-  // A pattern's rings, [tempo][kBeats], from the fastest tempo on.
+  // A pattern's tempi, from the fastest on.
   struct Part {
-    size_t pattern, beats, first_ring, tempi;
-    size_t first_place;  // of all patterns'
+    size_t pattern, beats, first_tempo, tempi;
+    size_t first_place;                   // of all patterns' scores of places
+    std::array<size_t, kBeats> previous;  // beat of the bar
+  };
+  struct State {
+    size_t part, tempo, beat;  // the tempo of all parts'
+    int frames_since;          // the beat began
   };
 
-  static size_t At(size_t place, int64_t frame) {
-    return place * kHistory + static_cast<size_t>(frame) % kHistory;
-  }
   void AddPart(size_t pattern, const Limits& limits);
+  void Score(const Onset& onset);
   void Leave(const Part& part);
   void Arrive(const Part& part);
-  // The score, by the frames so far, of a beat that starts at `start`.
-  float ScoreSince(const Ring& ring, size_t first_place, int64_t start) const;
-  size_t BestRing(int* frames_since) const;
-  const Part& PartOf(size_t ring) const;
+  // The scores of all places in a frame.
+  size_t At(int64_t frame) const {
+    return static_cast<size_t>(frame) % kHistory * parts_.size() * kScores;
+  }
+  State Best() const;
 
   std::vector<BarPattern> patterns_;
-  std::vector<std::array<double, 2>> likelihood_;  // [place * bands]: a + b x
-  std::vector<Ring> rings_;
+  // a + b x: [band][place of all patterns].
+  std::array<std::vector<double>, Onset::kBands> constant_, slope_;
+  std::vector<Tempo> tempi_;
   std::vector<Part> parts_;
   // The score of each place in the last kHistory frames, and its sum with the next three.
   std::vector<float> place_scores_, beginning_;
-  std::vector<float> scores_;                 // of all rings
-  std::vector<float> best_;                   // by ring: of the paths to its beat in this frame
-  std::vector<int> from_;                     // and the tempo they come from
-  std::vector<uint8_t> back_;                 // from_ by [frame][ring]
-  std::vector<float> step_cost_, stay_cost_;  // by period
+  std::vector<float> scores_;  // of all rings
+  std::vector<float> best_;    // [tempo][kBeats]: of the paths to this frame
+  std::vector<int> from_;      // and the tempo of its part they come from
+  std::vector<uint8_t> back_;  // from_ by [frame]
   EvenOnsets even_;
   int64_t frames_ = 0;
 };

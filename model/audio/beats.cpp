@@ -167,6 +167,7 @@ Path BestPath(std::span<const Onset> onsets, std::span<const BarPattern> pattern
               MusicExtent extent, const TempoLimits& limits) {
   BarPointer pointer(patterns, {limits.slowest_bpm, limits.fastest_bpm});
   if (extent == MusicExtent::kPart) pointer.Settle(onsets);
+  pointer.Reserve(onsets.size());
   for (const Onset& onset : onsets) pointer.Add(onset);
   return pointer.Path();
 }
