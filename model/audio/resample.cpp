@@ -1,8 +1,10 @@
 #include "model/audio/resample.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -47,10 +49,11 @@ double BesselI0(double x) {
 const std::vector<double>& PrototypeTable() {
   static const std::vector<double> table = [] {
     std::vector<double> values(kZeroCrossings * kTableSteps + 2, 0.0);
+    const double peak = BesselI0(kKaiserBeta);
     for (int i = 0; i <= kZeroCrossings * kTableSteps; ++i) {
       const double t = static_cast<double>(i) / kTableSteps;
       const double u = t / kZeroCrossings;
-      const double window = BesselI0(kKaiserBeta * std::sqrt(1 - u * u)) / BesselI0(kKaiserBeta);
+      const double window = BesselI0(kKaiserBeta * std::sqrt(1 - u * u)) / peak;
       const double angle = std::numbers::pi * t;
       values[static_cast<size_t>(i)] = window * (i == 0 ? 1.0 : std::sin(angle) / angle);
     }
@@ -60,51 +63,94 @@ const std::vector<double>& PrototypeTable() {
 }
 
 constexpr size_t kLanes = 16;
+constexpr size_t kTogether = 4;  // sums, of which none waits for another
+
+/// The operands of sums of products; all sums have the same first operand if `same`.
+struct Products {
+  std::array<const double*, kTogether> a, b;
+  bool same;
+};
 
 /// Sums in a fixed order: same bits at any sample address and vector width.
-[[gnu::always_inline]] inline double SumOfProducts(const double* a, const double* b, size_t size) {
-  double sum[kLanes] = {};
+template <size_t kSums, bool kSame>
+[[gnu::always_inline]] inline void SumProducts(const double* const* a, const double* const* b,
+                                               size_t size, double* sums) {
+  // One register, or several narrower ones.
+  typedef double Vector __attribute__((vector_size(64), aligned(8), may_alias));
+  constexpr size_t kWide = sizeof(Vector) / sizeof(double);
+  static_assert(kLanes == 2 * kWide);
+  Vector low[kSums] = {}, high[kSums] = {};
   size_t i = 0;
   for (; i + kLanes <= size; i += kLanes) {
-    for (size_t lane = 0; lane < kLanes; ++lane) sum[lane] += a[i + lane] * b[i + lane];
+#pragma GCC unroll 4
+    for (size_t s = 0; s < kSums; ++s) {
+      const double* with = a[kSame ? 0 : s] + i;
+      low[s] += *reinterpret_cast<const Vector*>(with) * *reinterpret_cast<const Vector*>(b[s] + i);
+      high[s] += *reinterpret_cast<const Vector*>(with + kWide) *
+                 *reinterpret_cast<const Vector*>(b[s] + i + kWide);
+    }
   }
-  for (size_t lane = 0; i < size; ++i, ++lane) sum[lane] += a[i] * b[i];
-  for (size_t half = kLanes / 2; half > 0; half /= 2) {
-    for (size_t lane = 0; lane < half; ++lane) sum[lane] += sum[lane + half];
+  if (i < size) {
+    for (size_t s = 0; s < kSums; ++s) {
+      double lanes[kLanes];
+      __builtin_memcpy(lanes, &low[s], sizeof low[s]);
+      __builtin_memcpy(lanes + kWide, &high[s], sizeof high[s]);
+      for (size_t lane = 0; i + lane < size; ++lane)
+        lanes[lane] += a[kSame ? 0 : s][i + lane] * b[s][i + lane];
+      __builtin_memcpy(&low[s], lanes, sizeof low[s]);
+      __builtin_memcpy(&high[s], lanes + kWide, sizeof high[s]);
+    }
   }
-  return sum[0];
+#pragma GCC unroll 4
+  for (size_t s = 0; s < kSums; ++s) {
+    const Vector sum = low[s] + high[s];
+    const double at[] = {sum[0] + sum[4], sum[1] + sum[5], sum[2] + sum[6], sum[3] + sum[7]};
+    sums[s] = (at[0] + at[2]) + (at[1] + at[3]);
+  }
 }
 
-double DotBaseline(const double* a, const double* b, size_t size) {
-  return SumOfProducts(a, b, size);
+/// The first `count` sums.
+[[gnu::always_inline]] inline void SumSome(const Products& of, size_t size, size_t count,
+                                           double* sums) {
+  if (count < kTogether) {
+    for (size_t s = 0; s < count; ++s) SumProducts<1, true>(&of.a[s], &of.b[s], size, sums + s);
+  } else if (of.same) {
+    SumProducts<kTogether, true>(of.a.data(), of.b.data(), size, sums);
+  } else {
+    SumProducts<kTogether, false>(of.a.data(), of.b.data(), size, sums);
+  }
+}
+
+void SumBaseline(const Products& of, size_t size, size_t count, double* sums) {
+  SumSome(of, size, count, sums);
 }
 #if defined(__x86_64__)
 // Uses no fused multiply-add, which rounds differently (CMakeLists.txt: AVX-512 includes it).
-[[gnu::target("avx2")]] double DotAvx2(const double* a, const double* b, size_t size) {
-  return SumOfProducts(a, b, size);
+[[gnu::target("avx2")]] void SumAvx2(const Products& of, size_t size, size_t count, double* sums) {
+  SumSome(of, size, count, sums);
 }
 #if defined(__clang__)  // Clang has no preferred width
 [[gnu::target("avx512f")]]
 #else
 [[gnu::target("avx512f,prefer-vector-width=512")]]
 #endif
-double
-DotAvx512(const double* a, const double* b, size_t size) {
-  return SumOfProducts(a, b, size);
+void
+SumAvx512(const Products& of, size_t size, size_t count, double* sums) {
+  SumSome(of, size, count, sums);
 }
 #endif
 
-using DotProduct = double (*)(const double* a, const double* b, size_t size);
+using Sums = void (*)(const Products& of, size_t size, size_t count, double* sums);
 
-DotProduct FastestDot() {
+Sums FastestSums() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return DotAvx512;
-  if (__builtin_cpu_supports("avx2")) return DotAvx2;
+  if (__builtin_cpu_supports("avx512f")) return SumAvx512;
+  if (__builtin_cpu_supports("avx2")) return SumAvx2;
 #endif
-  return DotBaseline;
+  return SumBaseline;
 }
 
-const DotProduct kDot = FastestDot();
+const Sums kSum = FastestSums();
 
 }  // namespace
 
@@ -123,20 +169,27 @@ class PolyphaseKernel {
     }
   }
 
-  /// Streams with the same ratio share a filter, which may take a third of a MiB.
+  /// Streams with the same ratio share a filter, which may take a third of a MiB. The next stream
+  /// finds those of the last few ratios.
   static std::shared_ptr<const PolyphaseKernel> Shared(int64_t in_per_period, int64_t phases) {
     static std::mutex mutex;
     static std::map<std::pair<int64_t, int64_t>, std::weak_ptr<const PolyphaseKernel>> filters;
+    constexpr size_t kKept = 4;
+    static std::deque<std::shared_ptr<const PolyphaseKernel>> kept;  // latest first
     const std::lock_guard lock(mutex);
     std::erase_if(filters, [](const auto& filter) { return filter.second.expired(); });
     std::weak_ptr<const PolyphaseKernel>& known = filters[{in_per_period, phases}];
     std::shared_ptr<const PolyphaseKernel> filter = known.lock();
     if (!filter) known = filter = std::make_shared<PolyphaseKernel>(in_per_period, phases);
+    std::erase(kept, filter);
+    kept.push_front(filter);
+    if (kept.size() > kKept) kept.pop_back();
     return filter;
   }
 
   int64_t half_length() const { return half_length_; }
   int64_t taps() const { return 2 * half_length_; }
+  bool keeps_phases() const { return !kept_.empty(); }
 
   /// The taps of one phase; `scratch` holds them if they are not cached.
   const double* Phase(int64_t phase, std::vector<double>& scratch) const {
@@ -240,17 +293,26 @@ void Resampler::Produce() {
     return;
   }
   const int64_t end = input_start_ + static_cast<int64_t>(input_.size());
-  const int64_t half = kernel_->half_length();
-  const size_t taps = static_cast<size_t>(kernel_->taps());
+  const int64_t taps = kernel_->taps();
+  const auto first_input = [&](int64_t output) {
+    return output * in_per_period_ / out_per_period_ - kernel_->half_length() + 1;
+  };
   std::vector<double> scratch;
+  const size_t most = kernel_->keeps_phases() ? kTogether : 1;
   int64_t first = 0;
-  for (;; ++next_output_) {
-    const int64_t position = next_output_ * in_per_period_;
-    first = position / out_per_period_ - half + 1;
-    if (first + static_cast<int64_t>(taps) > end) break;
-    const double* coefficients = kernel_->Phase(position % out_per_period_, scratch);
-    ready_.push_back(
-        static_cast<float>(kDot(coefficients, input_.data() + (first - input_start_), taps)));
+  for (;;) {
+    Products products;
+    products.same = out_per_period_ == 1;
+    size_t count = 0;
+    for (; first = first_input(next_output_), count < most && first + taps <= end; ++count) {
+      const int64_t phase = next_output_++ * in_per_period_ % out_per_period_;
+      products.a[count] = kernel_->Phase(phase, scratch);
+      products.b[count] = input_.data() + (first - input_start_);
+    }
+    if (count == 0) break;
+    std::array<double, kTogether> sums;
+    kSum(products, static_cast<size_t>(taps), count, sums.data());
+    for (size_t i = 0; i < count; ++i) ready_.push_back(static_cast<float>(sums[i]));
   }
   const int64_t done = std::min(first, end) - input_start_;
   if (done > 0) {

@@ -1,8 +1,10 @@
 #include "model/dance/audio_feed.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "model/audio/format.h"
 #include "model/core/error.h"
@@ -14,6 +16,38 @@ Eigen::VectorXf Hear(const Hearing& hearing, const FeatureStream& music, int64_t
   Eigen::VectorXf features(hearing.features);
   hearing.row(music.Bands(row), {features.data(), static_cast<size_t>(hearing.features)});
   return features;
+}
+
+// The largest magnitudes of samples, and of the sums of their channels.
+struct Peaks {
+  float level = 0, sum = 0;
+};
+
+template <typename Channels>
+Peaks PeaksOf(std::span<const float> interleaved, Channels channels) {
+  constexpr size_t kLanes = 16;  // frames, of which none waits for another
+  std::array<float, kLanes> level{}, sum{};
+  const auto add = [&](size_t at, size_t lane) {
+    float mixed = 0;
+    for (size_t channel = 0; channel < channels; ++channel) {
+      const float sample = interleaved[at + channel];
+      level[lane] = std::max(level[lane], std::abs(sample));
+      mixed += sample;
+    }
+    sum[lane] = std::max(sum[lane], std::abs(mixed));
+  };
+  size_t at = 0;
+  for (; at + kLanes * channels <= interleaved.size(); at += kLanes * channels) {
+    for (size_t lane = 0; lane < kLanes; ++lane) add(at + lane * channels, lane);
+  }
+  for (; at < interleaved.size(); at += channels) add(at, 0);
+  return {std::ranges::max(level), std::ranges::max(sum)};
+}
+
+Peaks PeaksOf(std::span<const float> interleaved, size_t channels) {
+  if (channels == 1) return PeaksOf(interleaved, std::integral_constant<size_t, 1>());
+  if (channels == 2) return PeaksOf(interleaved, std::integral_constant<size_t, 2>());
+  return PeaksOf<size_t>(interleaved, channels);
 }
 
 Eigen::VectorXf HearSilence(const Hearing& hearing) {
@@ -66,14 +100,9 @@ void AudioFeed::Push(std::span<const float> interleaved, int64_t first_sample,
                           "ends at " + std::to_string(static_cast<double>(end) / sample_rate_) +
                               " s, the limit is " + std::to_string(kMaxAudioSeconds) + " s");
   }
-  for (size_t i = 0; i < interleaved.size(); i += channels) {
-    float mixed = 0;
-    for (const float level : interleaved.subspan(i, channels)) {
-      peak_ = std::max(peak_, std::abs(level));
-      mixed += level;
-    }
-    mixed_peak_ = std::max(mixed_peak_, std::abs(mixed) / static_cast<float>(channels));
-  }
+  const Peaks peaks = PeaksOf(interleaved, channels);
+  peak_ = std::max(peak_, peaks.level);
+  mixed_peak_ = std::max(mixed_peak_, peaks.sum / static_cast<float>(channels));
   const size_t second = static_cast<size_t>(sample_rate_) * channels;
   while (!interleaved.empty()) {
     const auto next = interleaved.first(std::min(second, interleaved.size()));
