@@ -6,13 +6,7 @@
 #include <limits>
 
 #include "model/audio/format.h"
-
-// Uses no fused multiply-add, which rounds differently (CMakeLists.txt).
-#if defined(__x86_64__)
-#define CHOREO_LANES_OF_EACH_CPU [[gnu::target_clones("avx2", "default")]]
-#else
-#define CHOREO_LANES_OF_EACH_CPU
-#endif
+#include "model/core/each_cpu.h"
 
 namespace choreo {
 namespace {
@@ -70,7 +64,8 @@ inline IntLanes LoadInts(const int* from) {
 // Goes from each tempo to the next one, `ahead` or back, where that is better than what reaches
 // it. `cost` is of the step between a tempo and the next slower one.
 template <int kStep>
-inline void ChangeTempo(float* best, int* from, const float* cost, size_t tempi) {
+[[gnu::always_inline]] inline void ChangeTempo(float* best, int* from, const float* cost,
+                                               size_t tempi) {
   constexpr std::ptrdiff_t kLanes = 4;
   const std::ptrdiff_t first = kStep > 0 ? 0 : static_cast<std::ptrdiff_t>(tempi) - 1;
   Lanes score = Load(best + first * kLanes);
@@ -88,7 +83,7 @@ inline void ChangeTempo(float* best, int* from, const float* cost, size_t tempi)
   }
 }
 
-CHOREO_LANES_OF_EACH_CPU void ChangeTempi(float* best, int* from, const float* cost, size_t tempi) {
+CHOREO_EACH_CPU void ChangeTempi(float* best, int* from, const float* cost, size_t tempi) {
   ChangeTempo<1>(best, from, cost, tempi);
   ChangeTempo<-1>(best, from, cost, tempi);
 }

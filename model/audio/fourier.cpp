@@ -5,12 +5,7 @@
 #include <functional>
 #include <numbers>
 
-// Uses no fused multiply-add, which rounds differently (CMakeLists.txt).
-#if defined(__x86_64__)
-#define CHOREO_EACH_CPU [[gnu::target_clones("avx2", "default")]]
-#else
-#define CHOREO_EACH_CPU
-#endif
+#include "model/core/each_cpu.h"
 
 namespace choreo {
 namespace {

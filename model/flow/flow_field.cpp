@@ -22,8 +22,12 @@ FlowField::FlowField(const FlowModelParts& model, const FlowNetwork& network,
   std::vector<float> times;
   for (int step = 0; step < steps(); ++step)
     times.push_back(static_cast<float>(SizeAt(step) * std::sin(Angle(step))));
-  for (const WindowFeatures& seen : features)
-    views_.push_back({seen.frames, network.Condition(seen.whole, times)});
+  // Views that differ in their frames alone have the same condition.
+  for (const WindowFeatures& seen : features) {
+    const bool is_same = !views_.empty() && features.front().whole == seen.whole;
+    views_.push_back(
+        {seen.frames, is_same ? views_.front().conditions : network.Condition(seen.whole, times)});
+  }
 }
 
 Slices<Eigen::MatrixXd> FlowField::Evaluate(const Eigen::MatrixXd& w, int step) {

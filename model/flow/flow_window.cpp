@@ -3,8 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
+#include "model/core/each_cpu.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 
@@ -40,6 +42,42 @@ Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& 
   const Eigen::ArrayXd fastest = MotionPrior::kMaxSpeed * prior.VelocitySpread().array();
   for (auto&& one : velocity.colwise()) one = one.array().min(fastest).max(-fastest);
   return velocity;
+}
+
+// Rows from `row` on of the product of a lower triangle, whose columns follow each other, and `by`:
+// sums of its columns in their order, as many rows at once as registers hold. Above the diagonal
+// there are zeros.
+template <Eigen::Index kRegisters>
+[[gnu::always_inline]] inline void MultiplyRows(const float* triangle, const float* by,
+                                                Eigen::Index size, Eigen::Index row, float* out) {
+  typedef float Vector __attribute__((vector_size(32), aligned(4), may_alias));
+  constexpr Eigen::Index kLanes = 8;
+  Vector sums[kRegisters] = {};
+  const Eigen::Index columns = std::min(size, row + kRegisters * kLanes);
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    const float* column = triangle + i * size + row;
+#pragma GCC unroll 4
+    for (Eigen::Index k = 0; k < kRegisters; ++k)
+      sums[k] += by[i] * *reinterpret_cast<const Vector*>(column + k * kLanes);
+  }
+  std::memcpy(out + row, sums, sizeof sums);
+}
+
+CHOREO_EACH_CPU void MultiplyTriangle(const float* triangle, const float* by, Eigen::Index size,
+                                      float* out) {
+  // The last rows may overlap others: their sums are the same.
+  if (size >= 32) {
+    for (Eigen::Index row = 0; row < size; row += 32)
+      MultiplyRows<4>(triangle, by, size, std::min(row, size - 32), out);
+  } else if (size >= 8) {
+    for (Eigen::Index row = 0; row < size; row += 8)
+      MultiplyRows<1>(triangle, by, size, std::min(row, size - 8), out);
+  } else {
+    for (Eigen::Index row = 0; row < size; ++row) {
+      out[row] = 0;
+      for (Eigen::Index i = 0; i <= row; ++i) out[row] += by[i] * triangle[i * size + row];
+    }
+  }
 }
 
 }  // namespace
@@ -281,27 +319,9 @@ Eigen::MatrixXf FlowWindow::PlaceJoints(const Skeleton& skeleton, const Eigen::M
 
 Eigen::MatrixXd FlowWindow::Colour(const Eigen::MatrixXd& z) const {
   const Eigen::MatrixXf by_time = scales_.cwiseProduct(z).cast<float>().transpose();
-  Eigen::MatrixXf x = Eigen::MatrixXf::Zero(z.cols(), z.rows());
-  constexpr Eigen::Index kTogether = 4;
-  for (int d = 0; d < z.rows(); ++d) {
-    // Loops over columns, several at once, in this order in each row: half the time of Eigen's
-    // triangular product.
-    const Eigen::MatrixXf& spread = BridgeOf(d).spread;
-    const auto add = [&](Eigen::Index i, Eigen::Index rows) {
-      x.col(d).segment(i, rows) += by_time(i, d) * spread.col(i).segment(i, rows);
-    };
-    Eigen::Index i = 0;
-    for (; i + kTogether <= z.cols(); i += kTogether) {
-      for (Eigen::Index own = 0; own < kTogether; ++own) add(i + own, kTogether - own);
-      const Eigen::Index left = z.cols() - i - kTogether;
-      const auto next = [&](Eigen::Index own) {
-        return by_time(i + own, d) * spread.col(i + own).tail(left);
-      };
-      auto rest = x.col(d).tail(left);
-      rest = (((rest + next(0)) + next(1)) + next(2)) + next(3);
-    }
-    for (; i < z.cols(); ++i) add(i, z.cols() - i);
-  }
+  Eigen::MatrixXf x(z.cols(), z.rows());
+  for (int d = 0; d < z.rows(); ++d)
+    MultiplyTriangle(BridgeOf(d).spread.data(), by_time.col(d).data(), z.cols(), x.col(d).data());
   return x.transpose().cast<double>();
 }
 
