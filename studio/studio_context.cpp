@@ -8,7 +8,7 @@
 #include "client/authoring/music_beats.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
-#include "client/style_figures.h"
+#include "client/describe_styles.h"
 #include "model/audio/beat_hint.h"
 #include "model/core/atomic_file.h"
 #include "model/core/hit.h"

@@ -8,7 +8,7 @@
 #include "client/authoring/pose_library.h"
 #include "client/cli/commands.h"
 #include "client/cli/connection.h"
-#include "client/style_figures.h"
+#include "client/describe_styles.h"
 #include "model/motion/controls.h"
 
 namespace choreo::cli {

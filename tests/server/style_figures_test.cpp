@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "client/style_figures.h"
+#include "client/describe_styles.h"
 #include "model/core/safetensors.h"
 #include "proto/wire/convert.h"
 #include "server/describe_model.h"

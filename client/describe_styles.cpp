@@ -1,4 +1,4 @@
-#include "client/style_figures.h"
+#include "client/describe_styles.h"
 
 #include <cmath>
 
