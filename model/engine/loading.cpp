@@ -50,9 +50,10 @@ std::optional<KernelSet> ChooseKernels(const EngineRequest& request) {
 }
 
 std::string FingerprintOf(const std::string& name, const std::string& hash,
-                          const std::string& kernels) {
+                          const UsedKernels& kernels) {
   return name + "/" + hash + "/choreo " CHOREO_VERSION + ", " + BuildIdentity() + ", " +
-         MathLibrary() + "/" + kernels;
+         MathLibrary() + "/" +
+         (kernels.packed.empty() ? kernels.torch : "packed " + kernels.packed);
 }
 
 std::string LicenceOf(const std::string& card) {

@@ -28,16 +28,17 @@ struct EngineRequest {
   std::string kernels;  ///< a PackedKernels::name; empty: the fastest here
 };
 
-/// The start of our own kernels' part of a fingerprint.
-inline constexpr const char* kPackedPrefix = "packed ";
-
 struct KernelSet {
   const PackedKernels* exact;
   /// The kernels for the networks' products: exact ones, or those of bfloat16, whose dances have
   /// the same figures (docs/decisions.md, 32).
   const PackedKernels* products;
+};
 
-  std::string Name() const { return kPackedPrefix + std::string(products->name); }
+/// The code that computes a model: one of the two.
+struct UsedKernels {
+  std::string packed = {};  ///< PackedKernels::name
+  std::string torch = {};   ///< TorchKernels (model/flow/torch_kernels.h)
 };
 
 /// The kernels for a flow: the fastest that keep rows independent, or the requested ones. None:
@@ -47,16 +48,18 @@ std::optional<KernelSet> ChooseKernels(const EngineRequest& request);
 
 /// Identifies model, weights, build and kernels: equal exactly if every bit is.
 std::string FingerprintOf(const std::string& name, const std::string& hash,
-                          const std::string& kernels);
+                          const UsedKernels& kernels);
 /// The licence in a model card, or "".
 std::string LicenceOf(const std::string& card);
 
 /// The common part of all checkpoints (CheckpointOf, model/flow/checkpoint.h).
 template <typename Checkpoint>
-ModelInfo InfoOf(const Checkpoint& checkpoint, const std::string& kernels) {
+ModelInfo InfoOf(const Checkpoint& checkpoint, const UsedKernels& kernels) {
   const auto& config = checkpoint.model->config();
   return {.name = config.name,
           .fingerprint = FingerprintOf(config.name, checkpoint.hash, kernels),
+          .weights = checkpoint.hash,
+          .packed_kernels = kernels.packed,
           .licence = LicenceOf(checkpoint.card),
           .card = checkpoint.card,
           .skeleton = checkpoint.model->skeleton(),

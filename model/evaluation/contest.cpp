@@ -38,12 +38,10 @@ std::vector<Other> ParseOthers(const std::vector<std::string>& texts, const std:
   return others;
 }
 
-// The engine of a model, read from the kernels at the end of its fingerprint. For float32, the
-// instruction set does not matter.
+// The engine of a model. For float32, the instruction set does not matter.
 std::string EngineOf(const ModelInfo& model, EngineKind kind) {
-  const size_t packed = model.fingerprint.find("/packed ");
-  if (packed == std::string::npos) return "torch";
-  return kind == EngineKind::kPacked ? "packed float32" : model.fingerprint.substr(packed + 1);
+  if (model.packed_kernels.empty()) return "torch";
+  return "packed " + (kind == EngineKind::kPacked ? "float32" : model.packed_kernels);
 }
 
 // Whether a network was trained with keys: all but paper F's --no-keys.

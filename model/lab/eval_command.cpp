@@ -85,11 +85,10 @@ std::string CheckTemperature(const std::string& text) {
 }
 
 std::string Summary(const Arguments& arguments, const Contest& contest) {
-  // Includes only the model's part of the fingerprint. Figures hardly depend on the build.
-  const std::string& print = contest.judged().model().fingerprint;
+  const ModelInfo& model = contest.judged().model();
   char temperature[32];
   std::snprintf(temperature, sizeof(temperature), "%.2f", arguments.options.temperature);
-  return "Model " + print.substr(0, print.find('/', print.find('/') + 1)) + ", " + arguments.split +
+  return "Model " + model.name + "/" + model.weights + ", " + arguments.split +
          " clips, temperature " + temperature +
          " unless a row says otherwise. Engine: " + contest.engine + ".";
 }

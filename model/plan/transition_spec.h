@@ -37,8 +37,10 @@ struct Hearing {
 struct ModelInfo {
   std::string name;         ///< "default", "paper-f", ...
   std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
-  std::string licence;      ///< of the weights
-  std::string card;         ///< the model card, JSON
+  std::string weights;      ///< hash of the checkpoint's content
+  std::string packed_kernels;  ///< PackedKernels::name of what computes it; empty: LibTorch
+  std::string licence;  ///< of the weights
+  std::string card;     ///< the model card, JSON
   Skeleton skeleton;
   double fps = kModelFps;               ///< rate at which the model runs
   int history_frames = kHistoryFrames;  ///< tau

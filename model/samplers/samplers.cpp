@@ -25,14 +25,14 @@ SamplerFactory LoadContinuousFlow(const Safetensors& content, const std::string&
   const ContinuousFlowConfig& config = checkpoint.model->config();
   const auto parts = std::make_shared<const FlowModelParts>(checkpoint.model->Parts());
   std::shared_ptr<const FlowNetwork> network;
-  std::string kernels;
+  UsedKernels kernels;
   if (const auto set = ChooseKernels(request)) {
-    kernels = set->Name();
+    kernels.packed = set->products->name;
     network = std::make_shared<const PackedFlowNetwork>(
         content, config, checkpoint.model->skeleton(), *set->exact, *set->products);
   } else {
     const torch::Device there(request.device.name());
-    kernels = TorchKernels(there);
+    kernels.torch = TorchKernels(there);
     network = MakeTorchFlowNetwork(checkpoint.model, there);
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
@@ -109,7 +109,7 @@ std::vector<std::unique_ptr<Sampler>> MakeSamplers(const std::filesystem::path& 
 UsedSettings SettingsUsedBy(const Sampler& sampler) {
   // A deterministic sampler is not a flow.
   return {.kind = !sampler.model().deterministic,
-          .kernels = sampler.model().fingerprint.find(kPackedPrefix) != std::string::npos};
+          .kernels = !sampler.model().packed_kernels.empty()};
 }
 
 std::unique_ptr<Sampler> MakeSampler(const std::filesystem::path& checkpoint, const Device& device,

@@ -335,6 +335,13 @@ TEST(Architecture, WhatServersSayNamesNoOptions) {
 }
 
 // Programs that use the installed client find all that its headers include.
+// It is opaque: what somebody needs of it, the model's description states by itself.
+TEST(Architecture, NobodyReadsAFingerprint) {
+  const std::regex parsed(R"(fingerprint(\(\))?\.(find|substr|starts_with|ends_with|contains)\b)");
+  for (const std::string& file : Sources().files())
+    EXPECT_FALSE(std::regex_search(TextOf(file), parsed)) << file;
+}
+
 TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
   std::ifstream rules(std::filesystem::path(CHOREO_SOURCE_DIR) / "cmake/ChoreoInstall.cmake");
   const std::string text{std::istreambuf_iterator<char>(rules), {}};

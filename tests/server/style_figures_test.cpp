@@ -1,5 +1,3 @@
-#include "server/style_figures.h"
-
 #include <gtest/gtest.h>
 
 #include "client/describe_styles.h"
@@ -14,13 +12,15 @@ TEST(StyleFigures, AreOfTheShippedCheckpoints) {
   const auto figures_of = [](const std::string& name) {
     const Safetensors content =
         ReadSafetensors(SOURCE_FOLDER "/model/checkpoints/" + name + ".safetensors");
-    return FindStyleFigures(name + "/" + content.metadata.at("hash") + "/choreo 1.0.0");
+    ModelInfo model;
+    model.skeleton = Skeleton::Smpl24();
+    model.weights = content.metadata.at("hash");
+    return DescribeModel(model).style_figures;
   };
   ASSERT_TRUE(figures_of("default"));
   EXPECT_FALSE(figures_of("default")->shows());
   ASSERT_TRUE(figures_of("free"));
   EXPECT_TRUE(figures_of("free")->shows());
-  EXPECT_FALSE(FindStyleFigures("fake-1"));
   EXPECT_EQ(client::DescribeStyles({}), "Whether they show was not measured.");
 }
 
@@ -28,7 +28,7 @@ TEST(StyleFigures, ReachClients) {
   ModelInfo model;
   model.skeleton = Skeleton::Smpl24();
   EXPECT_FALSE(wire::ToProto(DescribeModel(model)).has_style_recognition());
-  model.fingerprint = "default/26bfadad19dc69d0590692f89aafbedb/choreo 1.0.0";
+  model.weights = "26bfadad19dc69d0590692f89aafbedb";
   const v1::ModelInfo told = wire::ToProto(DescribeModel(model));
   EXPECT_FALSE(told.style_recognition().shows());
   EXPECT_EQ(told.style_recognition().recognised_percent(), 7.9);

@@ -23,7 +23,7 @@ void HearMfcc(std::span<const double> bands, std::span<float> features) {
 // Always on the CPU: the network is small.
 SamplerFactory LoadControllers(const Safetensors& content, const std::string& name) {
   const ControllersCheckpoint checkpoint = ParseControllers(content, name);
-  ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
+  ModelInfo info = InfoOf(checkpoint, {.torch = TorchKernels(torch::kCPU)});
   info.takes_music = false;
   info.default_temperature = 0;
   info.deterministic = true;
@@ -39,7 +39,7 @@ SamplerFactory LoadControllers(const Safetensors& content, const std::string& na
 // Always on the CPU, too.
 SamplerFactory LoadInbetweener(const Safetensors& content, const std::string& name) {
   const InbetweenerCheckpoint checkpoint = ParseInbetweener(content, name);
-  ModelInfo info = InfoOf(checkpoint, TorchKernels(torch::Device(torch::kCPU)));
+  ModelInfo info = InfoOf(checkpoint, {.torch = TorchKernels(torch::kCPU)});
   info.default_temperature = 0;
   info.deterministic = true;
   return [info, model = checkpoint.model] {
@@ -55,9 +55,9 @@ SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
   FlowModel model = checkpoint.model;
   const FlowConfig& config = model->config();
   AutoregressiveFlowSampler::MakeStepper stepper;
-  std::string kernels;
+  UsedKernels kernels;
   if (const auto set = ChooseKernels(request)) {
-    kernels = set->Name();
+    kernels.packed = set->products->name;
     const auto packed = std::make_shared<const PackedFlow>(content, config, model->skeleton(),
                                                            *set->exact, *set->products);
     stepper = [packed] { return std::make_unique<PackedStepper>(packed); };
@@ -66,7 +66,7 @@ SamplerFactory LoadFlow(const Safetensors& content, const std::string& name,
     model->to(there);
     const auto weights =
         std::make_shared<TorchWeights>(TorchWeights{model, model->InverseWeights(), there});
-    kernels = TorchKernels(weights->device);
+    kernels.torch = TorchKernels(weights->device);
     stepper = [weights] { return std::make_unique<TorchStepper>(weights); };
   }
   ModelInfo info = InfoOf(checkpoint, kernels);
