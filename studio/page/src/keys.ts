@@ -5,6 +5,7 @@ import type { Pose, Triple } from './body';
 import { readKey } from './dancer';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { onPath } from './floor_path';
+import { following } from './following';
 import { danceFrom, edit, note } from './history';
 import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
@@ -35,7 +36,7 @@ export async function compose() {
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
   const asked = emptyProject(song.value?.name ?? '', seconds);
-  const before = project.value ?? asked;
+  const before = { ...(project.value ?? asked), ...following.value };
   const markers = moment.value?.song === song.value ? before.markers : [];
   const wished = wishes(before);
   danceFrom({ ...asked, ...wished, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);

@@ -5,6 +5,7 @@ import type { LibraryPose } from './generated/studio/studio_pb';
 import { how, keyMessage } from './dancer';
 import { countedLive } from './counts';
 import { drawing } from './floor_path';
+import { following } from './following';
 import { push } from './history';
 import { dancer, skeleton, wire } from './link';
 import { listen } from './microphone';
@@ -80,7 +81,7 @@ export const startLive = () => work(async () => {
   [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
   [pieces, samples, granted, latency, isLost, drawing.value] = [[], 0, 0, 0, false, false];
   const asked = emptyProject(name, shownAhead);
-  const before = moment.value?.project ?? asked;
+  const before = { ...(moment.value?.project ?? asked), ...following.value };
   const early: Float32Array[] = [];
   microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
   rate = microphone.rate;
@@ -168,7 +169,9 @@ export const stopLive = () => work(async () => {
   if (isLost) await connected();
   await hear(name, wav(all, rate, 16));
   push({ ...project, seconds: samples / rate, keys, beats }, motion, async () => motion);
-  if (!isWhole) tell('The dance ended early; what came of it stays.');
+  tell(isWhole
+    ? 'Export the dance to keep it: its project holds no frames, and becomes another dance when it is opened.'
+    : 'The dance ended early; what came of it stays.');
 });
 
 /// The program may be on its way back.

@@ -75,33 +75,32 @@ function StylePanel() {
   );
 }
 
-type SliderProps = { name: string; title?: string; low: number; high: number; value: number; set: (value: number) => void };
+type SliderProps = { name: string; title?: string; low: number; high: number; value: number; isFixed?: boolean; set: (value: number) => void };
 
-function Slider({ name, title, low, high, value, set }: SliderProps) {
+function Slider({ name, title, low, high, value, isFixed = !studio.project.value, set }: SliderProps) {
   return (
     <label class="slider" title={title}>
       <span>{name}</span>
-      <input type="range" min={low} max={high} step="0.1" disabled={!studio.project.value} value={value}
+      <input type="range" min={low} max={high} step="0.1" disabled={isFixed} value={value}
         onChange={(event) => set(Number(event.currentTarget.value))} />
       <output>{value.toFixed(1)}</output>
     </label>
   );
 }
 
-/// How the dance follows the song.
+/// How the dance follows the music.
 function MusicPanel() {
-  const { value } = studio.project;
-  const song = studio.shownSong.value;
-  if (!value || !song || !studio.canHear()) return null;
+  if (!studio.canHear()) return null;
+  const { dynamics, variation } = studio.following.value;
+  const isFixed = !!studio.live.value;
   return (
     <section aria-label="Music">
       <h2>Music</h2>
-      <Slider name="energy" title="How much the music's energy is that of the dance" low={0} high={1} value={value.dynamics}
-        set={(dynamics) => studio.change({ dynamics })} />
-      {song.heard.passages.length > 0 && (
-        <Slider name="variation" title="How much the dance differs where the music comes back" low={0} high={1} value={value.variation}
-          set={(variation) => studio.change({ variation })} />
-      )}
+      <Slider name="energy" title="How much the music's energy is that of the dance" low={0} high={1} value={dynamics} isFixed={isFixed}
+        set={(next) => studio.follow({ dynamics: next })} />
+      <Slider name="variation" title="How much the dance differs where the music comes back" low={0} high={1} value={variation} isFixed={isFixed}
+        set={(next) => studio.follow({ variation: next })} />
+      {isFixed && <p class="small">Set before a live dance begins.</p>}
     </section>
   );
 }
@@ -208,7 +207,7 @@ function LivePanel() {
 }
 
 export function Panels({ stage }: { stage: Stage | null }) {
-  if (studio.live.value) return <aside class="panels" aria-label="Settings"><LivePanel /><BeatsPanel /></aside>;
+  if (studio.live.value) return <aside class="panels" aria-label="Settings"><LivePanel /><BeatsPanel /><MusicPanel /></aside>;
   return (
     <aside class="panels" aria-label="Settings">
       <KeyPanel stage={stage} />

@@ -11,6 +11,7 @@ export * from './beats';
 export { addPartner, cast, changePartner, faceEachOther, formation, removePartner, shirtNumber, workOnDanceOf } from './company';
 export * from './copies';
 export * from './files';
+export { follow, following } from './following';
 export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_path';
 export { change, motionAt, redo, total, undo } from './history';
 export * from './keys';

@@ -1,0 +1,24 @@
+// How dances follow music: how much its energy moves them, and how much they differ where it repeats.
+import { computed, signal } from '@preact/signals';
+import { change, note } from './history';
+import { limits } from './limits';
+import type { Project } from './project';
+import { project, shownSong } from './state';
+
+type Following = Pick<Project, 'dynamics' | 'variation'>;
+
+const wished = signal<Partial<Following>>({});
+
+/// That of the present dance, else of the first one.
+export const following = computed((): Following => {
+  const { dynamics, variation } = project.value ?? { dynamics: limits.usualMusicDynamics, variation: limits.usualVariation, ...wished.value };
+  return { dynamics, variation };
+});
+
+export function follow(next: Partial<Following>) {
+  if (!project.value) return void (wished.value = { ...wished.value, ...next });
+  const song = shownSong.value;
+  const isHeard = !!song && (next.dynamics !== undefined || song.heard.passages.length > 0);
+  if (isHeard) change(next);
+  else note(next);
+}
