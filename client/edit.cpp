@@ -65,16 +65,15 @@ class Edit {
     return request;
   }
 
-  /// Its only candidate. `leads_on`: its target is a frame of the dance, whose pose needs no
-  /// warning.
-  TransitionCandidate Generate(const TransitionRequest& request, bool leads_on) {
+  /// Its candidates. `leads_on`: its target is a frame of the dance, whose pose needs no warning.
+  std::vector<TransitionCandidate> Generate(const TransitionRequest& request, bool leads_on) {
     TransitionResult result = client_.GenerateTransition(request);
     if (leads_on)
       std::erase_if(result.warnings, [](const Warning& warning) {
         return warning.code == Warning::Code::kKeyImpossible;
       });
     std::move(result.warnings.begin(), result.warnings.end(), std::back_inserter(result_.warnings));
-    return std::move(result.candidates.front());
+    return std::move(result.candidates);
   }
 
   /// Puts new frames into the dance. `next` is the pose after the last of them, if any. Frames
@@ -229,10 +228,16 @@ std::vector<Stop> Spanned(int64_t from, const std::vector<Stop>& stops, int64_t 
   return spanned;
 }
 
-/// Dances from frame `from` through the stops and on to `to`, which stays unchanged if it is a
-/// frame of the dance.
-EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int64_t to,
-                         const std::string& to_id, const std::optional<double>& to_hit) {
+/// The way from one frame to another, which stays unchanged if it is a frame of the dance.
+struct Way {
+  int64_t from = 0;
+  std::vector<Stop> stops = {};  // the last is at `to` if the dance leads on
+  int64_t to = 0;
+  bool leads_on = false;
+};
+
+Way WayThrough(const Edit& work, int64_t from, std::vector<Stop> stops, int64_t to,
+               const std::string& to_id, const std::optional<double>& to_hit) {
   const bool leads_on = to < work.frames();
   if (leads_on)
     stops.push_back({to,
@@ -242,43 +247,105 @@ EditedDance DanceThrough(Edit& work, int64_t from, std::vector<Stop> stops, int6
                          ? "the dance at " + Rounded(static_cast<double>(to) / work.fps()) + " s"
                          : to_id,
                      to_hit});
-  stops = Spanned(from, stops, work.longest());
-  Part part{from + 1, {}, {}};
-  TransitionCandidate danced;
-  for (size_t i = 0; i < stops.size(); ++i) {
-    const Stop& stop = stops[i];
-    const bool is_last = i + 1 == stops.size();
-    const int64_t begin = i == 0 ? from : stops[i - 1].frame;
-    TransitionRequest request =
-        i == 0 ? work.After(from, stop.frame - from) : work.After(danced, stop.frame - begin);
-    request.target = stop.pose;
-    request.target_mask = stop.mask;
-    request.target_hit = stop.hit;
-    request.target_id = stop.id;
-    // Omits a path that covers none of this transition, which would warn that the path has no
-    // effect.
-    auto& path = request.config.controls.root_path;
-    if (path && !path->frames.empty() &&
-        ((!is_last && path->frames.front() > stop.frame) ||
-         (i > 0 && path->frames.back() <= begin))) {
-      path.reset();
-    }
-    // Who holds a pose follows no path and has no speed, which would warn.
-    if (stop.held) request.config.controls = {};
-    if (is_last && leads_on) request.after = work.From(to + 1);
-    danced = work.Generate(request, is_last && leads_on);
-    part.poses.insert(part.poses.end(), danced.motion.frames.begin(), danced.motion.frames.end());
-    part.contacts.insert(part.contacts.end(), danced.contacts.begin(), danced.contacts.end());
-    if (is_last && leads_on) break;
-    work.result().keys.insert(work.result().keys.end(), danced.report.keys.begin(),
-                              danced.report.keys.end());
+  return {from, Spanned(from, stops, work.longest()), to, leads_on};
+}
+
+/// The transition to a stop; `before`: the one to the stop before it.
+TransitionRequest RequestFor(const Edit& work, const Way& way, size_t index,
+                             const TransitionCandidate& before) {
+  const Stop& stop = way.stops[index];
+  const bool is_last = index + 1 == way.stops.size();
+  const int64_t begin = index == 0 ? way.from : way.stops[index - 1].frame;
+  TransitionRequest request = index == 0 ? work.After(way.from, stop.frame - way.from)
+                                         : work.After(before, stop.frame - begin);
+  request.target = stop.pose;
+  request.target_mask = stop.mask;
+  request.target_hit = stop.hit;
+  request.target_id = stop.id;
+  // Omits a path that covers none of this transition, which would warn that the path has no
+  // effect.
+  auto& path = request.config.controls.root_path;
+  if (path && !path->frames.empty() &&
+      ((!is_last && path->frames.front() > stop.frame) ||
+       (index > 0 && path->frames.back() <= begin))) {
+    path.reset();
   }
+  // Who holds a pose follows no path and has no speed, which would warn.
+  if (stop.held) request.config.controls = {};
+  if (is_last && way.leads_on) request.after = work.From(way.to + 1);
+  return request;
+}
+
+/// Adds a transition's frames, and reports its keys.
+void Append(const TransitionCandidate& danced, bool leads_on, Part* part, Edit* work) {
+  part->poses.insert(part->poses.end(), danced.motion.frames.begin(), danced.motion.frames.end());
+  part->contacts.insert(part->contacts.end(), danced.contacts.begin(), danced.contacts.end());
   if (leads_on) {  // the last one is the unchanged frame
-    part.poses.pop_back();
-    part.contacts.pop_back();
+    part->poses.pop_back();
+    part->contacts.pop_back();
+    return;
   }
-  work.Splice(part, leads_on ? std::optional(work.pose(to)) : std::nullopt);
+  work->result().keys.insert(work->result().keys.end(), danced.report.keys.begin(),
+                             danced.report.keys.end());
+}
+
+void SpliceWay(const Way& way, const Part& part, Edit* work) {
+  work->Splice(part, way.leads_on ? std::optional(work->pose(way.to)) : std::nullopt);
+}
+
+EditedDance DanceThrough(Edit& work, const Way& way) {
+  Part part{way.from + 1, {}, {}};
+  TransitionCandidate danced;
+  for (size_t i = 0; i < way.stops.size(); ++i) {
+    const bool leads_on = way.leads_on && i + 1 == way.stops.size();
+    danced = std::move(work.Generate(RequestFor(work, way, i, danced), leads_on).front());
+    Append(danced, leads_on, &part, &work);
+  }
+  SpliceWay(way, part, &work);
   return work.Take();
+}
+
+/// Candidates of the one transition that spans it.
+std::vector<EditedDance> DanceCandidates(Edit& work, const Way& way, int takes) {
+  TransitionRequest request = RequestFor(work, way, 0, {});
+  request.candidates = takes;
+  std::vector<EditedDance> danced;
+  for (const TransitionCandidate& candidate : work.Generate(request, way.leads_on)) {
+    Edit take = work;
+    Part part{way.from + 1, {}, {}};
+    Append(candidate, way.leads_on, &part, &take);
+    SpliceWay(way, part, &take);
+    danced.push_back(take.Take());
+  }
+  return danced;
+}
+
+/// Checks the gap.
+Way WayAcross(const Edit& work, const Gap& gap) {
+  const int64_t frames = work.frames();
+  if (gap.from < -1 || gap.from > frames - 2) {
+    throw InvalidArgument(
+        "from", std::to_string(gap.from) + " is not in [-1, " + std::to_string(frames - 2) + "]");
+  }
+  if (gap.to < gap.from + 2 || gap.to > frames) {
+    throw InvalidArgument("to", std::to_string(gap.to) + " is not in [" +
+                                    std::to_string(gap.from + 2) + ", " + std::to_string(frames) +
+                                    "]");
+  }
+  std::vector<Stop> stops;
+  int64_t before = gap.from;
+  for (const KeyPose& key : gap.keys) {
+    const int64_t frame = work.FrameOf(key);
+    if (frame <= before || frame >= gap.to) {
+      throw InvalidArgument("keys", key.id + " at " + NameOfFrame(frame) + " is not between " +
+                                        NameOfFrame(before) + " and " + NameOfFrame(gap.to));
+    }
+    stops.push_back(StopAt(frame, key));
+    before = frame;
+  }
+  // The end is free if no frame follows.
+  if (gap.to == frames && before < frames - 1) stops.push_back({.frame = frames - 1});
+  return WayThrough(work, gap.from, std::move(stops), gap.to, gap.to_id, gap.to_hit);
 }
 
 }  // namespace
@@ -329,36 +396,26 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
     }
   }
   CheckKeyEdit(stops.front().frame, stops.back().frame, edit.from, edit.to, work.frames());
-  return DanceThrough(work, edit.from, stops, edit.to, edit.to_id, edit.to_hit);
+  return DanceThrough(
+      work, WayThrough(work, edit.from, std::move(stops), edit.to, edit.to_id, edit.to_hit));
 }
 
 EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       const Gap& gap) {
   Edit work(client, dance, options);
-  const int64_t frames = work.frames();
-  if (gap.from < -1 || gap.from > frames - 2) {
-    throw InvalidArgument(
-        "from", std::to_string(gap.from) + " is not in [-1, " + std::to_string(frames - 2) + "]");
-  }
-  if (gap.to < gap.from + 2 || gap.to > frames) {
-    throw InvalidArgument("to", std::to_string(gap.to) + " is not in [" +
-                                    std::to_string(gap.from + 2) + ", " + std::to_string(frames) +
-                                    "]");
-  }
-  std::vector<Stop> stops;
-  int64_t before = gap.from;
-  for (const KeyPose& key : gap.keys) {
-    const int64_t frame = work.FrameOf(key);
-    if (frame <= before || frame >= gap.to) {
-      throw InvalidArgument("keys", key.id + " at " + NameOfFrame(frame) + " is not between " +
-                                        NameOfFrame(before) + " and " + NameOfFrame(gap.to));
-    }
-    stops.push_back(StopAt(frame, key));
-    before = frame;
-  }
-  // The end is free if no frame follows.
-  if (gap.to == frames && before < frames - 1) stops.push_back({.frame = frames - 1});
-  return DanceThrough(work, gap.from, stops, gap.to, gap.to_id, gap.to_hit);
+  return DanceThrough(work, WayAcross(work, gap));
+}
+
+std::vector<EditedDance> DanceTakes(const Client& client, const FinishedDance& dance,
+                                    const EditOptions& options, const Gap& gap, int takes) {
+  Edit work(client, dance, options);
+  const Way way = WayAcross(work, gap);
+  if (way.stops.size() == 1) return DanceCandidates(work, way, takes);
+  std::vector<EditedDance> danced;
+  EditOptions next = options;
+  for (; std::ssize(danced) < takes; ++next.seed)
+    danced.push_back(DanceAnew(client, dance, next, gap));
+  return danced;
 }
 
 EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const EditOptions& options,
@@ -375,7 +432,7 @@ EditedDance CloseLoop(const Client& client, const FinishedDance& dance, const Ed
   request.target = work.pose(0);
   request.target_id = "the beginning";
   request.after = work.From(1);
-  const TransitionCandidate back = work.Generate(request, true);
+  const TransitionCandidate back = work.Generate(request, true).front();
   work.Splice({from + 1,
                {back.motion.frames.begin(), back.motion.frames.end() - 1},
                {back.contacts.begin(), back.contacts.end() - 1}},

@@ -88,6 +88,11 @@ EditedDance SetKey(const Client& client, const FinishedDance& dance, const EditO
 EditedDance DanceAnew(const Client& client, const FinishedDance& dance, const EditOptions& options,
                       const Gap& gap);
 
+/// The same, `takes` times: candidates of one transition where one spans the gap; else with the
+/// seeds that follow. Throws the same.
+std::vector<EditedDance> DanceTakes(const Client& client, const FinishedDance& dance,
+                                    const EditOptions& options, const Gap& gap, int takes);
+
 /// Dances a whole dance again through its keys alone, which have frames, in order, as Client::Dance
 /// does: if nothing differs, the frames are those of the dance before it was edited. Throws as
 /// that, and Error(kInvalidArgument) for a dance without frames.

@@ -4,11 +4,9 @@
 #include <utility>
 
 #include "client/authoring/choreography.h"
-#include "client/authoring/key_faults.h"
 #include "client/authoring/photo_pose.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
-#include "client/edit.h"
 #include "model/core/atomic_file.h"
 #include "model/formats/motion_file.h"
 #include "studio/from_page.h"
@@ -36,31 +34,6 @@ std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File&
   const std::filesystem::path path = PlaceFor(folder, file.name());
   WriteFile(path, file.data());
   return std::make_shared<const Song>(HearSong(path, file.name(), context.most_seconds()));
-}
-
-std::vector<Response> MakeTransition(const StudioContext& context, const Song* music,
-                                     const v1::GenerateTransitionRequest& asked) {
-  client::TransitionRequest request = FromProto(asked, context.model().skeleton);
-  const int64_t first =
-      request.config.continuation ? request.config.continuation->frame : request.config.first_frame;
-  if (music) {
-    client::SetMusic(music->audio, context.model(), first, &request);
-    authoring::ConfigureMusic(music->music, music->heard.seconds(), &request.config);
-  }
-  client::TransitionResult made = context.client().GenerateTransition(request);
-  if (request.target) {
-    const client::KeyPose key{.id = request.target_id,
-                              .frame = first + request.frames - 1,
-                              .pose = *request.target,
-                              .mask = request.target_mask};
-    for (client::Warning& fault :
-         authoring::KeyFaults(std::vector{key}, context.model().fps, context.model().skeleton))
-      made.warnings.push_back(std::move(fault));
-  }
-  std::vector<Response> answers;
-  for (v1::GenerateTransitionResponse& part : ToProto(made))
-    *answers.emplace_back().mutable_transition() = std::move(part);
-  return answers;
 }
 
 Response ComposeKeys(const StudioContext& context, const Song* music, const Compose& request) {

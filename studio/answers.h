@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "studio/studio_context.h"
 
@@ -10,9 +9,6 @@
 namespace choreo::studio {
 
 std::shared_ptr<const Song> HearSongOf(const StudioContext& context, const File& file);
-/// The parts of the answer, in order.
-std::vector<Response> MakeTransition(const StudioContext& context, const Song* music,
-                                     const v1::GenerateTransitionRequest& asked);
 Response ComposeKeys(const StudioContext& context, const Song* music, const Compose& request);
 Response WriteClip(const StudioContext& context, const Export& request);
 Response ReadClip(const StudioContext& context, const File& file);

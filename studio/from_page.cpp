@@ -1,20 +1,14 @@
 #include "studio/from_page.h"
 
-#include <google/protobuf/descriptor.h>
-#include <google/protobuf/message.h>
-
 #include <algorithm>
 #include <climits>
 #include <cstring>
-#include <initializer_list>
-#include <string_view>
 
 #include "client/convert.h"
 #include "model/audio/format.h"
 #include "model/core/field.h"
 #include "model/formats/own_arrays.h"
 #include "model/motion/pose_limits.h"
-#include "proto/wire/controls.h"
 #include "proto/wire/poses.h"
 
 namespace choreo::studio {
@@ -24,19 +18,6 @@ void RequireCount(const std::string& field, int64_t count, int64_t wanted) {
   if (count == wanted) return;
   throw InvalidArgument(field,
                         std::to_string(count) + " numbers, must be " + std::to_string(wanted));
-}
-
-constexpr const char* kAbsent = "must be absent: the studio decides it";
-
-/// Refuses all fields that are set, except those that the caller reads.
-void RequireOnly(const google::protobuf::Message& message, const std::string& prefix,
-                 std::initializer_list<std::string_view> read) {
-  std::vector<const google::protobuf::FieldDescriptor*> set;
-  message.GetReflection()->ListFields(message, &set);
-  for (const auto* field : set) {
-    if (std::ranges::find(read, field->name()) == read.end())
-      throw InvalidArgument(prefix + field->name(), kAbsent);
-  }
 }
 
 /// A pose of a file, whose rotations may be wound up, with the shortest ones.
@@ -71,42 +52,25 @@ client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton) {
   return out;
 }
 
-client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton) {
-  client::DanceConfig out;
-  RequireOnly(config, "config.",
-              {"seed", "temperature", "history", "continuation", "audio_format", "frames",
-               "music_beats", "music_downbeats", "generate_until", "style", "music_dynamics",
-               "variation", "reject_invalid_keys"});
-  if (config.has_audio_format()) {
-    const v1::AudioFormat& format = config.audio_format();
-    if (format.encoding() != v1::AUDIO_ENCODING_PCM_F32LE)
-      throw InvalidArgument("config.audio_format.encoding", "must be 32-bit floats");
-    CheckAudioFormat(format.sample_rate(),
-                     static_cast<int>(std::min(format.channels(), uint32_t{INT_MAX})),
-                     "config.audio_format");
-    if (format.first_sample() != 0)
-      throw InvalidArgument("config.audio_format.first_sample", kAbsent);
-    out.audio = {client::AudioKind::kPcmFloat, static_cast<int>(format.sample_rate()),
-                 static_cast<int>(format.channels())};
+client::AudioFormat FromProto(const v1::AudioFormat& format) {
+  if (format.encoding() != v1::AUDIO_ENCODING_PCM_F32LE)
+    throw InvalidArgument("dance.live_music.encoding", "must be 32-bit floats");
+  CheckAudioFormat(format.sample_rate(),
+                   static_cast<int>(std::min(format.channels(), uint32_t{INT_MAX})),
+                   "dance.live_music");
+  if (format.first_sample() != 0)
+    throw InvalidArgument("dance.live_music.first_sample", "must be 0");
+  return {client::AudioKind::kPcmFloat, static_cast<int>(format.sample_rate()),
+          static_cast<int>(format.channels())};
+}
+
+std::vector<Pose> PosesOf(const v1::History& history, const Skeleton& skeleton) {
+  std::vector<Pose> poses;
+  for (int i = 0; i < history.poses_size(); ++i) {
+    const std::string field = At("dance.history.poses", i);
+    poses.push_back(Unwound(wire::ToPose(history.poses(i), skeleton, field), field));
   }
-  if (config.has_generate_until()) out.generate_until = config.generate_until();
-  out.reject_invalid_keys = config.reject_invalid_keys();
-  if (config.has_seed()) out.seed = config.seed();
-  if (config.has_temperature()) out.temperature = config.temperature();
-  if (config.has_music_dynamics()) out.music_dynamics = config.music_dynamics();
-  if (config.has_variation()) out.variation = config.variation();
-  out.music_beats.assign(config.music_beats().begin(), config.music_beats().end());
-  CheckBeats(out.music_beats, "config.music_beats");
-  out.music_downbeats.assign(config.music_downbeats().begin(), config.music_downbeats().end());
-  out.style = config.style();
-  if (config.has_frames()) out.frames = config.frames();
-  for (int i = 0; i < config.history().poses_size(); ++i) {
-    const std::string field = At("config.history.poses", i);
-    out.history.push_back(Unwound(wire::ToPose(config.history().poses(i), skeleton, field), field));
-  }
-  out.first_frame = config.history().first_frame();
-  if (config.has_continuation()) out.continuation = client::FromProto(config.continuation());
-  return out;
+  return poses;
 }
 
 live::LiveBeatHint FromProto(const LiveBeats& beats) {
@@ -140,33 +104,6 @@ std::vector<float> SamplesOf(const v1::Audio& audio) {
   std::vector<float> samples(bytes.size() / sizeof(float));
   std::memcpy(samples.data(), bytes.data(), bytes.size());
   return samples;
-}
-
-client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
-                                    const Skeleton& skeleton) {
-  client::TransitionRequest out;
-  RequireOnly(request, "",
-              {"config", "frames", "target", "target_mask", "target_id", "target_hit", "after",
-               "candidates", "controls"});
-  if (request.config().has_audio_format()) throw InvalidArgument("config.audio_format", kAbsent);
-  out.config = FromProto(request.config(), skeleton);
-  out.config.controls = wire::FromProto(request.controls(), "controls");
-  out.frames = request.frames();
-  if (request.has_target()) {
-    Target target = wire::ToTarget(request.target(),
-                                   request.has_target_mask() ? &request.target_mask() : nullptr,
-                                   skeleton, "target", "target_mask");
-    out.target = Unwound(std::move(target.pose), "target");
-    out.target_mask = std::move(target.mask);
-  }
-  if (request.has_target_hit()) out.target_hit = request.target_hit();
-  out.target_id = request.target_id();
-  for (int i = 0; i < request.after_size(); ++i) {
-    out.after.push_back(
-        Unwound(wire::ToPose(request.after(i), skeleton, At("after", i)), At("after", i)));
-  }
-  out.candidates = static_cast<int>(std::max(1U, request.candidates()));
-  return out;
 }
 
 client::FinishedDance FromProto(const Clip& clip, const Skeleton& skeleton) {

@@ -15,11 +15,9 @@
 namespace choreo::studio {
 
 client::KeyPose FromProto(const v1::Keyframe& key, const Skeleton& skeleton);
-/// Leaves the model open: the server's first. Keeps beats only if they differ from those this
-/// program finds. Music, if any, becomes floats.
-client::DanceConfig FromProto(const v1::DanceConfig& config, const Skeleton& skeleton);
-client::TransitionRequest FromProto(const v1::GenerateTransitionRequest& request,
-                                    const Skeleton& skeleton);
+client::AudioFormat FromProto(const v1::AudioFormat& format);
+/// Rotations of files may be wound up; these are not.
+std::vector<Pose> PosesOf(const v1::History& history, const Skeleton& skeleton);
 live::LiveBeatHint FromProto(const LiveBeats& beats);
 /// The samples of all pieces, in order.
 std::vector<float> SamplesOf(const v1::Audio& audio);

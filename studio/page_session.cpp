@@ -8,10 +8,10 @@
 
 #include "client/authoring/key_faults.h"
 #include "client/convert.h"
-#include "proto/wire/controls.h"
 #include "studio/answers.h"
 #include "studio/company.h"
 #include "studio/from_page.h"
+#include "studio/project_dance.h"
 #include "studio/project_document.h"
 #include "studio/to_page.h"
 
@@ -47,7 +47,8 @@ void PageSession::Take(Request request) {
   const uint32_t call = request.call();
   Reap();
   try {
-    if (request.has_dance()) return TakeDance(call, request.dance());
+    if (request.has_dance()) return StartDance(call, request.dance());
+    if (request.has_live()) return TakeLive(call, request.live());
     if (request.has_live_beats()) return TakeLiveBeats(call, request.live_beats());
     if (request.has_cancel()) return EndDance(call);
   } catch (const std::exception& error) {
@@ -61,39 +62,30 @@ void PageSession::Take(Request request) {
   asked_.notify_one();
 }
 
-void PageSession::TakeDance(uint32_t call, const v1::StreamDanceRequest& request) {
+void PageSession::TakeLive(uint32_t call, const v1::StreamDanceRequest& request) {
   const auto found = dances_.find(call);
-  if (request.has_config()) {
-    if (found != dances_.end()) throw InvalidArgument("config", "came twice");
-    return StartDance(call, request.config());
-  }
   if (found == dances_.end()) return;  // ended; the page may not know yet
+  if (!found->second.ear) throw InvalidArgument("live", "is for dances to live music");
   client::RemoteDance& dance = *found->second.dance;
   switch (request.request_case()) {
     case v1::StreamDanceRequest::kKeyframe: {
       const client::KeyPose key = FromProto(request.keyframe(), context_.model().skeleton);
-      if (found->second.ear)
-        SendFaults(call, {key});
-      else
-        found->second.keys.push_back(key);
+      SendFaults(call, {key});
       return dance.SendKey(key);
     }
     case v1::StreamDanceRequest::kRemoveKeyframe:
       return dance.RemoveKey(request.remove_keyframe().id());
-    case v1::StreamDanceRequest::kControls:
-      return dance.SendControls(wire::FromProto(request.controls(), "controls"));
     case v1::StreamDanceRequest::kGenerateUntil:
       found->second.granted = request.generate_until().frame();
       return dance.GenerateUntil(found->second.granted);
     case v1::StreamDanceRequest::kKeyframesComplete:
-      SendFaults(call, std::exchange(found->second.keys, {}));
       return dance.CompleteKeys();
     case v1::StreamDanceRequest::kAudio:
       return TakeMusic(&found->second, request.audio());
     case v1::StreamDanceRequest::kEndOfAudio:
       return dance.EndAudio();
     default:
-      throw InvalidArgument("dance", "beats come with the configuration");
+      throw InvalidArgument("live", "its project says the rest");
   }
 }
 
@@ -102,7 +94,7 @@ void PageSession::TakeMusic(Dancing* dancing, const v1::Audio& audio) {
   // Others are refused below.
   const bool is_sound =
       std::ranges::all_of(samples, [](float value) { return std::isfinite(value); });
-  if (dancing->ear && is_sound) {
+  if (is_sound) {
     live::MusicEar::Ahead heard = dancing->ear->Hear(samples);
     // Beats of frames that may exist already would come too late.
     heard.beats.Keep(static_cast<double>(dancing->granted) / context_.model().fps,
@@ -129,21 +121,33 @@ void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& 
   }
 }
 
-void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
+void PageSession::StartDance(uint32_t call, const Dance& request) {
+  if (dances_.contains(call)) throw InvalidArgument("dance", "came twice");
   if (dances_.size() >= kMaxDances)
     throw Error(ErrorCode::kResourceExhausted, "dance",
                 std::to_string(kMaxDances) + " are in progress, the most");
-  client::DanceConfig config = FromProto(request, context_.model().skeleton);
   // A dance to live music does not use the song.
-  const bool is_live = config.audio.kind != client::AudioKind::kNone;
+  const bool is_live = request.has_live_music();
   const std::shared_ptr<const Song> music = is_live ? nullptr : song();
+  auto [config, keys, controls] = DanceOf(context_, request.project(), music.get());
+  config.history = PosesOf(request.history(), context_.model().skeleton);
+  config.first_frame = request.history().first_frame();
+  std::erase_if(keys.poses, [&, fps = context_.model().fps](const client::KeyPose& key) {
+    return authoring::FrameOf(key, fps) < config.first_frame;
+  });
   const bool hears = music && context_.model().takes_music;
-  if (music) authoring::ConfigureMusic(music->music, music->heard.seconds(), &config);
   if (hears) config.audio = music->audio.format;
-  auto ear = is_live
-                 ? std::make_unique<live::MusicEar>(config.audio.sample_rate, config.audio.channels)
-                 : nullptr;
+  std::unique_ptr<live::MusicEar> ear;
+  if (is_live) {
+    config.audio = FromProto(request.live_music());
+    config.frames.reset();
+    config.generate_until = 0;
+    config.reject_invalid_keys = true;
+    ear = std::make_unique<live::MusicEar>(config.audio.sample_rate, config.audio.channels);
+  }
   auto dance = context_.client().StartDance(config);
+  for (const client::KeyPose& key : keys.poses) dance->SendKey(key);
+  if (!is_live) dance->CompleteKeys();
   if (hears) {
     dance->SendSamples(music->audio.samples);
     dance->EndAudio();
@@ -151,9 +155,9 @@ void PageSession::StartDance(uint32_t call, const v1::DanceConfig& request) {
   // Nothing fails from here on: every remaining call has a dance.
   Dancing& dancing = dances_[call];
   dancing.ear = std::move(ear);
-  dancing.granted = config.generate_until.value_or(0);
   dancing.dance = std::move(dance);
   dancing.reader = std::jthread([this, call, &dancing] { ReadDance(call, &dancing); });
+  SendFaults(call, keys.poses);
 }
 
 void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
@@ -162,9 +166,12 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
       Response response;
       std::visit(
           [&](const auto& said) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(said)>, client::Resumed>) {
+            using Said = std::decay_t<decltype(said)>;
+            if constexpr (std::is_same_v<Said, client::Resumed>) {
               response.mutable_resumed()->set_reason(said.reason);
               response.mutable_resumed()->set_exact(said.exact);
+            } else if constexpr (std::is_same_v<Said, client::Continuation>) {
+              // The page needs none: the client library resumes dances.
             } else if constexpr (requires { DanceEvent(said); }) {
               *response.mutable_dance() = ToProto(said, context_.model().fps);
             } else {
@@ -172,7 +179,7 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
             }
           },
           *message);
-      Answer(call, std::move(response));
+      if (response.response_case() != Response::RESPONSE_NOT_SET) Answer(call, std::move(response));
     }
   } catch (const Error& error) {
     if (error.code() != ErrorCode::kCancelled) Fail(call, error.what());
@@ -224,10 +231,6 @@ void PageSession::Do(const Request& request) {
   switch (request.request_case()) {
     case Request::kSong:
       return TakeSong(call, request.song());
-    case Request::kTransition:
-      for (Response& part : MakeTransition(context_, song().get(), request.transition()))
-        Answer(call, std::move(part));
-      return;
     case Request::kCompose:
       return Answer(call, ComposeKeys(context_, song().get(), request.compose()));
     case Request::kExport:
@@ -240,6 +243,8 @@ void PageSession::Do(const Request& request) {
       return Answer(call, ReadProject(context_, request.read()));
     case Request::kWrite:
       return Answer(call, WriteProject(context_, request.write()));
+    case Request::kRetake:
+      return Answer(call, MakeTakes(context_, song().get(), request.retake()));
     case Request::kCompany:
       return Answer(call, FormCompany(context_, request.company()));
     default:

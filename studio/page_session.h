@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "client/live/music_ear.h"
 #include "studio/studio_context.h"
@@ -35,18 +36,17 @@ class PageSession {
   /// A dance in progress, and the thread that reads its frames.
   struct Dancing {
     std::unique_ptr<client::RemoteDance> dance;
-    std::unique_ptr<live::MusicEar> ear;  // of a live dance, whose keys come one by one
+    std::unique_ptr<live::MusicEar> ear;  // of a live dance
     int64_t granted = 0;                  // frames, of a live dance
-    std::vector<client::KeyPose> keys;    // until they are complete
     bool over = false;                    // guarded by mutex_
     std::jthread reader;                  // last: uses the others
   };
 
-  void TakeDance(uint32_t call, const v1::StreamDanceRequest& request);
+  void TakeLive(uint32_t call, const v1::StreamDanceRequest& request);
   /// Sends a live dance its music, after the beats and repeats predicted from it.
   void TakeMusic(Dancing* dancing, const v1::Audio& audio);
   void TakeLiveBeats(uint32_t call, const LiveBeats& beats);
-  void StartDance(uint32_t call, const v1::DanceConfig& config);
+  void StartDance(uint32_t call, const Dance& request);
   /// Sends warnings at the keys' frames about poses that no body can dance.
   void SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys);
   void ReadDance(uint32_t call, Dancing* dancing);

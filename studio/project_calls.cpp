@@ -8,14 +8,13 @@
 #include <fstream>
 #include <utility>
 
-#include "client/authoring/dance_keys.h"
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_faults.h"
-#include "client/authoring/key_file.h"
 #include "client/authoring/project_file.h"
 #include "model/core/rounded.h"
 #include "model/formats/bvh.h"
 #include "model/formats/motion_file.h"
+#include "studio/project_dance.h"
 #include "studio/project_document.h"
 #include "studio/scratch_folder.h"
 
@@ -147,14 +146,6 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   json file = authoring::ParseJson(text, kUnnamed);
   const authoring::Project project = authoring::ParseProject(file, kUnnamed);
   const std::optional<Song> song = TakeSong(&file, project.song, context_.most_seconds());
-  const authoring::Counts counts = !project.beats.empty()
-                                       ? authoring::CountsFrom(project.beats, project.ones)
-                                   : song ? authoring::CountsOf(song->music)
-                                          : authoring::Counts();
-  authoring::DanceKeys keys;
-  if (project.has_keys)
-    keys.poses =
-        authoring::ParseKeyFile(file.dump(), kUnnamed, model.skeleton, &keys.places, counts);
   if (!song && !project.seconds)
     throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
   // An answer must fit into memory.
@@ -166,34 +157,22 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   double seconds = project.seconds.value_or(context_.most_seconds());
   if (song) seconds = std::min(seconds, song->heard.seconds());
 
-  client::DanceConfig config;
-  config.seed = project.seed.value_or(0);
-  project.SetIn(&config);
-  config.frames = std::llround(seconds * model.fps);
-  const authoring::DanceLength length{.frames = *config.frames, .fps = model.fps};
-  for (size_t i = 0; i < keys.poses.size(); ++i)
-    authoring::FitIntoDance(length, keys.places[i], &keys.poses[i]);
-  config.controls = project.controls.Read(model, context_.server(), counts);
-  project.controls.RequireBegun(config.controls, length);
+  const ProjectDance asked = DanceOf(context_, project, file, seconds, song ? &*song : nullptr);
+  project.controls.RequireBegun(asked.config.controls, {*asked.config.frames, model.fps});
+  authoring::RefuseHeldInAir(asked.keys, model.fps, model.skeleton);
   client::Audio audio;
-  if (song) {
-    config.music_beats = project.beats;
-    config.music_downbeats = project.downbeats;
-    authoring::ConfigureMusic(song->music, seconds, &config);
-    if (model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
-  }
-  keys = authoring::ByTime(std::move(keys), model.fps);
-  authoring::RefuseHeldInAir(keys, model.fps, model.skeleton);
+  if (song && model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
   client::DanceResult dance;
   try {
-    dance = context_.client().Dance(config, keys.poses, audio, [this](const client::Message&) {
-      if (ends_) throw Error(ErrorCode::kCancelled, "", "the studio closes");
-    });
+    dance = context_.client().Dance(asked.config, asked.keys.poses, audio,
+                                    [this](const client::Message&) {
+                                      if (ends_)
+                                        throw Error(ErrorCode::kCancelled, "", "the studio closes");
+                                    });
   } catch (const Error& error) {
-    if (error.field() == "config.style") throw error.Of(std::string(kUnnamed) + ":style");
-    throw authoring::InTermsOf(keys, project.controls.InTermsOf(error));
+    throw asked.InTermsOf(error);
   }
-  for (client::Warning& fault : authoring::KeyFaults(keys, model.fps, model.skeleton))
+  for (client::Warning& fault : authoring::KeyFaults(asked.keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));
   if (project.has_dancers)
     dance.warnings.push_back({.message = "dancers: this is the dance that they share"});

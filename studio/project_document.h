@@ -14,6 +14,9 @@ Response ReadProject(const StudioContext& context, const ProjectFile& request);
 /// Writes a project; refuses what ReadProject would refuse, with `kUnnamed` as the file's name.
 Response WriteProject(const StudioContext& context, const Project& project);
 
+/// The file's text, unchecked.
+std::string ProjectText(const StudioContext& context, const Project& project);
+
 /// A file of the project's dancers without their own keys (client/authoring/dancers.h).
 std::string DancersText(const Project& project);
 

@@ -128,11 +128,15 @@ ordered_json FileOf(const Project& project, const StudioContext& context) {
 Response WriteProject(const StudioContext& context, const Project& project) {
   ProjectFile written;
   written.mutable_file()->set_name(kUnnamed);
-  written.mutable_file()->set_data(authoring::ProjectText(FileOf(project, context)));
+  written.mutable_file()->set_data(ProjectText(context, project));
   ReadProject(context, written);
   Response response;
   *response.mutable_file() = std::move(*written.mutable_file());
   return response;
+}
+
+std::string ProjectText(const StudioContext& context, const Project& project) {
+  return authoring::ProjectText(FileOf(project, context));
 }
 
 std::string DancersText(const Project& project) {

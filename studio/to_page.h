@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "client/choreo_client.h"
 #include "client/edit.h"
 #include "studio/studio.pb.h"
@@ -13,10 +11,7 @@ v1::StreamDanceResponse ToProto(const client::Header& header);
 v1::StreamDanceResponse ToProto(const client::FrameBlock& block);
 /// `fps`: the model's.
 v1::StreamDanceResponse ToProto(const DanceEvent& event, double fps);
-v1::StreamDanceResponse ToProto(const client::Continuation& continuation);
 v1::StreamDanceResponse ToProto(const client::Report& report);
-/// Header, frames and warnings, summary.
-std::vector<v1::GenerateTransitionResponse> ToProto(const client::TransitionResult& result);
 Clip ToProto(const client::FinishedDance& dance);
 
 }  // namespace choreo::studio

@@ -2,15 +2,19 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <cmath>
+#include <algorithm>
 #include <future>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "client/authoring/key_file.h"
 #include "client/convert.h"
+#include "client/edit.h"
 #include "model/motion/kinematics.h"
+#include "studio/from_page.h"
 #include "studio/page_session.h"
+#include "studio/project_dance.h"
 #include "studio/server_supervisor.h"
 #include "tests/studio/fixture.h"
 
@@ -25,9 +29,9 @@ TEST_F(StudioTest, DancesAsTheClientLibraryDoes) {
   const std::string clicks = Clicks(4);
   ASSERT_TRUE(page.Ask(SongRequest("clicks.wav", clicks)).has_song());
   const LibraryPose& kick = page.welcome().poses(6);
-  page.Say(2, DanceRequest(120, 7));
-  page.Say(2, KeyRequest(kick, 45));
-  page.Say(2, Complete());
+  Request request = DanceRequest(120, 7);
+  AddKey(kick, 45, request.mutable_dance()->mutable_project());
+  page.Say(2, request);
   const v1::Frames frames = ReadDance(page);
   ASSERT_EQ(frames.count(), 120);
 
@@ -63,9 +67,6 @@ TEST_F(StudioTest, AnswersAFailureOfADancesThread) {
   Request dance = DanceRequest(10, 1);
   dance.set_call(2);
   session.Take(dance);
-  Request complete = Complete();
-  complete.set_call(2);
-  session.Take(complete);
   EXPECT_EQ(answered.get_future().get(), "the page is gone");
 }
 
@@ -74,12 +75,17 @@ TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
   const Opened studio(server_.address());
   Page page(studio.port());
   ASSERT_TRUE(page.Ask(SongRequest("clicks.wav", Clicks(4))).has_song());
-  const auto danced = [&](const std::vector<double>& beats) {
+  const auto request_on = [&](const std::vector<double>& beats) {
     Request request = DanceRequest(60, 7);
-    request.mutable_dance()->mutable_config()->mutable_music_beats()->Add(beats.begin(),
-                                                                          beats.end());
-    page.Say(2, request);
-    page.Say(2, Complete());
+    if (beats.empty()) return request;
+    Beats* own = request.mutable_dance()->mutable_project()->mutable_beats();
+    own->set_bar(4);
+    own->mutable_times()->Add(beats.begin(), beats.end());
+    for (uint32_t i = 0; i < beats.size(); ++i) own->add_counts((i + 3) % 4 + 1);
+    return request;
+  };
+  const auto danced = [&](const std::vector<double>& beats) {
+    page.Say(2, request_on(beats));
     return ReadDance(page).SerializeAsString();
   };
   const Song song = HearSong(folder_ / "clicks.wav", "clicks.wav", 600);
@@ -87,12 +93,7 @@ TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
   EXPECT_EQ(danced(authoring::BeatsBefore(song.music, 4)), heard);
   EXPECT_NE(danced({0.3, 1.3}), heard);
 
-  Request request = DanceRequest(60, 7);
-  for (const double beat : {0.3, 0.8, 1.3})
-    request.mutable_dance()->mutable_config()->add_music_beats(beat);
-  request.mutable_dance()->mutable_config()->add_music_downbeats(0.8);
-  page.Say(2, request);
-  page.Say(2, Complete());
+  page.Say(2, request_on({0.3, 0.8, 1.3}));
   std::vector<double> downbeats;
   for (Response said = page.Read(); !said.dance().has_summary(); said = page.Read()) {
     ASSERT_FALSE(said.has_failure()) << said.failure().message();
@@ -100,17 +101,7 @@ TEST_F(StudioTest, DancesOnTheBeatsOfThePage) {
     if (event.beat().downbeat()) downbeats.push_back(event.time());
   }
   EXPECT_EQ(downbeats, std::vector{0.8}) << "of which it is the 1";
-
-  request = DanceRequest(60, 7);
-  auto* beats = request.mutable_dance()->mutable_config()->mutable_music_beats();
-  beats->Add(1);
-  beats->Add(std::nan(""));
-  page.Say(3, request);
-  EXPECT_EQ(page.Read().failure().message(), "config.music_beats[1]: nan s is not within 0 to 600");
-  beats->Set(1, 1);
-  page.Say(3, request);
-  EXPECT_THAT(page.Read().failure().message(),
-              HasSubstr("config.music_beats[1]: 1 s is not after"));
+  EXPECT_THAT(page.Ask(request_on({1, 1})).failure().message(), HasSubstr("project:beats[1]"));
 }
 
 // Of a key that no body could dance, once all are there; and of one that an interval leads to.
@@ -120,30 +111,27 @@ TEST_F(StudioTest, WarnsOfImpossibleKeys) {
   LibraryPose sunk = page.welcome().poses(6);
   sunk.set_id("sunk");
   sunk.mutable_pose()->mutable_root_position()->set_y(0.2F);
-  page.Say(2, DanceRequest(90, 7));
-  page.Say(2, KeyRequest(page.welcome().poses(6), 30));
-  page.Say(2, KeyRequest(sunk, 60));
-  page.Say(2, Complete());
-  const auto next_warning = [&](auto event_of) {
-    while (true) {
-      const v1::Event event = event_of(page.Read());
-      if (event.has_warning()) return event;
-    }
+  Request dance = DanceRequest(90, 7);
+  Project* project = dance.mutable_dance()->mutable_project();
+  AddKey(page.welcome().poses(6), 30, project);
+  AddKey(sunk, 60, project);
+  page.Say(2, dance);
+  const auto about_floor = [](const v1::Event& event) {
+    return event.frame() == 60 && event.warning().message().find("floor") != std::string::npos;
   };
-  const v1::Event told = next_warning([](const Response& said) { return said.dance().event(); });
-  EXPECT_EQ(told.frame(), 60);
-  EXPECT_THAT(told.warning().message(), HasSubstr("floor"));
+  while (!about_floor(page.Read().dance().event())) continue;
 
   Request request;
-  v1::GenerateTransitionRequest* transition = request.mutable_transition();
-  transition->set_frames(20);
-  transition->set_target_id("sunk");
-  *transition->mutable_target() = sunk.pose();
-  page.Say(3, request);
-  const v1::Event again =
-      next_warning([](const Response& said) { return said.transition().event(); });
-  EXPECT_EQ(again.frame(), 19);
-  EXPECT_THAT(again.warning().message(), HasSubstr("key \"sunk\": "));
+  Retake* retake = request.mutable_retake();
+  *retake->mutable_project() = *project;
+  *retake->mutable_dance() = Standing(90);
+  retake->set_from(50);
+  retake->set_to(70);
+  Response answer = page.Read();
+  while (!answer.dance().has_summary()) answer = page.Read();
+  answer = page.Ask(request);
+  ASSERT_TRUE(answer.has_takes()) << answer.failure().message();
+  EXPECT_TRUE(std::ranges::any_of(answer.takes().warnings(), about_floor));
 }
 
 TEST_F(StudioTest, DancesInAStyle) {
@@ -152,9 +140,8 @@ TEST_F(StudioTest, DancesInAStyle) {
   EXPECT_THAT(page.welcome().model().styles(), testing::ElementsAre("calm", "wild"));
   const auto danced = [&](const std::string& style) {
     Request request = DanceRequest(20, 7);
-    request.mutable_dance()->mutable_config()->set_style(style);
+    request.mutable_dance()->mutable_project()->set_style(style);
     page.Say(2, request);
-    page.Say(2, Complete());
     return ReadDance(page).SerializeAsString();
   };
   const std::string calm = danced("");
@@ -162,55 +149,68 @@ TEST_F(StudioTest, DancesInAStyle) {
   EXPECT_NE(calm, danced("wild"));
 }
 
-// What a moved key does: from the frames before it onto it, and into those that follow.
+// As `choreo edit` does: from the frames before, through the keys, into those that follow.
 TEST_F(StudioTest, DancesAnIntervalAnew) {
   const Opened studio(server_.address());
   Page page(studio.port());
   Request request;
-  v1::GenerateTransitionRequest* transition = request.mutable_transition();
-  const v1::Pose rest = client::ToProto(RestPose(Skeleton::Smpl24()));
-  *transition->mutable_config()->mutable_history()->add_poses() = rest;
-  transition->mutable_config()->mutable_history()->set_first_frame(30);
-  transition->set_frames(20);
-  *transition->mutable_target() = page.welcome().poses(0).pose();
-  transition->set_candidates(2);
-  page.Say(2, request);
-  EXPECT_TRUE(page.Read().transition().has_header());
-  for (uint32_t candidate = 0; candidate < 2; ++candidate) {
-    const v1::Frames frames = page.Read().transition().frames();
-    EXPECT_EQ(frames.count(), 20);
-    EXPECT_EQ(frames.first_frame(), 30);
-  }
-  const Response end = page.Read();
-  ASSERT_EQ(end.transition().summary().candidates_size(), 2);
-  EXPECT_EQ(end.transition().summary().candidates(0).continuation().frame(), 50);
-  EXPECT_GT(end.transition().summary().timing().elapsed_s(), 0);
+  Retake* retake = request.mutable_retake();
+  *retake->mutable_dance() = Standing(60);
+  retake->mutable_project()->set_seconds(2);
+  retake->mutable_project()->set_seed(7);
+  retake->set_from(10);
+  retake->set_to(40);
+  retake->set_takes(2);
+  const client::FinishedDance still = FromProto(retake->dance(), Skeleton::Smpl24());
+  client::EditOptions options;
+  options.model = studio.context().model();
+  options.seed = 7;
+  const auto expect_takes_of = [&](client::Gap gap) {
+    const Response answer = page.Ask(request);
+    ASSERT_EQ(answer.takes().frames_size(), 2) << answer.failure().message();
+    gap.from = 10;
+    gap.to = 40;
+    const std::vector<client::EditedDance> own =
+        client::DanceTakes(studio.context().client(), still, options, gap, 2);
+    for (int take = 0; take < 2; ++take) {
+      const v1::Frames& frames = answer.takes().frames(take);
+      ASSERT_EQ(frames.count(), 29);
+      const Motion& motion = own[static_cast<size_t>(take)].dance.motion;
+      for (int i = 0; i < frames.rotations_size(); ++i) {
+        ASSERT_EQ(
+            frames.rotations(i),
+            static_cast<float>(motion.frames[static_cast<size_t>(11 + i / 72)].rotations(i % 72)));
+      }
+    }
+    EXPECT_NE(answer.takes().frames(0).rotations(72 * 5),
+              answer.takes().frames(1).rotations(72 * 5));
+  };
+  expect_takes_of({});
+  AddKey(page.welcome().poses(0), 25, retake->mutable_project());
+  client::KeyPose key{.id = page.welcome().poses(0).id(), .frame = 25};
+  const v1::Pose& pose = page.welcome().poses(0).pose();
+  key.pose.root_position = {pose.root_position().x(), pose.root_position().y(),
+                            pose.root_position().z()};
+  key.pose.rotations =
+      Eigen::Map<const Eigen::Matrix3Xf>(pose.rotations().data(), 3, 24).cast<double>();
+  expect_takes_of({.keys = {key}});
+  retake->set_to(61);
+  EXPECT_THAT(page.Ask(request).failure().message(), HasSubstr("to: 61 is not in [12, 60]"));
 }
 
-TEST_F(StudioTest, RefusesFieldsThatItDoesNotRead) {
-  const Opened studio(server_.address());
-  Page page(studio.port());
-  const auto failure = [&](const auto& ask) {
-    Request request;
-    request.mutable_transition()->set_frames(20);
-    ask(*request.mutable_transition());
-    return page.Ask(request).failure().message();
-  };
-  const std::string absent = ": must be absent: the studio decides it";
-  using Asked = v1::GenerateTransitionRequest;
-  EXPECT_EQ(failure([](Asked& asked) { asked.set_rank_by(v1::RANK_BY_LIKELIHOOD); }),
-            "rank_by" + absent);
-  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_audio(); }), "audio" + absent);
-  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_config()->mutable_audio_format(); }),
-            "config.audio_format" + absent);
-  EXPECT_EQ(failure([](Asked& asked) {
-              asked.mutable_config()->set_encoding(v1::ROTATION_ENCODING_QUATERNION);
-            }),
-            "config.encoding" + absent);
-  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_config()->set_allow_inexact_resume(true); }),
-            "config.allow_inexact_resume" + absent);
-  EXPECT_EQ(failure([](Asked& asked) { asked.mutable_config()->set_model("fake"); }),
-            "config.model" + absent);
+// Also of a dance to live music.
+TEST_F(StudioTest, AProjectSaysHowToDance) {
+  const StudioContext context({.addresses = {server_.address()}}, {}, {});
+  Project project;
+  project.set_seconds(2);
+  project.set_seed(7);
+  project.set_music_dynamics(1);
+  project.set_variation(0);
+  const client::DanceConfig config = DanceOf(context, project, nullptr).config;
+  EXPECT_EQ(config.music_dynamics, 1);
+  EXPECT_EQ(config.variation, 0);
+  EXPECT_EQ(config.seed, 7U);
+  EXPECT_EQ(config.frames, 60);
 }
 
 // Music from the page's microphone: frames come while it plays, independent of the song.
@@ -218,22 +218,11 @@ TEST_F(StudioTest, DancesToMusicAsItSounds) {
   const Opened studio(server_.address());
   Page page(studio.port());
   const auto dance = [&](float loudness) {
-    Request config;
-    v1::DanceConfig* asked = config.mutable_dance()->mutable_config();
-    asked->set_seed(7);
-    asked->set_generate_until(0);
-    asked->mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
-    asked->mutable_audio_format()->set_sample_rate(16000);
-    asked->mutable_audio_format()->set_channels(1);
-    page.Say(2, config);
-    Request grant, piece, end;
-    grant.mutable_dance()->mutable_generate_until()->set_frame(30);
-    page.Say(2, grant);
+    page.Say(2, LiveRequest(7, 16000));
+    Grant(2, 30, &page);
     std::vector<float> samples(32000);
     for (size_t i = 0; i < samples.size(); ++i) samples[i] = i % 8000 < 200 ? loudness : 0;
-    piece.mutable_dance()->mutable_audio()->set_data(samples.data(),
-                                                     samples.size() * sizeof(float));
-    page.Say(2, piece);
+    Play(2, samples, &page);
     v1::Frames all;
     const auto read = [&] {
       const Response response = page.Read();
@@ -244,9 +233,7 @@ TEST_F(StudioTest, DancesToMusicAsItSounds) {
     };
     while (all.count() < 30 && read()) continue;
     EXPECT_EQ(all.count(), 30);  // while it sounds
-    end.mutable_dance()->mutable_end_of_audio();
-    page.Say(2, end);
-    page.Say(2, Complete());
+    EndMusic(2, &page);
     while (read()) continue;
     EXPECT_EQ(all.count(), 60);
     return all.SerializeAsString();
@@ -261,13 +248,7 @@ TEST_F(StudioTest, DancesToMusicAsItSounds) {
 TEST_F(StudioTest, LiveDancesFollowTheListenersBeats) {
   const Opened studio(server_.address());
   Page page(studio.port());
-  Request config = DanceRequest(3000, 1);
-  v1::DanceConfig& asked = *config.mutable_dance()->mutable_config();
-  asked.set_generate_until(0);
-  asked.mutable_audio_format()->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
-  asked.mutable_audio_format()->set_sample_rate(22050);
-  asked.mutable_audio_format()->set_channels(1);
-  page.Say(2, config);
+  page.Say(2, LiveRequest(1, 22050));
   Request beats;
   beats.mutable_live_beats()->set_tempo(120);
   beats.mutable_live_beats()->set_half_time(true);
@@ -280,12 +261,8 @@ TEST_F(StudioTest, LiveDancesFollowTheListenersBeats) {
     return times.size() > 6 && times.back() - times[times.size() - 6] > 4.9;
   };
   for (int piece = 0; piece < 200 && !halved(); ++piece) {
-    Request grant, sound;
-    grant.mutable_dance()->mutable_generate_until()->set_frame(15 * (piece + 1));
-    page.Say(2, grant);
-    sound.mutable_dance()->mutable_audio()->set_data(music.data() + 11025 * piece,
-                                                     11025 * sizeof(float));
-    page.Say(2, sound);
+    Grant(2, 15 * (piece + 1), &page);
+    Play(2, std::span(music).subspan(static_cast<size_t>(11025 * piece), 11025), &page);
     // The frames of the music before this piece.
     while (frames < 15 * (piece - 2)) {
       const Response response = page.Read();
@@ -309,36 +286,35 @@ TEST_F(StudioTest, LiveDancesFollowTheListenersBeats) {
 TEST_F(StudioTest, RefusesInvalidMusic) {
   const Opened studio(server_.address());
   Page page(studio.port());
-  Request config;
-  v1::AudioFormat* format = config.mutable_dance()->mutable_config()->mutable_audio_format();
+  Request dance = LiveRequest(1, 16000);
+  v1::AudioFormat* format = dance.mutable_dance()->mutable_live_music();
   format->set_encoding(v1::AUDIO_ENCODING_FILE);
-  page.Say(2, config);
-  EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.encoding"));
+  EXPECT_THAT(page.Ask(dance).failure().message(), HasSubstr("dance.live_music.encoding"));
   format->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
-  format->set_sample_rate(16000);
   format->set_channels(0);
-  page.Say(2, config);
-  EXPECT_EQ(page.Read().failure().message(),
-            "config.audio_format.channels: 0 is not within 1 to 8");
+  EXPECT_EQ(page.Ask(dance).failure().message(),
+            "dance.live_music.channels: 0 is not within 1 to 8");
   format->set_channels(1);
   format->set_sample_rate(4'000'000'000);
-  page.Say(2, config);
-  EXPECT_THAT(page.Read().failure().message(), HasSubstr("config.audio_format.sample_rate: "));
+  EXPECT_THAT(page.Ask(dance).failure().message(), HasSubstr("dance.live_music.sample_rate: "));
   format->set_sample_rate(16000);
-  page.Say(3, config);
+  const auto failure = [&](const Request& request) {
+    page.Say(3, request);
+    Response end = page.Read();
+    while (end.has_dance()) end = page.Read();
+    return end.failure().message();
+  };
+  page.Say(3, dance);
   Request piece;
-  piece.mutable_dance()->mutable_audio()->set_data("abc");
-  page.Say(3, piece);
-  Response end = page.Read();
-  while (end.has_dance()) end = page.Read();
-  EXPECT_EQ(end.failure().message(), "audio.data: 3 bytes are no whole floats");
+  piece.mutable_live()->mutable_audio()->set_data("abc");
+  EXPECT_EQ(failure(piece), "audio.data: 3 bytes are no whole floats");
+  page.Say(3, dance);
+  Request controls;
+  controls.mutable_live()->mutable_controls();
+  EXPECT_EQ(failure(controls), "live: its project says the rest");
   // A dance to the song takes no other music.
-  page.Say(4, DanceRequest(40, 1));
-  piece.mutable_dance()->mutable_audio()->set_data("abcd");
-  page.Say(4, piece);
-  end = page.Read();
-  while (end.has_dance()) end = page.Read();
-  EXPECT_THAT(end.failure().message(), HasSubstr("samples"));
+  page.Say(3, DanceRequest(3000, 1));
+  EXPECT_EQ(failure(piece), "live: is for dances to live music");
 }
 
 // A choreod of our own that is killed in the middle of a dance restarts, and the dance continues.
@@ -346,17 +322,28 @@ TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
   const ServerSupervisor supervisor{std::filesystem::path(FAKE_CHOREOD)};
   const Opened studio(supervisor.address());
   Page page(studio.port());
-  page.Say(2, DanceRequest(60, 3));
-  page.Say(2, KeyRequest(page.welcome().poses(1), 30));
+  const std::vector<float> silence(32000);
+  const auto begin = [&](Page& by) {
+    by.Say(2, LiveRequest(3, 16000));
+    Request key;
+    v1::Keyframe* asked = key.mutable_live()->mutable_keyframe();
+    asked->set_id("key");
+    asked->set_frame(40);
+    *asked->mutable_pose() = by.welcome().poses(1).pose();
+    by.Say(2, key);
+    Grant(2, 31, &by);
+    Play(2, silence, &by);
+  };
   v1::Frames all;
   const auto take = [&](const Response& response) {
     ASSERT_FALSE(response.has_failure()) << response.failure().message();
     all.set_count(all.count() + response.dance().frames().count());
     all.mutable_rotations()->MergeFrom(response.dance().frames().rotations());
   };
+  begin(page);
   while (all.count() < 31) take(page.Read());
   kill(supervisor.process(), SIGKILL);
-  page.Say(2, Complete());
+  EndMusic(2, &page);
   bool has_resumed = false;
   for (;;) {
     const Response response = page.Read();
@@ -368,9 +355,8 @@ TEST_F(StudioTest, SurvivesTheLossOfItsServer) {
   EXPECT_EQ(all.count(), 60);
 
   Page calm(studio.port());
-  calm.Say(2, DanceRequest(60, 3));
-  calm.Say(2, KeyRequest(calm.welcome().poses(1), 30));
-  calm.Say(2, Complete());
+  begin(calm);
+  EndMusic(2, &calm);
   const v1::Frames whole = ReadDance(calm);
   EXPECT_TRUE(std::equal(all.rotations().begin(), all.rotations().end(), whole.rotations().begin(),
                          whole.rotations().end()));

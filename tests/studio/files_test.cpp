@@ -106,7 +106,6 @@ TEST_F(StudioTest, ArrangesSeveralDancers) {
   second->set_in_counts(true);
 
   page.Say(2, DanceRequest(90, 1));
-  page.Say(2, Complete());
   *company->add_dances()->mutable_frames() = ReadDance(page);
   company->mutable_dances(0)->set_frame_rate(30);
   company->mutable_dance_of()->Resize(2, 0);
@@ -161,9 +160,9 @@ TEST_F(StudioTest, RefusesASongThatIsLongerThanADance) {
 TEST_F(StudioTest, WritesAndOpensFiles) {
   const Opened studio(server_.address());
   Page page(studio.port());
-  page.Say(2, DanceRequest(40, 1));
-  page.Say(2, KeyRequest(page.welcome().poses(2), 30));
-  page.Say(2, Complete());
+  Request dance = DanceRequest(40, 1);
+  AddKey(page.welcome().poses(2), 30, dance.mutable_dance()->mutable_project());
+  page.Say(2, dance);
   const v1::Frames frames = ReadDance(page);
   for (const std::string name : {"dance.npz", "dance.glb", "dance.bvh"}) {
     Request write;

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "model/core/atomic_file.h"
+#include "model/motion/kinematics.h"
+#include "proto/wire/convert.h"
 #include "studio/web_server.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
@@ -51,22 +55,52 @@ class StudioTest : public testing::Test {
   }
   static Request DanceRequest(int64_t frames, uint64_t seed) {
     Request request;
-    request.mutable_dance()->mutable_config()->set_frames(frames);
-    request.mutable_dance()->mutable_config()->set_seed(seed);
+    Project* project = request.mutable_dance()->mutable_project();
+    project->set_seconds(static_cast<double>(frames) / 30);
+    project->set_seed(seed);
     return request;
   }
-  static Request KeyRequest(const LibraryPose& pose, int64_t frame) {
-    Request request;
-    v1::Keyframe* key = request.mutable_dance()->mutable_keyframe();
+  static v1::Keyframe* AddKey(const LibraryPose& pose, int64_t frame, Project* project) {
+    v1::Keyframe* key = project->add_keys()->mutable_key();
     key->set_id(pose.id());
     key->set_frame(frame);
     *key->mutable_pose() = pose.pose();
+    return key;
+  }
+  /// Live music of one channel.
+  static Request LiveRequest(uint64_t seed, uint32_t rate) {
+    Request request = DanceRequest(3000, seed);
+    v1::AudioFormat* format = request.mutable_dance()->mutable_live_music();
+    format->set_encoding(v1::AUDIO_ENCODING_PCM_F32LE);
+    format->set_sample_rate(rate);
+    format->set_channels(1);
     return request;
   }
-  static Request Complete() {
+  static void Grant(uint32_t call, int64_t frame, Page* page) {
     Request request;
-    request.mutable_dance()->mutable_keyframes_complete();
-    return request;
+    request.mutable_live()->mutable_generate_until()->set_frame(frame);
+    page->Say(call, request);
+  }
+  static void Play(uint32_t call, std::span<const float> samples, Page* page) {
+    Request request;
+    request.mutable_live()->mutable_audio()->set_data(samples.data(), samples.size_bytes());
+    page->Say(call, request);
+  }
+  static void EndMusic(uint32_t call, Page* page) {
+    Request end, complete;
+    end.mutable_live()->mutable_end_of_audio();
+    complete.mutable_live()->mutable_keyframes_complete();
+    page->Say(call, end);
+    page->Say(call, complete);
+  }
+  /// The dancer at rest.
+  static Clip Standing(int frames) {
+    Clip clip;
+    clip.set_frame_rate(30);
+    const Pose rest = RestPose(Skeleton::Smpl24());
+    *clip.mutable_frames() = wire::ToProto(0, std::vector<Pose>(static_cast<size_t>(frames), rest),
+                                           std::vector<Contacts>(static_cast<size_t>(frames)));
+    return clip;
   }
   /// All frames of call 2, to its summary.
   static v1::Frames ReadDance(Page& page) {

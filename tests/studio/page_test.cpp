@@ -72,7 +72,9 @@ TEST_F(StudioTest, ClosedPageBlocksNoOther) {
   const Opened studio(slow.address());
   std::optional<Page> page(std::in_place, studio.port());
   Request request;
-  request.mutable_transition()->set_frames(20);
+  *request.mutable_retake()->mutable_dance() = Standing(40);
+  request.mutable_retake()->mutable_project()->set_seconds(1);
+  request.mutable_retake()->set_to(20);
   page->Say(2, request);
   while (slow.transitions() == 0) std::this_thread::yield();
   page.reset();
@@ -110,18 +112,14 @@ TEST_F(StudioTest, ExplainsErrors) {
   Request open;
   open.mutable_open()->set_name("walk.fbx");
   EXPECT_THAT(page.Ask(open).failure().message(), HasSubstr("walk.fbx"));
-  page.Say(3, DanceRequest(40, 1));
-  Request key = KeyRequest(page.welcome().poses(0), 10);
-  key.mutable_dance()->mutable_keyframe()->mutable_pose()->mutable_rotations()->RemoveLast();
-  page.Say(3, key);
-  Response end = page.Read();
-  while (end.has_dance()) end = page.Read();  // what came before the bad key
-  EXPECT_EQ(end.failure().message(),
-            "keyframe.pose.rotations: 71 numbers are no multiple of 3; the model has 24 joints, 72 "
-            "numbers");
+  Request dance = DanceRequest(40, 1);
+  AddKey(page.welcome().poses(0), 10, dance.mutable_dance()->mutable_project())
+      ->mutable_pose()
+      ->mutable_rotations()
+      ->RemoveLast();
+  EXPECT_THAT(page.Ask(dance).failure().message(), HasSubstr("project:keyframes[0].rotations"));
   // The next call is served.
   page.Say(2, DanceRequest(20, 1));
-  page.Say(2, Complete());
   EXPECT_EQ(ReadDance(page).count(), 20);
 }
 

@@ -116,7 +116,7 @@ export function edit(next: Project, frames: number[]) {
   const stay = before.warnings.value.filter(({ frame }) => frame <= from || frame > to);
   push(next, before.motion.value, async (watch) => {
     const whole = await made(before);
-    return (await dancer.between(next, whole, from, Math.min(to, whole.count), next.seed, 1, watch))[0];
+    return (await dancer.between(next, whole, from, Math.min(to, whole.count), 1, watch))[0];
   }, stay);
 }
 

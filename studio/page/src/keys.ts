@@ -2,7 +2,6 @@
 import { computed, signal } from '@preact/signals';
 import { heading, only, turned } from './body';
 import type { Pose, Triple } from './body';
-import { readKey } from './dancer';
 import type { LibraryPose } from './generated/studio/studio_pb';
 import { onPath } from './floor_path';
 import { following } from './following';
@@ -11,7 +10,7 @@ import { dancer, skeleton, wire } from './link';
 import { addLiveKey, changeLiveKey } from './live';
 import { jointsOf, movable, partsOf, withPart, worked } from './masks';
 import { limits } from './limits';
-import { projectMessage } from './project_file';
+import { projectMessage, readKey } from './project_file';
 import { emptyProject, freeId, holdOf, isInHold, sorted, spoken, wishes } from './project';
 import type { Hands, Key } from './project';
 import { audio } from './songs';

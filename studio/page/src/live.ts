@@ -2,7 +2,6 @@
 import { signal } from '@preact/signals';
 import { AudioEncoding } from './generated/choreo/v1/choreography_pb';
 import type { LibraryPose } from './generated/studio/studio_pb';
-import { how, keyMessage } from './dancer';
 import { countedLive } from './counts';
 import { drawing } from './floor_path';
 import { following } from './following';
@@ -14,6 +13,7 @@ import { Motion } from './motion';
 import { limits } from './limits';
 import { beatAfter, shownAhead } from './live_beats';
 import { emptyProject, freeId, sorted, wishes } from './project';
+import { keyMessage, projectMessage } from './project_file';
 import type { Key } from './project';
 import { dropSketch } from './photos';
 import { audio, hear } from './songs';
@@ -42,7 +42,7 @@ let isLost = false; // the call, before its end
 /// How loud it is, 0 to 1.
 export const level = signal(0);
 
-const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'dance' }>['value']) => wire.say(call, { case: 'dance', value });
+const say = (value: Extract<Parameters<typeof wire.say>[1], { case: 'live' }>['value']) => wire.say(call, { case: 'live', value });
 
 const heardSeconds = () => samples / rate;
 const sinceLast = () => Math.min(0.05, (performance.now() - last) / 1000);
@@ -88,14 +88,9 @@ export const startLive = () => work(async () => {
   const motion = new Motion(skeleton.joints, dancer.fps);
   live.value = { project: { ...asked, ...wishes(before), path: asked.path, seed: before.seed }, motion, beats: [], hint: asHeard };
   call = wire.open(
-    { case: 'dance', value: { request: { case: 'config', value: {
-      ...how(live.value.project), generateUntil: 0n, rejectInvalidKeys: true,
-      audioFormat: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 },
-    } } } },
+    { case: 'dance', value: { project: projectMessage(live.value.project, dancer.fps), liveMusic: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 } } },
     { heard: ({ response }) => response.case === 'dance' && hearOf(response.value.response, motion), failed },
   );
-  const controls = dancer.controls(live.value.project);
-  if (controls) say({ request: { case: 'controls', value: controls } });
   early.forEach(take);
 });
 

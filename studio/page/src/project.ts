@@ -83,9 +83,6 @@ export const emptyProject = (song: string, seconds: number): Project => ({
   apart: limits.usualApartM,
 });
 
-/// A time as project files have it.
-const round = (value: number) => Math.round(value * 1e5) / 1e5;
-
 export const sorted = (keys: Key[]) => [...keys].sort((a, b) => a.frame - b.frame);
 
 /// The nearest time, in frames, for which a pose can be held: whole steps, rounded down.
@@ -108,19 +105,6 @@ export const trimmed = (keys: Key[], frames: number, fps: number) =>
     const isWhole = most === key.hold || (most === end && holdOf(most, fps) > 0);
     return { ...key, hold: isWhole ? most : holdOf(most, fps) };
   });
-
-/// The keys, each followed by the repeated keys that hold its pose, as the program reads them (client/authoring/key_file.cpp).
-export function withHeld(keys: Key[], frames: number, fps: number): Key[] {
-  return trimmed(keys, frames, fps).flatMap((key) => {
-    const steps = key.hold > 0 ? Math.max(1, Math.floor(key.hold / (limits.holdStepS * fps) + 1e-9)) : 0;
-    const hit = key.hit ?? (steps > 0 ? limits.usualHit : null); // who holds a pose comes to rest in it
-    return [{ ...key, hold: 0, hit }, ...Array.from({ length: steps }, (_, i) => heldBy(key, i + 1, heldAt(key, i + 1, steps, fps)))];
-  });
-}
-/// In terms of what is written, as the program reckons: no rounding differs.
-const heldAt = ({ frame, hold }: Key, nth: number, steps: number, fps: number) =>
-  Math.round((round(frame / fps) + (round(hold / fps) * nth) / steps) * fps);
-const heldBy = (key: Key, nth: number, frame: number): Key => ({ ...key, id: `${key.id} held ${nth}`, frame, hold: 0, hit: null });
 
 /// An id or a joint's name, for people.
 export const spoken = (name: string) => name.replaceAll('_', ' ');

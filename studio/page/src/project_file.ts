@@ -1,9 +1,38 @@
 // A project as the program's message, which alone reads and writes its file: `choreo dance --project FILE` dances it.
 import type { MessageInitShape } from '@bufbuild/protobuf';
-import { keyMessage, pathMessage, readKey } from './dancer';
+import type { Pose } from './body';
+import type { Keyframe, KeyframeSchema } from './generated/choreo/v1/choreography_pb';
+import type { PoseSchema } from './generated/choreo/v1/motion_pb';
 import type { Project as Message, ProjectKey, ProjectSchema, StageDancer } from './generated/studio/studio_pb';
-import { emptyProject, trimmed } from './project';
+import { emptyProject, handPoses, trimmed } from './project';
 import type { Key, Partner, Project } from './project';
+
+export const poseMessage = ({ root: [x, y, z], rotations }: Pose, hasPlace = true): MessageInitShape<typeof PoseSchema> =>
+  ({ rotations, ...(hasPlace ? { rootPosition: { x, y, z } } : {}) });
+
+export const keyMessage = (key: Key): MessageInitShape<typeof KeyframeSchema> => ({
+  id: key.id,
+  when: { case: 'frame', value: BigInt(key.frame) },
+  pose: poseMessage(key.pose, key.hasPlace),
+  mask: key.asks ? { joints: key.asks } : undefined,
+  hit: key.hit ?? undefined,
+  hands: key.hands ? handPoses.indexOf(key.hands) + 1 : 0,
+});
+
+/// The other way round. `height`: of the hips where the key does not say where they are.
+export function readKey({ id, when, pose, mask, hit, hands }: Keyframe, fps: number, height: number): Key {
+  const root = pose!.rootPosition;
+  return {
+    id,
+    frame: when.case === 'frame' ? Number(when.value) : Math.round(Number(when.value) * fps),
+    pose: { root: root ? [root.x, root.y, root.z] : [0, height, 0], rotations: pose!.rotations },
+    hasPlace: !!root,
+    asks: mask ? mask.joints : null,
+    hold: 0,
+    hit: hit ?? null,
+    hands: hands ? handPoses[hands - 1] : null,
+  };
+}
 
 /// The dancers of a project; with keys of their own as `said`.
 export const dancersMessage = ({ dancers, apart }: Project, said?: (keys: Key[]) => MessageInitShape<typeof ProjectSchema>['keys']) => ({
@@ -17,7 +46,7 @@ export function projectMessage(project: Project, fps: number): MessageInitShape<
   return {
     song, seconds, seed: BigInt(seed), style, musicDynamics: dynamics, variation, velocityFactors: velocities,
     ...(beats ? { beats: { bar: beats.bar, times: beats.list.map(({ time }) => time), counts: beats.list.map(({ count }) => count) } } : {}),
-    ...(path.length ? { path: pathMessage(path) } : {}),
+    ...(path.length ? { path: { frames: path.map(({ frame }) => BigInt(frame)), points: path.flatMap(({ x, z }) => [x, z]) } } : {}),
     markers: markers.map(({ frame, name }) => ({ frame: BigInt(frame), name })),
     ...dancersMessage(project, said),
     keys: said(keys),

@@ -32,11 +32,7 @@ export const tryTakes = (count = 3) => work(async () => {
   if (!chosen.value) return tryWholes(before, seed, count);
   const [from, to] = chosen.value;
   const end = Math.min(to, whole.count);
-  // Several candidates are of one transition; through the keys of a phrase, there are several.
-  const isOne = !dancer.keys(before.project).some(({ frame }) => frame > from && frame < end);
-  const motions = isOne ? await dancer.between(before.project, whole, from, end, seed, count, silent) : [];
-  while (motions.length < count && moment.value === before)
-    motions.push((await dancer.between(before.project, whole, from, end, seed + motions.length, 1, silent))[0]);
+  const motions = await dancer.between({ ...before.project, seed }, whole, from, end, count, silent);
   if (moment.value !== before) return;
   takes.value = motions.map((other) => ({ seed: before.project.seed, motion: other }));
   goWhereTheyDiffer(from, to);
@@ -52,8 +48,8 @@ export const tryTheRest = (count = 3) => work(async () => {
   const first = asked.seed + moments.value.length * 100 + 50;
   takes.value = [];
   for (let seed = first; seed < first + count; ++seed) {
-    const start = from > 0 ? (await dancer.between(asked, whole, -1, from, seed, 1, silent))[0] : whole;
-    const other = to < whole.count - 1 ? (await dancer.between(asked, start, to, whole.count, seed, 1, silent))[0] : start;
+    const start = from > 0 ? (await dancer.between({ ...asked, seed }, whole, -1, from, 1, silent))[0] : whole;
+    const other = to < whole.count - 1 ? (await dancer.between({ ...asked, seed }, start, to, whole.count, 1, silent))[0] : start;
     if (moment.value !== before || chosen.value !== interval || takes.value.length !== seed - first) return;
     takes.value = [...takes.value, { seed: asked.seed, motion: other }];
   }

@@ -24,12 +24,11 @@ async function load(name, more = '') {
 
 const { reachOf } = await load('edit_reach');
 const { roughly, timeLeft } = await load('time_left');
-const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withHeld, withMarker } = await load('project');
+const { emptyProject, freeId, freeName, sorted, spoken, trimmed, withMarker } = await load('project');
 const { ProjectSchema, create, fromBinary, projectMessage, readProject, toBinary } = await load('project_file',
   "export { ProjectSchema } from './generated/studio/studio_pb'; export { create, fromBinary, toBinary } from '@bufbuild/protobuf';");
 const { counted, countedLive, doubled, eight, halved, isDownbeat, later, nudged, placeAmong, pulseOf, tapped, tempo, withOne } = await load('counts');
 const { sections } = await load('form');
-const { beatsMessage } = await load('dancer');
 const { mostUnlike, unlikeness } = await load('unlike');
 const { only, toQuaternion, toVector, turned, heading } = await load('body');
 
@@ -82,20 +81,11 @@ test('ids are free, and spoken without underscores', () => {
   assert.equal(spoken('side_reach'), 'side reach');
 });
 
-test('a held pose is a key and those that hold it, as far as the next key', () => {
+test('a pose is held as far as the next key', () => {
   const keys = [{ id: 'bow', frame: 30, hold: 9, hit: 3 }, { id: 'kick', frame: 40, hold: 6, hit: null }, { id: 'dab', frame: 58, hold: 9, hit: 0 }];
-  const all = withHeld(keys, 60, 30);
-  assert.deepEqual(all.map(({ frame }) => frame), [30, 36, 40, 46, 58]);
-  assert.equal(all[1].id, 'bow held 1');
-  // Who holds a pose comes to rest in it; what holds it is not hit.
-  assert.deepEqual(all.map(({ hit }) => hit), [3, null, 1, null, 0]);
   assert.deepEqual(trimmed(keys, 65, 30).map(({ hold }) => hold), [6, 6, 6]);
   // What is held to the last frame is held to just that one.
-  const ending = [{ ...keys[1], frame: 60, hold: 39 }];
-  assert.deepEqual(withHeld(ending, 100, 30).map(({ frame }) => frame), [60, 67, 73, 80, 86, 92, 99]);
-  assert.equal(trimmed(ending, 101, 30)[0].hold, 39);
-  // What is held as long as a file says is held by as many keys as the program makes of it.
-  assert.deepEqual(withHeld([[30, 15], [60, 3]].map(([frame, hold]) => ({ ...keys[0], frame, hold })), 100, 30).map(({ frame }) => frame), [30, 38, 45, 60, 63]);
+  assert.equal(trimmed([{ ...keys[1], frame: 60, hold: 39 }], 100, 30)[0].hold, 39);
   // A key that comes in the middle of a hold leaves time for the way to it.
   const inside = [{ ...keys[0], frame: 0, hold: 90 }, { ...keys[0], frame: 60, hold: 0 }];
   assert.deepEqual(trimmed(inside, 200, 30).map(({ hold }) => hold), [42, 0]);
@@ -190,8 +180,6 @@ test('beats are halved, doubled and nudged, and one of them is a 1', () => {
   assert.deepEqual([late.list[0], late.list.length], [{ time: 1.01, count: 8 }, 7]);
   assert.equal(counts(nudged(counted(every(0.5, 6, 1), [0, 0, 1, 2, 3, 4], 4), 0.01, 9)), '781234', 'each has a count');
   assert.equal(counts(withOne(beats, 2.1)), '78123456');
-  assert.deepEqual(beatsMessage(withOne(beats, 2.1)).musicDownbeats, [beats.list[2].time, beats.list[6].time]);
-  assert.deepEqual(beatsMessage(null), {});
 });
 
 test('a pause gets no beats, and bars stay where they begin after it', () => {

@@ -1,0 +1,118 @@
+#include "studio/project_dance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "client/arrange.h"
+#include "client/authoring/json_fields.h"
+#include "client/authoring/key_faults.h"
+#include "client/authoring/key_file.h"
+#include "client/convert.h"
+#include "client/edit.h"
+#include "model/core/error.h"
+#include "studio/from_page.h"
+#include "studio/project_document.h"
+#include "studio/to_page.h"
+
+namespace choreo::studio {
+namespace {
+
+authoring::Counts CountsOf(const authoring::Project& project, const Song* song) {
+  if (!project.beats.empty()) return authoring::CountsFrom(project.beats, project.ones);
+  return song ? authoring::CountsOf(song->music) : authoring::Counts();
+}
+
+client::EditOptions EditOptionsFor(const StudioContext& context, const Song* song,
+                                   const client::DanceConfig& config) {
+  client::EditOptions options;
+  static_cast<DanceManner&>(options) = DanceManner::Of(config);
+  static_cast<KnownMusic&>(options) = KnownMusic::Of(config);
+  options.model = context.model();
+  options.seed = config.seed.value_or(0);
+  options.controls = config.controls;
+  if (song) options.audio = song->audio;
+  return options;
+}
+
+client::Gap GapOf(const Retake& request, const ProjectDance& dance, double fps) {
+  client::Gap gap{.from = request.from(), .to = request.to()};
+  for (const client::KeyPose& key : dance.keys.poses) {
+    const int64_t frame = authoring::FrameOf(key, fps);
+    if (frame > gap.from && frame < gap.to) gap.keys.push_back(key);
+  }
+  for (const ProjectKey& key : request.project().keys()) {
+    if (key.key().frame() != gap.to) continue;
+    gap.to_id = key.key().id();
+    if (key.key().has_hit()) gap.to_hit = key.key().hit();
+  }
+  return gap;
+}
+
+}  // namespace
+
+Error ProjectDance::InTermsOf(const Error& error) const {
+  if (error.field() == "config.style") return error.Of(std::string(kUnnamed) + ":style");
+  return authoring::InTermsOf(keys, controls.InTermsOf(error));
+}
+
+ProjectDance DanceOf(const StudioContext& context, const authoring::Project& project,
+                     const nlohmann::json& file, double seconds, const Song* song) {
+  const client::ModelDescription& model = context.model();
+  const authoring::Counts counts = CountsOf(project, song);
+  ProjectDance dance{.controls = project.controls};
+  client::DanceConfig& config = dance.config;
+  config.seed = project.seed.value_or(0);
+  project.SetIn(&config);
+  config.frames = std::max<int64_t>(1, std::llround(seconds * model.fps));
+  config.controls = project.controls.Read(model, context.server(), counts);
+  if (song) {
+    config.music_beats = project.beats;
+    config.music_downbeats = project.downbeats;
+    authoring::ConfigureMusic(song->music, seconds, &config);
+  }
+  if (!project.has_keys) return dance;
+  dance.keys.poses =
+      authoring::ParseKeyFile(file.dump(), kUnnamed, model.skeleton, &dance.keys.places, counts);
+  for (size_t i = 0; i < dance.keys.poses.size(); ++i)
+    authoring::FitIntoDance({*config.frames, model.fps}, dance.keys.places[i],
+                            &dance.keys.poses[i]);
+  dance.keys = authoring::ByTime(std::move(dance.keys), model.fps);
+  return dance;
+}
+
+ProjectDance DanceOf(const StudioContext& context, const Project& project, const Song* song) {
+  const nlohmann::json file = authoring::ParseJson(ProjectText(context, project), kUnnamed);
+  const authoring::Project read = authoring::ParseProject(file, kUnnamed);
+  if (!song && !read.seconds)
+    throw InvalidArgument(std::string(kUnnamed) + ":seconds", "is missing, and there is no song");
+  const double most = song ? song->heard.seconds() : *read.seconds;
+  return DanceOf(context, read, file, std::min(most, read.seconds.value_or(most)), song);
+}
+
+Response MakeTakes(const StudioContext& context, const Song* song, const Retake& request) {
+  const client::ModelDescription& model = context.model();
+  const ProjectDance dance = DanceOf(context, request.project(), song);
+  const client::Gap gap = GapOf(request, dance, model.fps);
+  const int takes =
+      std::clamp(static_cast<int>(request.takes()), 1, context.server().limits.max_candidates);
+  std::vector<client::EditedDance> made;
+  try {
+    made = client::DanceTakes(context.client(), FromProto(request.dance(), model.skeleton),
+                              EditOptionsFor(context, song, dance.config), gap, takes);
+  } catch (const Error& error) {
+    throw dance.InTermsOf(error);
+  }
+  Response response;
+  Takes& answer = *response.mutable_takes();
+  const auto warn = [&](const client::Warning& warning) {
+    *answer.add_warnings() = wire::ToProto(warning, model.fps);
+  };
+  for (const client::EditedDance& take : made) {
+    *answer.add_frames() = ToProto(client::PartOf(take.dance, gap.from + 1, gap.to)).frames();
+    std::ranges::for_each(take.warnings, warn);
+  }
+  std::ranges::for_each(authoring::KeyFaults(gap.keys, model.fps, model.skeleton), warn);
+  return response;
+}
+
+}  // namespace choreo::studio
