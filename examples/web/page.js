@@ -1,52 +1,36 @@
 // A dance that is being made, on a character, to music.
-import { bonesOf, Character, Player } from 'choreo-client/character';
+import { bonesOf, Character } from 'choreo-client/character';
+import { connectDance } from 'choreo-client/page';
 import { loadCharacter, makeDoll, makeStage } from '/stage.js';
 
-const before = 0.7; // seconds of poses that must be there before the music goes on
-const ahead = 2; // seconds from a click to its pose, and at least
-const beyond = 1.2; // so many after what has come, which is frozen: music that waits falls behind
 const $ = (selector) => document.querySelector(selector);
+const poses = document.querySelectorAll('[data-turns]');
 /** The last words first. */
 const say = (text) => ($('#log').textContent = `${text}\n${$('#log').textContent}`.split('\n').slice(0, 4).join('\n'));
 
+let dance;
 let header; // of the dance
 let chosen; // the character: {scene, humanoid}; without one there is a doll
-let shown; // {character, objects, dance, player}
-let recent = []; // messages that are not past yet
-let over = false;
-let wanted = false; // music
+let shown; // {character, objects}
 const song = new Audio();
 
 const showOn = makeStage($('#stage'), () => {
-  if (!shown) return;
-  const { state, pose, ahead: seconds } = shown.player.at(song.currentTime);
-  shown.character.show(pose, shown.objects);
-  // Music waits for the dancer.
-  if (state === 'starved' && !song.paused && !over) song.pause();
-  if (wanted && song.paused && !song.ended && (seconds > before || over)) song.play().catch((error) => ((wanted = false), say(error.message)));
+  if (dance && shown) shown.character.show(dance.follow(song).pose, shown.objects);
 });
 
-/** Puts the dance on the character, as far as it has come and is not past. */
+/** Puts the dance on the character. */
 function embody() {
-  if (!header) return;
   const { scene, humanoid } = chosen ?? { scene: makeDoll(header.skeleton) };
   const { bones, objects } = bonesOf(scene, humanoid);
   const character = new Character(bones, header.skeleton);
-  const [dance, player] = [character.dance(header), new Player(header)];
-  for (const frames of recent) player.add(dance.add(frames));
-  if (over) finish({ dance, player });
-  shown = { character, objects, dance, player };
+  dance.wear(character);
+  shown = { character, objects };
   showOn(scene, objects[character.bones.pelvis]);
-}
-
-function finish({ dance, player }) {
-  player.add(dance.end());
-  player.end();
 }
 
 /** Throws for a character that cannot dance. */
 async function requireBody({ scene, humanoid }) {
-  const answer = await fetch('/skeleton');
+  const answer = await fetch('/dance/skeleton');
   if (answer.ok) new Character(bonesOf(scene, humanoid).bones, await answer.json()); // else nobody knows before the dance
 }
 
@@ -69,56 +53,40 @@ async function choose(file) {
 async function begin() {
   $('#dance').disabled = true;
   song.src ||= URL.createObjectURL(await (await fetch('/song.wav')).blob());
-  [recent, over, wanted, shown] = [[], false, true, undefined];
   song.currentTime = 0;
-  const events = new EventSource(`/dance?seed=${Math.floor(1e9 * Math.random())}`);
-  const on = (name, act) => events.addEventListener(name, ({ data }) => act(JSON.parse(data)));
-  const end = (text) => {
-    events.close();
-    over = true;
-    if (shown) finish(shown);
-    say(text);
-    $('#dance').disabled = false;
-    for (const button of document.querySelectorAll('[data-turns]')) button.disabled = true;
-  };
-  on('dance', (told) => {
-    header = told;
-    try {
-      embody();
-    } catch (error) {
-      chosen = undefined;
-      embody();
-      say(`This character cannot dance: ${error.message}`);
-    }
-    for (const button of document.querySelectorAll('[data-turns]')) button.disabled = false;
+  shown = undefined;
+  dance = connectDance(`/dance?seed=${Math.floor(1e9 * Math.random())}`, {
+    onKey: ({ id, time, refused }) => say(refused ? `${id}: ${refused}` : `${id}: reached at ${time.toFixed(1)} s`),
+    onWarning: ({ message }) => say(message),
+    onMoved: () => say('The dance goes on at another server.'),
+    onLost: () => say('The connection is lost.'),
+    onEnd: (error) => {
+      say(error ? error.message : 'The dance is made.');
+      $('#dance').disabled = false;
+      for (const button of poses) button.disabled = true;
+    },
   });
-  on('frames', ({ first, places, turns }) => {
-    const frames = { first_frame: first, count: places.length / 3, root_positions: places, rotations: turns };
-    const past = (song.currentTime - 1) * header.frame_rate;
-    recent = [...recent.filter(({ first_frame }) => first_frame > past), frames];
-    shown.player.add(shown.dance.add(frames));
-  });
-  on('key', ({ id, time, refused }) => say(refused ? `${id}: ${refused}` : `${id}: reached at ${time.toFixed(1)} s`));
-  on('warning', ({ message }) => say(message));
-  on('moved', ({ address }) => say(`The dance goes on at ${address}.`));
-  on('over', () => end('The dance is made.'));
-  on('failed', ({ message }) => end(message));
-  // The browser asks for the rest by itself, until it hears that there is none.
-  events.onerror = () => (events.readyState === EventSource.CLOSED ? end('The dance is gone.') : say('The connection is lost.'));
+  header = await dance.begun.catch(() => undefined); // onEnd has told
+  if (!header) return;
+  try {
+    embody();
+  } catch (error) {
+    chosen = undefined;
+    embody();
+    say(`This character cannot dance: ${error.message}`);
+  }
+  for (const button of poses) button.disabled = false;
 }
 
 let clicks = 0;
 async function ask(button) {
-  const now = song.currentTime;
-  const time = now + Math.max(ahead, shown.player.ahead(now) + beyond);
-  const key = { id: `${button.textContent} ${++clicks}`, time, rotations: JSON.parse(button.dataset.turns) };
-  const answer = await fetch(`/dance/${header.id}/keys`, { method: 'POST', body: JSON.stringify(key) });
-  say(answer.ok ? `${key.id}: asked for at ${key.time.toFixed(1)} s` : await answer.text());
+  const key = await dance.setKey({ id: `${button.textContent} ${++clicks}`, rotations: JSON.parse(button.dataset.turns) });
+  say(`${key.id}: asked for at ${key.time.toFixed(1)} s`);
 }
 
 const guarded = (act) => (event) => act(event).catch((error) => say(error.message)); // the server may be gone
 $('#dance').onclick = guarded(begin);
-for (const button of document.querySelectorAll('[data-turns]')) button.onclick = guarded(() => ask(button));
+for (const button of poses) button.onclick = guarded(() => ask(button));
 $('#file').onchange = ({ target }) => {
   if (target.files[0]) choose(target.files[0]);
   target.value = ''; // the same file may be chosen again

@@ -4,7 +4,7 @@ import { serve } from '../node/backend.js';
 
 const own = { '/': 'index.html', '/page.js': 'page.js', '/stage.js': 'stage.js' };
 /** Of installed packages, what the page's import map names. No "..": a URL has none left in its path. */
-const packaged = /^\/(three\/(?:build|examples\/jsm)|choreo-client\/character)\/[\w./-]+\.js$/;
+const packaged = /^\/(three\/(?:build|examples\/jsm)|choreo-client\/(?:character|page))\/[\w./-]+\.js$/;
 
 await serve((path) => {
   if (own[path]) return new URL(own[path], import.meta.url);

@@ -237,13 +237,40 @@ export function hear(answer: StreamDanceResponse): void {
 new ChoreoClient('one:1').close();
 `;
   await compile('character.ts', text);
-  for (const name of await readdir(join(root, 'client/node/character'))) {
-    const imported = [...(await readFile(join(root, 'client/node/character', name), 'utf8')).matchAll(/from '([^']*)'/g)].map(([, from]) => from);
-    assert.deepEqual(imported.filter((from) => !from.startsWith('./')), [], `${name} needs nothing else`);
+  for (const folder of ['character', 'page']) {
+    for (const name of await readdir(join(root, 'client/node', folder))) {
+      const imported = [...(await readFile(join(root, 'client/node', folder, name), 'utf8')).matchAll(/from '([^']*)'/g)].map(([, from]) => from);
+      assert.deepEqual(imported.filter((from) => !/^(\.|\.\.\/character)\/\w+\.js$/.test(from)), [], `${name} needs nothing else`);
+    }
   }
   await writeFile(join(app, 'character.js'), "import { Player } from 'choreo-client/character';\nconsole.log(new Player({ frame_rate: 30 }).at(0).state);\n");
   const { said } = await run(process.execPath, ['character.js'], app);
   assert.equal(said, 'waiting\n');
+});
+
+test('a back end and its page come from the package', async (t) => {
+  if (skip) return t.skip(skip);
+  const page = await readFile(join(root, 'docs/web.md'), 'utf8');
+  const programs = [...page.matchAll(/(?<=^```js\n)[^`]+(?:`[^`]+`[^`]+)*(?=^```)/gm)].map(([text]) => text);
+  assert.equal(programs.length, 2);
+  await compile('serve.ts', programs.join(''));
+  const wrong = `
+import { ChoreoClient } from 'choreo-client';
+import { connectDance } from 'choreo-client/page';
+import { serveDance } from 'choreo-client/serve';
+const client = new ChoreoClient('one:1');
+serveDance(client, async (url, request) => ({ seconds: 9, music: new Uint8Array(9), config: { seed: url.searchParams.get('seed') ?? '1' } }));
+// @ts-expect-error: how long?
+serveDance(client, () => ({ music: new Uint8Array(9) }));
+const dance = connectDance('/dance', { onKey: ({ id, refused }) => console.log(id, refused) });
+const told: Promise<{ id: string; time: number }> = dance.setKey({ pose: 'kick' });
+// @ts-expect-error: no pose
+dance.setKey({ id: 'a', time: 2 });
+`;
+  await compile('wrong.ts', wrong, '--lib', 'es2022,dom');
+  const asked = "import { serveDance } from 'choreo-client/serve';\nimport { connectDance } from 'choreo-client/page';\nconsole.log(typeof serveDance, typeof connectDance);\n";
+  await writeFile(join(app, 'asked.js'), asked);
+  assert.equal((await run(process.execPath, ['asked.js'], app)).said, 'function function\n');
 });
 
 test('asking what an answer or an event holds narrows its type', async (t) => {

@@ -2,8 +2,10 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { readFile, writeFile } from 'node:fs/promises';
+import { cp, mkdir, mkdtemp, readFile, rm, symlink, writeFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
+import { createServer } from 'node:net';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test } from 'node:test';
@@ -16,14 +18,17 @@ const serve = fileURLToPath(new URL('../../../examples/web/serve.js', import.met
 const pictures = process.env.PICTURES;
 const patience = 120000; // software rendering on a busy machine
 
+const launch = () =>
+  chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required'],
+  });
+
 /** The page of a back end, in a browser, until `use(page)` is done; nothing may go wrong on it. */
 async function withPage(servers, seconds, use) {
   const flags = [...servers.flatMap((server) => ['--server', server]), '--port', '0', '--seconds', `${seconds}`];
   const backend = spawn(process.execPath, [serve, ...flags], { stdio: ['ignore', 'pipe', 'inherit'] });
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--autoplay-policy=no-user-gesture-required'],
-  });
+  const browser = await launch();
   try {
     const [address] = await once(createInterface({ input: backend.stdout }), 'line');
     const page = await browser.newPage({ viewport: { width: 400, height: 300 } });
@@ -62,8 +67,8 @@ function asVrm(glb, skeleton) {
 }
 
 /** Waits until the stage shows something else than before. */
-async function moves(page) {
-  const stage = page.locator('#stage');
+async function moves(page, selector = '#stage') {
+  const stage = page.locator(selector);
   const before = await stage.screenshot();
   for (let tries = 0; tries < 40; ++tries) if (!before.equals(await stage.screenshot())) return;
   assert.fail('nothing moves');
@@ -112,7 +117,7 @@ test('what is no character says so, and the one before dances on', () =>
 test("a VRM's bones are those of its own table", () =>
   withServer([], ({ address }) =>
     withPage([address], 600, async ({ page, says }) => {
-      const skeleton = await page.evaluate(async () => (await fetch('/skeleton')).json());
+      const skeleton = await page.evaluate(async () => (await fetch('/dance/skeleton')).json());
       await writeFile(join(pictures, 'own.vrm'), asVrm(await readFile(join(pictures, 'mixamo.glb')), skeleton));
       await page.setInputFiles('#file', join(pictures, 'own.vrm'));
       await says('own.vrm will dance.');
@@ -141,3 +146,48 @@ test('one dance after the other', () =>
       }
     }),
   ));
+
+async function freePort() {
+  const server = createServer().listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  const { port } = server.address();
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}
+
+test('what docs/web.md says works, from nothing', () =>
+  withServer([], async ({ address }) => {
+    const root = fileURLToPath(new URL('../../../', import.meta.url));
+    const text = await readFile(join(root, 'docs/web.md'), 'utf8');
+    const [, html] = /^```html\n([^]*?)^```/m.exec(text);
+    const [, backEnd] = /^```js\n([^]*?)^```/m.exec(text);
+    const folder = await mkdtemp(join(tmpdir(), 'choreo-'));
+    const port = await freePort();
+    let program, browser;
+    try {
+      await mkdir(join(folder, 'node_modules'));
+      await symlink(join(root, 'client/node'), join(folder, 'node_modules/choreo-client'));
+      await symlink(join(root, 'examples/web/node_modules/three'), join(folder, 'node_modules/three'));
+      await cp(join(pictures, 'mixamo.glb'), join(folder, 'hero.glb'));
+      await writeFile(join(folder, 'package.json'), '{ "type": "module" }');
+      await writeFile(join(folder, 'index.html'), html);
+      await writeFile(join(folder, 'serve.js'), backEnd.replace('127.0.0.1:50051', address).replace('8080', port));
+      program = spawn(process.execPath, ['serve.js'], { cwd: folder, stdio: ['ignore', 'inherit', 'inherit'] });
+      browser = await launch();
+      const page = await browser.newPage({ viewport: { width: 700, height: 560 } });
+      page.setDefaultTimeout(patience);
+      const said = [];
+      page.on('pageerror', (error) => said.push(error.message));
+      page.on('console', (message) => said.push(message.text()));
+      for (let tries = 0; tries < 100; ++tries) if (await page.goto(`http://127.0.0.1:${port}`).catch(() => page.waitForTimeout(100))) break;
+      await moves(page, 'canvas');
+      await page.getByText('Kick').click();
+      for (let tries = 0; tries < 300 && !said.includes('key 1 reached'); ++tries) await page.waitForTimeout(100);
+      assert.deepEqual(said.filter((text) => !/GPU stall|favicon|404/.test(text)), ['key 1 reached']);
+      await page.screenshot({ path: join(pictures, 'from_nothing.png') });
+    } finally {
+      await browser?.close();
+      program?.kill('SIGKILL');
+      await rm(folder, { recursive: true });
+    }
+  }));

@@ -1,0 +1,69 @@
+// A back end's events, over lost connections. (EventSource sends no headers, and never learns that a machine has vanished.)
+
+const untilBack = 500; // milliseconds until the rest is asked for
+const silence = 15000; // milliseconds; a back end says something every five seconds
+
+class Refused extends Error {}
+
+/**
+ * Yields [event, data] of a URL's server-sent events, the rest by the header Last-Event-ID where a connection was lost, of which `onLost(error)`
+ * hears. Ends when the answer is 204: nothing is left. Throws what a back end says that refuses, and where it is gone for `patience` seconds.
+ */
+export async function* eventsOf(url, { headers, signal, patience, onLost, fetch = globalThis.fetch }) {
+  let last;
+  let since; // the connection is lost
+  for (;;) {
+    const cut = new AbortController();
+    const abort = () => cut.abort(signal.reason);
+    signal.addEventListener('abort', abort);
+    let timer;
+    const wait = () => {
+      clearTimeout(timer);
+      timer = setTimeout(() => cut.abort(new Error('the back end is silent')), silence);
+    };
+    try {
+      signal.throwIfAborted();
+      wait();
+      const again = last === undefined ? {} : { 'Last-Event-ID': last };
+      const response = await fetch(url, { headers: { ...headers, ...again }, signal: cut.signal, cache: 'no-store' });
+      if (response.status === 204) return;
+      if (!response.ok) throw new Refused((await response.text()).trim() || `status ${response.status}`);
+      for await (const [id, event, data] of linesOf(response.body, wait)) {
+        since = undefined;
+        last = id;
+        yield [event, data];
+      }
+      throw new Error('the back end has hung up');
+    } catch (error) {
+      signal.throwIfAborted();
+      // What has not begun is not begun twice.
+      if (error instanceof Refused || last === undefined) throw error;
+      if (since === undefined) onLost?.(error);
+      since ??= Date.now();
+      if (Date.now() - since > 1000 * patience) throw error;
+    } finally {
+      clearTimeout(timer);
+      signal.removeEventListener('abort', abort);
+      cut.abort();
+    }
+    await new Promise((resolve) => setTimeout(resolve, untilBack));
+  }
+}
+
+/** [id, event, data] of the events in a body. */
+async function* linesOf(body, heard) {
+  const reader = body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = '';
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return;
+    heard();
+    text += value;
+    const whole = text.split('\n\n');
+    text = whole.pop();
+    for (const one of whole) {
+      const [, id, event, data] = /^id: (.*)\nevent: (.*)\ndata: (.*)$/.exec(one) ?? [];
+      if (event) yield [id, event, JSON.parse(data)];
+    }
+  }
+}

@@ -1,0 +1,70 @@
+// For pages: a dance of serveDance() in choreo-client/serve, while it is made. Without any dependency; it works in Node.js, too.
+import type { Character, Shown, Smpl } from '../character/index.js';
+
+/** What the dance is, as soon as it begins. */
+export interface DanceHeader {
+  id: string;
+  frame_rate: number;
+  skeleton: Smpl;
+}
+
+/** The joints of a pose: the library's by name, or turns of those that it sets, [x, y, z] in radians. */
+export type KeyPose =
+  | { pose: string; place?: [number, number]; facing?: number; hold?: number; hit?: number }
+  | { rotations: Record<string, [number, number, number]> };
+
+/** A key was reached at `time`, or is not danced, because of what `refused` says. */
+export interface KeyNews {
+  id: string;
+  time?: number;
+  refused?: string;
+}
+
+export interface ConnectOptions {
+  /** Sent with each request: of a login, say. */
+  headers?: Record<string, string>;
+  /** Seconds to ask for the rest of a dance whose connection is lost; default 10. */
+  patience?: number;
+  /** Instead of the page's own. */
+  fetch?: typeof fetch;
+  onKey?: (news: KeyNews) => void;
+  onWarning?: (warning: { id?: string; message: string }) => void;
+  /** The back end's server was lost; another one goes on from this frame, and none is missing. */
+  onMoved?: (moved: { frame: number }) => void;
+  /** The connection is lost; the rest is asked for. */
+  onLost?: (error: Error) => void;
+  /** All has come, or nothing more will, because of `error`. A failed dance's has `code` and `retryAfter`. */
+  onEnd?: (error?: Error & { code?: string; retryAfter?: number }) => void;
+}
+
+export interface PageDance {
+  /** Rejects where the dance does not begin. */
+  readonly begun: Promise<DanceHeader>;
+  /** No more frames will come. */
+  readonly over: boolean;
+  /**
+   * From now on `at` gives poses of this character, made with the header's skeleton; without one those of SMPL's own joints. It may change while the
+   * dance goes on. Throws before the dance has begun.
+   */
+  wear(character?: Character): void;
+  /** What to show at a time of the dance: character.show(dance.at(seconds).pose, objects). */
+  at(seconds: number): Shown;
+  /**
+   * The same at an <audio> element's time, or by a clock of its own: it starts when some poses are there, and waits where they are late. Call it for
+   * each picture. Whoever pauses the element does so for good. Begin in a click: browsers play no sound before one.
+   */
+  follow(audio?: { currentTime: number; readonly paused: boolean; readonly ended: boolean; play(): unknown; pause(): void }): Shown;
+  /** The earliest time that a new key can surely have. */
+  soon(): number;
+  /**
+   * Asks for a key, `soon()` where it says no time, and tells what was asked for. The same id again moves it. Rejects what makes no key; onKey hears
+   * of one that comes too late.
+   */
+  setKey<K extends KeyPose & { id?: string; time?: number }>(key: K): Promise<K & { id: string; time: number }>;
+  removeKey(id: string): Promise<void>;
+  /** Leaves the dance, which ends on its servers, too. */
+  close(): void;
+}
+
+/** Begins a dance at the path of a serveDance(), with whatever query that understands. */
+export function connectDance(url: string | URL, options?: ConnectOptions): PageDance;

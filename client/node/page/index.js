@@ -1,0 +1,125 @@
+// A dance of serveDance() on a page. index.d.ts explains it.
+import { requireOptions } from '../character/given.js';
+import { Player, smplPoses } from '../character/index.js';
+import { Clock } from './clock.js';
+import { eventsOf } from './events.js';
+
+const before = 0.7; // seconds of poses that must be there before music goes on
+const soonest = 2; // seconds from asking for a pose to it, at least
+const beyond = 1.2; // so many after what has come, which is frozen: music that waits falls behind
+const kept = 1; // seconds of the past, for another character
+const names = ['headers', 'patience', 'fetch', 'onKey', 'onWarning', 'onMoved', 'onLost', 'onEnd'];
+
+export function connectDance(url, options = {}) {
+  requireOptions(options, names);
+  return new PageDance(url, options);
+}
+
+class PageDance {
+  begun;
+  over = false;
+  #url;
+  #options;
+  #stop = new AbortController();
+  #header;
+  #recent = []; // messages that are not past
+  #seconds = 0; // that were shown last
+  #worn; // {character, player, add(frames), end()}
+  #holds = true; // the music waits for the dancer
+  #clock; // where there is none
+  #clicks = 0;
+
+  constructor(url, options) {
+    this.#url = String(url);
+    this.#options = { patience: 10, ...options };
+    this.begun = new Promise((resolve, reject) => this.#listen(resolve, reject));
+    this.begun.catch(() => {}); // onEnd hears of it, too
+  }
+
+  close() {
+    this.#stop.abort(new Error('the dance is closed'));
+  }
+
+  wear(character) {
+    if (!this.#header) throw new Error('the dance has not begun: await its begun');
+    const player = new Player(this.#header);
+    const dance = character?.dance(this.#header) ?? { add: (frames) => smplPoses(frames, this.#header.skeleton), end: () => [] };
+    const add = (frames) => player.add(dance.add(frames));
+    const end = () => (player.add(dance.end()), player.end());
+    this.#recent.forEach(add);
+    if (this.over) end();
+    this.#worn = { player, add, end };
+  }
+
+  at(seconds) {
+    this.#seconds = seconds;
+    return this.#worn ? this.#worn.player.at(seconds) : { state: 'waiting', ahead: 0 };
+  }
+
+  follow(audio = (this.#clock ??= new Clock())) {
+    const shown = this.at(audio.currentTime);
+    if (shown.state === 'starved' && !audio.paused && !this.over) {
+      this.#holds = true;
+      audio.pause();
+    }
+    if (this.#holds && this.#worn && (shown.ahead > before || this.over)) {
+      this.#holds = false;
+      if (!audio.ended) Promise.resolve(audio.play()).catch((error) => this.#options.onWarning?.({ message: error.message }));
+    }
+    return shown;
+  }
+
+  soon() {
+    const ahead = this.#worn?.player.ahead(this.#seconds) ?? 0;
+    return this.#seconds + Math.max(soonest, ahead + beyond);
+  }
+
+  async setKey(key) {
+    const said = { id: `key ${++this.#clicks}`, time: this.soon(), ...key };
+    await this.#send('POST', '/keys', JSON.stringify(said));
+    return said;
+  }
+
+  async removeKey(id) {
+    await this.#send('DELETE', `/keys/${encodeURIComponent(id)}`);
+  }
+
+  async #send(method, path, body) {
+    const { headers, fetch = globalThis.fetch } = this.#options;
+    const { id } = await this.begun;
+    const [place] = this.#url.split(/[?#]/);
+    const answer = await fetch(`${place}/${id}${path}`, { method, body, headers: { ...headers, 'Content-Type': 'application/json' } });
+    if (!answer.ok) throw new Error((await answer.text()).trim() || `status ${answer.status}`);
+  }
+
+  async #listen(begin, fail) {
+    const { onKey, onWarning, onMoved, onEnd } = this.#options;
+    let failure;
+    try {
+      for await (const [event, data] of eventsOf(this.#url, { ...this.#options, signal: this.#stop.signal })) {
+        if (event === 'dance') begin((this.#header = data));
+        else if (event === 'frames') this.#take(data);
+        else if (event === 'key') onKey?.(data);
+        else if (event === 'warning') onWarning?.(data);
+        else if (event === 'moved') onMoved?.(data);
+        else if (event === 'failed') throw Object.assign(new Error(data.message), { code: data.code, retryAfter: data.retry_after });
+        else if (event === 'over') this.over = true;
+        if (this.over) break;
+      }
+      if (!this.over) throw new Error('the dance is gone');
+    } catch (error) {
+      failure = error;
+    }
+    this.over = true;
+    this.#worn?.end();
+    if (failure) fail(failure);
+    if (!this.#stop.signal.aborted) onEnd?.(failure);
+  }
+
+  #take({ first, places, turns }) {
+    const frames = { first_frame: first, count: places.length / 3, root_positions: places, rotations: turns };
+    const past = (this.#seconds - kept) * this.#header.frame_rate;
+    this.#recent = [...this.#recent.filter(({ first_frame }) => first_frame > past), frames];
+    this.#worn?.add(frames);
+  }
+}

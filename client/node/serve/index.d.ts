@@ -1,0 +1,64 @@
+// For back ends: dances for web pages, over HTTP, as server-sent events. `connectDance` of choreo-client/page reads them.
+import type { IncomingMessage, ServerResponse } from 'node:http';
+import type { ChoreoClient, ChoreoError, DanceConfig, Resumed, StreamDanceRequest } from '../src/index.js';
+
+/** What to dance. */
+export interface DanceOrder {
+  /** How long. */
+  seconds: number;
+  /**
+   * The bytes of a WAV, FLAC, Ogg or MP3 file; or pieces of music while it sounds, `{ audio: { data } }`, of config.audio_format, as requests, among
+   * which others may be. Without it the dance is silent.
+   */
+  music?: Uint8Array | ArrayBuffer | Iterable<StreamDanceRequest> | AsyncIterable<StreamDanceRequest>;
+  /** Seed, model, style and the like. Frames, encoding and generate_until are said here. */
+  config?: DanceConfig;
+  /** Said before the dance begins: the keys of readKeys(), controls. */
+  keys?: StreamDanceRequest[];
+  /** Times as fast as it is shown; default 1. */
+  speed?: number;
+}
+
+export interface ServeOptions {
+  /** Where pages find it; default '/dance'. */
+  path?: string;
+  /** Seconds that a dance goes on without its page, whose connection may be lost; default 5. */
+  away?: number;
+  /** Bytes of each dance's latest events to keep for a page that comes back; default 8 MiB, some minutes. */
+  keep?: number;
+  /** Seconds that a page may be behind before the dance waits for it; default 10. */
+  behind?: number;
+  /** A dance went on at another server. Pages hear no addresses. */
+  onResume?: (resumed: Resumed) => void;
+  /** A dance failed; its page has been told. */
+  onFailed?: (error: ChoreoError) => void;
+}
+
+export interface DanceHandler {
+  /**
+   * Answers requests below `path`; false, with the response untouched, for all others. It never rejects. A body that a framework has parsed is taken
+   * from request.body. Who may ask is for you to say, before this is called.
+   *
+   * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where it is gone.
+   *   `dance` {id, frame_rate, skeleton}; `frames` {first, places: 3 numbers a frame, turns: 4 a joint}; `key` {id, time} or {id, refused};
+   *   `warning` {id, message}; `moved` {frame}: another server goes on; last `over` {frames} or `failed` {code, message, retry_after}.
+   * - `POST /dance/ID/keys`: a key, as in a key file (docs/poses.md), {id, time, pose: 'kick'}; or {id, time, rotations: {head: [0, 0.4, 0]}}, which
+   *   sets these joints alone. 202; what is wrong with its time comes as an event. The same id again moves a key.
+   * - `DELETE /dance/ID/keys/KEY`: takes it back.
+   * - `GET /dance/skeleton`: the body that dances.
+   */
+  (request: IncomingMessage & { body?: unknown }, response: ServerResponse): Promise<boolean>;
+  /** Ends all its dances. */
+  close(): void;
+}
+
+/**
+ * Serves the dances of `client` to pages. `begin` says what to dance for a page that asks; an error of its own with a `status`, 401 say, is answered
+ * with that. A dance whose server is lost goes on at another one of the client's, and its page misses no frame. Frames settle half a second before
+ * their time, so that keys may come until shortly before. A page that is closed ends its dance.
+ */
+export function serveDance(
+  client: ChoreoClient,
+  begin: (url: URL, request: IncomingMessage) => DanceOrder | Promise<DanceOrder>,
+  options?: ServeOptions,
+): DanceHandler;

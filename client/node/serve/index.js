@@ -1,0 +1,132 @@
+// The routes by which pages watch dances and change them. index.d.ts says what each answers.
+import { checked } from '../src/check.js';
+import { invalid } from '../src/error.js';
+import { hint } from '../src/words.js';
+import { editsOf } from './edits.js';
+import { Refusal, refusalOf } from './refusal.js';
+import { ServedDance } from './served_dance.js';
+
+const mostBytes = 65536; // of what a page may send
+const untilBack = 0.5; // seconds after which a browser asks for the rest
+const silence = 5; // seconds without news after which a page is told that there are none, so that both see a lost connection
+
+const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed: undefined };
+
+/** index.d.ts explains it. */
+export function serveDance(client, begin, given = {}) {
+  for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
+  if (typeof begin !== 'function') throw invalid('begin', `${begin} is no function that says what to dance`);
+  const server = new DanceServer(client, begin, { ...defaults, ...given });
+  return Object.assign((request, response) => server.answer(request, response), { close: () => server.close() });
+}
+
+class DanceServer {
+  #client;
+  #begin;
+  #options;
+  #dances = new Map(); // by id
+
+  constructor(client, begin, options) {
+    this.#client = client;
+    this.#begin = begin;
+    this.#options = options;
+  }
+
+  close() {
+    for (const dance of this.#dances.values()) this.#end(dance);
+  }
+
+  /** Whether it was for us. */
+  async answer(request, response) {
+    if (!URL.canParse(request.url, 'http://localhost')) return false;
+    const url = new URL(request.url, 'http://localhost');
+    const { path } = this.#options;
+    if (url.pathname !== path && !url.pathname.startsWith(`${path}/`)) return false;
+    try {
+      return await this.#route(url, request, response);
+    } catch (error) {
+      const { status, message } = refusalOf(error);
+      if (response.headersSent) response.destroy();
+      else response.writeHead(status, { 'Content-Type': 'text/plain; charset=utf-8' }).end(`${message}\n`);
+      return true;
+    }
+  }
+
+  async #route(url, request, response) {
+    const [id, keys, key, ...more] = url.pathname.slice(this.#options.path.length + 1).split('/').map(decodeURIComponent);
+    const asked = `${request.method} ${[id && ':id', keys, key && ':key', ...more].filter(Boolean).join('/')}`;
+    if (asked === 'GET ') await this.#watch(url, request, response);
+    else if (asked === 'GET :id' && id === 'skeleton') await this.#tellSkeleton(response);
+    else if (asked === 'POST :id/keys') this.#say(id, response, editsOf(await bodyOf(request), this.#find(id).model.skeleton));
+    else if (asked === 'DELETE :id/keys/:key') this.#say(id, response, [{ remove_keyframe: { id: key } }]);
+    else return false;
+    return true;
+  }
+
+  async #tellSkeleton(response) {
+    const { skeleton } = (await this.#client.info()).models[0];
+    response.writeHead(200, { 'Content-Type': 'application/json' }).end(JSON.stringify(skeleton));
+  }
+
+  #find(id) {
+    const dance = this.#dances.get(id);
+    if (!dance?.model || dance.over) throw new Refusal(404, `nobody dances ${id}`);
+    return dance;
+  }
+
+  #say(id, response, requests) {
+    this.#find(id).say(requests);
+    response.writeHead(202).end();
+  }
+
+  async #watch(url, request, response) {
+    const heard = request.headers['last-event-id'];
+    const gone = new AbortController();
+    response.once('close', () => gone.abort());
+    const dance = heard === undefined ? await this.#start(url, request) : this.#dances.get(heard.split('/')[0]);
+    const next = heard === undefined ? 0 : dance?.after(heard.split('/')[1]);
+    if (next === undefined) return response.writeHead(204).end(); // nothing is left to tell: a browser asks no more
+    // No proxy should collect or press together what is told now.
+    const headers = { 'Content-Type': 'text/event-stream', 'Cache-Control': 'no-store, no-transform', 'X-Accel-Buffering': 'no' };
+    response.writeHead(200, headers).write(`retry: ${1000 * untilBack}\n\n`);
+    clearTimeout(dance.forget);
+    const pulse = setInterval(() => response.writableNeedDrain || response.write(': still here\n\n'), 1000 * silence);
+    try {
+      await dance.tell(next, response, gone.signal);
+    } finally {
+      clearInterval(pulse);
+      if (dance.watchers === 0) dance.forget = setTimeout(() => this.#end(dance), 1000 * this.#options.away).unref();
+      response.end();
+    }
+  }
+
+  async #start(url, request) {
+    const order = await this.#begin(url, request);
+    // What can be known to be wrong is told before anything is promised.
+    checked('StreamDanceRequest', { config: order.config ?? {} }, 'order');
+    const dance = new ServedDance(this.#client, order, this.#options);
+    this.#dances.set(dance.id, dance);
+    return dance;
+  }
+
+  #end(dance) {
+    clearTimeout(dance.forget);
+    dance.stop();
+    this.#dances.delete(dance.id);
+  }
+}
+
+/** What a page sent, as JSON; or what a framework has read of it. */
+async function bodyOf(request) {
+  if (request.body !== undefined) return request.body;
+  let text = '';
+  for await (const piece of request.setEncoding('utf8')) {
+    text += piece;
+    if (text.length > mostBytes) throw new Refusal(413, `more than ${mostBytes} characters`);
+  }
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new Refusal(400, error.message);
+  }
+}

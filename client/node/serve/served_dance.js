@@ -1,0 +1,175 @@
+// A dance for a page: paced by the clock, told as server-sent events, which are kept for pages that come back.
+import { randomUUID } from 'node:crypto';
+import { EventEmitter, once } from 'node:events';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { invalid } from '../src/error.js';
+import { Refusal } from './refusal.js';
+
+const settled = 0.5; // seconds: what is nearer than this is settled, and on its way to the page
+const tick = 0.1; // seconds
+const pieceOfFile = 1 << 20; // bytes
+const mostWaiting = 1000; // keys: a dance has no more
+
+export class ServedDance {
+  id = randomUUID();
+  /** The one that dances, once a server has told. */
+  model;
+  over = false;
+  watchers = 0;
+  /** A timer of who forgets it. */
+  forget;
+  #client;
+  #order;
+  #options;
+  #end = new AbortController();
+  #edits = []; // requests that are still to be said
+  #told = []; // {text, frames: that were told with it}
+  #dropped = 0; // of them, the first ones
+  #bytes = 0; // of those that are kept
+  #frames = 0; // that were told
+  #taken = 0; // of these, by the page that has most
+  #shownRate = Infinity; // of them
+  #news = new EventEmitter().setMaxListeners(0);
+
+  /** Dances what `order` says: index.d.ts, DanceOrder. */
+  constructor(client, order, options) {
+    if (!(order.seconds > 0 && Number.isFinite(order.seconds))) throw invalid('seconds', `${order.seconds} is no number above 0`);
+    this.#client = client;
+    this.#order = order;
+    this.#options = options;
+    this.#dance();
+  }
+
+  stop() {
+    this.#end.abort();
+  }
+
+  say(requests) {
+    if (this.#edits.length + requests.length > mostWaiting) throw new Refusal(429, 'too many keys wait');
+    this.#edits.push(...requests);
+  }
+
+  /** The number of the event after the one that a page calls `last`; undefined where that is forgotten. */
+  after(last) {
+    const next = /^\d+$/.test(last) ? Number(last) + 1 : NaN;
+    if (!(next <= this.#dropped + this.#told.length)) throw new Refusal(400, `${last} is no event`);
+    return next < this.#dropped ? undefined : next;
+  }
+
+  /** Tells a page all from the event `next` on, as fast as it takes it, until nothing is left or it is gone. */
+  async tell(next, response, signal) {
+    ++this.watchers;
+    try {
+      for (let at = next; at >= this.#dropped; ) {
+        const one = this.#told[at - this.#dropped];
+        if (!one && this.over) return;
+        if (!one) {
+          await once(this.#news, 'told', { signal });
+          continue;
+        }
+        ++at;
+        if (!response.write(one.text)) await once(response, 'drain', { signal });
+        this.#taken = Math.max(this.#taken, one.frames);
+      }
+    } catch (error) {
+      if (!signal.aborted) throw error;
+    } finally {
+      --this.watchers;
+    }
+  }
+
+  #tell(event, data) {
+    const text = `id: ${this.id}/${this.#dropped + this.#told.length}\nevent: ${event}\ndata: ${JSON.stringify(data)}\n\n`;
+    this.#told.push({ text, frames: this.#frames });
+    this.#bytes += text.length;
+    while (this.#bytes > this.#options.keep && this.#told.length > 1) {
+      this.#bytes -= this.#told.shift().text.length;
+      ++this.#dropped;
+    }
+    this.#news.emit('told');
+  }
+
+  async #dance() {
+    const { signal } = this.#end;
+    const onRejected = ({ id, field, reason }) => this.#tell('key', { id, refused: field ? `${field}: ${reason}` : reason });
+    const onResume = (resumed) => {
+      this.#tell('moved', { frame: resumed.frame }); // where to is nobody's business
+      this.#options.onResume?.(resumed);
+    };
+    try {
+      const { models } = await this.#client.info({ signal });
+      const wanted = this.#order.config?.model;
+      this.model = models.find(({ name }) => !wanted || name === wanted) ?? models[0];
+      for await (const answer of this.#client.streamDance(this.#requests(), { signal, onResume, onRejected })) this.#take(answer);
+    } catch (error) {
+      if (!signal.aborted) {
+        const message = error.code === 'UNAVAILABLE' ? 'no server dances now' : error.message; // that one names servers
+        this.#tell('failed', { code: error.code, message, retry_after: error.retryAfter });
+        this.#options.onFailed?.(error);
+      }
+    } finally {
+      this.over = true;
+      this.#news.emit('told');
+    }
+  }
+
+  #take({ header, frames, event, summary }) {
+    if (header) {
+      this.#shownRate = header.frame_rate;
+      this.#tell('dance', { id: this.id, frame_rate: header.frame_rate, skeleton: header.skeleton });
+    }
+    if (frames) {
+      this.#frames += frames.count;
+      this.#tell('frames', { first: Number(frames.first_frame), places: short(frames.root_positions), turns: short(frames.rotations) });
+    }
+    if (event?.keyframe_reached) this.#tell('key', { id: event.keyframe_reached.id, time: event.time });
+    if (event?.warning) this.#tell('warning', { id: event.warning.keyframe_id, message: event.warning.message });
+    if (summary) this.#tell('over', { frames: Number(summary.report.frames) });
+  }
+
+  /** The dance's requests, as its clock comes to them. */
+  async *#requests() {
+    const { config = {}, seconds, music, keys = [], speed = 1 } = this.#order;
+    const isFile = ArrayBuffer.isView(music) || music instanceof ArrayBuffer;
+    const rate = this.model.model_frame_rate;
+    const begun = performance.now();
+    const elapsed = () => (speed * (performance.now() - begun)) / 1000;
+    let granted = 0;
+    const step = () => {
+      // A page that does not keep up is waited for.
+      const waits = this.watchers > 0 && this.#frames - this.#taken > this.#options.behind * this.#shownRate;
+      if (!waits) granted = Math.min(Math.round((elapsed() + settled) * rate), Math.round(seconds * rate));
+      return [...this.#edits.splice(0), { generate_until: { frame: granted } }];
+    };
+    yield {
+      config: {
+        ...config,
+        ...(isFile && { audio_format: { encoding: 'AUDIO_ENCODING_FILE' } }),
+        frames: Math.round(seconds * rate),
+        encoding: 'ROTATION_ENCODING_QUATERNION',
+        generate_until: 0, // else each key would settle the frames up to itself
+        reject_invalid_keys: true,
+      },
+    };
+    yield* keys;
+    if (isFile) yield* piecesOf(music);
+    for await (const request of isFile ? [] : (music ?? [])) {
+      yield* step();
+      yield request;
+    }
+    if (music) yield { end_of_audio: {} };
+    while (granted < Math.round(seconds * rate)) {
+      yield* step();
+      await sleep((1000 * tick) / speed);
+    }
+    yield { keyframes_complete: {} };
+  }
+}
+
+function* piecesOf(file) {
+  const bytes = ArrayBuffer.isView(file) ? new Uint8Array(file.buffer, file.byteOffset, file.byteLength) : new Uint8Array(file);
+  for (let start = 0; start < bytes.length; start += pieceOfFile) yield { audio: { data: bytes.subarray(start, start + pieceOfFile) } };
+}
+
+/** Numbers to a tenth of a millimetre: a third of the text. */
+const short = (numbers) => numbers.map((number) => Math.round(1e4 * number) / 1e4);

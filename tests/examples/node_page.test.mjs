@@ -1,0 +1,227 @@
+// client/node/serve and client/node/page: a back end and a page out of the package alone. $CHOREO_SERVER names a choreod, $CHOREOD the program of it.
+import assert from 'node:assert/strict';
+import { EventEmitter, once } from 'node:events';
+import { createServer } from 'node:http';
+import { test } from 'node:test';
+import { setTimeout as sleep } from 'node:timers/promises';
+import { clicks, pcm, song, wav } from '../../examples/node/music.js';
+import { connectDance } from '../../client/node/page/index.js';
+import { serveDance } from '../../client/node/serve/index.js';
+import { ChoreoClient, libraryPose } from '../../client/node/src/index.js';
+import { withServer } from './servers.mjs';
+
+const server = process.env.CHOREO_SERVER;
+const silent = { seconds: 6, speed: 3, config: { seed: '7' } };
+
+/** A back end until `use({url, http, dance, client})` is done. */
+async function withBackEnd(begin, use, { servers = [server], ...options } = {}) {
+  const client = new ChoreoClient(servers);
+  const dance = serveDance(client, begin, options);
+  const http = createServer(async (request, response) => (await dance(request, response)) || response.writeHead(404).end());
+  http.listen(0, '127.0.0.1');
+  await once(http, 'listening');
+  try {
+    await use({ url: `http://127.0.0.1:${http.address().port}/dance`, http, dance, client });
+  } finally {
+    dance.close();
+    client.close();
+    http.close();
+    http.closeAllConnections();
+  }
+}
+
+/** A page's dance to its end: what it heard, and the place of each frame, in order. `each(dance, seconds that came)` acts on the way. */
+async function watch(url, each = () => {}) {
+  const heard = [];
+  const over = new EventEmitter();
+  const end = once(over, 'end');
+  const tell = (name) => (news) => heard.push([name, news]);
+  const onEnd = (error) => (heard.push(['end', error?.message]), over.emit('end'));
+  const dance = connectDance(url, { onKey: tell('key'), onWarning: tell('warning'), onMoved: tell('moved'), onLost: tell('lost'), onEnd });
+  const { frame_rate: rate } = await dance.begun;
+  dance.wear();
+  const places = [];
+  const look = async () => {
+    for (let shown; (shown = dance.at(places.length / rate)).state === 'playing'; ) places.push(shown.pose.places);
+    await each(dance, places.length / rate);
+  };
+  while (!dance.over) await Promise.race([look().then(() => sleep(20)), end]);
+  await look();
+  return { heard, places };
+}
+
+test('a page shows a dance, asks for keys, moves one and takes one back, and a killed replica costs no frame', () =>
+  withServer([], (one) =>
+    withBackEnd(
+      () => ({ ...silent, seconds: 8, speed: 1 }), // in time for its keys on a busy machine, too
+      async ({ url }) => {
+        const asked = [];
+        const { heard, places } = await watch(url, async (dance, seconds) => {
+          if (seconds > 1 && asked.length === 0) {
+            asked.push(await dance.setKey({ id: 'kick', time: 5, pose: 'kick' }));
+            asked.push(await dance.setKey({ id: 'kick', time: 5.5, pose: 'kick' }));
+            asked.push(await dance.setKey({ id: 'no', time: 6.5, rotations: { head: [0, 0.4, 0] } }));
+            asked.push(await dance.setKey({ rotations: { head: [0, -0.4, 0] } }));
+            await dance.removeKey('no');
+            one.kill();
+          }
+        });
+        assert.equal(places.length, 240);
+        const soon = asked[3];
+        assert.ok(soon.id === 'key 4' && soon.time >= 2 && soon.time < 5, JSON.stringify(soon));
+        const [[, moved]] = heard.filter(([event]) => event === 'moved');
+        assert.deepEqual(Object.keys(moved), ['frame']);
+        const others = heard.filter(([event]) => event !== 'moved');
+        assert.deepEqual(
+          others.map(([event, news]) => [event, news?.id, news?.refused]),
+          [['key', 'key 4', undefined], ['key', 'kick', undefined], ['end', undefined, undefined]],
+        );
+        assert.equal(others[1][1].time, 5.5);
+      },
+      { servers: [one.address, server] },
+    ),
+  ));
+
+test('a lost connection costs no frame', () =>
+  withBackEnd(
+    () => silent,
+    async ({ url, http }) => {
+      let cut = 0;
+      const { heard, places } = await watch(url, (_, seconds) => {
+        if (seconds > 2 * (cut + 1) && cut < 2) (++cut, http.closeAllConnections());
+      });
+      assert.deepEqual([places.length, heard.map(([event]) => event)], [180, ['lost', 'lost', 'end']]);
+    },
+  ));
+
+test('music comes as a file, or while it sounds', () =>
+  withBackEnd(
+    ({ searchParams }) => {
+      if (searchParams.has('file')) return { ...silent, music: wav(song(6)), keys: [] };
+      const pieces = Array.from({ length: 60 }, (_, i) => ({ audio: { data: clicks(6).subarray(4410 * i, 4410 * (i + 1)) } }));
+      return { ...silent, music: pieces, config: { seed: '7', audio_format: pcm } };
+    },
+    async ({ url }) => {
+      const dances = [await watch(`${url}?file`), await watch(url)];
+      assert.deepEqual(dances.map(({ places, heard }) => [places.length, heard]), Array(2).fill([180, [['end', undefined]]]));
+      assert.notDeepEqual(dances[0].places, dances[1].places);
+    },
+  ));
+
+test('music waits for the dancer', () =>
+  withBackEnd(
+    () => silent,
+    async ({ url }) => {
+      const audio = { currentTime: 0, paused: true, ended: false, play: () => (audio.paused = false), pause: () => (audio.paused = true) };
+      const dance = connectDance(url);
+      assert.deepEqual(dance.follow(audio), { state: 'waiting', ahead: 0 });
+      assert.ok(audio.paused);
+      assert.throws(() => dance.wear(), /has not begun/);
+      await dance.begun;
+      dance.wear();
+      while (audio.paused) (await sleep(10), dance.follow(audio));
+      audio.currentTime = 5.9;
+      assert.deepEqual([dance.follow(audio).state, audio.paused], ['starved', true]);
+      while (audio.paused) (await sleep(10), dance.follow(audio));
+      audio.pause(); // by a listener
+      while (!dance.over) await sleep(10);
+      dance.follow(audio);
+      assert.ok(audio.paused);
+    },
+  ));
+
+/** What a handler writes to; nobody takes it until `flow()`. */
+class Stuck extends EventEmitter {
+  text = '';
+  isStuck = true;
+  writableNeedDrain = false;
+  writeHead = (status) => ((this.status = status), this);
+  write = (text) => ((this.text += text), !this.isStuck);
+  end = () => this.emit('ended');
+  flow = () => ((this.isStuck = false), this.emit('drain'));
+  seconds = () => [...this.text.matchAll(/"places":\[([^\]]*)\]/g)].reduce((sum, [, list]) => sum + list.split(',').length / 90, 0);
+}
+
+test('a dance waits for a page that takes nothing', () =>
+  withBackEnd(
+    () => ({ ...silent, seconds: 20, speed: 20 }),
+    async ({ dance, client }) => {
+      const response = new Stuck();
+      const answer = dance({ url: '/dance', method: 'GET', headers: {} }, response);
+      while (response.seconds() === 0) (await sleep(10), response.emit('drain'));
+      await sleep(2000); // twice as long as it lasts
+      assert.equal((await client.info()).active_streams, 1, 'it is not over');
+      response.flow();
+      assert.equal(await answer, true);
+      assert.ok(Math.abs(response.seconds() - 20) < 1e-6, response.seconds());
+      assert.match(response.text, /event: over\n/);
+    },
+    { behind: 2 },
+  ));
+
+test('what a page may not have is refused, with a status', () =>
+  withBackEnd(
+    ({ searchParams }) => {
+      if (searchParams.has('stranger')) throw Object.assign(new Error('log in first'), { status: 401 });
+      return { ...silent, config: { seed: searchParams.get('seed') ?? '7' } };
+    },
+    async ({ url }) => {
+      const status = async (...asked) => {
+        const answer = await fetch(...asked);
+        return [answer.status, (await answer.text()).trim()];
+      };
+      assert.deepEqual(await status(`${url}?stranger`), [401, 'log in first']);
+      assert.deepEqual(await status(`${url}?seed=x`), [400, "config.seed: 'x' is no whole number from 0 to 18446744073709551615"]);
+      await assert.rejects(connectDance(`${url}?stranger`).begun, /^Error: log in first$/);
+      assert.deepEqual(await status(`${url}/nobody/keys`, { method: 'POST', body: '{}' }), [404, 'nobody dances nobody']);
+      assert.deepEqual(await status(url.replace('/dance', '/dances')), [404, '']);
+      assert.deepEqual(await status(`${url}/%zz/keys`), [400, 'URI malformed']);
+      const joints = JSON.parse((await status(`${url}/skeleton`))[1]).joint_names;
+      assert.equal(joints.length, 24);
+      const page = connectDance(url);
+      await page.begun;
+      await assert.rejects(page.setKey({ pose: 'kik' }), /^Error: keyframes\[0\]\.pose: 'kik' is no pose of the library; .*kick/);
+      await assert.rejects(page.setKey({ rotations: { tail: [0, 0, 1] } }), /^Error: rotations\.tail: no joint/);
+      page.close();
+      assert.throws(() => connectDance(url, { onKeys: () => {} }), /^TypeError: options\.onKeys: is none of headers, /);
+    },
+  ));
+
+test("of a dance's events the latest are kept", () =>
+  withBackEnd(
+    () => silent,
+    async ({ url }) => {
+      const page = connectDance(url);
+      const { id } = await page.begun;
+      while (!page.over) await sleep(20);
+      const again = (last) => fetch(url, { headers: { 'Last-Event-ID': `${id}/${last}` } });
+      assert.equal((await again(0)).status, 204);
+      assert.equal((await again(9999)).status, 400);
+    },
+    { keep: 50000 },
+  ));
+
+test('a page that closes ends its dance, and so does the back end', async () => {
+  for (const close of [(page) => page.close(), (_, dance) => dance.close()]) {
+    await withServer([], ({ address }) =>
+      withBackEnd(
+        () => ({ ...silent, speed: 0.1 }),
+        async ({ url, dance, client }) => {
+          const page = connectDance(url);
+          await page.begun;
+          assert.equal((await client.info()).active_streams, 1);
+          close(page, dance);
+          while ((await client.info()).active_streams > 0) await sleep(20);
+        },
+        { servers: [address], away: 0.1 },
+      ),
+    );
+  }
+});
+
+test('what cannot be served is said at once', () => {
+  const client = new ChoreoClient(server);
+  assert.throws(() => serveDance(client), /^ChoreoError: begin: undefined is no function/);
+  assert.throws(() => serveDance(client, () => silent, { pathh: '/x' }), /^ChoreoError: pathh: no option; did you mean path/);
+  client.close();
+});
