@@ -180,6 +180,9 @@ class ClientTest(unittest.TestCase):
                 options = {"tls": True, "ca_certificate": authority.certificate, "server_name": "choreod"}
                 both = options | {"client_certificate": own, "client_key": own_key}
                 self.assertTrue(info(server.address, **both).models)
+                texts = {name: pem.read_text() for name, pem in both.items() if isinstance(pem, pathlib.Path)}
+                self.assertTrue(info(server.address, **(both | texts)).models)
+                self.assert_refused("UNAVAILABLE", "the text is not that of its authority", info, server.address, **(both | texts | {"ca_certificate": texts["client_certificate"]}))
                 for wrong in (options, both | {"ca_certificate": None}, both | {"server_name": None}):
                     self.assert_refused("UNAVAILABLE", f"^{server.address}: ", info, server.address, **wrong)
                 self.assert_refused("UNAVAILABLE", f"^{server.address}: the server there wants TLS: set tls$", info, server.address)
@@ -225,7 +228,9 @@ class ClientTest(unittest.TestCase):
                 ("dns:///one", {}, "addresses: dns:///one has no port; HOST:PORT is wanted$"),
                 (far, {"tls": True, "token": "secret\n"}, "token: it begins or ends with spaces or a newline; strip it$"),
                 (far, {"tls": True, "token": b"secret"}, "token: a bytes is no str$"),
-                (far, {"tls": True, "ca_certificate": own.read_text()}, "ca_certificate: is the path of a PEM file, not its text$"),
+                (far, {"ca_certificate": own.read_text()}, 'ca_certificate: "the text" needs TLS, which is off$'),
+                (far, {"tls": True, "ca_certificate": own_key.read_text()}, "ca_certificate: the text holds no certificate in PEM"),
+                (far, {"tls": True, "client_certificate": own.read_text(), "client_key": authority.key.read_text()}, "client_key: the text is not the key of the text"),
                 (far, {"retry_s": "long"}, "retry_s: a str is no number$"),
                 (far, {"tls": "yes"}, "tls: a str is no bool$"),
                 (far, {"retry_s": -1}, "retry_s: -1 is not a finite number >= 0$"),

@@ -6,6 +6,7 @@ import socket
 import ssl
 
 from ._errors import ChoreoError
+from ._pem import file_of, is_text, name_of
 
 _PROBE_S = 1  # for a connection and its handshake
 _HOSTNAME_MISMATCH, _IP_ADDRESS_MISMATCH, _EXPIRED = 62, 64, 10  # OpenSSL's X509_V_ERR_...
@@ -44,20 +45,22 @@ def _fault_of_certificate(failure, name, authority):
         return f"the server's certificate is of other names, not of {name}: say of which as server_name"
     if failure.verify_code == _EXPIRED:
         return "the server's certificate has expired"
-    given = f"{authority} is not that of its authority" if authority else "name the PEM file of its authority"
+    given = f"{name_of(authority)} is not that of its authority" if authority else "name the PEM file of its authority"
     return f"the server's certificate is not trusted ({failure.verify_message}): {given} (ca_certificate)"
 
 
 def _shake_hands(host, port, options):
     """Raises what is wrong, for a server with TLS that `options` should fit."""
-    context = ssl.create_default_context(cafile=options.ca_certificate)
+    pem = options.ca_certificate
+    context = ssl.create_default_context(**{"cadata" if is_text(pem) else "cafile": pem})
     context.set_alpn_protocols(["h2"])
     context.verify_flags &= ~ssl.VERIFY_X509_STRICT  # which gRPC does not ask for
     if not options.tls:  # nothing is sent, so it does not matter whose certificate it is
         context.check_hostname = False
         context.verify_mode = ssl.CERT_NONE
     if options.client_certificate:
-        context.load_cert_chain(options.client_certificate, options.client_key)
+        with file_of(options.client_certificate) as own, file_of(options.client_key) as key:
+            context.load_cert_chain(own, key)
     with socket.create_connection((host, port), _PROBE_S) as connection:
         with context.wrap_socket(connection, server_hostname=options.server_name or host):
             pass

@@ -14,6 +14,7 @@ import typing
 import grpc
 
 from ._errors import invalid
+from ._pem import content_of, file_of, name_of, read
 
 LEAST_SILENCE = 2  # seconds
 MOST_PORT = 65535
@@ -24,7 +25,7 @@ Path = typing.Union[str, "os.PathLike[str]"]
 
 @dataclasses.dataclass(frozen=True)
 class Options:
-    """What Client takes beside addresses; None: not given. All files are PEM, but for the token's.
+    """What Client takes beside addresses; None: not given. Certificates and keys are PEM files, or their texts.
 
     ca_certificate      of the authority to trust, with tls; None: those that gRPC trusts
     client_certificate, client_key      with tls, where the server wants to see a certificate
@@ -72,9 +73,6 @@ class Options:
             value, unset = getattr(self, name), getattr(Options, name)
             if not isinstance(value, kinds) and not (value is None and unset is None):
                 raise invalid(name, f"a {type(value).__name__} is no {what}")  # the value may be a secret
-        for name in ("ca_certificate", "client_certificate", "client_key"):
-            if "-----BEGIN" in str(getattr(self, name)):
-                raise invalid(name, "is the path of a PEM file, not its text")
 
     def _check_token(self, addresses):
         if self.token is None and self.token_file is None:
@@ -96,28 +94,26 @@ class Options:
         if not self.tls:
             for name in ("ca_certificate", "client_certificate", "server_name"):
                 if getattr(self, name) is not None:
-                    raise invalid(name, f'"{getattr(self, name)}" needs TLS, which is off')
+                    raise invalid(name, f'"{name_of(getattr(self, name))}" needs TLS, which is off')
             return None
-        context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         roots = cert = key = None
         if self.ca_certificate is not None:
-            roots = _read("ca_certificate", self.ca_certificate)
-            with _naming("ca_certificate", f"{self.ca_certificate} holds no certificate in PEM"):
-                context.load_verify_locations(self.ca_certificate)
+            roots = content_of("ca_certificate", self.ca_certificate)
+            _require_certificate("ca_certificate", self.ca_certificate)
         if self.client_key is not None:
-            cert, key = _read("client_certificate", self.client_certificate), _read("client_key", self.client_key)
-            with _naming("client_certificate", f"{self.client_certificate} holds no certificate in PEM"):
-                ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(self.client_certificate)
-            with _naming("client_key", f"{self.client_key} is not the key of {self.client_certificate}, in PEM without a passphrase"):
+            cert, key = content_of("client_certificate", self.client_certificate), content_of("client_key", self.client_key)
+            _require_certificate("client_certificate", self.client_certificate)
+            fault = f"{name_of(self.client_key)} is not the key of {name_of(self.client_certificate)}, in PEM without a passphrase"
+            with _naming("client_key", fault), file_of(self.client_certificate) as own, file_of(self.client_key) as own_key:
                 # OpenSSL would ask for a passphrase on the terminal.
-                context.load_cert_chain(self.client_certificate, self.client_key, password=lambda: "")
+                ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_cert_chain(own, own_key, password=lambda: "")
         return grpc.ssl_channel_credentials(roots, key, cert)
 
     def metadata(self):
         """What each call carries."""
         token = self.token
         if self.token_file is not None:
-            token = _read("token_file", self.token_file).decode("latin-1").rstrip()
+            token = read("token_file", self.token_file).decode("latin-1").rstrip()
             _require_token("token_file", self.token_file, token)
         return [] if token is None else [("authorization", f"Bearer {token}")]
 
@@ -192,14 +188,9 @@ def _require_token(field, what, token):
         raise invalid(field, f"{what} is no line of visible ASCII characters")
 
 
-def _read(field, path):
-    try:
-        with open(path, "rb") as file:
-            return file.read()
-    except FileNotFoundError:
-        raise invalid(field, f"no file {path}") from None
-    except OSError as error:
-        raise invalid(field, f"cannot read {path}: {error.strerror}") from None
+def _require_certificate(field, pem):
+    with _naming(field, f"{name_of(pem)} holds no certificate in PEM"), file_of(pem) as path:
+        ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(path)
 
 
 @contextlib.contextmanager
