@@ -95,7 +95,7 @@ ValidDance ToDanceConfig(const v1::DanceConfig& message, const ModelInfo& model,
     CheckMusic(message.audio_format());
     config.audio = SamplesOf(message.audio_format());
   }
-  ValidDance valid(std::move(config), model);
+  Valid valid(std::move(config), model);
   // A stream lives long, and needs only the last poses of a long history.
   valid.Change([&](DanceConfig& checked) {
     std::vector<Pose>& poses = checked.history;
