@@ -26,28 +26,6 @@ std::string LostJump(const client::KeyPose& key, const Skeleton& skeleton) {
          "z]";
 }
 
-/// Where a path leads, on the straight way between its points.
-Eigen::Vector2d PlaceOn(const ControlRequest::RootPath& path, int64_t frame) {
-  const auto after = std::ranges::upper_bound(path.frames, frame);
-  if (after == path.frames.begin()) return path.points.front();
-  if (after == path.frames.end()) return path.points.back();
-  const auto i = static_cast<size_t>(after - path.frames.begin());
-  const double share = static_cast<double>(frame - path.frames[i - 1]) /
-                       static_cast<double>(path.frames[i] - path.frames[i - 1]);
-  return path.points[i - 1] + share * (path.points[i] - path.points[i - 1]);
-}
-
-/// How far it leads away within these frames, at most.
-double FarthestOn(const ControlRequest::RootPath& path, int64_t first, int64_t last) {
-  const Eigen::Vector2d begin = PlaceOn(path, first);
-  double farthest = (PlaceOn(path, last) - begin).norm();
-  for (size_t i = 0; i < path.frames.size(); ++i) {
-    if (path.frames[i] > first && path.frames[i] < last)
-      farthest = std::max(farthest, (path.points[i] - begin).norm());
-  }
-  return farthest;
-}
-
 TimedPose Timed(const client::KeyPose& key, double fps) {
   return {key.id, static_cast<double>(FrameOf(key, fps)) / fps, key.pose, key.mask};
 }
@@ -107,35 +85,6 @@ void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton
     const int64_t frames = FrameOf(keys.poses[end - 1], fps) - FrameOf(keys.poses[i], fps);
     RefuseHeldInAir(keys.poses[i], static_cast<double>(frames) / fps, keys.places[i + 1], skeleton);
   }
-}
-
-std::vector<client::Warning> HeldOnPath(const DanceKeys& keys, const ControlRequest::RootPath& path,
-                                        double fps) {
-  const auto at = [&](int64_t frame) { return Rounded(static_cast<double>(frame) / fps) + " s"; };
-  std::vector<client::Warning> warnings;
-  for (size_t i = 0; i < keys.poses.size(); ++i) {
-    size_t last = i;
-    while (last + 1 < keys.poses.size() && IsHeld(keys.places[last + 1])) ++last;
-    if (last == i || IsHeld(keys.places[i])) continue;
-    const int64_t from = FrameOf(keys.poses[i], fps), until = FrameOf(keys.poses[last], fps);
-    const double metres = FarthestOn(path, from, until);
-    if (metres <= client::kMaxKeyError_m) continue;
-    const bool stays = keys.poses[i].mask.root_position;
-    warnings.push_back({.frame = from,
-                        .message = "the path goes on for " + Rounded(metres) + " m while \"" +
-                                   keys.poses[i].id + "\" is held from " + at(from) + " to " +
-                                   at(until) +
-                                   (stays ? "; the key wins" : ": the pose slides along it") +
-                                   "; the same point at both times lets the path wait"});
-  }
-  return warnings;
-}
-
-bool IsOfHold(const client::Warning& warning, const DanceKeys& keys) {
-  if (warning.code != client::Warning::Code::kKeyOffPath) return false;
-  for (size_t i = 0; i < keys.poses.size(); ++i)
-    if (keys.poses[i].id == warning.key_id) return IsHeld(keys.places[i]);
-  return false;
 }
 
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,

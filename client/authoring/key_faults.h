@@ -23,12 +23,6 @@ void RefuseHeldInAir(const client::KeyPose& key, double seconds, const std::stri
 /// The same for all keys that others hold; fields are "keys.json:keyframes[2].hold".
 void RefuseHeldInAir(const DanceKeys& keys, double fps, const Skeleton& skeleton);
 
-/// Warns of each key during whose hold a path goes on: a key without a place slides along it.
-std::vector<client::Warning> HeldOnPath(const DanceKeys& keys, const ControlRequest::RootPath& path,
-                                        double fps);
-/// Whether a warning says of a key that only holds another one what HeldOnPath says of that.
-bool IsOfHold(const client::Warning& warning, const DanceKeys& keys);
-
 /// The warnings of KeyFaults for keys without a file, in order of time.
 std::vector<client::Warning> KeyFaults(const std::vector<client::KeyPose>& keys, double fps,
                                        const Skeleton& skeleton);

@@ -129,8 +129,7 @@ client::DanceResult Dance(const client::Client& client, const client::DanceConfi
         config, keys.poses, audio,
         [&](const client::Message& message) {
           Interruption::Check();
-          const auto* warning = std::get_if<client::Warning>(&message);
-          if (!warning || !authoring::IsOfHold(*warning, keys)) display(message);
+          display(message);
           if (show) show->Take(message);
         },
         &dance);
@@ -194,10 +193,8 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   AddEnding(options, music, controls, length, model, &keys);
   options.controls.RequireBegun(controls, length);
   authoring::RefuseHeldInAir(keys, model.fps, model.skeleton);
-  std::vector<client::Warning> faults = authoring::KeyFaults(keys, model.fps, model.skeleton);
-  if (controls.root_path)
-    std::ranges::copy(authoring::HeldOnPath(keys, *controls.root_path, model.fps),
-                      std::back_inserter(faults));
+  const std::vector<client::Warning> faults =
+      authoring::KeyFaults(keys, model.fps, model.skeleton);
   ShowWarnings(faults, {model.fps});
 
   client::DanceConfig config;
@@ -215,8 +212,6 @@ Performance Perform(const DanceOptions& options, const std::optional<authoring::
   if (!options.vmc.empty()) show->emplace(options.vmc, model.skeleton);
   client::DanceResult dance = Dance(connection.client(), config, keys, audio, model.fps, options,
                                     out, *show ? &**show : nullptr);
-  std::erase_if(dance.warnings,
-                [&](const auto& warning) { return authoring::IsOfHold(warning, keys); });
   WrittenDance written = Examine(dance.header, dance.report, dance.motion, keys.poses);
   for (size_t i = 0; i < written.keys.size(); ++i)
     written.keys[i].holds = authoring::HeldKey(keys, i);

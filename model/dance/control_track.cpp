@@ -64,11 +64,9 @@ const PathCurve* ControlTrack::CurveAt(int64_t frame, int64_t first_frame) const
 Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
   Pose stance = StandingPose(model_->skeleton);
   const PathCurve* curve = CurveAt(first_frame, first_frame);
-  // The dancer stands still before a key on the first frame: gliding feet would never be planted.
-  const int64_t there = key_on_it ? first_frame : first_frame - 1;
   if (curve != nullptr) {
     const double height = stance.root_position.y();
-    stance.root_position = curve->At(there).position;
+    stance.root_position = curve->At(static_cast<double>(first_frame)).position;
     stance.root_position.y() = height;
   }
   if (!key_on_it) return stance;
@@ -77,7 +75,7 @@ Pose ControlTrack::Stance(int64_t first_frame, const std::optional<Target>& key_
   stance = Masked(pose, mask, std::move(stance));
   if (mask.root_position) return stance;
   if (HasHeights(curve)) {
-    stance.root_position.y() = curve->At(there).position.y();
+    stance.root_position.y() = curve->At(static_cast<double>(first_frame)).position.y();
   } else if (const auto height = StandingHeight(model_->skeleton, pose, mask)) {
     stance.root_position.y() = *height;
   }
@@ -97,14 +95,19 @@ void ControlTrack::FillPath(const std::string& key_id, TransitionSpec* spec,
     way.curves.push_back(CurveAt(first_frame + frame, first_frame));
   if (std::ranges::count(way.curves, nullptr) == frames) return;
   const Eigen::Vector3d start = history.back().root_position;
+  ControlCurve& control = spec->controls[kRootPath];
+  control.requested[kPathHeight] = std::ranges::any_of(way.curves, HasHeights);
+  if (IsHold(*spec, model_->fps)) {
+    control.values = start.replicate(1, frames);
+    return;
+  }
   way.start.position = start;
   if (history.size() > 1) way.start.velocity = start - history.rbegin()[1].root_position;
+  way.rests = target && spec->hit;
   if (target && target->mask.root_position) way.end.emplace().position = target->pose.root_position;
   WarnOfDistance(way, warnings);
   const Lead floor = LeadPath(way);
 
-  ControlCurve& control = spec->controls[kRootPath];
-  control.requested[kPathHeight] = std::ranges::any_of(way.curves, HasHeights);
   way.axes = {0, 1, 0};
   for (const PathCurve*& curve : way.curves) {
     if (!HasHeights(curve)) curve = nullptr;

@@ -29,7 +29,8 @@ void ValidateControls(const ControlRequest& request, const ModelInfo& model,
 /// The controls of one dance. Later controls override earlier ones: a root path for the frames it
 /// covers, velocity factors part by part. Parts and frames without velocity factors use the model's
 /// first reference. A path is the curve of PathCurve, bent smoothly to the dancer at a transition's
-/// start and to the key at its end (LeadPath); the key wins, and a warning gives the distance.
+/// start and to the key at its end (LeadPath); the key wins, and a warning gives the distance. At
+/// keys that are hit it comes to rest; while a pose is held (IsHold) it waits.
 /// Where no path sets the height, the root is led to the key's height: the one it states, or the
 /// one at which its pose stands on the floor. A path with heights overrides the latter. Transitions
 /// that no path covers are left to the model. Cheap to copy. Not thread-safe.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/core/smooth_step.h"
+#include "model/plan/plan_stages.h"
 
 namespace choreo {
 namespace {
@@ -41,9 +42,20 @@ class Leader {
   PathPoint Led(const PathPoint& point) const {
     return {point.position.cwiseProduct(request_.axes), point.velocity.cwiseProduct(request_.axes)};
   }
+  /// The frame whose place the curve gives in this one: a later one while it comes to rest, as a
+  /// pose that is hit gently does.
+  double Time(int frame) const {
+    const double window = std::min(kHitSeconds * request_.fps, static_cast<double>(frames_));
+    const double since = frame - (frames_ - 1 - window);
+    if (!request_.rests || since <= 0) return frame;
+    return frame - since + window * HitTime(since / window, 0);
+  }
   /// The point of `of_frame`'s curve at a frame.
   PathPoint Asked(int of_frame, int frame) const {
-    return Led(Curve(of_frame)->At(request_.first_frame + frame));
+    const double time = Time(frame);
+    PathPoint point = Led(Curve(of_frame)->At(static_cast<double>(request_.first_frame) + time));
+    point.velocity *= time - Time(frame - 1);
+    return point;
   }
 
   double DetourFrames(const Eigen::Vector3d& offset, int available) const {
@@ -55,13 +67,17 @@ class Leader {
   void Follow(int from, int to) {
     // A bridge to a curve ends on it.
     const bool on_it = from > 0 && Curve(from - 1) == nullptr;
-    const Eigen::Vector3d offset =
-        on_it ? Eigen::Vector3d(0, 0, 0)
-              : Eigen::Vector3d(here_.position - Asked(from, from - 1).position);
-    const double detour = DetourFrames(offset, to - from);
+    PathPoint offset;
+    if (!on_it) {
+      const Eigen::Vector3d asked = Asked(from, from - 1).position;
+      const Eigen::Vector3d step = asked - Asked(from, from - 2).position;
+      offset = {here_.position - asked, here_.velocity - step};
+    }
+    const double detour = DetourFrames(offset.position, to - from);
     for (int frame = from; frame < to; ++frame) {
-      lead_.path.col(frame) =
-          Asked(from, frame).position + (1 - Smooth((frame - from + 1) / detour)) * offset;
+      const double left = 1 - std::min((frame - from + 1) / detour, 1.0);
+      lead_.path.col(frame) = Asked(from, frame).position + Smooth(left) * offset.position +
+                              detour * (1 - left) * left * left * offset.velocity;
     }
     here_ = Asked(from, to - 1);
   }

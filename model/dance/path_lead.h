@@ -19,6 +19,7 @@ struct LeadRequest {
   PathPoint start;                       ///< the root in the frame before the first
   std::optional<PathPoint> end;          ///< where the last frame must be; none: anywhere
   bool end_wins = true;  ///< over a curve that leaves no time for both; else the curve does
+  bool rests = false;    ///< in the last frame: the curve's time slows down towards it
 };
 
 struct Lead {
@@ -26,9 +27,9 @@ struct Lead {
   Eigen::Vector3d missed = Eigen::Vector3d::Zero();  ///< from the curves to `end`
 };
 
-/// Follows the curves without a jump. If a curve begins away from the dancer, or ends away from
-/// `end`, the path bends to it smoothly: at 1 m/s if there is time, and over at least half a
-/// second. Frames without a curve follow a cubic to the next curve or to `end`; with neither, the
+/// Follows the curves without a jump. If a curve begins away from the dancer or at another velocity,
+/// or ends away from `end`, the path bends to it smoothly: at 1 m/s if there is time, and over at
+/// least half a second. Frames without a curve follow a cubic to the next curve or to `end`; with neither, the
 /// root stays in place. An `end` too soon after the last curve is treated like one on the curve: it
 /// wins or is given up (end_wins). Pure.
 Lead LeadPath(const LeadRequest& request);

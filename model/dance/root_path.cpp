@@ -1,6 +1,7 @@
 #include "model/dance/root_path.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/core/error.h"
 #include "model/dance/validation.h"
@@ -81,17 +82,17 @@ PathCurve::PathCurve(const RootPath& path)
   }
 }
 
-PathPoint PathCurve::At(int64_t frame) const {
+PathPoint PathCurve::At(double frame) const {
   const auto straight = [&](const PathPoint& end, int64_t end_frame) -> PathPoint {
-    return {end.position + static_cast<double>(frame - end_frame) * end.velocity, end.velocity};
+    return {end.position + (frame - static_cast<double>(end_frame)) * end.velocity, end.velocity};
   };
-  if (frame <= first()) return straight(points_.front(), first());
-  if (frame >= last()) return straight(points_.back(), last());
-  const auto after = std::ranges::upper_bound(frames_, frame);
+  if (frame <= static_cast<double>(first())) return straight(points_.front(), first());
+  if (frame >= static_cast<double>(last())) return straight(points_.back(), last());
+  const auto after = std::ranges::upper_bound(frames_, static_cast<int64_t>(std::floor(frame)));
   const auto leg = static_cast<size_t>(after - frames_.begin()) - 1;
   return CubicBetween(points_[leg], points_[leg + 1],
                       static_cast<double>(frames_[leg + 1] - frames_[leg]),
-                      static_cast<double>(frame - frames_[leg]));
+                      frame - static_cast<double>(frames_[leg]));
 }
 
 }  // namespace choreo

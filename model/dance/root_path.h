@@ -44,7 +44,7 @@ class PathCurve {
   bool Covers(int64_t frame) const { return frame >= first() && frame <= last(); }
   bool has_heights() const { return has_heights_; }
   /// The curve is straight before the first and after the last point. y is 0 without heights.
-  PathPoint At(int64_t frame) const;
+  PathPoint At(double frame) const;
 
  private:
   std::vector<int64_t> frames_;

@@ -38,11 +38,10 @@ bool IsHeld(const Target& target, const Pose& now) {
   return true;
 }
 
-// Whether a key is where the dancer already is.
+// Whether a key's position is the dancer's present one.
 bool IsThere(const Target& target, const Pose& now) {
   constexpr double kSamePlace = 0.01;  // metres
-  return target.mask.root_position &&
-         (target.pose.root_position - now.root_position).norm() < kSamePlace;
+  return (target.pose.root_position - now.root_position).norm() < kSamePlace;
 }
 
 // A key without a position gets it from the path, if there is one. A dancer who holds a pose stays
@@ -60,16 +59,6 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   }
   target->mask.root_position = true;
   return target;
-}
-
-// The pose a frame later: at rest, except that the path leads on.
-Pose AtRest(Pose pose, const ControlCurve& path) {
-  if (!path.IsGiven() || path.values.cols() < 2) return pose;
-  const Eigen::Vector3d step =
-      path.values.rightCols<1>() - path.values.rightCols<2>().leftCols<1>();
-  pose.root_position.x() += step.x();
-  pose.root_position.z() += step.z();
-  return pose;
 }
 
 constexpr std::ptrdiff_t kFootworkFrames = 300;  // that footwork processes in one slice, at most
@@ -99,6 +88,13 @@ double ToFloat(double value) {
 }
 
 }  // namespace
+
+bool IsHold(const TransitionSpec& world, double fps) {
+  if (!world.target || world.frames >= kHoldSeconds * fps) return false;
+  const Pose& now = world.history.back();
+  return IsHeld(*world.target, now) &&
+         (!world.target->mask.root_position || IsThere(*world.target, now));
+}
 
 Pose RoundToFloat(const Pose& pose) {
   return {pose.root_position.unaryExpr(&ToFloat), pose.rotations.unaryExpr(&ToFloat)};
@@ -132,8 +128,7 @@ TransitionRun::TransitionRun(const ModelInfo& model, const TransitionSpec& world
   world_target_ = Placed(spec_->target, spec_->controls, world_);
   ground_ = GroundFrame::Of(world_);
   stage_ = spec_->stage.value_or(GroundFrame{world_.root_position, ToFloat(ground_.heading)});
-  held_ = world_target_ && spec_->arrival_frames > 0 && spec_->frames < kHoldSeconds * model.fps &&
-          IsHeld(*world_target_, world_) && IsThere(*world_target_, world_);
+  held_ = spec_->arrival_frames > 0 && IsHold(*spec_, model.fps);
   spec_.Change([this](TransitionSpec& spec) { MoveToCanonicalFrame(spec); });
   arrival_ = ArrivalOf(*spec_, held_ ? Arrival::Lead::kAlone : Arrival::Lead::kWithModel);
 }
@@ -156,7 +151,7 @@ void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
   if (spec.after)
     spec.after = ground_.ToLocal(*spec.after);
   else if (spec.target && (spec.hit || held_))
-    spec.after = AtRest(spec.target->pose, spec.controls[kRootPath]);
+    spec.after = spec.target->pose;  // at rest
 }
 
 Slices<> TransitionRun::Dance(Sampler& sampler) {

@@ -105,6 +105,11 @@ class TransitionRun {
   double correction_m_ = 0;
 };
 
+/// Whether the dancer only keeps the pose that she has: its target is that pose where she is, or
+/// anywhere, and so soon that nobody dances away from it and back. No model is asked, and a path
+/// waits. `world`: with at least one pose of history.
+bool IsHold(const TransitionSpec& world, double fps);
+
 /// Makes a transition at once, then calls `danced` with its number of frames. Throws what
 /// TransitionRun throws.
 TransitionRun DanceTransition(Sampler& sampler, const TransitionSpec& world,

@@ -188,7 +188,7 @@ TEST_F(ControlTrackTest, WithoutHistoryStartsOnThePath) {
   EXPECT_EQ(track_.Stance(0, {}).root_position, RestPose(sampler_.model().skeleton).root_position);
   track_.Set(PathRequest({30, 90}, {4, 5}, {0.5, 0.5}), 0, "controls");
   EXPECT_EQ(track_.Stance(0, {}).root_position.x(), 0);
-  EXPECT_NEAR(track_.Stance(30, {}).root_position.x(), 4 - 1.0 / 60, 1e-9);
+  EXPECT_NEAR(track_.Stance(30, {}).root_position.x(), 4, 1e-9);
   EXPECT_NEAR(track_.Stance(30, {}).root_position.y(), standing_, 1e-9) << "at rest, not crouched";
   // What a key on the first frame asks is done already.
   AimAt(7);
@@ -255,7 +255,7 @@ TEST_F(ControlTrackTest, AKeyRightAfterThePathsEndIsOffThePathAndNotTooFast) {
 }
 
 TEST_F(ControlTrackTest, WarnsOfATooFastPath) {
-  track_.Set(PathRequest({0, 30}, {0, 4.5}), 0, "controls");
+  track_.Set(PathRequest({0, 30}, {0, 3.6}), 0, "controls");  // from rest
   EXPECT_TRUE(For(0, 31).warnings.empty());
   track_.Set(PathRequest({0, 30}, {0, 6}), 0, "controls");
   const Asked asked = For(0, 31);

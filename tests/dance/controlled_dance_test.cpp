@@ -75,8 +75,8 @@ TEST_F(ControlledDanceTest, StartsAtTheStartOfThePath) {
     });
     ASSERT_TRUE(dance.summary) << dance.error->what();
     EXPECT_TRUE(dance.warnings.empty()) << dance.warnings[0].message;
-    EXPECT_NEAR(dance.poses[0].root_position.x(), -5, 1e-5);
-    EXPECT_NEAR(dance.poses[0].root_position.z(), -5, 1e-5);
+    EXPECT_NEAR(dance.poses[0].root_position.x(), -5, 1e-3);
+    EXPECT_NEAR(dance.poses[0].root_position.z(), -5, 1e-3);
   }
 }
 
@@ -130,6 +130,40 @@ TEST_F(ControlledDanceTest, KeysAreHitAndPathsBendToThem) {
   // No jump on the way there and back.
   for (size_t i = 1; i < dance.poses.size(); ++i) {
     EXPECT_LT((dance.poses[i].root_position - dance.poses[i - 1].root_position).norm(), 0.05) << i;
+  }
+}
+
+// The same pose again and again, as a hold is sent.
+TEST_F(ControlledDanceTest, APathWaitsWhileAPoseIsHeld) {
+  Pose pose = KeyAt(1.1, 1.1);
+  pose.rotations(2, 16) = 1;
+  const double on_path = 3.0 * 120 / 299;
+  for (const bool has_place : {false, true}) {
+    const PoseMask mask{.root_position = has_place, .joints = {}};
+    const Recording dance = Perform([&](DanceStream& s) {
+      s.SetControls(PathRequest(0, 299, 0, 3));
+      for (const int64_t frame : {120, 126, 132, 138, 144, 150})
+        s.SetKey({.id = std::to_string(frame),
+                  .pose = pose,
+                  .mask = mask,
+                  .hit = frame == 120 ? std::optional(1.0) : std::nullopt},
+                 AtFrame{frame});
+    });
+    ASSERT_TRUE(dance.summary) << dance.error->what();
+    // The key is off the path; those that hold it are nowhere else.
+    EXPECT_EQ(dance.warnings.size(), has_place ? 1u : 0u);
+    const double stands = has_place ? 1.1 : on_path;
+    for (size_t frame = 120; frame <= 150; ++frame)
+      EXPECT_NEAR(dance.poses[frame].root_position.x(), stands, 1e-3) << frame;
+    EXPECT_NEAR(dance.poses[240].root_position.x(), 3.0 * 240 / 299, 1e-3);
+    // She stops and sets out without a jerk: 0.3 m/s in a frame are 9 m/s^2.
+    Eigen::Vector3d step = dance.poses[100].root_position - dance.poses[99].root_position;
+    for (size_t frame = 101; frame < 240; ++frame) {
+      const Eigen::Vector3d next =
+          dance.poses[frame].root_position - dance.poses[frame - 1].root_position;
+      EXPECT_LT((next - step).norm(), 0.01) << frame;
+      step = next;
+    }
   }
 }
 

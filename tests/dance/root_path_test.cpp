@@ -115,7 +115,7 @@ class LeadTest : public testing::Test {
   LeadTest() {
     request_.first_frame = 100;
     request_.curves.assign(90, &curve_);
-    request_.start = curve_.At(99);
+    request_.start = {curve_.At(99).position, curve_.At(99).position - curve_.At(98).position};
   }
 
   /// No step between frames changes by more than this, metres a frame.
@@ -148,6 +148,31 @@ TEST_F(LeadTest, ReturnsSmoothlyToTheCurve) {
   // 0.6 m at up to 1 m/s: 27 frames.
   EXPECT_GT((lead.path.col(20) - curve_.At(120).position).norm(), 0.05);
   EXPECT_LT((lead.path.col(27) - curve_.At(127).position).norm(), 1e-12);
+}
+
+// A dancer who waited for the curve, or held a pose on it, sets out without a jerk.
+TEST_F(LeadTest, SetsOutFromRest) {
+  request_.start.velocity.setZero();
+  const Lead lead = LeadPath(request_);
+  ExpectSmooth(lead, 0.01);
+  EXPECT_GT((lead.path.col(5) - curve_.At(105).position).norm(), 0.02);
+  EXPECT_LT((lead.path.col(15) - curve_.At(115).position).norm(), 1e-12);
+}
+
+TEST_F(LeadTest, ComesToRestOnTheCurve) {
+  request_.rests = true;
+  const Lead lead = LeadPath(request_);
+  ExpectSmooth(lead, 0.01);
+  EXPECT_LT((lead.path.col(89) - curve_.At(189).position).norm(), 1e-12);
+  EXPECT_LT((lead.path.col(89) - lead.path.col(88)).norm(), 0.1 * curve_.At(189).velocity.norm());
+  EXPECT_LT((lead.path.col(60) - curve_.At(160).position).norm(), 1e-12);
+  // It does so on the curve, not beside it.
+  for (int frame = 65; frame < 90; ++frame) {
+    double nearest = 1;
+    for (double at = 160; at < 190; at += 0.01)
+      nearest = std::min(nearest, (lead.path.col(frame) - curve_.At(at).position).norm());
+    EXPECT_LT(nearest, 1e-3) << frame;
+  }
 }
 
 TEST_F(LeadTest, EndsAtItsTarget) {

@@ -62,20 +62,21 @@ TEST(Transition, SpecIsInTheCanonicalFrame) {
             1e-9);
 }
 
-// Rest in a pose is that of the joints: the root goes on along the path.
-TEST(Transition, AKeyHitOnAPathKeepsItsWay) {
+// Nothing but the path leads the root, also to rest.
+TEST(Transition, AKeyHitOnAPathIsWhereThePathEnds) {
   ControlledSampler sampler;
   TransitionSpec request = RandomRequest(4);
   request.hit = 1;
   request.target->mask.root_position = false;
-  const Eigen::Vector3d from = request.history.back().root_position, step(0, 0, 0.02);
+  const Eigen::Vector3d from = request.history.back().root_position;
   Eigen::Matrix3Xd path(3, request.frames);
-  for (int i = 0; i < request.frames; ++i) path.col(i) = from + (i + 1) * step;
+  for (int i = 0; i < request.frames; ++i)
+    path.col(i) = from + std::min(0.02 * (i + 1), 0.5) * Eigen::Vector3d::UnitZ();
   request.controls[kRootPath].values = path;
   const std::vector<DanceFrame> frames = DanceTransition(sampler, request).frames();
   const auto root = [&](size_t back) { return frames[frames.size() - back].pose.root_position; };
   EXPECT_LT((root(1) - path.rightCols<1>()).norm(), 1e-3);
-  EXPECT_NEAR((root(1) - root(2)).z(), step.z(), 0.3 * step.z());
+  EXPECT_LT((root(1) - root(2)).norm(), 1e-3);
 }
 
 // Never keeps still.
