@@ -79,10 +79,14 @@ test('the installed package dances, and its errors name the field', async (t) =>
 });
 
 /** What the compiler says of a program, strictly. */
-async function compile(name, text, ...more) {
+async function judge(name, text, ...more) {
   await writeFile(join(app, name), text);
   const options = ['--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', '--typeRoots', join(tools, '@types'), '--types', 'node'];
-  const { code, said } = await run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...more, name], app);
+  return run(process.execPath, [join(tools, 'typescript/bin/tsc'), ...options, ...more, name], app);
+}
+
+async function compile(name, text, ...more) {
+  const { code, said } = await judge(name, text, ...more);
   assert.equal(code, 0, said);
 }
 
@@ -209,6 +213,23 @@ client.generateTransition({ config: {} });
 const posed: Keyframe = { id: 'a', time: 2 };
 `;
   await compile('requests.ts', requests, '--noUncheckedIndexedAccess');
+});
+
+test("the compiler's errors end with what is wrong, and where", async (t) => {
+  if (skip) return t.skip(skip);
+  const yielding = (request, at) => `async function* wrong${at}() { yield { config: {} }; yield ${request}; }\nclient.streamDance(wrong${at}());\n`;
+  const wrong = {
+    "{ keyframe: { id: 'a', time: '2', pose: armsUp } }": /Types of property 'time' are incompatible.\n *Type 'string' is not assignable to type 'number'/,
+    "{ keyframe: { id: 'a', time: 2 } }": /Property 'pose' is missing in type '.*' but required in type 'KeyframeWithTime'/,
+    "{ keyframe: { id: 'a', pose: armsUp } }": /is missing in type '.*' but required in type 'KeyframeWith/,
+    "{ keyFrame: { id: 'a', time: 2, pose: armsUp } }": /is not assignable to type '"there is no field keyFrame"'/,
+    "{ keyframe: { id: 'a', time: 2, frame: 60, pose: armsUp } }": /is not assignable to type '"another field of this message excludes this one"'/,
+  };
+  const head = "import { ChoreoClient, pose } from 'choreo-client';\nconst client = new ChoreoClient('one:1');\nconst armsUp = pose((await client.info()).models[0]!.skeleton);\n";
+  const { said } = await judge('wrongs.ts', head + Object.keys(wrong).map(yielding).join(''));
+  const errors = said.split(/^wrongs\.ts/m).slice(1);
+  assert.equal(errors.length, 5, said);
+  Object.values(wrong).forEach((what, at) => assert.match(errors[at].trimEnd().split('\n').slice(-2).join('\n'), what));
 });
 
 test('a character dances from the package, in a browser, too', async (t) => {

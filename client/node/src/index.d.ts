@@ -9,12 +9,29 @@ export type { GetServerInfoResponse as ServerInfo } from '../types/messages.js';
 
 type Plain = string | number | bigint | boolean | symbol | null | undefined | ArrayBuffer | ArrayBufferView | readonly unknown[] | { low: number; high: number };
 type Known<S> = S extends unknown ? keyof S : never;
+type Used<T> = { [K in keyof T]-?: [NonNullable<T[K]>] extends [never] ? never : K }[keyof T];
+/** Those of the alternatives `S` that have all that is used of `T`. */
+type Fitting<T, S> = S extends unknown ? (Used<T> extends Used<S> ? S : never) : never;
 type Of<S, K extends PropertyKey> = S extends unknown ? (K extends keyof S ? NonNullable<S[K]> : never) : never;
+/** `K`, where one of the alternatives lacks it. */
+type Lacking<S, K> = S extends unknown ? (K extends Used<S> ? never : K) : never;
+/** What to say of a field that does not fit. */
+type Misfit<S, K> = K extends Known<S> ? ([Lacking<S, K>] extends [never] ? unknown : 'another field of this message excludes this one') : `there is no field ${K & string}`;
 /**
- * A message of type `S` with the fields of `T`, of which those that `S` does not know are `never`: the compiler looks for them in literals alone,
- * and not in what a generator yields.
+ * A message of type `S` with the fields of `T`; those that `S` does not know, or that exclude one another, are of a type that says so: the compiler
+ * looks for them in literals alone, and not in what a generator yields.
  */
-export type Exactly<T, S> = T extends Plain ? T : { [K in keyof T]: K extends Known<S> ? Exactly<T[K], Of<S, K>> : never };
+export type Exactly<T, S> = T extends Plain
+  ? T
+  : [Fitting<T, S>] extends [never]
+    ? { [K in keyof T]: Misfit<S, K> }
+    : { [K in keyof T]: Exactly<T[K], Of<Fitting<T, S>, K>> };
+
+/** What a StreamDanceRequest may hold: one of these. */
+export interface OneRequest extends Fields<StreamDanceRequest> {}
+type Fields<S> = { [K in Known<S>]?: Of<S, K> | null };
+/** Nothing where the compiler has given up on `T`: what is wrong with OneRequest is told. */
+type Only<T> = OneRequest extends T ? unknown : Exactly<T, StreamDanceRequest>;
 
 /** How to reach the servers, and how patiently. */
 export interface ClientOptions {
@@ -108,8 +125,8 @@ export class ChoreoClient {
    * A key that comes too late, after later ones have settled its frames, is not danced. `onRejected` hears of it, beside the event; without it
    * the process is warned, by a KeyRejectedWarning.
    */
-  streamDance<T extends StreamDanceRequest>(
-    requests: Iterable<T & Exactly<T, StreamDanceRequest>> | AsyncIterable<T & Exactly<T, StreamDanceRequest>>,
+  streamDance<T extends OneRequest>(
+    requests: Iterable<T & Only<T>> | AsyncIterable<T & Only<T>>,
     options?: CallOptions & { onResume?: (resumed: Resumed) => void; onRejected?: (rejected: KeyframeRejected) => void },
   ): AsyncGenerator<StreamDanceResponse, void, undefined>;
 
