@@ -298,7 +298,8 @@ class ClientTest(unittest.TestCase):
             self.assertRegex(error.violations[0].description, "^" + what)
 
     def test_calls_wait_for_a_server_and_give_up_in_time(self):
-        error = self.assert_refused("UNAVAILABLE", "^127.0.0.1:1: ", info, "127.0.0.1:1", retry_s=0.3)
+        error = self.assert_refused("UNAVAILABLE", "^127.0.0.1:1: no server is reached: connection refused$", info, "127.0.0.1:1", retry_s=0.3)
+        self.assert_refused("UNAVAILABLE", "^127.0.0.1:1, 127.0.0.1:2: no server is reached: connection refused$", info, ["127.0.0.1:1", "127.0.0.1:2"], retry_s=0.3)
         self.assertEqual(error.violations, [])
         begun = time.monotonic()
         with Client("127.0.0.1:1", retry_s=60) as client:

@@ -48,10 +48,15 @@ function speaksTls(at) {
   });
 }
 
-/** `error`, of a server to which no connection has come about yet, in words that name what to mend. */
-export async function explained(error, address, options) {
-  if (error.code !== 'UNAVAILABLE' || !/No connection established|Name resolution failed/.test(error.message)) return error;
+/** gRPC's words for a server that is not reached. */
+const away = /No connection established|Name resolution failed/;
+
+/** `error` in words of people: of a server that is not reached, `isAway`; of one that never was, what to mend. */
+export async function explained(error, { address, wasThere }, options) {
+  if (error.isAway || error.code !== 'UNAVAILABLE' || !away.test(error.message)) return error;
   const reason = reasonOf(error.message);
+  // Of one that was there before, names and certificates may come back, too.
+  if (wasThere) return noAnswer(reason);
   const wasClosed = /^Failed to connect/.test(reason);
   const at = partsOf(address);
   let fault = faultOf(reason, options);
@@ -59,5 +64,13 @@ export async function explained(error, address, options) {
   if (at.host && wasClosed && !options.tls && (await speaksTls(at))) fault = 'the server there wants TLS: set tls';
   if (fault) return Object.assign(unavailable(fault), { isOfTheCaller: true });
   const closed = options.tls && !options.clientCertificate ? 'the connection was closed; does the server want a clientCertificate?' : 'the connection was closed';
-  return unavailable(wasClosed ? closed : reason);
+  return noAnswer(wasClosed ? closed : reason);
+}
+
+const plain = { ECONNREFUSED: 'connection refused', ETIMEDOUT: 'nobody answers', EHOSTUNREACH: 'no way to its host', ENETUNREACH: 'no way to its network' };
+
+/** Whose `reason` it is, is for others to say. */
+export function noAnswer(reason) {
+  const [, name] = /^connect (\w+) /.exec(reason) ?? [];
+  return Object.assign(unavailable(`no server is reached: ${plain[name] ?? reason}`), { isAway: true });
 }

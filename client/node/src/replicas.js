@@ -2,8 +2,8 @@
 import { setMaxListeners } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
 import grpc from '@grpc/grpc-js';
-import { explained } from './connect_faults.js';
-import { adviceFor, cancelled, ChoreoError, unavailable } from './error.js';
+import { explained, noAnswer } from './connect_faults.js';
+import { adviceFor, cancelled, ChoreoError } from './error.js';
 import { channelOptions, checkOptions, credentialsFor, metadataFor } from './options.js';
 import { Choreography } from './protos.js';
 
@@ -64,10 +64,9 @@ export class Replicas {
         return;
       } catch (failure) {
         if (!(failure instanceof ChoreoError) || signal.aborted) throw failure;
-        // Of one that was there before, names and certificates may come back, too.
-        const error = server.wasThere ? failure : await explained(failure, server.address, this.options);
-        const wait = patience.next(error, this.#leave(server));
-        if (wait === undefined) throw named(patience.verdict, server);
+        const error = await explained(failure, server, this.options);
+        const wait = patience.next(error, this.#leave(server), server.address);
+        if (wait === undefined) throw named(patience.verdict, patience.verdict.isAway ? patience.away : [patience.verdictOf]);
         await sleep(1000 * wait, undefined, { signal }).catch(() => {
           throw cancelled();
         });
@@ -108,7 +107,7 @@ function connected({ address, stub }, seconds, deadline = Infinity, signal) {
     const look = (late) => {
       const state = channel.getConnectivityState(true);
       if ([READY, TRANSIENT_FAILURE, SHUTDOWN].includes(state) || Date.now() >= Number(deadline)) resolve();
-      else if (late) reject(unavailable(`no connection within ${seconds} s`));
+      else if (late) reject(noAnswer(`nobody answers within ${seconds} s`));
       else channel.watchConnectivityState(state, end, look);
     };
     look();
@@ -117,8 +116,8 @@ function connected({ address, stub }, seconds, deadline = Infinity, signal) {
 }
 
 /** Whoever is away is named. */
-function named(error, { address }) {
-  if (error.code === 'UNAVAILABLE') error.message = `${address}: ${error.message}`;
+function named(error, addresses) {
+  if (error.code === 'UNAVAILABLE') error.message = `${[...addresses].join(', ')}: ${error.message}`;
   return error;
 }
 
@@ -130,8 +129,12 @@ class Patience {
   #failures = 0; // since the last progress
   #refusals = 0; // of servers that would refuse again, one after another
   #since = 0;
+  /** The addresses at which no server was reached since then. */
+  away = new Set();
   /** What to tell the caller. Why a server that is there would not serve says more than that another one is away. */
   verdict;
+  /** At which address. */
+  verdictOf;
 
   constructor(options, deadline, servers) {
     this.#options = options;
@@ -143,15 +146,17 @@ class Patience {
   reset() {
     this.#failures = 0;
     this.#refusals = 0;
+    this.away.clear();
     this.verdict = undefined;
   }
 
   /** Seconds, or undefined where trying again would not help, or is no longer allowed. */
-  next(failed, elsewhere) {
+  next(failed, elsewhere, address) {
+    if (failed.isAway) this.away.add(address);
     const advice = adviceFor(failed);
     const now = Date.now();
     if (this.#failures === 0) this.#since = now;
-    if (!advice.here || !this.verdict || adviceFor(this.verdict).here) this.verdict = failed;
+    if (!advice.here || !this.verdict || adviceFor(this.verdict).here) [this.verdict, this.verdictOf] = [failed, address];
     // Once all have refused there is no other one left to do better.
     this.#refusals = advice.here ? 0 : this.#refusals + 1;
     const useful = advice.here || (advice.elsewhere && this.#refusals < this.#servers);

@@ -13,15 +13,28 @@ _HOSTNAME_MISMATCH, _IP_ADDRESS_MISMATCH, _EXPIRED = 62, 64, 10  # OpenSSL's X50
 _AT = re.compile(r"(?:dns:(?://[^/]*/)?|ipv[46]:)?\[?([^,/]+?)\]?:(\d+)(?:,|$)")
 
 
-def explained(error, address, options):
-    """`error`, of a server to which no connection has come about yet, in words that name what to mend."""
-    at = _AT.match(address)
-    fault = _fault(at[1], int(at[2]), options) if at and error.code == "UNAVAILABLE" else None
-    if fault is None:
+# gRPC's words for a server that is not reached, and what of them says why.
+_AWAY = re.compile(r"(?:failed to connect to all addresses|connections to all backends failing)(?:; last error: (.*))?", re.IGNORECASE | re.DOTALL)
+
+
+def explained(error, server, options):
+    """`error` in words of people: of a server that is not reached, `is_away`; of one that never was, what to mend."""
+    if error.code != "UNAVAILABLE":
         return error
-    known = ChoreoError("UNAVAILABLE", fault)
-    known.is_of_the_caller = True
-    return known
+    at = _AT.match(server.address)
+    # Of one that was there before, names and certificates may come back, too.
+    fault = _fault(at[1], int(at[2]), options) if at and not server.was_there else None
+    if fault is not None:
+        known = ChoreoError("UNAVAILABLE", fault)
+        known.is_of_the_caller = True
+        return known
+    away = _AWAY.match(str(error))
+    if not away:
+        return error
+    reason = re.sub(r".*(?:Failed to connect to remote host|[A-Z]+: \S+): ", "", (away[1] or "").strip(), flags=re.DOTALL)
+    told = ChoreoError("UNAVAILABLE", f"no server is reached: {reason.lower() or 'nobody answers'}")
+    told.is_away = True
+    return told
 
 
 def _fault(host, port, options):

@@ -32,6 +32,7 @@ class ChoreoError(Exception):
         self.violations = list(violations)
         self.retry_after = retry_after
         self.is_of_the_caller = False  # options do not fit the server
+        self.is_away = False  # no server was reached
 
     @classmethod
     def of(cls, failure, find=lambda violation: (None, None)):

@@ -80,11 +80,10 @@ class Replicas:
                 raise ChoreoError("CANCELLED", "the client is closed")
             if until.cancelled:
                 raise error
-            if not server.was_there:  # of one that was, names and certificates may come back, too
-                error = explained(error, server.address, self.options)
-            wait = patience.next(error, self._leave(server))
+            error = explained(error, server, self.options)
+            wait = patience.next(error, self._leave(server), server.address)
             if wait is None:
-                raise _named(patience.verdict, server)
+                raise _named(patience.verdict, patience.away if patience.verdict.is_away else [patience.verdict_of])
             until.wait(wait)
 
     def _leave(self, failed):
@@ -95,10 +94,10 @@ class Replicas:
         return len(self._servers) > 1
 
 
-def _named(error, server):
+def _named(error, addresses):
     """Whoever is away is named."""
     if error.code == "UNAVAILABLE":
-        error.args = (f"{server.address}: {error}",)
+        error.args = (f"{', '.join(addresses)}: {error}",)
     return error
 
 
@@ -157,17 +156,20 @@ class Patience:
         """There was progress: count from the beginning."""
         self._failures = 0  # since then
         self._refusals = 0  # of servers that would refuse again, one after another
+        self.away = {}  # the addresses at which no server was reached since then, in order
         # What to tell the caller. Why a server that is there would not serve says more than that another one is away.
-        self.verdict = None
+        self.verdict = self.verdict_of = None
 
-    def next(self, failed, elsewhere):
+    def next(self, failed, elsewhere, address):
         """Seconds, or None where trying again would not help, or is no longer allowed."""
+        if failed.is_away:
+            self.away[address] = True
         advice = advice_for(failed)
         now = time.monotonic()
         if self._failures == 0:
             self._since = now
         if not advice.here or self.verdict is None or advice_for(self.verdict).here:
-            self.verdict = failed
+            self.verdict, self.verdict_of = failed, address
         # Once all have refused there is no other one left to do better.
         self._refusals = 0 if advice.here else self._refusals + 1
         useful = advice.here or (advice.elsewhere and self._refusals < self._servers)
