@@ -11,7 +11,7 @@
 
 namespace choreo {
 
-/// A PNG as a reader sees it.
+/// A decoded PNG.
 struct DecodedPng {
   int width = 0, height = 0;
   std::vector<uint32_t> pixels;  ///< [height, width] 0xRRGGBB

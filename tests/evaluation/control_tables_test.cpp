@@ -71,7 +71,7 @@ class SwingingSampler : public ControlledSampler {
 
 using Evaluate = std::vector<Table> (*)(const Evaluation&);
 
-/// Evaluates what a test asks for, and no other tables.
+/// Makes only the tables that a test needs.
 class ControlTablesTest : public testing::Test {
  protected:
   std::vector<Table> TablesOf(Evaluate evaluate, const std::vector<Method>& methods) const {

@@ -170,7 +170,7 @@ TEST(LongFigures, StillestIsTheSlowestFifth) {
   }
   // Less than half a fifth is a pause, which no median shows.
   EXPECT_NEAR(walk(130, 29).stillest, 1, 1e-6);
-  // The last fifth is among them, whatever the length.
+  // The last fifth is among them for any length.
   const PreparedClip clip = SyntheticClip("a", 153, 0.1, false);
   const LongFigures figures = MeasureLong(Body(), 30, clip.motion.frames, {});
   EXPECT_LE(figures.stillest, figures.late_speed);
@@ -280,7 +280,8 @@ TEST(EvaluateStress, WarnsOfImpossibleKeysAndMeetsThem) {
   EXPECT_EQ(row({"standing to lying 6 m away", "30"})[3].value, 100);
   for (const TableRow& any : table.rows)
     EXPECT_TRUE(any.labels[0] == "no key" || any.cells[7].value <= 1) << any.labels[0];
-  // Real motion asks only what people can do, and arrives; without a request there is no verdict.
+  // Real motion requires only what people can do, and arrives. Without a request there is no
+  // verdict.
   for (const char* frames : {"3", "10", "30", "90"}) {
     EXPECT_EQ(row({"real motion", frames})[3].value, 0);
     EXPECT_EQ(row({"real motion", frames})[4].value, 0);

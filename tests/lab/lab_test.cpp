@@ -266,7 +266,7 @@ TEST_F(LabEval, WarnsOfLengthsWithoutWindows) {
   EXPECT_EQ(endless.code, 1);
   EXPECT_THAT(endless.said, HasSubstr("choreo-lab: --lengths: 1800 frames are more than the 600 "
                                       "that --other r (controllers-paper) takes"));
-  // The judged one is not called by the baselines that are made of it.
+  // Baselines made of the judged model do not have its name.
   const Outcome judged = Lab("eval --model controllers-paper/checkpoint.safetensors" + kData +
                                  " --lengths 10 601 --name mine",
                              folder_.path());

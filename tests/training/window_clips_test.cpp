@@ -111,7 +111,7 @@ TEST_F(WindowClipsTest, FacingVariesAboutTheAudience) {
   EXPECT_GT(MeasureUsualPose(clips_.skeleton(), turned).facing, usual.facing + 0.5);
 }
 
-// Without a known stage there is no usual place; a batch says which windows have one.
+// Without a known stage there is no usual place. A batch marks the windows that have one.
 TEST_F(WindowClipsTest, StagesAreGivenAtTheRequestedRate) {
   EXPECT_EQ(Draw({.no_key = 1}).staged.sum().item<double>(), 0);
   EXPECT_EQ(Draw({.no_key = 1, .stage = 1}).staged.sum().item<double>(), 3);

@@ -145,7 +145,7 @@ TEST_F(ControllersModelTest, OnlyAResidualNetworkReachesTheTargetWithAnyWeights)
   EXPECT_LT(Difference(out.facing.select(1, 11), HeadingOf(batch.transition.target_turn)), 1e-3);
 }
 
-// What training computes at once is what the engine computes frame after frame.
+// Training computes at once what the engine computes frame by frame.
 TEST_F(ControllersModelTest, WalksAllFramesAtOnceAsOneByOne) {
   for (const bool whole : {true, false}) {
     ControllersConfig config = Small();
@@ -249,7 +249,8 @@ TEST_F(ControllersModelTest, LossesVanishForRealMotion) {
   FrameTensors moved = batch.truth;
   moved.root = moved.root + torch::tensor({0.0F, 0.0F, 0.1F});
   EXPECT_NEAR(loss(moved, "reconstruction"), 1, 1e-4);
-  // A decimetre a frame, as it is printed: of the dance's own way, not beside the real one (Eq. 9).
+  // A decimetre per frame, as published: of the dance's own path, not relative to the real one (Eq.
+  // 9).
   FrameTensors glide = batch.truth;
   glide.facing = torch::tensor({0.0F, 1.0F}).expand_as(glide.facing);
   const Tensor start = history.root.narrow(1, history.size() - 1, 1);

@@ -25,7 +25,7 @@ FlowConfig Small(Form form) {
   return config;
 }
 
-// Motion that goes on, [windows, 11, width].
+// Continuous motion, [windows, 11, width].
 Tensor Walks(int64_t windows, int64_t width) {
   return 0.1 * torch::randn({windows, 11, width}).cumsum(1).cumsum(1);
 }

@@ -18,7 +18,7 @@ ModelInfo Model(bool hears_music) {
   return model;
 }
 
-/// Notes what the network is given of the music, frame by frame, and draws zeros.
+/// Records the network's music input frame by frame, and outputs zeros.
 class ListeningStepper : public FlowStepper {
  public:
   explicit ListeningStepper(std::vector<std::vector<float>>* heard) : heard_(heard) {}

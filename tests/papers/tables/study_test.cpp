@@ -33,7 +33,7 @@ class Study : public testing::Test {
     WriteStudy(methods_, "Which </script>?", seed, folder_ / "study");
   }
   json Key() const { return json::parse(ReadFile(folder_ / "study.key.json")); }
-  /// What somebody answers who ranks `best` first each time.
+  /// The answers of a participant who always ranks `best` first.
   std::filesystem::path Answer(const std::string& name, const std::string& best) {
     json answers = json::array();
     int number = 0;
