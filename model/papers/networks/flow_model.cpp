@@ -76,21 +76,21 @@ Tensor FlowModelImpl::Encode(const Tensor& conditions) {
   if (config_.condition_width == 0) return conditions;
   if (!config_.innovations) return encode_static_(conditions);
   // The standardised key, its mask, and the frames left follow the encoding.
-  const int64_t pose = pose_width(), joints = skeleton_.joints(), told = key_width() - 1;
+  const int64_t pose = pose_width(), joints = skeleton_.joints(), left_at = key_width() - 1;
   const Tensor key = (conditions.narrow(-1, 0, pose) - feature_mean_.narrow(0, 0, pose)) /
                      feature_std_.narrow(0, 0, pose);
-  const Tensor asked =
+  const Tensor mask =
       torch::cat({conditions.narrow(-1, pose + joints, 1), conditions.narrow(-1, pose, joints)}, -1)
           .repeat_interleave(3, -1);
-  return torch::cat(
-      {encode_static_(conditions.narrow(-1, 0, told)), key, asked, conditions.narrow(-1, told, 1)},
-      -1);
+  return torch::cat({encode_static_(conditions.narrow(-1, 0, left_at)), key, mask,
+                     conditions.narrow(-1, left_at, 1)},
+                    -1);
 }
 
 Tensor FlowModelImpl::Aim(const Tensor& past, const Tensor& static_condition) const {
   const int64_t pose = pose_width(), at = config_.condition_width;
   const Tensor key = static_condition.narrow(-1, at, pose);
-  const Tensor asked = static_condition.narrow(-1, at + pose, pose);
+  const Tensor mask = static_condition.narrow(-1, at + pose, pose);
   const Tensor left = static_condition.narrow(-1, at + 2 * pose, 1);
   const Tensor last = past.select(-2, config_.history_frames - 1).narrow(-1, 0, pose);
   const Tensor before = past.select(-2, config_.history_frames - 2).narrow(-1, 0, pose);
@@ -100,7 +100,7 @@ Tensor FlowModelImpl::Aim(const Tensor& past, const Tensor& static_condition) co
                                   AccelerationTo<Tensor>(way, last - before, left.clamp_min(1)) /
                                       drawn_spread_.narrow(0, 0, pose),
                                   way);
-  return asked * aim.clamp(-kFeatureClamp, kFeatureClamp);
+  return mask * aim.clamp(-kFeatureClamp, kFeatureClamp);
 }
 
 Tensor FlowModelImpl::Standardise(const Tensor& features) const {

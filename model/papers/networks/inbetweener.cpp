@@ -85,14 +85,14 @@ Tensor InbetweenerImpl::Step(const Tensor& past, const Tensor& condition, const 
   const Tensor contacts = past.narrow(1, 1, known).narrow(2, width_ - kFootContacts, kFootContacts);
 
   // Masks degrees of freedom that the key leaves open, in the key and in the difference to it.
-  const Tensor asked = condition.narrow(1, pose_, joints + 1);
-  const Tensor mask = torch::cat({asked.narrow(1, joints, 1), asked.narrow(1, 0, joints)}, 1)
+  const Tensor key_mask = condition.narrow(1, pose_, joints + 1);
+  const Tensor mask = torch::cat({key_mask.narrow(1, joints, 1), key_mask.narrow(1, 0, joints)}, 1)
                           .repeat_interleave(3, 1);
   const Tensor goal =
       mask * (condition.narrow(1, 0, pose_) - mean_.narrow(0, 0, pose_)) / std_.narrow(0, 0, pose_);
   const Tensor left = condition.narrow(1, pose_ + joints + 1, width_).unsqueeze(1);
   const Tensor offset = goal.unsqueeze(1) - poses * mask.unsqueeze(1);
-  const Tensor target = target_encoder_->forward(torch::cat({goal, asked}, 1)).unsqueeze(1);
+  const Tensor target = target_encoder_->forward(torch::cat({goal, key_mask}, 1)).unsqueeze(1);
   Tensor key = torch::cat({offset_encoder_->forward(offset) + left,
                            (target + left).expand({target.size(0), known, width_})},
                           2);

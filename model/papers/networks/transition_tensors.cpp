@@ -50,13 +50,13 @@ Tensor KeyConditionTensors(const FlowConfig& config, const Skeleton& skeleton,
   const Tensor conditions = torch::empty({places.size(0), transition.frames, width});
   for (int64_t row = 0; row < places.size(0); ++row) {
     const double* turn = turns.data_ptr<double>() + row * 9 * joints;
-    const double* asked = masks.data_ptr<double>() + row * (joints + 1);
+    const double* mask_row = masks.data_ptr<double>() + row * (joints + 1);
     Pose key{Eigen::Vector3d(places.data_ptr<double>() + row * 3), Eigen::Matrix3Xd(3, joints)};
-    PoseMask mask{.root_position = asked[joints] > 0, .joints = {}};
+    PoseMask mask{.root_position = mask_row[joints] > 0, .joints = {}};
     for (int j = 0; j < joints; ++j) {
       using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
       key.rotations.col(j) = LogMap(Eigen::Map<const Matrix>(turn + 9L * j));
-      mask.joints.push_back(asked[j] > 0);
+      mask.joints.push_back(mask_row[j] > 0);
     }
     const int frames = static_cast<int>(transition.frames);
     Eigen::Map<Eigen::MatrixXf>(conditions[row].data_ptr<float>(), width, frames) =

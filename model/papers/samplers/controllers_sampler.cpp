@@ -50,9 +50,10 @@ constexpr FitOptions kFitOptions = {
 }  // namespace
 
 /// Computes a transition frame by frame.
-class ControllersWalk {
+class ControllersTransition {
  public:
-  ControllersWalk(const ModelInfo& model, ControllersModel network, const TransitionSpec& spec);
+  ControllersTransition(const ModelInfo& model, ControllersModel network,
+                        const TransitionSpec& spec);
   /// Adds the next frame.
   void Step(int frame, Plan* plan);
 
@@ -69,8 +70,8 @@ class ControllersWalk {
   PositionFitter fitter_;
 };
 
-ControllersWalk::ControllersWalk(const ModelInfo& model, ControllersModel network,
-                                 const TransitionSpec& spec)
+ControllersTransition::ControllersTransition(const ModelInfo& model, ControllersModel network,
+                                             const TransitionSpec& spec)
     : model_(model),
       network_(std::move(network)),
       arrival_(ArrivalOf(spec)),
@@ -109,7 +110,7 @@ ControllersWalk::ControllersWalk(const ModelInfo& model, ControllersModel networ
   if (spec.target) target_ = target;
 }
 
-void ControllersWalk::Step(int frame, Plan* plan) {
+void ControllersTransition::Step(int frame, Plan* plan) {
   const c10::InferenceMode inference;
   const FrameTensors drawn = network_->Walk(given_.Narrow(frame, 1), walked_, &state_).frames;
   const Tensor relative = RelativePositions(drawn).contiguous();  // [1, 1, joints, 3]
@@ -140,7 +141,7 @@ ControllersSampler::ControllersSampler(ModelInfo info, ControllersModel network)
     : Sampler(std::move(info), "cpu"), network_(std::move(network)) {}
 
 Slices<Plan> ControllersSampler::Begin(const ValidSpec& spec) {
-  ControllersWalk walk(model_, network_, *spec);
+  ControllersTransition walk(model_, network_, *spec);
   Plan plan;
   for (int frame = 0; frame < spec->frames; ++frame) {
     walk.Step(frame, &plan);

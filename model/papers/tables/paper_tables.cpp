@@ -47,9 +47,9 @@ LongScore ScoreDance(const Evaluation& evaluation, const LongPlan& plan,
   score.beats = ScoreBeats(MeanSpeeds(track, fps), plan.beats, fps);
   double squares = 0, norms = 0;
   for (const auto& [frame, key] : plan.keys) {
-    const Eigen::Matrix3Xd wanted = JointPositions(skeleton, key);
-    squares += KeyPoseDistance(track[static_cast<size_t>(frame)], wanted);
-    norms += (track[static_cast<size_t>(frame)] - wanted).norm();
+    const Eigen::Matrix3Xd key_joints = JointPositions(skeleton, key);
+    squares += KeyPoseDistance(track[static_cast<size_t>(frame)], key_joints);
+    norms += (track[static_cast<size_t>(frame)] - key_joints).norm();
   }
   if (const auto keys = static_cast<double>(plan.keys.size()); keys > 0) {
     score.key_m2 = squares / keys;

@@ -148,10 +148,10 @@ Table ScoreStudy(const std::filesystem::path& key, std::span<const std::filesyst
     if (!taken.insert(std::filesystem::weakly_canonical(path)).second)
       throw InvalidArgument(path.string(), "is given twice");
     try {
-      const Json said = parse(path);
-      if (said.at("study") != study.at("study"))
+      const Json saved = parse(path);
+      if (saved.at("study") != study.at("study"))
         throw InvalidArgument(path.string(), "answers another study than " + key.string());
-      for (const Json& answer : said.at("answers")) {
+      for (const Json& answer : saved.at("answers")) {
         const auto number = answer.at("clip").get<size_t>();
         const Json& clip = study.at("clips").at(number - 1);
         const std::vector<std::string> ranking = Ranking(path, answer);

@@ -24,9 +24,9 @@ std::filesystem::path SongOf(const PreparedClip& clip, const std::filesystem::pa
 
 // Where the clip's music begins in its song.
 double MusicStart(const PreparedClip& clip) {
-  const auto told = clip.notes.find("preparation");
-  if (told == clip.notes.end()) return 0;
-  return nlohmann::json::parse(told->second).value("music_start_s", 0.0);
+  const auto preparation = clip.notes.find("preparation");
+  if (preparation == clip.notes.end()) return 0;
+  return nlohmann::json::parse(preparation->second).value("music_start_s", 0.0);
 }
 
 // A dance in the middle of each clip, because dancers stand at its ends.
