@@ -10,12 +10,20 @@ namespace choreo {
 
 Eigen::Matrix3d ExpMap(const Eigen::Vector3d& w) {
   const double angle = w.norm();
-  const Eigen::Matrix3d k = CrossMatrix(w);
   // Below this angle the quadratic term is under 1e-16 and the quotients below could underflow.
-  if (angle < 1e-8) return Eigen::Matrix3d::Identity() + k + 0.5 * k * k;
-  const double half_sine = std::sin(0.5 * angle) / angle;
-  return Eigen::Matrix3d::Identity() + (std::sin(angle) / angle) * k +
-         (2.0 * half_sine * half_sine) * k * k;
+  const bool is_small = angle < 1e-8;
+  const double half_sine = is_small ? 0 : std::sin(0.5 * angle) / angle;
+  const double first = is_small ? 1 : std::sin(angle) / angle;
+  const double second = is_small ? 0.5 : 2.0 * half_sine * half_sine;
+  // I + first k + second k k, for k = CrossMatrix(w), without the products of its zeros. Zeros are
+  // added, so that none becomes negative.
+  const double fx = first * w.x(), fy = first * w.y(), fz = first * w.z();
+  const double sx = second * w.x(), sy = second * w.y(), sz = second * w.z();
+  Eigen::Matrix3d r;
+  r << 1 - (sz * w.z() + sy * w.y()), (0 - fz) + sy * w.x(), (0 + fy) + sz * w.x(),
+      (0 + fz) + sx * w.y(), 1 - (sz * w.z() + sx * w.x()), (0 - fx) + sz * w.y(),
+      (0 - fy) + sx * w.z(), (0 + fx) + sy * w.z(), 1 - (sy * w.y() + sx * w.x());
+  return r;
 }
 
 Eigen::Vector3d LogMap(const Eigen::Matrix3d& r) {

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "model/core/each_cpu.h"
 #include "model/motion/body_limits.h"
 #include "model/motion/kinematic_beats.h"
 #include "model/motion/kinematics.h"
@@ -15,10 +17,12 @@ namespace {
 // frame, so that time is smooth. The offset from even time is a sum of slopes.
 constexpr int kSteepest = 4, kSlopes = 2 * kSteepest + 1;
 constexpr int kFarthest = 48;  // offset searched; reached in 12 frames at the steepest slope
+constexpr int kOffsets = 2 * kFarthest + 1;
 constexpr float kUnreached = -std::numeric_limits<float>::infinity();
 
+// Neighbouring offsets of one slope follow each other.
 size_t StateOf(int offset, int slope) {
-  return static_cast<size_t>((offset + kFarthest) * kSlopes + slope + kSteepest);
+  return static_cast<size_t>((slope + kSteepest) * kOffsets + offset + kFarthest);
 }
 
 // 1 on a beat and -1 halfway between two, smaller for fast beats; 0 before the first, after the
@@ -53,6 +57,34 @@ Pace PaceOf(const PlanContext& context, std::span<const Pose> plan) {
   return pace;
 }
 
+// Neighbouring offsets that are reached at one slope.
+struct Reached {
+  const float* best;  // of the offsets from which this slope leads there, at this slope
+  const double *worth, *fastest;
+  int count, slope;
+  double pace;
+};
+
+CHOREO_EACH_CPU void Reach(const Reached& at, float* __restrict next,
+                           signed char* __restrict before) {
+  const auto slope = static_cast<signed char>(at.slope);
+  // Slopes change by one at most; at the ends by none that is not there.
+  const float* below = at.slope > -kSteepest ? at.best - kOffsets : at.best;
+  const float* above = at.slope < kSteepest ? at.best + kOffsets : at.best;
+  for (int i = 0; i < at.count; ++i) {
+    const float slower = below[i], faster = above[i];
+    float most = at.best[i];
+    signed char from = slope;
+    from = slower > most ? static_cast<signed char>(slope - 1) : from;
+    most = slower > most ? slower : most;
+    from = faster > most ? static_cast<signed char>(slope + 1) : from;
+    most = faster > most ? faster : most;
+    const bool is_possible = at.slope <= 0 || !(at.pace > at.fastest[i]);
+    next[i] = is_possible ? most + static_cast<float>(at.worth[i] * at.pace) : kUnreached;
+    before[i] = from;
+  }
+}
+
 }  // namespace
 
 std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const double> speeds,
@@ -67,36 +99,40 @@ std::vector<double> TimesOnBeats(const PlanContext& context, std::span<const dou
   };
   // Dynamic programming: the best sum of wave times speed for each state of a frame, and the slope
   // before it.
-  std::vector<float> best(StateOf(kFarthest, kSteepest) + 1, kUnreached), next;
+  std::vector<float> best(size_t{kOffsets} * kSlopes, kUnreached), next;
   std::vector<signed char> slope_before(best.size() * speeds.size());
   best[StateOf(0, 0)] = 0;
+  std::array<double, kOffsets> worth, fastest;
   for (int t = 0; t < frames; ++t) {
     next.assign(best.size(), kUnreached);
     signed char* const before = &slope_before[best.size() * static_cast<size_t>(t)];
     const double wave = BeatWave(context, t);
-    // Offsets that can be reached and left again.
-    const int farthest = std::min(kFarthest, kSteepest * std::min(t + 1, frames - 1 - t));
-    for (int offset = -farthest; offset <= farthest; ++offset) {
+    // Offsets that can be reached and left again, and whose time is within the plan.
+    const auto is_in_plan = [&](int offset) {
       const double time = t + unit * offset;
-      if (time < 0 || time > frames - 1) continue;
-      const double worth = wave * speed_at(time);
-      const auto frame = static_cast<size_t>(time);
-      const double fastest =
-          paces.empty() ? std::numeric_limits<double>::infinity()
+      return time >= 0 && time <= frames - 1;
+    };
+    int last = std::min(kFarthest, kSteepest * std::min(t + 1, frames - 1 - t)), first = -last;
+    while (!is_in_plan(first)) ++first;
+    while (!is_in_plan(last)) --last;
+    for (int offset = first; offset <= last; ++offset) {
+      const double time = t + unit * offset;
+      const auto frame = static_cast<size_t>(time), at = static_cast<size_t>(offset + kFarthest);
+      worth[at] = wave * speed_at(time);
+      fastest[at] = paces.empty()
+                        ? std::numeric_limits<double>::infinity()
                         : std::min(paces[frame], paces[std::min(frame + 1, paces.size() - 1)]);
-      for (int slope = -kSteepest; slope <= kSteepest; ++slope) {
-        if (std::abs(offset - slope) > kFarthest) continue;
-        if (slope > 0 && 1 + unit * slope > fastest) continue;
-        float most = kUnreached;
-        for (const int from : {slope, slope - 1, slope + 1}) {
-          if (std::abs(from) > kSteepest) continue;
-          const float value = best[StateOf(offset - slope, from)];
-          if (value <= most) continue;
-          most = value;
-          before[StateOf(offset, slope)] = static_cast<signed char>(from);
-        }
-        next[StateOf(offset, slope)] = most + static_cast<float>(worth * (1 + unit * slope));
-      }
+    }
+    for (int slope = -kSteepest; slope <= kSteepest; ++slope) {
+      const int from = std::max(first, slope - kFarthest), to = std::min(last, slope + kFarthest);
+      if (from > to) continue;
+      Reach({.best = &best[StateOf(from - slope, slope)],
+             .worth = &worth[static_cast<size_t>(from + kFarthest)],
+             .fastest = &fastest[static_cast<size_t>(from + kFarthest)],
+             .count = to - from + 1,
+             .slope = slope,
+             .pace = 1 + unit * slope},
+            &next[StateOf(from, slope)], &before[StateOf(from, slope)]);
     }
     best.swap(next);
   }
