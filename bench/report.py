@@ -127,8 +127,7 @@ def bars(figures, gpu):
                      figures["load/closed/32"] / (FRAMES_OF_PLAN * sampled), 0.9, 0.97, ""))
         # The same work on both sides: dances to music are timed to its beats.
         to_beats = FRAMES_OF_PLAN * figures[f"default/to_beats/{packed}"]
-        rows.append(("`default` to beats through gRPC, with its music ÷ engine alone to beats, 32 streams, by CPU time",
-                     figures["load/closed/32"] / to_beats, 0.6, 0.8, ""))
+        rows.append(("the same ÷ engine alone, to beats", figures["load/closed/32"] / to_beats, 0.6, 0.8, ""))
     if live:
         rows.append((f"`default`: streams of the sizes tried with p99 lateness under {LIVE_LATENESS} ms", within, 200, 500, ""))
     if "load/live/50/first p99 ms" in figures:
