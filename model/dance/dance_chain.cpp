@@ -119,7 +119,7 @@ DanceChain::DanceChain(SampleQueue& queue, const ValidDance& config,
 void DanceChain::Begin(const ValidDance& config) {
   // Starts frames that the config has granted, too.
   Apply([&](DanceScore&) {
-    const std::vector<Warning> warnings = config->Warnings(model_, first_frame_);
+    const std::vector<Warning> warnings = config->Warnings(model_);
     return DanceEvents(warnings.begin(), warnings.end());
   });
 }

@@ -72,11 +72,11 @@ void DanceStart::ValidateStart(const ModelInfo& model) const {
   ValidateContinuation(model, *continuation, allow_inexact_resume, "config.continuation");
 }
 
-std::vector<Warning> DanceStart::Warnings(const ModelInfo& model, int64_t first) const {
+std::vector<Warning> DanceStart::Warnings(const ModelInfo& model) const {
   std::vector<Warning> warnings;
   if (ResumesInexactly(model)) warnings.push_back(InexactResume(*continuation, model));
   if (temperature && *temperature > model.max_temperature)
-    warnings.push_back(TemperatureTooHigh(first, *temperature, model.max_temperature));
+    warnings.push_back(TemperatureTooHigh(FirstFrame(), *temperature, model.max_temperature));
   return warnings;
 }
 

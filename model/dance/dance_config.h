@@ -46,8 +46,8 @@ struct DanceStart : DanceManner, KnownMusic {
   bool ResumesInexactly(const ModelInfo& model) const {
     return continuation && continuation->fingerprint != model.fingerprint;
   }
-  /// Warnings to send before the first frame, `first`.
-  std::vector<Warning> Warnings(const ModelInfo& model, int64_t first) const;
+  /// Warnings to send before the first frame.
+  std::vector<Warning> Warnings(const ModelInfo& model) const;
 
   /// Throws Error(kInvalidArgument), or Error(kFailedPrecondition) for a continuation of another
   /// fingerprint. Fields are named as the API names them: "config.history.poses[0]".

@@ -252,7 +252,7 @@ void TransitionGroup::Impl::Begin() {
   const auto& path = request_.controls.root_path;
   if (path && path->frames.back() < first_frame_)
     warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
-  for (const Warning& warning : request_.Warnings(model_, first_frame_)) Warn(warning);
+  for (const Warning& warning : request_.Warnings(model_)) Warn(warning);
   for (const Warning& warning : warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
   for (int candidate = 0; candidate < request_.candidates; ++candidate) {
