@@ -99,12 +99,12 @@ void DanceConfig::Validate(const ModelInfo& model) const {
 }
 
 void GroupRequest::Validate(const ModelInfo& model) const {
+  ValidateStart(model);
   CheckedIn(candidates, 1, kMaxCandidates, "candidates");
   if (rank_by == RankBy::kLikelihood && !model.likelihood)
     throw InvalidArgument("rank_by", "RANK_BY_LIKELIHOOD, but \"" + model.name +
                                          "\" has no likelihood; RANK_BY_QUALITY is possible");
   CheckedIn(frames, 1, std::min(kMaxTransitionFrames, model.max_transition_frames), "frames");
-  ValidateStart(model);
   CheckedIn(FirstFrame(), 0, kMaxDanceFrames, "config.continuation.frame");
   if (target) {
     CheckKeyPose(model.skeleton, target->pose, "target");
