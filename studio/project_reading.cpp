@@ -137,18 +137,17 @@ void Tell(const authoring::Project& read, const std::string& name, const StudioC
     said->mutable_beats()->mutable_times()->Add(read.beats.begin(), read.beats.end());
     said->mutable_beats()->mutable_counts()->Add(read.counts.begin(), read.counts.end());
   }
-  if (read.controls.factors != authoring::PartFactors()) {
-    for (const std::optional<double>& factor : read.controls.factors)
-      said->add_velocity_factors(factor.value_or(1));
-  }
   const ControlRequest controls = read.controls.Read(context.model(), context.server(), counts);
-  if (const auto& path = controls.root_path) {
-    if (!path->heights.empty()) {
-      throw InvalidArgument(read.controls.PathName() + ":points[0].y",
-                            "is a height: the studio's paths lie on the floor");
-    }
-    *said->mutable_path() = wire::ToProto({.root_path = path}).root_path();
+  if (controls.root_path && !controls.root_path->heights.empty()) {
+    throw InvalidArgument(read.controls.PlaceOf("root_path", "heights[0]"),
+                          "is a height: the studio's paths lie on the floor");
   }
+  const auto& velocity = controls.velocity_factors;
+  if (velocity && !(velocity->frames.empty() && velocity->speeds.empty())) {
+    throw InvalidArgument(read.controls.PlaceOf("velocity_factors", ""),
+                          "changes, or is in metres: the studio's are factors of all the dance");
+  }
+  *said->mutable_controls() = wire::ToProto(controls);
   for (const authoring::Marker& marker : read.markers) {
     Marker* told = said->add_markers();
     told->set_frame(std::llround(marker.time_s * context.model().fps));

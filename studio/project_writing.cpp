@@ -1,12 +1,13 @@
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "client/authoring/control_json.h"
 #include "client/authoring/dance_keys.h"
 #include "client/authoring/project_file.h"
 #include "client/convert.h"
-#include "model/motion/velocity_factors.h"
+#include "model/motion/controls.h"
+#include "proto/wire/controls.h"
 #include "studio/project_document.h"
 
 namespace choreo::studio {
@@ -29,6 +30,14 @@ ordered_json Number(float value) {
   double digits = 0;
   std::from_chars(std::begin(text), end, digits);
   return Number(static_cast<float>(digits) == value ? digits : double{value});
+}
+
+/// The same in all of a value.
+ordered_json AsFloats(ordered_json value) {
+  if (value.is_number_float()) return Number(value.get<float>());
+  if (value.is_structured())
+    for (ordered_json& part : value) part = AsFloats(std::move(part));
+  return value;
 }
 
 /// A time as people read it, of which its frame comes again.
@@ -96,17 +105,14 @@ ordered_json FileOf(const Project& project, const StudioContext& context) {
       beats.push_back(
           ordered_json::array({Number(project.beats().times(i)), project.beats().counts(i)}));
   }
-  for (int i = 0; i < project.velocity_factors_size(); ++i) {
-    std::string part(kBodyPartNames.at(static_cast<size_t>(i)));
-    std::ranges::replace(part, '_', ' ');
-    file["lively"][part] = Number(project.velocity_factors(i));
-  }
-  const v1::RootPath& path = project.path();
-  for (int i = 0; i < path.frames_size(); ++i) {
-    file["path"]["points"].push_back({{"frame", path.frames(i)},
-                                      {"x", Number(path.points(2 * i))},
-                                      {"z", Number(path.points(2 * i + 1))}});
-  }
+  const ControlRequest controls = wire::FromProto(project.controls(), "project.controls");
+  ControlRequest::VisitControls(
+      [&file](size_t row, const auto& control) {
+        if (control)
+          file["controls"][std::string(kControls[row].name)] =
+              AsFloats(authoring::ControlJson(*control));
+      },
+      controls);
   for (const Marker& marker : project.markers())
     file["markers"].push_back({{"time", Seconds(marker.frame(), fps)}, {"name", marker.name()}});
   if (project.dancers_size() > 0) {

@@ -7,6 +7,7 @@
 #include "client/authoring/music_beats.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
+#include "model/core/joined.h"
 #include "model/core/rounded.h"
 #include "model/motion/velocity_factors.h"
 
@@ -56,12 +57,16 @@ void TakeBeats(const json& list, const std::string& field, Project* project) {
   CheckBeats(out, field);
 }
 
-/// None where all parts have the usual factor.
-PartFactors FactorsIn(const json& parts, const std::string& field) {
-  if (!parts.is_object()) throw InvalidArgument(field, Shown(parts) + " is no object");
-  PartFactors out;
+const json& Object(const json& value, const std::string& field) {
+  if (!value.is_object()) throw InvalidArgument(field, Shown(value) + " is no object");
+  return value;
+}
+
+/// Velocity factors as older projects have them. None where all parts have the usual factor.
+json FactorsIn(const json& parts, const std::string& field) {
+  json out;
   bool as_usual = true;
-  for (const auto& [member, value] : parts.items()) {
+  for (const auto& [member, value] : Object(parts, field).items()) {
     std::string part = member;
     std::ranges::replace(part, ' ', '_');
     const auto named = std::ranges::find(kBodyPartNames, part);
@@ -74,9 +79,30 @@ PartFactors FactorsIn(const json& parts, const std::string& field) {
       throw InvalidArgument(field + "." + member, message.str());
     }
     as_usual = as_usual && factor == 1;
-    out[static_cast<size_t>(named - kBodyPartNames.begin())] = factor;
+    out["parts"].push_back(part);
+    out["factors"].push_back(factor);
   }
-  return as_usual ? PartFactors() : out;
+  return as_usual ? json() : out;
+}
+
+void TakeControls(const json& file, const std::string& name, std::span<const ControlRow> rows,
+                  WrittenControls* controls) {
+  const auto take = [controls](std::string_view control, const json& value,
+                               const std::string& field) {
+    (*controls)[control].project = value;
+    (*controls)[control].project_name = field;
+  };
+  if (const std::string field = name + ":lively"; file.contains("lively"))
+    take(kControls[kVelocityFactors].name, FactorsIn(file["lively"], field), field);
+  if (const std::string field = name + ":path"; file.contains("path"))
+    take(kControls[kRootPath].name, Object(file["path"], field), field);
+  if (!file.contains("controls")) return;
+  for (const auto& [control, value] : Object(file["controls"], name + ":controls").items()) {
+    const std::string field = name + ":controls." + control;
+    if (std::ranges::find(rows, control, &ControlRow::name) == rows.end())
+      throw InvalidArgument(field, "is none of " + Joined(rows, &ControlRow::name));
+    take(control, Object(value, field), field);
+  }
 }
 
 /// Markers are for people.
@@ -122,7 +148,7 @@ std::string Readable(const nlohmann::ordered_json& value, const std::string& ind
 
 }  // namespace
 
-Project ParseProject(const json& file, const std::string& name) {
+Project ParseProject(const json& file, const std::string& name, std::span<const ControlRow> rows) {
   const bool has_no_keys = file.is_object() && file.contains("keyframes") &&
                            file["keyframes"] == nlohmann::json::array();
   if (!has_no_keys) ListIn(file, name, "keyframes");  // which says what else the file may be
@@ -138,9 +164,10 @@ Project ParseProject(const json& file, const std::string& name) {
   CheckFileMembers(
       file, name,
       {"studio", "song", "song_data", "seconds", "seed", "style", "music_dynamics", "variation",
-       "beats", "bar", "lively", "path", "markers", "dancers", "apart", "keyframes", "about"},
+       "beats", "bar", "controls", "lively", "path", "markers", "dancers", "apart", "keyframes",
+       "about"},
       "a project has studio, song, seconds, seed, style, music_dynamics, variation, "
-      "beats, bar, lively, path, markers, dancers, apart, keyframes and perhaps about");
+      "beats, bar, controls, lively, path, markers, dancers, apart, keyframes and perhaps about");
   Project project;
   project.has_keys = !has_no_keys;
   project.song = Text(file, name, "song");
@@ -166,16 +193,7 @@ Project ParseProject(const json& file, const std::string& name) {
   }
   project.bar = file.value("bar", kDefaultBar);
   if (file.contains("beats")) TakeBeats(file["beats"], name + ":beats", &project);
-  if (file.contains("lively")) {
-    project.controls.velocity_name = name + ":lively";
-    project.controls.factors = FactorsIn(file["lively"], project.controls.velocity_name);
-  }
-  if (file.contains("path")) {
-    if (!file["path"].is_object())
-      throw InvalidArgument(name + ":path", Shown(file["path"]) + " is no object");
-    project.controls.project_path = file["path"];
-    project.controls.project_path_name = name + ":path";
-  }
+  TakeControls(file, name, rows, &project.controls);
   if (file.contains("markers")) project.markers = MarkersIn(file["markers"], name + ":markers");
   project.has_dancers = file.contains("dancers");
   return project;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,17 +30,19 @@ struct Project : DanceManner {
   int bar = 0;                    ///< beats in it
   std::vector<int> counts = {};   ///< of each beat
   std::vector<Marker> markers = {};
-  WrittenControls controls = {};  ///< no velocities where all are 1
-  bool has_keys = false;          ///< which ReadDanceKeys reads
-  bool has_dancers = false;       ///< several dancers, for ReadDancers (dancers.h)
+  WrittenControls controls = {};
+  bool has_keys = false;     ///< which ReadDanceKeys reads
+  bool has_dancers = false;  ///< several dancers, for ReadDancers (dancers.h)
 };
 
 /// Reads a project: JSON with `studio` (1), `song`, `seconds`, `seed`, `style`, `music_dynamics`,
-/// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `lively`
-/// (the velocity factors of parts of the body), `path`, `markers` (each with `time` and `name`; no
+/// `variation`, `beats` (each with its second and count), `bar` (its number of beats), `controls`
+/// (by their names, with the fields of the API's messages), `path` (as in a path file), `lively`
+/// (the velocity factors of parts, in older projects), `markers` (each with `time` and `name`; no
 /// frame depends on them), `dancers` and `apart` (both ignored here), and `keyframes`. `name` is
 /// the file's. Throws Error(kInvalidArgument) whose field is NAME:MEMBER, naming value and limit.
-Project ParseProject(const nlohmann::json& file, const std::string& name);
+Project ParseProject(const nlohmann::json& file, const std::string& name,
+                     std::span<const ControlRow> rows = kControls);
 
 /// The same from a file; its song's path is relative to it. Throws Error(kNotFound) if the project
 /// cannot be opened. Does not check that the song exists.

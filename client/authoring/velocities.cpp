@@ -13,6 +13,7 @@ namespace {
 constexpr double kMaxFactor = kMaxVelocityFactor;
 constexpr double kMaxSpeed = 100 * double{kMaxVelocity};  // centimetres a frame
 constexpr std::string_view kCentimetres = "cm";
+constexpr double kMetre = 100;  // centimetres
 
 /// The body parts with this name: one, both arms or legs, or all.
 std::vector<size_t> PartsOf(std::string_view name) {
@@ -46,11 +47,18 @@ class Asked {
  public:
   Asked(double fps, const Counts& counts) : fps_(fps), counts_(counts) {}
 
-  void AddFactors(const PartFactors& factors) {
+  void Add(const ControlRequest::VelocityFactors& whole) {
+    frames_ = whole.frames;
+    speeds_ = !whole.speeds.empty();
+    const auto& [frames, parts, factors, speeds, reference] = whole;
+    const size_t columns = std::max<size_t>(1, parts.size());
     for (size_t part = 0; part < kBodyParts; ++part) {
-      if (!factors[part]) continue;
-      speeds_ = false;
-      values_[part] = std::vector{*factors[part]};
+      const auto named = std::ranges::find(parts, kBodyPartNames[part]);
+      if (named == parts.end() && !parts.empty()) continue;
+      std::vector<double>& column = values_[part].emplace();
+      for (auto i = static_cast<size_t>(named - parts.begin()); i < factors.size() + speeds.size();
+           i += columns)
+        column.push_back(*speeds_ ? kMetre * speeds[i] : factors[i]);
     }
   }
 
@@ -123,7 +131,6 @@ class Asked {
     for (size_t part = 0; part < kBodyParts; ++part) {
       if (values_[part]) velocity.parts.emplace_back(kBodyPartNames[part]);
     }
-    constexpr double kMetre = 100;  // centimetres
     for (size_t row = 0; row < std::max<size_t>(1, frames_.size()); ++row) {
       for (const auto& values : values_) {
         if (!values) continue;
@@ -158,9 +165,11 @@ bool IsVelocityFile(const std::string& source) { return source.ends_with(".json"
 
 ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
                                                const std::string& reference, double fps,
-                                               const Counts& counts, const PartFactors& usual) {
+                                               const Counts& counts,
+                                               const ControlRequest::VelocityFactors& usual) {
   Asked asked(fps, counts);
-  asked.AddFactors(usual);
+  const bool has_points = !usual.frames.empty() && std::ranges::any_of(sources, IsVelocityFile);
+  if (usual.IsWhole() && !has_points) asked.Add(usual);
   for (const std::string& source : sources) {
     if (IsVelocityFile(source)) {
       asked.AddFile(source);
@@ -168,7 +177,7 @@ ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& s
       asked.AddConstant(source);
     }
   }
-  return asked.Finish(reference);
+  return asked.Finish(reference.empty() ? usual.reference : reference);
 }
 
 }  // namespace choreo::authoring

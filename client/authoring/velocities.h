@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +8,6 @@
 
 namespace choreo::authoring {
 
-/// Factors by BodyPart; none: the model's own.
-using PartFactors = std::array<std::optional<double>, kBodyParts>;
-
 /// Whether a source is a file.
 bool IsVelocityFile(const std::string& source);
 
@@ -20,14 +15,14 @@ bool IsVelocityFile(const std::string& source);
 /// which one may be a file; multipliers and centimetres exclude each other. Interpolates between a
 /// file's points and holds the nearest outside. `reference`: what multipliers refer to; empty: the
 /// model's first. Models run at `fps`.
-/// `counts`: those of the music, for times in counts. `usual`: the factors of parts that no source
-/// names.
+/// `counts`: those of the music, for times in counts. `usual`: what is asked for parts that no
+/// source names; its points give way to a file's.
 ///
 /// Throws Error(kInvalidArgument) whose field is "velocity_factors", "velocity_factors.reference"
 /// or NAME:factors[i].MEMBER, naming value and limit; Error(kNotFound) for a missing file.
 ControlRequest::VelocityFactors ReadVelocities(const std::vector<std::string>& sources,
                                                const std::string& reference, double fps,
                                                const Counts& counts = {},
-                                               const PartFactors& usual = {});
+                                               const ControlRequest::VelocityFactors& usual = {});
 
 }  // namespace choreo::authoring

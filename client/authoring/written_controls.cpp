@@ -3,29 +3,20 @@
 #include <algorithm>
 #include <charconv>
 
-#include "client/authoring/json_fields.h"
 #include "client/authoring/velocities.h"
-#include "model/motion/controls.h"
 
 namespace choreo::authoring {
 namespace {
+
+constexpr std::string_view kPath = kControls[kRootPath].name;
+constexpr std::string_view kVelocity = kControls[kVelocityFactors].name;
 
 bool Has(const client::ModelDescription& model, const std::string& control) {
   return std::ranges::find(model.controls, control) != model.controls.end();
 }
 
-void RequireControl(size_t row, const std::string& field, const client::ModelDescription& model,
-                    const client::ServerDescription& server) {
-  const std::string control(kControls[row].name);
-  if (Has(model, control)) return;
-  std::string others;
-  for (const client::ModelDescription& other : server.models) {
-    if (Has(other, control)) others += (others.empty() ? "" : ", ") + ('"' + other.name + '"');
-  }
-  throw InvalidArgument(field, "the model \"" + model.name + "\" does not have this control, " +
-                                   (others.empty() ? "nor has any other of the server"
-                                                   : "but these of the server do: " + others));
-}
+/// Whether a project has what a path file has, not the API's message.
+bool HasPoints(const nlohmann::json& path) { return !path.contains("frames"); }
 
 ControlRequest::RootPath ReadPath(const nlohmann::json& file, const std::string& name, double fps,
                                   const Counts& counts) {
@@ -54,6 +45,21 @@ ControlRequest::RootPath ReadPath(const nlohmann::json& file, const std::string&
   return path;
 }
 
+/// The place in a path file of a field of the API's message.
+std::string PlaceInFile(const std::string& name, std::string_view field) {
+  const size_t bracket = field.find('[');
+  size_t index = 0;
+  if (bracket != std::string_view::npos)
+    std::from_chars(field.data() + bracket + 1, field.data() + field.size(), index);
+  // points[3] is z of the second point.
+  const bool two_a_point = field.starts_with("points[");
+  const char* member = field.starts_with("heights") ? ".y"
+                       : !two_a_point               ? ""
+                       : index % 2 == 0             ? ".x"
+                                                    : ".z";
+  return name + ":points[" + std::to_string(two_a_point ? index / 2 : index) + "]" + member;
+}
+
 }  // namespace
 
 ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string& name, double fps,
@@ -61,54 +67,85 @@ ControlRequest::RootPath ParsePathFile(std::string_view text, const std::string&
   return ReadPath(ParseJson(text, name), name, fps, counts);
 }
 
-void WrittenControls::Follow(const WrittenControls& project) {
-  project_path = project.project_path;
-  project_path_name = project.project_path_name;
-  if (velocities.empty()) velocity_name = project.velocity_name;
-  factors = project.factors;
+void ReadWritten(const WrittenControl& written, double fps, const Counts& counts,
+                 ControlRequest::RootPath* path) {
+  const auto& [sources, reference, project, name] = written;
+  if (!sources.empty()) {
+    *path = ParsePathFile(ReadText(sources.front(), "path file"), sources.front(), fps, counts);
+  } else if (HasPoints(project)) {
+    *path = ReadPath(project, name, fps, counts);
+  } else {
+    ReadControlJson(project, name, path);
+  }
 }
 
-ControlRequest WrittenControls::Read(const client::ModelDescription& model,
-                                     const client::ServerDescription& server,
-                                     const Counts& counts) const {
-  ControlRequest controls;
-  if (!path.empty() || !project_path.is_null()) {
-    RequireControl(kRootPath, NameOf(kRootPath), model, server);
-    controls.root_path = path.empty()
-                             ? ReadPath(project_path, project_path_name, model.fps, counts)
-                             : ParsePathFile(ReadText(path, "path file"), path, model.fps, counts);
-  }
-  if (!velocities.empty() || factors != PartFactors()) {
-    RequireControl(kVelocityFactors, velocity_name, model, server);
-    controls.velocity_factors = ReadVelocities(velocities, reference, model.fps, counts, factors);
-  } else if (!reference.empty()) {
+void ReadWritten(const WrittenControl& written, double fps, const Counts& counts,
+                 ControlRequest::VelocityFactors* velocity) {
+  const auto& [sources, reference, project, name] = written;
+  if (!project.is_null()) {
+    ReadControlJson(project, name, velocity);
+  } else if (sources.empty()) {
     throw InvalidArgument("velocity_factors.reference", "there is no velocity that it could be of");
   }
-  return controls;
+  if (!sources.empty() || !reference.empty())
+    *velocity = ReadVelocities(sources, reference, fps, counts, *velocity);
+}
+
+void WrittenControls::Follow(const WrittenControls& project) {
+  for (const auto& [control, written] : project.controls_) {
+    controls_[control].project = written.project;
+    controls_[control].project_name = written.project_name;
+  }
+}
+
+const std::vector<std::string>& WrittenControls::SourcesOf(size_t row) const {
+  static const std::vector<std::string> kNone;
+  const auto written = controls_.find(kControls[row].name);
+  return written != controls_.end() ? written->second.sources : kNone;
+}
+
+void WrittenControls::RequireControl(const std::string& control,
+                                     const client::ModelDescription& model,
+                                     const client::ServerDescription& server) const {
+  if (Has(model, control)) return;
+  std::string others;
+  for (const client::ModelDescription& other : server.models) {
+    if (Has(other, control)) others += (others.empty() ? "" : ", ") + ('"' + other.name + '"');
+  }
+  throw InvalidArgument(PlaceOf(control, ""),
+                        "the model \"" + model.name + "\" does not have this control, " +
+                            (others.empty() ? "nor has any other of the server"
+                                            : "but these of the server do: " + others));
 }
 
 void WrittenControls::RequireBegun(const ControlRequest& controls,
                                    const DanceLength& length) const {
-  const bool has_path = !path.empty() || !project_path.is_null();
-  if (const auto& asked = controls.root_path;
-      has_path && asked && asked->frames.front() >= length.frames) {
-    throw InvalidArgument(
-        PathName() + ":points[0]",
-        "the path's first point " + DescribeAfterEnd(asked->frames.front(), length));
-  }
-  const auto& asked = controls.velocity_factors;
-  if (!asked || asked->frames.empty() || asked->frames.front() < length.frames) return;
-  const auto file = std::ranges::find_if(velocities, IsVelocityFile);
-  if (file == velocities.end()) return;
-  throw InvalidArgument(
-      *file + (asked->speeds.empty() ? ":factors[0]" : ":speeds[0]"),
-      "the velocities' first point " + DescribeAfterEnd(asked->frames.front(), length));
+  ControlRequest::VisitControls(
+      [&](size_t row, const auto& control) {
+        const std::string name(kControls[row].name);
+        const auto written = controls_.find(name);
+        if (written == controls_.end() || !written->second.IsGiven() || !control ||
+            control->frames.empty() || control->frames.front() < length.frames)
+          return;
+        throw InvalidArgument(
+            PlaceOf(name, "frames[0]"),
+            "the first point " + DescribeAfterEnd(control->frames.front(), length));
+      },
+      controls);
 }
 
-std::string WrittenControls::NameOf(size_t row) const {
-  if (row == kVelocityFactors) return velocity_name;
-  return path.empty() && !project_path.is_null() ? project_path_name
-                                                 : std::string(kControls[row].name);
+std::string WrittenControls::PlaceOf(const std::string& control, std::string_view field) const {
+  const auto found = controls_.find(control);
+  if (found == controls_.end() || !found->second.IsGiven()) return control;
+  const auto& [sources, reference, project, name] = found->second;
+  const bool is_file = !sources.empty() || project.is_null();
+  if (field.empty()) return is_file ? control : name;
+  if (control == kPath && (is_file || HasPoints(project)))
+    return PlaceInFile(is_file ? sources.front() : name, field);
+  if (!is_file) return name + "." + std::string(field);
+  if (control != kVelocity) return sources.front() + ":" + std::string(field);
+  const auto file = std::ranges::find_if(sources, IsVelocityFile);
+  return field.starts_with("frames") && file != sources.end() ? *file : control;
 }
 
 Error WrittenControls::InTermsOf(const Error& error) const {
@@ -118,23 +155,10 @@ Error WrittenControls::InTermsOf(const Error& error) const {
     if (!field.starts_with(prefix)) continue;
     field.remove_prefix(prefix.size());
     if (field == "velocity_factors.reference") return error.Of(std::string(field));
-    const auto row =
-        std::ranges::find(kControls, field.substr(0, field.find('.')), &ControlRow::name);
-    if (row == std::end(kControls)) break;
-    if (!field.starts_with("root_path."))
-      return error.Of(NameOf(static_cast<size_t>(row - kControls)));
-    const size_t bracket = field.find('[');
-    size_t index = 0;
-    if (bracket != std::string_view::npos)
-      std::from_chars(field.data() + bracket + 1, field.data() + field.size(), index);
-    // root_path.points[3] is z of the second point.
-    const bool two_a_point = field.starts_with("root_path.points[");
-    const char* member = field.starts_with("root_path.heights") ? ".y"
-                         : !two_a_point                         ? ""
-                         : index % 2 == 0                       ? ".x"
-                                                                : ".z";
-    return error.Of(PathName() + ":points[" + std::to_string(two_a_point ? index / 2 : index) +
-                    "]" + member);
+    const size_t dot = std::min(field.find('.'), field.size());
+    const std::string control(field.substr(0, dot));
+    if (!controls_.contains(control)) break;
+    return error.Of(PlaceOf(control, field.substr(std::min(dot + 1, field.size()))));
   }
   return error;
 }

@@ -1,10 +1,37 @@
 #include "client/cli/authoring_options.h"
 
+#include <algorithm>
+
 #include "client/authoring/velocities.h"
 #include "client/cli/options.h"
 #include "model/core/rounded.h"
 
 namespace choreo::cli {
+namespace {
+
+std::string VelocityHelp() {
+  return "How fast a part of the body moves: trunk, left_arm, right_arm, left_leg, right_leg, "
+         "arms, legs or all; left_arm=1.5 is a multiplier, 0 to " +
+         Rounded(kMaxVelocityFactor) + ", of the reference, left_arm=1.2cm a speed, 0 to " +
+         Rounded(100 * kMaxVelocity) +
+         " cm a frame; one unit in a command. Or a JSON file, "
+         "for what changes: "
+         "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
+         "\"speeds\". May be given more than once; the last one of a part counts.";
+}
+
+std::string FileHelp(const ControlRow& row) {
+  if (row.name == kControls[kRootPath].name) {
+    return "JSON file that says where the dancer goes: {\"points\": [{\"time\": 0, "
+           "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
+           "win over it, its heights over keys that state no position. For models that have "
+           "this control (`choreo info`).";
+  }
+  return "JSON file with the fields of " + std::string(row.name) +
+         " in the API's Controls. For models that have this control (`choreo info`).";
+}
+
+}  // namespace
 
 CLI::Validator SongFile() {
   CLI::Validator validator(
@@ -35,34 +62,30 @@ void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options) {
       ->check(TimeInSeconds());
 }
 
-void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls) {
-  command
-      .add_option("--path", controls->path,
-                  "JSON file that says where the dancer goes: {\"points\": [{\"time\": 0, "
-                  "\"x\": 0, \"z\": 0}, ...]}, seconds and metres; y is the root's height. Keys "
-                  "win over it, its heights over keys that state no position. For models that have "
-                  "this control (`choreo info`).")
-      ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
-  AddRepeated(command, "--velocity", controls->velocities,
-              "How fast a part of the body moves: trunk, left_arm, right_arm, left_leg, right_leg, "
-              "arms, legs or all; left_arm=1.5 is a multiplier, 0 to " +
-                  Rounded(kMaxVelocityFactor) +
-                  ", of the reference, "
-                  "left_arm=1.2cm a speed, 0 to " +
-                  Rounded(100 * kMaxVelocity) +
-                  " cm a frame; one unit in a command. Or a JSON file, "
-                  "for what changes: "
-                  "{\"factors\": [{\"time\": 0, \"arms\": 1}, {\"time\": 4, \"arms\": 3}]}, or "
-                  "\"speeds\". May be given more than once; the last one of a part counts.");
-  command.add_option("--velocity-reference", controls->reference,
-                     "What --velocity multiplies, of those that `choreo info` lists; default: the "
-                     "model's first.");
+void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls,
+                       std::span<const ControlRow> rows) {
+  for (const ControlRow& row : rows) {
+    authoring::WrittenControl& written = (*controls)[row.name];
+    if (row.name == kControls[kVelocityFactors].name) {
+      AddRepeated(command, "--velocity", written.sources, VelocityHelp());
+      command.add_option("--velocity-reference", written.reference,
+                         "What --velocity multiplies, of those that `choreo info` lists; default: "
+                         "the model's first.");
+      continue;
+    }
+    command.add_option(std::string(row.option), written.sources, FileHelp(row))
+        ->expected(1)
+        ->check([](const std::string& file) { return file.empty() ? "it names no file" : ""; });
+  }
 }
 
 std::vector<NamedFile> FilesOf(const authoring::WrittenControls& controls) {
-  std::vector<NamedFile> files = {{"--path", controls.path}};
-  for (const std::string& source : controls.velocities) {
-    if (authoring::IsVelocityFile(source)) files.push_back({"--velocity", source});
+  std::vector<NamedFile> files;
+  for (size_t row = 0; row < std::size(kControls); ++row) {
+    for (const std::string& source : controls.SourcesOf(row)) {
+      if (row != kVelocityFactors || authoring::IsVelocityFile(source))
+        files.push_back({std::string(kControls[row].option), source});
+    }
   }
   return files;
 }

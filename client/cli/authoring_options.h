@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <span>
 #include <vector>
 
 #include "client/authoring/music_beats.h"
@@ -16,8 +17,9 @@ CLI::Validator SongFile();
 /// --beats, --tempo, --half-time, --double-time, --downbeat.
 void AddBeatOptions(CLI::App& command, authoring::BeatOptions* options);
 
-/// --path, --velocity, --velocity-reference.
-void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls);
+/// The options of these controls; --velocity-reference, too.
+void AddControlOptions(CLI::App& command, authoring::WrittenControls* controls,
+                       std::span<const ControlRow> rows = kControls);
 /// The files that these name.
 std::vector<NamedFile> FilesOf(const authoring::WrittenControls& controls);
 

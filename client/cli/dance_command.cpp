@@ -195,7 +195,8 @@ void AddDanceCommand(CLI::App& program) {
     if (!options->project.empty()) TakeProject(options.get());
     CheckSongStart(*command, options->song);
     const bool keys = !options->keys.empty() && !authoring::SaysNoKeys(options->keys);
-    if (options->song.empty() && !options->seconds && !keys && options->controls.path.empty()) {
+    if (options->song.empty() && !options->seconds && !keys &&
+        !options->controls.IsOption(kRootPath)) {
       throw CLI::RequiredError("A song, or else --keyframes, --path or --seconds");
     }
     Run(*options);

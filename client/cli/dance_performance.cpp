@@ -91,7 +91,7 @@ authoring::DanceKeys ChooseKeys(const DanceOptions& options,
   for (size_t i = 0; i < keys.poses.size(); ++i) {
     keys.places.push_back("keyframes[" + std::to_string(i) + "]");
     // The path sets the dancer's place.
-    if (!options.controls.path.empty()) keys.poses[i].mask.root_position = false;
+    if (options.controls.IsOption(kRootPath)) keys.poses[i].mask.root_position = false;
   }
   return keys;
 }

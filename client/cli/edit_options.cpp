@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "client/authoring/json_fields.h"
+#include "client/cli/asked_controls.h"
 #include "client/cli/options.h"
 #include "client/cli/report.h"
 #include "model/core/atomic_file.h"
@@ -60,25 +61,26 @@ bool IsShortenedTo(const Motion& file, const nlohmann::ordered_json& frames, dou
 /// Fills in the controls of the report that the command line does not give, and this model has.
 void TakeControls(const ControlRequest& known, const client::ModelDescription& model,
                   ControlRequest* controls) {
-  const auto take = [&](size_t row, const auto& from, auto* to) {
-    if (!from || *to) return;
+  const auto take = [&](size_t row, const auto& from, auto& to) {
+    if (!from || to) return;
     const std::string name(kControls[row].name);
     if (std::ranges::find(model.controls, name) != model.controls.end()) {
-      *to = from;
+      to = from;
     } else {
       std::cerr << "note: the model \"" << model.name << "\" does not have the control " << name
                 << ", which the report states\n";
     }
   };
-  take(kRootPath, known.root_path, &controls->root_path);
-  take(kVelocityFactors, known.velocity_factors, &controls->velocity_factors);
+  ControlRequest::VisitControls(take, known, *controls);
 }
 
 DanceChange ChangeOf(const EditOptions& options) {
-  const bool other = !options.style.empty() || !options.controls.velocities.empty() ||
-                     options.temperature || options.music_dynamics || options.variation;
+  bool other =
+      !options.style.empty() || options.temperature || options.music_dynamics || options.variation;
+  for (size_t row = 0; row < std::size(kControls); ++row)
+    other = other || (row != kRootPath && options.controls.IsOption(row));
   if (other) return DanceChange::kOther;
-  if (!options.controls.path.empty())
+  if (options.controls.IsOption(kRootPath))
     return options.seed ? DanceChange::kOther : DanceChange::kPath;
   return options.seed ? DanceChange::kSeed : DanceChange::kNothing;
 }
@@ -116,9 +118,12 @@ void TakeReport(bool says_start, EditOptions* options) {
        number(asked.music_dynamics));
   take("variation", asked.variation, &options->variation, number(asked.variation));
   take("style", asked.style, &options->style, asked.style);
-  if (asked.controls.root_path && options->controls.path.empty()) taken.push_back("the path");
-  if (asked.controls.velocity_factors && options->controls.velocities.empty())
-    taken.push_back("the velocity");
+  ControlRequest::VisitControls(
+      [&](size_t row, const auto& control) {
+        if (control && !options->controls.IsOption(row))
+          taken.push_back("the " + MemberOf(kControls[row]));
+      },
+      asked.controls);
   if (!taken.empty()) {
     std::cerr << "note: as " << options->report << " says: " << Joined(taken, std::identity())
               << '\n';

@@ -40,14 +40,16 @@ void EditSession::DanceOtherwise() {
   Asked& asked = known_.asked;
   static_cast<DanceManner&>(asked) = edit_;
   asked.seed = edit_.seed;
-  if (!options_.controls.path.empty()) asked.controls.root_path = edit_.controls.root_path;
-  if (!options_.controls.velocities.empty())
-    asked.controls.velocity_factors = edit_.controls.velocity_factors;
+  ControlRequest::VisitControls(
+      [&](size_t row, auto& known, const auto& changed) {
+        if (options_.controls.IsOption(row)) known = changed;
+      },
+      asked.controls, edit_.controls);
 }
 
 void EditSession::DanceAnew(const std::string& what, int64_t from, int64_t to) {
   client::Gap gap{.from = from, .to = to, .keys = KeysAsDanced(from + 1, to)};
-  if (const auto& path = edit_.controls.root_path; path && !options_.controls.path.empty()) {
+  if (const auto& path = edit_.controls.root_path; path && options_.controls.IsOption(kRootPath)) {
     // The new path says where they are.
     for (client::KeyPose& key : gap.keys)
       if (*key.frame >= path->frames.front() && *key.frame <= path->frames.back())

@@ -404,7 +404,7 @@ void EditSession::Keep(const std::vector<client::Warning>& warnings) {
 }
 
 void EditSession::FollowPath(int64_t from, int64_t to) {
-  if (!options_.controls.path.empty()) return;
+  if (options_.controls.IsOption(kRootPath)) return;
   // The server warns of a path without effect.
   const bool leads =
       path_ && from < to && path_->frames.front() < to && path_->frames.back() > from;

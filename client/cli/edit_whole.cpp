@@ -162,7 +162,7 @@ class Whole {
     }
     auto [how, counts] = HowToDance(options_, connection, Duration(dance_.motion) + gap_s);
     // The way leads to the other dance, not along the path of this one.
-    if (options_.controls.path.empty()) how.controls.root_path.reset();
+    if (!options_.controls.IsOption(kRootPath)) how.controls.root_path.reset();
     const auto before = std::ssize(dance_.motion.frames) + std::ssize(next.motion.frames);
     client::EditedDance joined;
     try {

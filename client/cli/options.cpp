@@ -15,6 +15,7 @@
 #include "model/core/limits.h"
 #include "model/core/nearest.h"
 #include "model/core/rounded.h"
+#include "model/motion/controls.h"
 #include "model/motion/pose_faults.h"
 
 namespace choreo::cli {
@@ -178,11 +179,9 @@ Error AsTyped(const Error& error) {
       {"config.variation", "--variation"},
       {"downbeat", "--downbeat"},
       {"keyframes", "--keyframes"},
-      {"root_path", "--path"},
       {"seconds", "--seconds"},
       {"song_start", "--song-start"},
       {"token_file", "--token-file"},
-      {"velocity_factors", "--velocity"},
       {"velocity_factors.reference", "--velocity-reference"},
       {"video.fps", "--fps"},
       {"video.height", "--size"},
@@ -191,6 +190,8 @@ Error AsTyped(const Error& error) {
   const std::string reason = error.Of("").what();
   if (reason.ends_with("choose a part of it"))
     return Error(error.code(), error.field(), reason + " (--song-start, --seconds)");
+  const auto control = std::ranges::find(kControls, error.field(), &ControlRow::name);
+  if (control != std::end(kControls)) return error.Of(std::string(control->option));
   const auto option = kOptions.find(error.field());
   return option == kOptions.end() ? error : error.Of(option->second);
 }

@@ -124,7 +124,7 @@ void Run(const TransitionOptions& options) {
   client::KeyPose target = to.key;
   target.id = "target";  // as the report calls it
   // The path sets the place of a library pose.
-  if (!options.controls.path.empty() && !to.has_place) target.mask.root_position = false;
+  if (options.controls.IsOption(kRootPath) && !to.has_place) target.mask.root_position = false;
   if (options.hit) target.hit = options.hit;
   if (!options.hands.empty()) target.hands = FindHandPose(options.hands);
   request.target = target.pose;

@@ -12,10 +12,6 @@ namespace choreo {
 /// Metres above the floor. A root at standing height is a metre lower, and nobody leaps that high.
 inline constexpr double kMaxRootHeight = 2;
 
-/// A path as the client sends it: points in time, world frame, metres. A dense path has a point in
-/// each frame; a sparse one means the smooth curve through its points.
-using RootPath = ControlRequest::RootPath;
-
 /// Throws Error(kInvalidArgument) below `field` for fewer than 2 points, frames that do not ascend
 /// or lie outside a dance, points that are not finite or further than kMaxPosition from the origin,
 /// a number of heights other than that of points, or heights outside [0, kMaxRootHeight].

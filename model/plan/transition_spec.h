@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/core/grid.h"
@@ -39,8 +40,8 @@ struct ModelInfo {
   std::string fingerprint;  ///< model hash + build + kernel set: equal fingerprints give equal bits
   std::string weights;      ///< hash of the checkpoint's content
   std::string packed_kernels;  ///< PackedKernels::name of what computes it; empty: LibTorch
-  std::string licence;  ///< of the weights
-  std::string card;     ///< the model card, JSON
+  std::string licence;         ///< of the weights
+  std::string card;            ///< the model card, JSON
   Skeleton skeleton;
   double fps = kModelFps;               ///< rate at which the model runs
   int history_frames = kHistoryFrames;  ///< tau
@@ -60,9 +61,10 @@ struct ModelInfo {
   std::vector<std::string> styles = {};  ///< available for requests
   FootworkOptions footwork = {};
 
-  bool Takes(size_t control) const {
-    return std::ranges::find(controls, kControls[control].name) != controls.end();
+  bool Takes(std::string_view control) const {
+    return std::ranges::find(controls, control) != controls.end();
   }
+  bool Takes(size_t row) const { return Takes(kControls[row].name); }
 };
 
 /// A key that is reached only after a transition.

@@ -13,14 +13,7 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
-  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(std::string(name));
-  if (field != nullptr) return field;
-  throw Error(ErrorCode::kInternal, "",
-              message.GetTypeName() + " has no field " + std::string(name));
-}
-
-// Calls `read(message, field)` with a repeated field's numbers, one by one.
+/// Calls `read(message, field)` with a repeated field's numbers, one by one.
 template <typename Read>
 auto All(const Message& message, const char* name, const Read& read) {
   const FieldDescriptor* field = FieldOf(message, name);
@@ -31,6 +24,13 @@ auto All(const Message& message, const char* name, const Read& read) {
 }
 
 }  // namespace
+
+const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(std::string(name));
+  if (field != nullptr) return field;
+  throw Error(ErrorCode::kInternal, "",
+              message.GetTypeName() + " has no field " + std::string(name));
+}
 
 void ControlWriter::operator()(const char* name, const std::vector<int64_t>& frames) const {
   for (const int64_t frame : frames)
@@ -99,26 +99,13 @@ void ControlReader::operator()(const char* name, std::string& text) const {
 
 v1::Controls ToProto(const ControlRequest& controls) {
   v1::Controls out;
-  ControlRequest::VisitControls(controls, [&out](size_t row, const auto& control) {
-    const std::string name(kControls[row].name);
-    if (!control) return;
-    Message* message = out.GetReflection()->MutableMessage(&out, FieldOf(out, name));
-    control->VisitFields(*control, ControlWriter(message, name));
-  });
+  WriteControls(controls, &out);
   return out;
 }
 
 ControlRequest FromProto(const v1::Controls& controls, const std::string& field) {
   ControlRequest out;
-  ControlRequest::VisitControls(out, [&](size_t row, auto& control) {
-    const std::string name(kControls[row].name);
-    const FieldDescriptor* sent = FieldOf(controls, name);
-    if (!controls.GetReflection()->HasField(controls, sent)) return;
-    control.emplace();
-    control->VisitFields(
-        *control,
-        ControlReader(controls.GetReflection()->GetMessage(controls, sent), field + '.' + name));
-  });
+  ReadControls(controls, field, &out);
   return out;
 }
 

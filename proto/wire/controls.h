@@ -4,12 +4,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "choreo/v1/choreography.pb.h"
 #include "model/motion/control_request.h"
+#include "model/motion/controls.h"
 
 /// Controls <-> the API's, for server, client and studio. Pure functions, thread-safe.
 namespace choreo::wire {
@@ -56,5 +58,41 @@ class ControlReader {
   const google::protobuf::Message& message_;
   std::string field_;
 };
+
+/// The field of a message that has this name; Error(kInternal) without.
+const google::protobuf::FieldDescriptor* FieldOf(const google::protobuf::Message& message,
+                                                 std::string_view name);
+
+/// Writes a request into a message with a field for each row.
+template <typename Request>
+void WriteControls(const Request& request, google::protobuf::Message* out,
+                   std::span<const ControlRow> rows = kControls) {
+  Request::VisitControls(
+      [&](size_t row, const auto& control) {
+        if (!control) return;
+        const std::string name(rows[row].name);
+        control->VisitFields(
+            *control,
+            ControlWriter(out->GetReflection()->MutableMessage(out, FieldOf(*out, name)), name));
+      },
+      request);
+}
+
+/// Reads it back; errors are below `field`.
+template <typename Request>
+void ReadControls(const google::protobuf::Message& message, const std::string& field,
+                  Request* request, std::span<const ControlRow> rows = kControls) {
+  Request::VisitControls(
+      [&](size_t row, auto& control) {
+        const std::string name(rows[row].name);
+        const auto* sent = FieldOf(message, name);
+        if (!message.GetReflection()->HasField(message, sent)) return;
+        control.emplace();
+        control->VisitFields(
+            *control,
+            ControlReader(message.GetReflection()->GetMessage(message, sent), field + '.' + name));
+      },
+      *request);
+}
 
 }  // namespace choreo::wire

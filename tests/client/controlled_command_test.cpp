@@ -153,9 +153,9 @@ TEST_F(ControlledCommandTest, BadVelocityFilesAreRefused) {
   refused("{}", "v.json: has no list \"factors\"");
   refused(R"({"factors": [{"time": 0}]})", "v.json:factors[0]: names no part of the body");
   refused(R"({"factors": [{"time": 20, "arms": 1}]})",
-          "v.json:factors[0]: the velocities' first point at 20 s is after the dance's end: "
+          "v.json: the first point at 20 s is after the dance's end: "
           "its last frame is at 3.97 s");
-  refused(R"({"speeds": [{"frame": 120, "arms": 1}]})", "v.json:speeds[0]: the velocities' first");
+  refused(R"({"speeds": [{"frame": 120, "arms": 1}]})", "v.json: the first point");
   Write("v.json", R"({"factors": [{"time": 0, "arms": 1}]})");
   const std::string file = "--seconds 4 --velocity " + At("v.json");
   ExpectRefused(file + " --velocity " + At("v.json"), "v.json is a second file");
@@ -340,7 +340,7 @@ TEST_F(ControlledCommandTest, RefusesInvalidPathFiles) {
   ExpectRefused("--path " + At("path.json"), "path.json:points: is there twice");
   Write("path.json", "{" + points + "}");
   ExpectRefused("--seconds 10 --path " + At("path.json"),
-                "path.json:points[0]: the path's first point at 20 s is after the dance's end: "
+                "path.json:points[0]: the first point at 20 s is after the dance's end: "
                 "its last frame is at 9.97 s");
   Write("v.json", R"({"factors": [{"time": 20, "arms": 1}]})");
   const std::string transition = "transition" + Walker() + "--from groove --to kick --at 18 ";

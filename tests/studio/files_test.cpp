@@ -322,11 +322,17 @@ Project OddProject(const Welcome& welcome) {
     project.mutable_beats()->add_counts(static_cast<uint32_t>(count));
   }
   std::ranges::sort(*project.mutable_beats()->mutable_times());
-  for (const double factor : {1.0, 0.1, 1 / 3.0, 2.0, 10.0}) project.add_velocity_factors(factor);
+  v1::Controls& controls = *project.mutable_controls();
+  for (const float factor : {1.0F, 0.1F, 1 / 3.0F, 2.0F, 10.0F})
+    controls.mutable_velocity_factors()->add_factors(factor);
+  for (int part = 0; part < kBodyParts; ++part) {
+    controls.mutable_velocity_factors()->add_parts(
+        static_cast<v1::BodyPart>(v1::BODY_PART_TRUNK + part));
+  }
   for (const int64_t frame : {0, 47}) {
-    project.mutable_path()->add_frames(frame);
-    project.mutable_path()->add_points(static_cast<float>(frame) / 7);
-    project.mutable_path()->add_points(-0.0F);
+    controls.mutable_root_path()->add_frames(frame);
+    controls.mutable_root_path()->add_points(static_cast<float>(frame) / 7);
+    controls.mutable_root_path()->add_points(-0.0F);
   }
   Marker* marker = project.add_markers();
   marker->set_frame(11);
@@ -363,8 +369,8 @@ TEST_F(StudioTest, AProjectIsReadAsItWasWritten) {
   ASSERT_TRUE(file.has_file()) << file.failure().message();
   for (const char* line :
        {"\n  {\"time\": 0.36667, \"name\": \"the \\\"drop\\\", 1\"}\n",
-        "\"bar\": 3,\n \"beats\": [\n", "\"left arm\": 0.1,", "\"hands\": \"fist\"",
-        "\"after\": \"1.4 counts\"", "\"place\": [-1.4, 0]", "\"seed\": 7"})
+        "\"bar\": 3,\n \"beats\": [\n", "\"factors\": [1, 0.1, 0.33333334, 2, 10]",
+        "\"hands\": \"fist\"", "\"after\": \"1.4 counts\"", "\"place\": [-1.4, 0]", "\"seed\": 7"})
     EXPECT_THAT(file.file().data(), HasSubstr(line));
   Request read;
   *read.mutable_read()->mutable_file() = file.file();
@@ -399,8 +405,7 @@ TEST_F(StudioTest, TheCommandLineReadsTheFloatsThatThePageDances) {
   const client::ModelDescription& model = studio.context().model();
   const authoring::Project read = authoring::ReadProject(folder_ / "p.json");
   const auto controls = read.controls.Read(model, studio.context().server());
-  EXPECT_EQ(wire::ToProto({.root_path = controls.root_path}).root_path().DebugString(),
-            write.write().path().DebugString());
+  EXPECT_EQ(wire::ToProto(controls).DebugString(), write.write().controls().DebugString());
   const auto keys = authoring::ReadDanceKeys({folder_ / "p.json"}, {95, model.fps}, model.skeleton);
   ASSERT_EQ(keys.poses.size(), 4U);  // two of them hold the first one
   for (const auto& [nth, said] : {std::pair(0, 0), {3, 1}}) {

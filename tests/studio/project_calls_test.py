@@ -123,7 +123,7 @@ class ProjectCalls(unittest.TestCase):
             ({"seconds": None}, "project:seconds: is missing, and there is no song"),
             ({"seconds": 601}, "project:seconds: 601 is beyond 600, the most that is danced"),
             ({"style": "foxtrot"}, 'project:style: "foxtrot"'),
-            ({"path": {"points": [{"time": 9, "x": 0, "z": 0}, {"time": 10, "x": 1, "z": 0}]}}, "project:path:points[0]: the path's first point at 9 s"),
+            ({"path": {"points": [{"time": 9, "x": 0, "z": 0}, {"time": 10, "x": 1, "z": 0}]}}, "project:path:points[0]: the first point at 9 s"),
             ({"path": {"points": [{"time": 0, "x": 0, "z": 0}, {"time": 1, "x": 2e4, "z": 0}]}}, "project:path:points[1].x"),
             ({"song": "a.wav"}, "project:song_data: is missing beside song"),
             ({"song_data": "AAAA"}, "project:song: is missing beside song_data"),

@@ -3,6 +3,7 @@ import type { MessageInitShape } from '@bufbuild/protobuf';
 import type { Pose } from './body';
 import type { Keyframe, KeyframeSchema } from './generated/choreo/v1/choreography_pb';
 import type { PoseSchema } from './generated/choreo/v1/motion_pb';
+import { controlsMessage, readControls } from './controls';
 import type { Project as Message, ProjectKey, ProjectSchema, StageDancer } from './generated/studio/studio_pb';
 import { emptyProject, handPoses, trimmed } from './project';
 import type { Key, Partner, Project } from './project';
@@ -42,11 +43,10 @@ export const dancersMessage = ({ dancers, apart }: Project, said?: (keys: Key[])
 
 export function projectMessage(project: Project, fps: number): MessageInitShape<typeof ProjectSchema> {
   const said = (keys: Key[]) => trimmed(keys, Math.round(project.seconds * fps), fps).map((key) => ({ key: keyMessage(key), hold: BigInt(key.hold) }));
-  const { song, seconds, seed, style, dynamics, variation, beats, velocities, path, markers, keys } = project;
+  const { song, seconds, seed, style, dynamics, variation, beats, markers, keys } = project;
   return {
-    song, seconds, seed: BigInt(seed), style, musicDynamics: dynamics, variation, velocityFactors: velocities,
+    song, seconds, seed: BigInt(seed), style, musicDynamics: dynamics, variation, controls: controlsMessage(project),
     ...(beats ? { beats: { bar: beats.bar, times: beats.list.map(({ time }) => time), counts: beats.list.map(({ count }) => count) } } : {}),
-    ...(path.length ? { path: { frames: path.map(({ frame }) => BigInt(frame)), points: path.flatMap(({ x, z }) => [x, z]) } } : {}),
     markers: markers.map(({ frame, name }) => ({ frame: BigInt(frame), name })),
     ...dancersMessage(project, said),
     keys: said(keys),
@@ -67,8 +67,7 @@ export function readProject(said: Message, fps: number, height: number): Project
     dynamics: said.musicDynamics ?? usual.dynamics,
     variation: said.variation ?? usual.variation,
     beats: said.beats ? { bar: said.beats.bar, list: said.beats.times.map((time, i) => ({ time, count: said.beats!.counts[i] })) } : null,
-    velocities: said.velocityFactors.length ? said.velocityFactors : usual.velocities,
-    path: said.path ? said.path.frames.map((frame, i) => ({ frame: Number(frame), x: said.path!.points[2 * i], z: said.path!.points[2 * i + 1] })) : [],
+    ...(said.controls ? readControls(said.controls) : {}),
     markers: said.markers.map(({ frame, name }) => ({ frame: Number(frame), name })),
     keys: keysOf(said.keys),
     dancers: said.dancers.map(partner),

@@ -160,6 +160,22 @@ TEST_F(ProjectTest, ItsPathLeadsAsAPathFileDoes) {
   EXPECT_EQ(Bytes("won.bvh"), Bytes("spelt.bvh"));
 }
 
+// Older projects say them in other words.
+TEST_F(ProjectTest, HasTheControlsOfTheApi) {
+  project_["path"] = {
+      {"points", {{{"frame", 0}, {"x", 0}, {"z", 0}}, {{"frame", 90}, {"x", 1}, {"z", 1}}}}};
+  ASSERT_EQ(Dance("--project " + At("p.json"), "older.bvh").code, 0);
+  project_.erase("path");
+  project_.erase("lively");
+  project_["controls"] = {
+      {"root_path", {{"frames", {0, 90}}, {"points", {0, 0, 1, 1}}}},
+      {"velocity_factors",
+       {{"parts", {"trunk", "left_arm", "right_arm"}}, {"factors", {1, 1.5, 1}}}}};
+  const Outcome outcome = Dance("--project " + At("p.json"), "newer.bvh");
+  ASSERT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(Bytes("newer.bvh"), Bytes("older.bvh"));
+}
+
 TEST_F(ProjectTest, NamesAMissingSong) {
   project_["song"] = "other.wav";
   ExpectRefused("p.json:song: ");
@@ -188,6 +204,9 @@ TEST_F(ProjectTest, NamesInvalidFields) {
   with("song", 7, ": 7 is no text");
   with("lively", {{"tail", 1}}, ".tail: is none of trunk");
   with("lively", {{"trunk", 11}}, ".trunk: 11 is not a number from 0 to 10");
+  with("controls", {{"gaze", json::object()}}, ".gaze: is none of root_path, velocity_factors");
+  with("controls", {{"root_path", {{"frames", {0, 90}}}}},
+       ".root_path: is not what the API's message has");
   with("music_dynamics", 1.5, ": 1.5 is not a number from 0 to 1");
   with("variation", -1, ": -1 is not a number from 0 to 1");
   with("beats", 7, ": 7 is no list");

@@ -36,11 +36,11 @@ TEST(WrittenControls, ErrorsNameWhereAControlWasWritten) {
   EXPECT_EQ(project.InTermsOf(path).field(), "p.json:path");
 
   WrittenControls options;
-  options.velocities = {"trunk=2"};
+  options["velocity_factors"].sources = {"trunk=2"};
   EXPECT_EQ(Typed(AskedOf(options)), "--velocity");
   options.Follow(project);
   EXPECT_EQ(Typed(options.InTermsOf(refused)), "--velocity") << "which counts";
-  options.path = "x.json";
+  options["root_path"].sources = {"x.json"};
   EXPECT_EQ(Typed(options.InTermsOf(path)), "--path");
   WrittenControls none;
   none.Follow(project);
@@ -62,13 +62,13 @@ TEST(WrittenControls, AProjectsAreReadAsTheyStand) {
   file["path"]["points"] = {{{"time", 0}, {"x", 0}, {"z", 0.5}}, {{"time", 2}, {"x", 1}, {"z", 1}}};
   const client::ModelDescription model{.controls = {"root_path", "velocity_factors"}};
   WrittenControls options;
-  options.velocities = {"trunk=2"};
+  options["velocity_factors"].sources = {"trunk=2"};
   options.Follow(ParseProject(file, "p.json").controls);
   const ControlRequest read = options.Read(model, {.models = {}, .limits = {}});
   EXPECT_EQ(read.velocity_factors->factors, (std::vector<double>{2, 1.23456789}));
   EXPECT_EQ(read.root_path->frames, (std::vector<int64_t>{0, 60}));
   EXPECT_EQ(read.root_path->points[0].y(), 0.5);
-  options.velocities = {"trunk=1cm"};
+  options["velocity_factors"].sources = {"trunk=1cm"};
   ExpectError(ErrorCode::kInvalidArgument, "velocity_factors",
               [&] { options.Read(model, {.models = {}, .limits = {}}); });
 }

@@ -128,7 +128,7 @@ test('a project is read as it was written', () => {
   const usual = emptyProject('song.mp3', 4);
   const sent = (project) => readProject(fromBinary(ProjectSchema, toBinary(ProjectSchema, create(ProjectSchema, projectMessage(project, 30)))), 30, 1);
   assert.deepEqual(sent(usual), usual);
-  const project = { ...usual, markers: [{ frame: 6, name: 'the "drop", 1' }], seed: 7, style: 'wild', dynamics: 0.9, variation: 0, beats, velocities: [1, 0.1, 1, 2, 1],
+  const project = { ...usual, markers: [{ frame: 6, name: 'the "drop", 1' }], seed: 7, style: 'wild', dynamics: 0.9, variation: 0, beats, velocities: [1, 0.25, 1, 2, 1],
     path: [{ frame: 0, x: 0, z: 0 }, { frame: 30, x: 1, z: 0.5 }], keys: [key, free], dancers, apart: 0.3 };
   assert.deepEqual(sent(project), project);
 });

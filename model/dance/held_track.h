@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/core/error.h"
+#include "model/core/field.h"
+#include "model/dance/said_since.h"
+#include "model/dance/transition.h"
+#include "model/dance/validation.h"
+#include "model/dance/warning.h"
+
+namespace choreo {
+
+/// A control without a class of its own: its request has `frames` and `values`, which are
+/// [rows, channels] and interpolated between rows. Later requests override earlier ones.
+template <typename Request>
+class HeldTrack {
+ public:
+  /// Throws Error(kInvalidArgument) below `field` for frames that do not ascend and for values that
+  /// are not finite or do not fit. Controls::Check knows the least ones.
+  static void Validate(const Request& request, const ModelInfo& /*model*/,
+                       const std::string& field) {
+    ValidateFrames(request.frames, field + ".frames");
+    if (!request.IsWhole()) throw InvalidArgument(field, "there must be a row of values per frame");
+    for (size_t i = 0; i < request.values.size(); ++i) {
+      if (!std::isfinite(request.values[i]))
+        throw InvalidArgument(At(field + ".values", i), "is not finite");
+    }
+  }
+  void Set(const Request& request, int64_t from) {
+    requests_.push_back({from, std::make_shared<Request>(request)});
+  }
+
+  /// Fills in the curve of the spec's controls.
+  void Fill(const ModelInfo& /*model*/, const std::string& /*key_id*/, TransitionSpec* spec,
+            ControlCurve* curve, std::vector<Warning>* /*warnings*/) const {
+    const auto said = std::find_if(requests_.rbegin(), requests_.rend(),
+                                   [&](const auto& one) { return one.from <= spec->first_frame; });
+    if (said == requests_.rend()) return;
+    const auto channels = static_cast<Eigen::Index>(curve->requested.size());
+    const auto rows = Eigen::Map<const Eigen::MatrixXd>(said->what->values.data(), channels,
+                                                        std::ssize(said->what->values) / channels);
+    curve->values.resize(channels, spec->frames);
+    for (int i = 0; i < spec->frames; ++i) {
+      const auto [row, share] = PlaceAmong(said->what->frames, spec->first_frame + i);
+      const auto at = static_cast<Eigen::Index>(row);
+      curve->values.col(i) = rows.col(at);
+      if (share > 0) curve->values.col(i) += double{share} * (rows.col(at + 1) - rows.col(at));
+    }
+  }
+
+ private:
+  std::vector<SaidSince<Request>> requests_;
+};
+
+}  // namespace choreo

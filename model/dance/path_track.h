@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/dance/root_path.h"
+#include "model/dance/said_since.h"
+#include "model/dance/transition.h"
+#include "model/dance/warning.h"
+
+namespace choreo {
+
+struct LeadRequest;
+
+/// The root paths of one dance. A later one overrides earlier ones for the frames it covers. A path
+/// is the curve of PathCurve, bent smoothly to the dancer at a transition's start and to the key at
+/// its end (LeadPath); the key wins, and a warning gives the distance. At keys that are hit it
+/// comes to rest; while a pose is held (IsHold) it waits. Where no path sets the height, the root
+/// is led to the key's height: the one it states, or the one at which its pose stands on the floor.
+/// A path with heights overrides the latter. Transitions that no path covers are left to the model.
+class PathTrack {
+ public:
+  static void Validate(const RootPath& path, const ModelInfo& /*model*/, const std::string& field) {
+    ValidatePath(path, field);
+  }
+  void Set(const RootPath& path, int64_t from) {
+    paths_.push_back({from, std::make_shared<PathCurve>(path)});
+  }
+
+  /// As ControlTrack::Stance.
+  Pose Stance(const Skeleton& skeleton, int64_t first_frame,
+              const std::optional<Target>& key_on_it) const;
+  /// Fills in the curve of the spec's controls.
+  void Fill(const ModelInfo& model, const std::string& key_id, TransitionSpec* spec,
+            ControlCurve* curve, std::vector<Warning>* warnings) const;
+  /// A warning if the last path set begins at `end` or later.
+  std::optional<Warning> BehindEnd(int64_t end) const;
+
+ private:
+  const PathCurve* CurveAt(int64_t frame, int64_t first_frame) const;
+  void WarnOfDistance(const LeadRequest& request, std::vector<Warning>* warnings) const;
+
+  std::vector<SaidSince<PathCurve>> paths_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace choreo {
+
+/// What holds for transitions that begin at `from` or later. Copies share it.
+template <typename What>
+struct SaidSince {
+  int64_t from;
+  std::shared_ptr<const What> what;
+};
+
+/// Where a frame lies among the rows of a control, which ascend: the row at or before it, and how
+/// far it is on the way to the next one, 0 to 1. Outside the rows the nearest one holds. No frames:
+/// one row for all.
+struct RowPlace {
+  size_t row = 0;
+  float share = 0;
+};
+inline RowPlace PlaceAmong(const std::vector<int64_t>& frames, int64_t frame) {
+  const auto after = static_cast<size_t>(std::ranges::upper_bound(frames, frame) - frames.begin());
+  if (after == 0) return {};
+  if (after == frames.size()) return {after - 1, 0};
+  return {after - 1, static_cast<float>(frame - frames[after - 1]) /
+                         static_cast<float>(frames[after] - frames[after - 1])};
+}
+
+}  // namespace choreo

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/dance/said_since.h"
+#include "model/dance/transition.h"
+#include "model/dance/warning.h"
+#include "model/messages/quality_report.h"
+#include "model/motion/control_request.h"
+#include "model/motion/velocity_factors.h"
+
+namespace choreo {
+
+/// The requested speeds of body parts over one dance. Later requests override earlier ones part by
+/// part. Parts and frames without a request use the model's first reference.
+class VelocityTrack {
+ public:
+  /// Throws Error(kInvalidArgument) below `field` for bad numbers of rows and columns, for factors
+  /// outside [0, kMaxVelocityFactor] or speeds outside [0, kMaxVelocity], and for a reference that
+  /// the model lacks.
+  static void Validate(const VelocityRequest& request, const ModelInfo& model,
+                       const std::string& field);
+  void Set(const VelocityRequest& request, int64_t from) {
+    requests_.push_back({from, std::make_shared<VelocityRequest>(request)});
+  }
+
+  /// Fills in the curve of the spec's controls.
+  void Fill(const ModelInfo& model, const std::string& key_id, TransitionSpec* spec,
+            ControlCurve* curve, std::vector<Warning>* warnings) const;
+  /// A warning that names the parts whose speed, over the dance of this report, missed the
+  /// requested one by more than 15 % and 1 mm a frame.
+  std::optional<Warning> Missed(const QualityReport& report) const;
+
+ private:
+  std::vector<SaidSince<VelocityRequest>> requests_;
+};
+
+}  // namespace choreo

@@ -1,0 +1,27 @@
+// A project's controls as the API has them, and back: of new dances, transitions and the project's file.
+import type { MessageInitShape } from '@bufbuild/protobuf';
+import { BodyPart } from './generated/choreo/v1/choreography_pb';
+import type { Controls, ControlsSchema } from './generated/choreo/v1/choreography_pb';
+import type { Project } from './project';
+
+type Asked = Pick<Project, 'path' | 'velocities'>;
+
+/// In the order of `parts` (project.ts).
+const bodyParts = [BodyPart.TRUNK, BodyPart.LEFT_ARM, BodyPart.RIGHT_ARM, BodyPart.LEFT_LEG, BodyPart.RIGHT_LEG];
+
+/// undefined: the model decides all of them.
+export function controlsMessage({ path, velocities }: Asked): MessageInitShape<typeof ControlsSchema> | undefined {
+  const isUsual = velocities.every((factor) => factor === 1);
+  if (isUsual && path.length === 0) return undefined;
+  return {
+    ...(path.length ? { rootPath: { frames: path.map(({ frame }) => BigInt(frame)), points: path.flatMap(({ x, z }) => [x, z]) } } : {}),
+    ...(isUsual ? {} : { velocityFactors: { factors: velocities, parts: bodyParts } }),
+  };
+}
+
+export function readControls({ rootPath, velocityFactors }: Controls): Asked {
+  return {
+    path: rootPath ? rootPath.frames.map((frame, i) => ({ frame: Number(frame), x: rootPath.points[2 * i], z: rootPath.points[2 * i + 1] })) : [],
+    velocities: bodyParts.map((part) => velocityFactors?.factors[velocityFactors.parts.indexOf(part)] ?? 1),
+  };
+}
