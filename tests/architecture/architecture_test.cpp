@@ -335,6 +335,20 @@ TEST(Architecture, WhatServersSayNamesNoOptions) {
 }
 
 // Programs that use the installed client find all that its headers include.
+// As the page says; toy_control_test adds one without more than these.
+TEST(Architecture, AControlIsAddedInFewFiles) {
+  const std::string& text = TextOf("docs/extending.md");
+  const size_t begin = text.find("## A control"), end = text.find("\n## ", begin);
+  const std::string recipe = text.substr(begin, end - begin);
+  const std::regex row(R"(\n\| [0-9]\.[^|]*\|[^`]*`([^`]*)`)");
+  std::set<std::string> files;
+  for (std::sregex_iterator at(recipe.begin(), recipe.end(), row), last; at != last; ++at) {
+    files.insert((*at)[1]);
+    EXPECT_FALSE(TextOf((*at)[1]).empty()) << (*at)[1];
+  }
+  EXPECT_EQ(files.size(), 8U);
+}
+
 // It is opaque: what somebody needs of it, the model's description states by itself.
 TEST(Architecture, NobodyReadsAFingerprint) {
   const std::regex parsed(R"(fingerprint(\(\))?\.(find|substr|starts_with|ends_with|contains)\b)");

@@ -6,6 +6,7 @@
 #include "model/flow/window_features.h"
 #include "tests/flow/flow_scene.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/toy_control.h"
 
 // Two more rows in the table of controls, and all that walks it knows them.
 namespace choreo::toy_control_test {
@@ -13,7 +14,7 @@ namespace choreo::toy_control_test {
 constexpr std::array<ControlRow, 4> kRows = {
     kControls[kRootPath],
     kControls[kVelocityFactors],
-    {"gaze", "gaze", "--gaze", ControlSpace::kPlace, 3, ControlFeatures::kPlain},
+    toy::kRows[toy::kGaze],
     {"weight", "weight", "--weight", ControlSpace::kPlain, 2, ControlFeatures::kPlain, 0, "kg"}};
 constexpr size_t kGaze = 2, kWeight = 3;
 
