@@ -11,6 +11,7 @@
 #include "model/motion/kinematics.h"
 #include "tests/client/command_fixture.h"
 #include "tests/client/test_music.h"
+#include "tests/support/eventually.h"
 
 /// Programs that get a signal to stop.
 namespace choreo::interruption_test {
@@ -37,8 +38,8 @@ class InterruptionTest : public CommandTest {
     const std::string pid_file = (folder_ / "pid").string();
     std::atomic<bool> over = false;
     std::thread sender([&] {
-      while (!over && !(when() && std::filesystem::exists(pid_file)))
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      Eventually([&] { return over || (when() && std::filesystem::exists(pid_file)); },
+                 std::chrono::seconds(300));
       pid_t process = 0;
       if (std::ifstream(pid_file) >> process) kill(process, signal);
     });

@@ -10,6 +10,7 @@
 
 #include "client/authoring/local_server.h"
 #include "client/choreo_client.h"
+#include "tests/support/eventually.h"
 #include "tests/support/setting.h"
 
 /// Three replicas, many dances in real time, and one server after the other that is killed or falls
@@ -160,12 +161,17 @@ TEST(ReplicaFaultTest, TerminatedReplicaHandsOverAndExitsWithZero) {
   constexpr int64_t kFrames = 300;
   const auto dance = client.StartDance(ConfigOf(1, kFrames));
   dance->GenerateUntil(150);
-  std::jthread later([&] {
-    std::this_thread::sleep_for(milliseconds(500));
-    ::kill(leaving.process(), SIGTERM);
-    dance->CompleteKeys();
-  });
-  const Danced danced = Read(*dance);
+  Danced danced;
+  while (danced.frames.size() < 150) {
+    const std::optional<Message> message = dance->Next();
+    ASSERT_TRUE(message);
+    if (const auto* block = std::get_if<FrameBlock>(&*message))
+      danced.frames.insert(danced.frames.end(), block->poses.begin(), block->poses.end());
+  }
+  ::kill(leaving.process(), SIGTERM);
+  dance->CompleteKeys();
+  const Danced rest = Read(*dance);
+  danced.frames.insert(danced.frames.end(), rest.frames.begin(), rest.frames.end());
   const auto again = Client({.addresses = {heir.address()}}).StartDance(ConfigOf(1, kFrames));
   again->CompleteKeys();
   const Danced wanted = Read(*again);
@@ -173,15 +179,17 @@ TEST(ReplicaFaultTest, TerminatedReplicaHandsOverAndExitsWithZero) {
   for (size_t i = 0; i < wanted.frames.size(); ++i) {
     ASSERT_EQ(danced.frames[i].rotations, wanted.frames[i].rotations) << i;
   }
-  for (;;) {
+  std::string end;
+  const bool has_ended = Eventually([&] {
     try {
       leaving.RequireRunning();
-      std::this_thread::sleep_for(milliseconds(10));
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("exit code 0"), std::string::npos) << error.what();
-      return;
+      end = error.what();
     }
-  }
+    return !end.empty();
+  });
+  EXPECT_TRUE(has_ended);
+  EXPECT_NE(end.find("exit code 0"), std::string::npos) << end;
 }
 
 }  // namespace choreo::client::replica_fault_test

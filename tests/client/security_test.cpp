@@ -152,7 +152,6 @@ TEST_F(TlsTest, ARenewedCertificateIsShownWithoutARestart) {
   // For a moment the two do not go together, as where files are copied one by one.
   const Certificate renewed = stranger_.Issue("renewed");
   std::filesystem::copy(renewed.key, own.key, std::filesystem::copy_options::overwrite_existing);
-  std::this_thread::sleep_for(std::chrono::milliseconds(2'500));
   EXPECT_TRUE(Serves(Trusting(*server, authority_)));
   std::filesystem::copy(renewed.certificate, own.certificate,
                         std::filesystem::copy_options::overwrite_existing);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/server/fixture.h"
+#include "tests/support/eventually.h"
 #include "tests/support/sanitizers.h"
 
 namespace choreo::lifecycle_test {
@@ -129,16 +130,7 @@ TEST_F(LifecycleTest, SlowReaderPausesOnlyItsOwnDance) {
   config.set_frames(20'000);
   slow.Send(config);
   slow.SendKeyframesComplete();
-  int64_t before = -1;
-  ExpectEventually(
-      [&] {
-        const int64_t now = probe->frames;
-        const bool still = now == before && now > 0;
-        before = now;
-        std::this_thread::sleep_for(milliseconds(50));
-        return still;
-      },
-      "the dance pauses");
+  EXPECT_TRUE(Settles([this] { return probe->frames.load(); })) << "the dance does not pause";
   EXPECT_LT(probe->frames, 19'000);
   ExpectServes();
   const Answer& answer = slow.Finish();
@@ -166,16 +158,7 @@ TEST_F(LifecycleTest, ServerDoesNotReadFromASlowReader) {
     while (sent < kMessages && client.Send(remove)) ++sent;
     client.HalfClose();
   });
-  int before = -1;
-  ExpectEventually(
-      [&] {
-        const int now = sent;
-        const bool still = now == before && now > 0;
-        before = now;
-        std::this_thread::sleep_for(milliseconds(100));
-        return still;
-      },
-      "the server stops reading");
+  EXPECT_TRUE(Settles([&] { return sent.load(); })) << "the server goes on reading";
   EXPECT_LT(sent, kMessages);
   while (client.ReadOne()) {
   }
@@ -228,7 +211,7 @@ TEST_F(LifecycleTest, DrainedStreamEndsAfterATransition) {
   client.Send(config);
   client.SendGenerateUntil(30);
   ASSERT_TRUE(client.ReadFrames(30));
-  const std::jthread drain([this] { server->Drain(4.0); });
+  const std::jthread drain([this] { server->Drain(2.0); });
   for (int64_t granted = 60; client.SendGenerateUntil(granted); granted += 30) {
     if (!client.ReadFrames(granted)) break;
     std::this_thread::sleep_for(milliseconds(10));

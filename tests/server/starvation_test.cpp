@@ -5,7 +5,6 @@
 #include <iostream>
 #include <thread>
 
-#include "model/engine/sampling_cost.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::starvation_test {
@@ -203,7 +202,7 @@ TEST_F(StarvationTest, RefusesAtOnceWhatCannotBeServedInTime) {
     }
   };
   auto slow = std::make_unique<SlowSampler>();
-  WarmUp(*slow);
+  slow->set_seconds_a_frame(0.05);  // as WarmUp measures in seconds
   StartWith(std::move(slow));
   DanceClient first(stub());
   v1::DanceConfig long_dance = Config();

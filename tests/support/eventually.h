@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <thread>
 
@@ -16,6 +17,18 @@ inline bool Eventually(const std::function<bool()>& condition,
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return true;
+}
+
+/// Whether a count is above 0 and, for a while, stays as it is.
+inline bool Settles(const std::function<int64_t()>& count) {
+  int64_t before = 0;
+  int same = 0;
+  return Eventually([&] {
+    const int64_t now = count();
+    same = now == before && now > 0 ? same + 1 : 0;
+    before = now;
+    return same == 50;
+  });
 }
 
 }  // namespace choreo

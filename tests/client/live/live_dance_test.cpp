@@ -28,6 +28,7 @@
 #include "tests/client/command_fixture.h"
 #include "tests/client/live/osc_receiver.h"
 #include "tests/client/test_music.h"
+#include "tests/support/eventually.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::live_dance_test {
@@ -434,15 +435,17 @@ TEST_F(CommandTest, ALiveDanceTakesKeysOverOsc) {
 TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
   WriteClicks(folder_ / "song.wav", 60);
   auto server = std::make_unique<authoring::LocalServer>(FAKE_CHOREOD);
+  OscReceiver watched;
   std::thread killer([&] {
-    std::this_thread::sleep_for(std::chrono::seconds(4));
+    EXPECT_TRUE(Eventually([&] { return watched.count() > 45; }));  // the last key is at 1.1 s
     kill(server->process(), SIGKILL);
   });
   std::ofstream(folder_ / "keys.json")
       << R"({"keyframes": [{"id": "k", "time": 0.7, "pose": "kick", "hold": 0.4}]})";
   const Outcome outcome =
       Choreo("live " + At("song.wav") + " -k " + At("keys.json") + " -o " + At("d.npz") +
-             " --report " + At("r.json") + " --server " + server->address() + " </dev/null");
+             " --report " + At("r.json") + " --vmc " + watched.address() + " --server " +
+             server->address() + " </dev/null");
   killer.join();
   EXPECT_EQ(outcome.code, 1);
   const size_t lost = outcome.said.find("note: " + server->address() + ": ");
@@ -462,7 +465,7 @@ TEST_F(CommandTest, ALiveDanceReportsALostServerAtOnce) {
 }
 
 TEST_F(CommandTest, ALiveDanceNamesAFullServerItsLimitAndWhenToComeAgain) {
-  WriteClicks(folder_ / "song.wav", 60);
+  WriteClicks(folder_ / "song.wav", 4);
   setenv("CHOREO_MAX_STREAMS", "1", 1);
   const authoring::LocalServer server(FAKE_CHOREOD);
   unsetenv("CHOREO_MAX_STREAMS");
@@ -495,18 +498,16 @@ TEST_F(CommandTest, ALiveDanceGoesOnInexactlyIfAsked) {
 TEST_F(CommandTest, ALiveDanceEndsInOrderWhenInterrupted) {
   WriteClicks(folder_ / "song.wav", 60);
   const std::string pid_file = (folder_ / "pid").string();
-  std::atomic<bool> over = false;
+  OscReceiver watched;
   std::thread sender([&] {
-    while (!over && server_.transitions() == 0)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_TRUE(Eventually([&] { return watched.count() > 5; }));
     pid_t process = 0;
     if (std::ifstream(pid_file) >> process) kill(process, SIGINT);
   });
-  const Outcome outcome = Choreo("live " + At("song.wav") + Server() + "-o " + At("d.npz") +
-                                     " --report " + At("r.json") + " </dev/null",
-                                 "echo $$ > '" + pid_file + "'; exec ");
-  over = true;
+  const Outcome outcome =
+      Choreo("live " + At("song.wav") + Server() + "-o " + At("d.npz") + " --report " +
+                 At("r.json") + " --vmc " + watched.address() + " </dev/null",
+             "echo $$ > '" + pid_file + "'; exec ");
   sender.join();
   EXPECT_EQ(outcome.code, 0) << outcome.said;
   const size_t frames = ReadMotion(folder_ / "d.npz", Skeleton::Smpl24()).frames.size();

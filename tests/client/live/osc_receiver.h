@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -80,6 +81,8 @@ class OscReceiver {
   int port() const { return port_; }
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
+  size_t count() const { return count_; }
+
   /// What has come, and nothing comes any more.
   std::vector<std::vector<OscMessage>> Stop() {
     if (thread_.joinable()) {
@@ -101,13 +104,16 @@ class OscReceiver {
   void Receive() {
     std::vector<char> buffer(1 << 16);
     ssize_t size = 0;
-    while ((size = recv(socket_, buffer.data(), buffer.size(), 0)) > 0)
+    while ((size = recv(socket_, buffer.data(), buffer.size(), 0)) > 0) {
       datagrams_.emplace_back(buffer.data(), static_cast<size_t>(size));
+      ++count_;
+    }
   }
 
   int socket_;
   int port_ = 0;
   std::vector<std::string> datagrams_;
+  std::atomic<size_t> count_ = 0;
   std::thread thread_;
 };
 
