@@ -102,8 +102,8 @@ struct BvhLayout {
 /// Converts a motion to our layout: rest offsets, 6 channels at the root, ZXY Euler angles at all
 /// joints, an End Site at each leaf. The root's offset is the hips' height at rest, so a body at
 /// rest stands on the floor; position channels replace it. Euler angles are continuous in time
-/// where possible. Throws Error(kInvalidArgument) for a motion without frames or with another joint
-/// count, and for a skeleton other than SMPL's with names other than its own.
+/// (euler_angles.h). Throws Error(kInvalidArgument) for a motion without frames or with another
+/// joint count, and for a skeleton other than SMPL's with names other than its own.
 BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLayout& layout = {});
 
 /// The file's own skeleton (OwnSkeleton). Its unit is centimetres, or metres if the body is less

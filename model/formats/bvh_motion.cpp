@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "model/core/error.h"
 #include "model/formats/bvh.h"
+#include "model/formats/euler_angles.h"
 #include "model/formats/own_arrays.h"
 #include "model/formats/own_skeleton.h"
 #include "model/motion/resample.h"
@@ -37,23 +39,6 @@ BvhPlacement PlaceBvhJoint(const BvhJoint& joint, const double* values) {
     }
   }
   return local;
-}
-
-// Angles z, x, y (radians) with R = Rz Rx Ry, of the two solutions (and their whole turns) the one
-// nearest to `previous`.
-Eigen::Vector3d EulerZxy(const Eigen::Matrix3d& r, const Eigen::Vector3d& previous) {
-  // At a quarter turn about x, z and y turn about the same axis; y keeps its value.
-  const bool locked = std::hypot(r(2, 0), r(2, 2)) < 1e-9;
-  const double y = locked ? previous.z() : std::atan2(-r(2, 0), r(2, 2));
-  const Eigen::Matrix3d zx = r * Eigen::AngleAxisd(-y, Eigen::Vector3d::UnitY()).matrix();
-  const Eigen::Vector3d one(std::atan2(zx(1, 0), zx(0, 0)), std::atan2(zx(2, 1), zx(2, 2)), y);
-  const Eigen::Vector3d other(one.x() + M_PI, M_PI - one.y(), one.z() + M_PI);
-  const auto near = [&](Eigen::Vector3d angles) {
-    for (int i = 0; i < 3; ++i) angles[i] = previous[i] + WrapAngle(angles[i] - previous[i]);
-    return angles;
-  };
-  const Eigen::Vector3d a = near(one), b = near(other);
-  return (a - previous).squaredNorm() <= (b - previous).squaredNorm() ? a : b;
 }
 
 /// The blocks of a file and our joint for each, -1 for an End Site.
@@ -201,18 +186,17 @@ BvhFile MotionToBvh(const Skeleton& skeleton, const Motion& motion, const BvhLay
   file.joints = std::move(blocks.joints);
   file.frame_time = 1 / motion.fps;
   file.values.resize(3 + 3 * skeleton.joints(), static_cast<int64_t>(motion.frames.size()));
-  Eigen::Matrix3Xd euler = Eigen::Matrix3Xd::Zero(3, skeleton.joints());  // of the frame before
   for (size_t frame = 0; frame < motion.frames.size(); ++frame) {
-    const Pose& pose = motion.frames[frame];
-    auto values = file.values.col(static_cast<int64_t>(frame));
-    values.head<3>() = pose.root_position * layout.units_per_metre;
-    int row = 3;
-    for (const int joint : blocks.ours) {
-      if (joint < 0) continue;
-      euler.col(joint) = EulerZxy(ExpMap(pose.rotations.col(joint)), euler.col(joint));
-      values.segment<3>(row) = euler.col(joint) * kDegrees;
-      row += 3;
-    }
+    file.values.col(static_cast<int64_t>(frame)).head<3>() =
+        motion.frames[frame].root_position * layout.units_per_metre;
+  }
+  int row = 3;
+  for (const int joint : blocks.ours) {
+    if (joint < 0) continue;
+    std::vector<Eigen::Matrix3d> rotations;
+    for (const Pose& pose : motion.frames) rotations.push_back(ExpMap(pose.rotations.col(joint)));
+    file.values.middleRows<3>(row) = EulerAnglesZxy(rotations) * kDegrees;
+    row += 3;
   }
   return file;
 }

@@ -159,6 +159,33 @@ TEST(Bvh, EulerAnglesAreContinuousThroughGimbalLock) {
   }
 }
 
+// Knees bend past a quarter turn, a little to one side or the other: angles wound up there, so the
+// end of a dance had others after a change in its middle.
+TEST(Bvh, EulerAnglesDoNotWindUp) {
+  const auto dance = [](double side) {
+    Motion motion;
+    for (int frame = 0; frame <= 300; ++frame) {
+      Pose pose = RestPose(kSmpl);
+      const double bend = 1 + std::sin(frame * M_PI / 15);  // 0 to 115 degrees
+      const double aside = frame < 100 || frame > 200 ? 0.1 : side;
+      pose.rotations.col(kSmpl.left_knee) << bend, 0.03, aside * std::sin(frame * M_PI / 40);
+      motion.frames.push_back(pose);
+    }
+    return MotionToBvh(kSmpl, motion).values;
+  };
+  const Eigen::MatrixXd one = dance(0.1), other = dance(-0.3);
+  EXPECT_LT(one.cwiseAbs().maxCoeff(), 200);
+  EXPECT_LT(other.cwiseAbs().maxCoeff(), 200);
+  EXPECT_LT((one - other).rightCols(80).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Bvh, AFileMayBeginWithABentKnee) {
+  Pose pose = RestPose(kSmpl);
+  pose.rotations.col(kSmpl.left_knee) << 2.1, 0.01, 0.02;
+  const BvhFile file = MotionToBvh(kSmpl, {.fps = 30, .frames = {pose, pose}});
+  EXPECT_LT(file.values.bottomRows(file.values.rows() - 3).cwiseAbs().maxCoeff(), 125);
+}
+
 TEST(Bvh, KnowsOurSkeletonFromOthers) {
   BvhFile file = MotionToBvh(kSmpl, fixtures::SmoothMotion(kSmpl, 1, 1));
   EXPECT_TRUE(BvhToMotion(file, kSmpl));
