@@ -17,7 +17,7 @@ pose() {
     if [[ -e $folder/$1.json ]]; then arguments+=(--from "$folder/$1.json"); else arguments+=(--from "$1"); fi
     shift
   fi
-  arguments+=(--lift "${lift:-0}")
+  arguments+=(--lift "${lift:-0}" --keep-hands)
   for word in "$@"; do
     if [[ $word == at ]]; then option=--reach; else arguments+=("$option" "$word"); fi
   done

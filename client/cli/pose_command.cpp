@@ -181,10 +181,13 @@ void AddPoseCommand(CLI::App& program) {
                    "Put it so many metres above the floor, for a jump. Not with --ground.")
       ->check(NumberFrom(0, kMaxJumpHeight))
       ->excludes(ground);
-  AddRepeated(*command, "--reach", recipe.reach,
-              "JOINT=X,Y,Z: draw a joint to a place, metres, as in right_hand=0.3,1.6,0.2. Feet "
-              "that are not drawn stay where they are; a foot's height is its sole's. May be given "
-              "more than once.");
+  AddRepeated(
+      *command, "--reach", recipe.reach,
+      "JOINT=X,Y,Z: draw a joint to a place, metres, as in right_hand=0.3,1.6,0.2. Feet "
+      "that are not drawn stay where they are; a foot's height is its sole's. Trunk and arms "
+      "follow the pelvis. May be given more than once.");
+  command->add_flag("--keep-hands", recipe.keeps_hands,
+                    "Hands and head stay near their places where --reach moves the pelvis.");
   command->add_flag("--mirror", recipe.mirror, "Make left what is right.");
   command->add_option("--at", options->at_s, "Second of the dance for the key that is written.")
       ->check(TimeInSeconds())

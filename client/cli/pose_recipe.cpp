@@ -72,10 +72,10 @@ void Set(const std::vector<std::string>& set, const Skeleton& skeleton, client::
   }
 }
 
-void Draw(const std::vector<std::string>& reach, const Skeleton& skeleton, Pose* pose) {
+void Draw(const PoseRecipe& recipe, const Skeleton& skeleton, Pose* pose) {
   std::vector<JointTarget> targets;
   std::vector<std::string> fields;
-  for (const std::string& text : reach) {
+  for (const std::string& text : recipe.reach) {
     auto [field, joint, place] = Parse("--reach", text, skeleton);
     if (place.size() != 3)
       throw InvalidArgument(field, "takes three numbers, metres along x, y and z; there are " +
@@ -87,7 +87,8 @@ void Draw(const std::vector<std::string>& reach, const Skeleton& skeleton, Pose*
     targets.push_back({joint, {place[0], place[1], place[2]}});
     fields.push_back(std::move(field));
   }
-  DrawnPose drawn = DrawJoints(skeleton, *pose, targets);
+  DrawnPose drawn = DrawJoints(skeleton, *pose, targets,
+                               recipe.keeps_hands ? UpperBody::kStays : UpperBody::kFollowsPelvis);
   for (size_t i = 0; i < targets.size(); ++i) {
     if (drawn.missed_m[i] <= kOutOfReach) continue;
     throw InvalidArgument(
@@ -114,7 +115,7 @@ client::KeyPose MakePose(const PoseRecipe& recipe, const Skeleton& skeleton) {
   Set(recipe.set, skeleton, &key);
   if (recipe.height_m)
     key.pose.root_position.y() += *recipe.height_m - DollAboveFloor(skeleton, key.pose);
-  Draw(recipe.reach, skeleton, &key.pose);
+  Draw(recipe, skeleton, &key.pose);
   if (recipe.mirror) MirrorKey(skeleton, &key);
   return key;
 }

@@ -20,7 +20,8 @@ struct PoseRecipe {
   /// "right_hand=0.3,1.6,0.2": joints moved to places, metres (fit/inverse_kinematics.h). The
   /// height of foot joints is the sole's: 0 is the floor.
   std::vector<std::string> reach;
-  bool mirror = false;  ///< swaps left and right
+  bool keeps_hands = false;  ///< and head where they are when the pelvis is moved
+  bool mirror = false;       ///< swaps left and right
 };
 
 /// Makes the pose. Its mask is that of `from` plus the joints that were set. Throws

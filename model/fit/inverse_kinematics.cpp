@@ -35,11 +35,16 @@ constexpr FitOptions kDrawnOptions = {.rest_rad = 6,
 
 // Pins by joint: the targets, and all joints that should stay.
 std::map<int, Pin> PinsOf(const Skeleton& skeleton, const Eigen::Matrix3Xd& now,
-                          std::span<const JointTarget> targets) {
+                          std::span<const JointTarget> targets, UpperBody upper_body) {
+  Eigen::Vector3d follows = Eigen::Vector3d::Zero();
+  const auto pelvis = std::ranges::find(targets, 0, &JointTarget::joint);
+  if (upper_body == UpperBody::kFollowsPelvis && pelvis != targets.end())
+    follows = pelvis->position - now.col(0);
   std::map<int, Pin> pins = {{0, {now.col(0), kLoose}}};
   for (const char* name :
        {"spine3", "head", "left_wrist", "right_wrist", "left_hand", "right_hand"}) {
-    if (const int joint = skeleton.Find(name); joint >= 0) pins[joint] = {now.col(joint), kLoose};
+    if (const int joint = skeleton.Find(name); joint >= 0)
+      pins[joint] = {now.col(joint) + follows, kLoose};
   }
   const auto& feet = skeleton.feet;
   for (const int foot : feet) {
@@ -77,11 +82,11 @@ SourceMapping Landmarks(const Skeleton& skeleton, const std::map<int, Pin>& pins
 }  // namespace
 
 DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
-                     std::span<const JointTarget> targets) {
+                     std::span<const JointTarget> targets, UpperBody upper_body) {
   const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
   DrawnPose drawn{pose, {}};
   if (targets.empty()) return drawn;
-  const std::map<int, Pin> pins = PinsOf(skeleton, now, targets);
+  const std::map<int, Pin> pins = PinsOf(skeleton, now, targets, upper_body);
   Eigen::Matrix3Xd places(3, std::ssize(pins));
   Eigen::Index mark = 0;
   for (const auto& [joint, pin] : pins) places.col(mark++) = pin.position;

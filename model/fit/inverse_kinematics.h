@@ -21,6 +21,12 @@ struct DrawnPose {
   std::vector<double> missed_m;  ///< [targets] each joint's final distance from its target
 };
 
+/// What hands, head and chest without targets do when the pelvis has one.
+enum class UpperBody {
+  kStays,  ///< near its places, as with hands on a barre
+  kFollowsPelvis,
+};
+
 /// Pulls joints to their targets by a least-squares fit (fit/fit_problem.h). Feet without targets
 /// stay in place. Hands, head, pelvis and chest stay nearby, so an arm reaches first, and the trunk
 /// leans only if the arm is too short. Knees and elbows bend freely; other joints turn as little as
@@ -28,6 +34,7 @@ struct DrawnPose {
 /// millisecond. `targets` are finite, one per joint at most. Pure. Throws Error(kInvalidArgument)
 /// for a pose of another joint count.
 DrawnPose DrawJoints(const Skeleton& skeleton, const Pose& pose,
-                     std::span<const JointTarget> targets);
+                     std::span<const JointTarget> targets,
+                     UpperBody upper_body = UpperBody::kStays);
 
 }  // namespace choreo

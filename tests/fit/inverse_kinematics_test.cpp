@@ -55,6 +55,24 @@ TEST(DrawJoints, MeetsReachableTargetsWithPlantedFeet) {
   }
 }
 
+// Hands and head that stayed where they were twisted a body that crouched.
+TEST(DrawJoints, TheUpperBodyFollowsThePelvis) {
+  const Pose standing = Standing();
+  for (const Eigen::Vector3d& place : {Eigen::Vector3d(0, 0.6, 0), Eigen::Vector3d(0.1, 0.8, 0)}) {
+    const DrawnPose drawn = DrawJoints(Body(), standing, std::vector{Target("pelvis", place)},
+                                       UpperBody::kFollowsPelvis);
+    EXPECT_LT(drawn.missed_m[0], 0.005);
+    const Eigen::Vector3d way = place - At(standing, "pelvis");
+    for (const char* joint : {"left_hand", "right_hand", "head"})
+      EXPECT_LT((At(drawn.pose, joint) - At(standing, joint) - way).norm(), 0.05) << joint;
+    for (const char* joint : {"spine2", "spine3", "left_collar", "right_collar"}) {
+      const auto turn = static_cast<Eigen::Index>(Body().Find(joint));
+      EXPECT_LT(drawn.pose.rotations.col(turn).norm(), 0.15) << joint;
+    }
+    ExpectSoundLimbs(drawn.pose);
+  }
+}
+
 TEST(DrawJoints, AMovedFootKeepsItsRotation) {
   const Pose standing = Standing();
   const Eigen::Vector3d place = At(standing, "left_foot") + Eigen::Vector3d(0.3, 0, 0.3);
