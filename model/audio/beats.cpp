@@ -199,8 +199,8 @@ Path PathOf(std::span<const Onset> onsets, MusicExtent extent, const TempoLimits
   const double fastest = std::min(limits.fastest_bpm, kMaxTappedBpm);
   const int slow = static_cast<int>(std::ceil(2 * 60 * kOnsetRate / fastest - 0.5));
   if (halves.Period() >= slow) {
-    if (halves.AreAlike(extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch))
-      return Doubled(path, slow);
+    const double alike = extent == MusicExtent::kWhole ? kAlike : kAlikeInStretch;
+    if (halves.AreAlike(alike) || halves.AreAlikeButForAccent(alike)) return Doubled(path, slow);
     if (const int snare = halves.SnareHalf(); snare >= 0) return Doubled(path, slow, 1 - snare);
   }
   const Meter meter = halves.MeterOf();

@@ -13,8 +13,19 @@ constexpr double kClearly = 0.1;     // of all variance; less is chance
 constexpr double kLouderBass = 2;    // between beats than on them
 constexpr double kAsMuchBass = 0.7;  // on kicks, beside snares that kicks may double
 constexpr double kNearlyAll = 0.9;   // beats; a bass guitar's rhythm varies
+constexpr float kHeard_dB = 2;       // rise of a band; less can't be heard
 constexpr size_t kAround = 4;        // beats that tell how strong a part's onsets are
 constexpr double kWeak = 0.5;        // beside the strongest part's
+
+struct Mean {
+  double sum = 0, count = 0;
+
+  void Add(double value) {
+    sum += value;
+    ++count;
+  }
+  double mean() const { return count > 0 ? sum / count : 0; }
+};
 
 /// How strong a band's onsets are before and after each beat, whichever is weaker, beside where
 /// they are strongest.
@@ -39,7 +50,8 @@ std::vector<double> StrengthOf(size_t band, std::span<const Onset> onsets,
   return strength;
 }
 
-/// Whether each beat lies where all bands' onsets are strong: drums have all, few others do.
+}  // namespace
+
 std::vector<bool> AreStrong(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<double> least(path.size(), 1);
   for (size_t band = 0; band < Onset::kBands; ++band) {
@@ -51,8 +63,6 @@ std::vector<bool> AreStrong(std::span<const Onset> onsets, std::span<const BarPo
   for (const double value : least) are.push_back(value >= kWeak * most);
   return are;
 }
-
-}  // namespace
 
 HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::Step> path) {
   std::vector<std::array<float, Onset::kBands>> even;
@@ -70,10 +80,15 @@ HalfBeats::HalfBeats(std::span<const Onset> onsets, std::span<const BarPointer::
     for (const int64_t frame : {step.frame, step.frame + step.period / 2}) {
       auto& half = halves_.emplace_back();
       half.fill(0);
+      auto& is_heard = is_heard_.emplace_back();
+      is_heard.fill(false);
+      place_.push_back(static_cast<size_t>(step.in_bar) % 2 * 2 + (frame == step.frame ? 0 : 1));
       const int64_t to = std::min<int64_t>(std::ssize(even), frame + kBehind);
       for (int64_t f = std::max<int64_t>(0, frame - 1); f < to; ++f) {
-        for (size_t band = 0; band < half.size(); ++band)
+        for (size_t band = 0; band < half.size(); ++band) {
           half[band] = std::max(half[band], double{even[static_cast<size_t>(f)][band]});
+          is_heard[band] = is_heard[band] || onsets[static_cast<size_t>(f)].rise[band] >= kHeard_dB;
+        }
       }
     }
   }
@@ -92,6 +107,35 @@ bool HalfBeats::AreAlike(double share) const {
     any = any || stronger > 0;
   }
   return any;
+}
+
+bool HalfBeats::AreAlikeButForAccent(double share) const {
+  std::array<bool, kPlaces> can_be{};
+  can_be.fill(MeterOf() == Meter::kFour);
+  bool any = false;
+  for (size_t band = 0; band < Onset::kBands; ++band) {
+    std::array<Mean, kPlaces> places, heard;
+    for (size_t i = 0; i < halves_.size(); ++i) {
+      if (!counts_[i]) continue;
+      const double is_heard = is_heard_[i][band] ? 1 : 0;
+      places[place_[i]].Add(is_heard * std::min<double>(halves_[i][band], EvenOnsets::kLoudest));
+      heard[place_[i]].Add(is_heard);
+    }
+    // A band that is heard now and then, such as clicks of chords, has no part in the rhythm.
+    if (std::ranges::max(heard, {}, &Mean::mean).mean() < kNearlyAll) continue;
+    any = true;
+    for (size_t accent = 0; accent < kPlaces; ++accent) {
+      double weakest = EvenOnsets::kLoudest, strongest = 0;
+      for (size_t place = 0; place < kPlaces; ++place) {
+        if (place == accent) continue;
+        weakest = std::min(weakest, places[place].mean());
+        strongest = std::max(strongest, places[place].mean());
+      }
+      const bool has_bass = band > 0 || places[accent].mean() >= share * strongest;
+      can_be[accent] = can_be[accent] && has_bass && weakest >= share * strongest;
+    }
+  }
+  return any && std::ranges::count(can_be, true) > 0;
 }
 
 bool HalfBeats::BassIsBetween() const {

@@ -13,6 +13,9 @@
 /// show these badly, because any part of a beat may be struck in any pattern.
 namespace choreo {
 
+/// Whether each beat lies where all bands' onsets are strong: drums have all, few others do.
+std::vector<bool> AreStrong(std::span<const Onset> onsets, std::span<const BarPointer::Step> path);
+
 /// The onsets at each half of each beat of a path: EvenOnsets' bands, the strongest nearby. Beats
 /// in parts with weak onsets relative to the strongest part, as without drums, do not count.
 /// Immutable.
@@ -26,6 +29,10 @@ class HalfBeats {
   /// Whether both halves of beats sound the same in all bands, so that each is a beat: the mean of
   /// the weaker one is at least `share` of the stronger one's.
   bool AreAlike(double share) const;
+
+  /// The same in 4/4, but for one of the four halves of two beats, on which a bass drum may sound:
+  /// each half is a beat, and that one is the first of its bar.
+  bool AreAlikeButForAccent(double share) const;
 
   /// Whether the bass drum sounds halfway between nearly all beats and hardly on them, so that
   /// those are off-beats.
@@ -42,12 +49,15 @@ class HalfBeats {
 
  private:
   using Bands = std::array<double, Onset::kBands>;
+  static constexpr size_t kPlaces = 4;  // halves of two beats, a bar if each is a beat
 
   double Correlation(size_t lag) const;
 
   std::vector<Bands> halves_;
-  std::vector<bool> counts_;  // by half
-  std::vector<int> periods_;  // of the beats that count
+  std::vector<std::array<bool, Onset::kBands>> is_heard_;
+  std::vector<bool> counts_;   // by half
+  std::vector<size_t> place_;  // by half: which half of an odd or even beat
+  std::vector<int> periods_;   // of the beats that count
 };
 
 /// The path with each beat half a beat earlier, and one more after the last, within `frames`. Bars

@@ -171,6 +171,18 @@ TEST(BeatsTest, DrumsKeepTheirBeatBesideAPartWithoutThem) {
   }
 }
 
+// Two beats were one, because only the first of a bar differs.
+TEST(BeatsTest, BeatsAreAlikeButForTheFirstOfABar) {
+  for (const double bpm : {100, 120, 126, 140, 150}) {
+    for (const auto& [chords, drums] :
+         {std::pair{"cccc", "kttt"}, {"cccc", "krrr"}, {"c.c.", "kttt"}, {"c...", "kttt"}}) {
+      const std::vector<float> song = ChordsAndDrums(60 / bpm, chords, drums);
+      EXPECT_GT(BeatFMeasure(FindBeats(song).Seconds(), Every(60 / bpm, 0.2, 20)), 0.95)
+          << bpm << " " << chords << " " << drums;
+    }
+  }
+}
+
 TEST(BeatsTest, DcOffsetAndItsEndAreIgnored) {
   for (const uint64_t seed : {9'000'300, 9'000'301, 9'000'302}) {
     std::vector<float> song = MakeSong({.seed = seed, .seconds = 15}).mono;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -109,6 +110,32 @@ inline std::vector<float> BrokenChord(double seconds, double period) {
     const std::vector<float>& tone = tones[nth % tones.size()];
     for (size_t i = 0; i < tone.size() && at + i < wave.size(); ++i)
       wave[at + i] += tone[i] * std::exp(-6 * static_cast<float>(i) / kRate);
+  }
+  return wave;
+}
+
+/// Chords and drums at 22 050 Hz, 20 s, from second 0.2 on. `chords` and `drums`, again and again:
+/// a letter per beat: c chord, k bass drum, t tom, r rim, . nothing. Chords change every bar.
+inline std::vector<float> ChordsAndDrums(double period, std::string_view chords,
+                                         std::string_view drums) {
+  constexpr int64_t kRate = 22050;
+  std::vector<float> wave = Noise(20 * kRate, 9, 0.0001);
+  for (size_t beat = 0; 0.2 + static_cast<double>(beat) * period < 20; ++beat) {
+    const auto at = static_cast<size_t>((0.2 + static_cast<double>(beat) * period) * kRate);
+    const auto add = [&](double hz, double level, double length, double decay) {
+      for (size_t i = 0; i < static_cast<size_t>(length * kRate) && at + i < wave.size(); ++i) {
+        const double t = static_cast<double>(i) / kRate;
+        wave[at + i] += static_cast<float>(level * std::exp(-decay * t) *
+                                           std::sin(2 * std::numbers::pi * hz * t));
+      }
+    };
+    const double root = 110 * std::exp2(std::array{0, 5, 9, 7}[beat / 4 % 4] / 12.0);
+    if (chords[beat % chords.size()] == 'c')
+      for (const double over : {1.0, 1.26, 1.498, 2.0}) add(over * root, 0.07, period, 2);
+    const char drum = drums[beat % drums.size()];
+    if (drum == 'k') add(60, 0.5, 0.2, 30);
+    if (drum == 't') add(180, 0.25, 0.2, 30);
+    if (drum == 'r') add(1700, 0.2, 0.05, 80);
   }
   return wave;
 }
