@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "bench/edited_dance.h"
-#include "bench/live_dance.h"
+#include "bench/lateness.h"
 #include "bench/relay.h"
 #include "client/authoring/local_server.h"
 #include "client/authoring/music.h"

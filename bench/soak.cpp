@@ -12,7 +12,7 @@
 #include <random>
 #include <thread>
 
-#include "bench/live_dance.h"
+#include "bench/lateness.h"
 #include "client/authoring/local_server.h"
 #include "client/cli/options.h"
 #include "model/audio/format.h"

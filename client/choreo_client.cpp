@@ -6,7 +6,7 @@
 #include "client/convert.h"
 #include "client/remote_dance.h"
 #include "client/replicas.h"
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 
 namespace choreo::client {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/status.h"
+#include "client/retry_advice.h"
 
 namespace choreo::client {
 namespace {

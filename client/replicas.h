@@ -13,7 +13,7 @@
 
 #include "choreo/v1/choreography.grpc.pb.h"
 #include "client/choreo_client.h"
-#include "client/status.h"
+#include "client/retry_advice.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 
 namespace choreo::client {

@@ -10,8 +10,8 @@
 #include "model/core/error.h"
 #include "model/core/joined.h"
 #include "model/dance/validation.h"
-#include "proto/wire/continuation.h"
-#include "proto/wire/controls.h"
+#include "proto/wire/continuation_message.h"
+#include "proto/wire/control_messages.h"
 #include "proto/wire/convert.h"
 #include "proto/wire/poses.h"
 

@@ -12,7 +12,7 @@
 #include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
 #include "model/dance/dance_stream.h"
-#include "proto/wire/continuation.h"
+#include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
 #include "proto/wire/poses.h"
 #include "server/call_session.h"

@@ -10,7 +10,7 @@
 #include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
 #include "model/dance/transition_group.h"
-#include "proto/wire/continuation.h"
+#include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
 #include "server/read_message.h"

@@ -14,7 +14,7 @@
 #include "model/core/field.h"
 #include "model/core/limits.h"
 #include "model/motion/pose_limits.h"
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 #include "studio/from_page.h"
 #include "studio/scratch_folder.h"
 

@@ -7,7 +7,7 @@
 #include "client/authoring/project_file.h"
 #include "client/convert.h"
 #include "model/motion/controls.h"
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 #include "studio/project_document.h"
 
 namespace choreo::studio {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "client/authoring/beat_options.h"
 #include "client/authoring/dancers.h"
 #include "client/authoring/json_fields.h"
 #include "client/authoring/key_file.h"
-#include "client/authoring/music_beats.h"
 #include "client/authoring/pose_library.h"
 #include "client/convert.h"
 #include "client/describe_styles.h"

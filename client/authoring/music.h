@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
+#include "client/authoring/beat_options.h"
 #include "client/authoring/counts.h"
-#include "client/authoring/music_beats.h"
-#include "client/authoring/music_file.h"
+#include "client/authoring/decode_song.h"
 #include "client/choreo_client.h"
 #include "model/audio/beats.h"
 #include "model/audio/decode.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "client/authoring/beat_options.h"
 #include "client/authoring/json_fields.h"
-#include "client/authoring/music_beats.h"
 #include "model/audio/format.h"
 #include "model/core/error.h"
 #include "model/core/joined.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "client/authoring/music_beats.h"
+#include "client/authoring/beat_options.h"
 #include "client/authoring/written_controls.h"
 #include "client/cli/output_file.h"
 

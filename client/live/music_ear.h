@@ -6,7 +6,7 @@
 
 #include "client/live/beat_ear.h"
 #include "client/live/passage_ear.h"
-#include "model/audio/resample.h"
+#include "model/audio/resampler.h"
 
 namespace choreo::live {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "model/audio/resample.h"
+#include "model/audio/resampler.h"
 #include "model/audio/sound_reader.h"
 #include "model/core/error.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/audio/mel.h"
-#include "model/audio/resample.h"
+#include "model/audio/resampler.h"
 #include "model/audio/row_sound.h"
 
 namespace choreo {

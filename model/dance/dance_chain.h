@@ -11,10 +11,10 @@
 
 #include "model/core/error.h"
 #include "model/dance/audio_feed.h"
-#include "model/dance/dance_config.h"
 #include "model/dance/dance_report.h"
 #include "model/dance/dance_score.h"
 #include "model/dance/dance_sink.h"
+#include "model/dance/dance_start.h"
 #include "model/dance/mailbox.h"
 #include "model/dance/output_rate.h"
 #include "model/dance/pacer.h"

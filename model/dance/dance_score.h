@@ -8,7 +8,7 @@
 #include "model/audio/music_analysis.h"
 #include "model/dance/audio_feed.h"
 #include "model/dance/control_track.h"
-#include "model/dance/dance_config.h"
+#include "model/dance/dance_start.h"
 #include "model/dance/music_beats.h"
 #include "model/dance/music_turn.h"
 #include "model/dance/recurrence.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/dance_config.h"
+#include "model/dance/dance_start.h"
 #include "model/dance/quality_meter.h"
 #include "model/dance/warning.h"
 #include "model/engine/sample_queue.h"

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "model/dance/dance_config.h"
+#include "model/dance/dance_start.h"
 #include "model/dance/timeline.h"
 #include "model/engine/sample_queue.h"
 

@@ -10,7 +10,7 @@
 #include "model/core/printable.h"
 #include "model/core/threads.h"
 #include "model/engine/loading.h"
-#include "model/engine/packed/continuous_flow.h"
+#include "model/engine/packed/packed_flow_network.h"
 #include "model/flow/continuous_flow.h"
 #include "model/flow/flow_sampler.h"
 #include "model/flow/torch_kernels.h"

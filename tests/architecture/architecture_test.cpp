@@ -304,6 +304,16 @@ TEST(Architecture, EveryFileHasAModule) {
   EXPECT_THAT(unassigned, IsEmpty());
 }
 
+// A name says one thing. Only what converts messages is called alike in both of its rooms.
+TEST(Architecture, HeadersHaveNamesOfTheirOwn) {
+  std::set<std::string> names;
+  for (const std::string& file : Sources().files()) {
+    const std::string name = std::filesystem::path(file).filename();
+    if (!name.ends_with(".h") || name == "convert.h") continue;
+    EXPECT_TRUE(names.insert(name).second) << file;
+  }
+}
+
 TEST(Architecture, TheModelKnowsNoGrpcAndNoProtobuf) {
   for (const std::string& file : Sources().files()) {
     if (!file.starts_with("model/")) continue;

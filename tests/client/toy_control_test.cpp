@@ -12,7 +12,7 @@
 #include "client/cli/authoring_options.h"
 #include "model/dance/control_track.h"
 #include "model/flow/window_features.h"
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 #include "tests/flow/flow_scene.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/toy_control.h"

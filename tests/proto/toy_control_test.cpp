@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 #include "tests/support/expect_error.h"
 
 // A control that the API does not have passes the wire with no code of its own.

@@ -6,7 +6,7 @@
 #include "model/core/error.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/velocity_factors.h"
-#include "proto/wire/continuation.h"
+#include "proto/wire/continuation_message.h"
 #include "proto/wire/poses.h"
 #include "tests/support/expect_error.h"
 

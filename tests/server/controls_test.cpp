@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 #include "tests/server/fixture.h"
 
 namespace choreo::controls_test {

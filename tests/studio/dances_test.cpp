@@ -16,7 +16,7 @@
 #include "studio/page_session.h"
 #include "studio/project_dance.h"
 #include "studio/server_supervisor.h"
-#include "tests/studio/fixture.h"
+#include "tests/studio/opened_studio.h"
 
 namespace choreo::studio::dances_test {
 

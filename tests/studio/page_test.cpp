@@ -8,7 +8,7 @@
 
 #include "client/authoring/pose_library.h"
 #include "studio/page.h"
-#include "tests/studio/fixture.h"
+#include "tests/studio/opened_studio.h"
 #include "tests/support/expect_error.h"
 
 namespace choreo::studio::page_test {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "model/flow/checkpoint.h"
-#include "model/papers/networks/flow_model.h"
+#include "model/papers/networks/frame_flow_model.h"
 
 /// Checkpoints of paper F's flow (see model/flow/checkpoint.h).
 namespace choreo {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "model/papers/networks/flow_model.h"
+#include "model/papers/networks/frame_flow_model.h"
 #include "model/papers/samplers/flow_stepper.h"
 
 namespace choreo {

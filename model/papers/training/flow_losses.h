@@ -3,7 +3,7 @@
 #include <torch/types.h>
 
 #include "model/flow/torch_kinematics.h"
-#include "model/papers/networks/flow_model.h"
+#include "model/papers/networks/frame_flow_model.h"
 #include "model/papers/training/motion_batch.h"
 #include "model/training/loss_terms.h"
 

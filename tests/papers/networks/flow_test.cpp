@@ -7,7 +7,7 @@
 #include "model/core/error.h"
 #include "model/flow/torch_kinematics.h"
 #include "model/motion/rotation.h"
-#include "model/papers/networks/flow_model.h"
+#include "model/papers/networks/frame_flow_model.h"
 #include "model/papers/networks/key_condition.h"
 
 namespace choreo::flow_test {

@@ -1,4 +1,4 @@
-#include "bench/live_dance.h"
+#include "bench/lateness.h"
 
 #include <algorithm>
 #include <chrono>

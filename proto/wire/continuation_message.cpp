@@ -1,4 +1,4 @@
-#include "proto/wire/continuation.h"
+#include "proto/wire/continuation_message.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "model/dance/dance_config.h"
+#include "model/dance/dance_start.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "model/papers/networks/flow_model.h"
+#include "model/papers/networks/frame_flow_model.h"
 
 #include <torch/torch.h>
 

@@ -1,4 +1,4 @@
-#include "client/authoring/music_beats.h"
+#include "client/authoring/beat_options.h"
 
 #include <algorithm>
 #include <array>

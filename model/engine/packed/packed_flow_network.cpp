@@ -1,4 +1,4 @@
-#include "model/engine/packed/continuous_flow.h"
+#include "model/engine/packed/packed_flow_network.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "client/authoring/music_file.h"
+#include "client/authoring/decode_song.h"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -1,4 +1,4 @@
-#include "client/status.h"
+#include "client/retry_advice.h"
 
 #include <algorithm>
 #include <string>

@@ -14,7 +14,7 @@
 #include "studio/web_server.h"
 #include "tests/client/test_music.h"
 #include "tests/client/test_server.h"
-#include "tests/studio/page.h"
+#include "tests/studio/page_client.h"
 #include "tests/support/temporary_folder.h"
 
 namespace choreo::studio {

@@ -1,4 +1,4 @@
-#include "model/audio/resample.h"
+#include "model/audio/resampler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

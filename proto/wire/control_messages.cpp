@@ -1,4 +1,4 @@
-#include "proto/wire/controls.h"
+#include "proto/wire/control_messages.h"
 
 #include <optional>
 
