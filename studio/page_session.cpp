@@ -39,7 +39,7 @@ PageSession::~PageSession() {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
-  asked_.notify_one();
+  changed_.notify_one();
   worker_.join();
 }
 
@@ -59,7 +59,7 @@ void PageSession::Take(Request request) {
     const std::lock_guard lock(mutex_);
     queue_.push_back(std::move(request));
   }
-  asked_.notify_one();
+  changed_.notify_one();
 }
 
 void PageSession::TakeLive(uint32_t call, const v1::StreamDanceRequest& request) {
@@ -109,7 +109,7 @@ void PageSession::TakeMusic(Dancing* dancing, const v1::Audio& audio) {
 void PageSession::TakeLiveBeats(uint32_t call, const LiveBeats& beats) {
   const live::LiveBeatHint hint = FromProto(beats);
   const auto found = dances_.find(call);
-  if (found != dances_.end() && found->second.ear) found->second.ear->Tell(hint);
+  if (found != dances_.end() && found->second.ear) found->second.ear->SetHint(hint);
 }
 
 void PageSession::SendFaults(uint32_t call, const std::vector<client::KeyPose>& keys) {
@@ -165,17 +165,17 @@ void PageSession::ReadDance(uint32_t call, Dancing* dancing) {
     while (const std::optional<client::Message> message = dancing->dance->Next()) {
       Response response;
       std::visit(
-          [&](const auto& said) {
-            using Said = std::decay_t<decltype(said)>;
-            if constexpr (std::is_same_v<Said, client::Resumed>) {
-              response.mutable_resumed()->set_reason(said.reason);
-              response.mutable_resumed()->set_exact(said.exact);
-            } else if constexpr (std::is_same_v<Said, client::Continuation>) {
+          [&](const auto& part) {
+            using Part = std::decay_t<decltype(part)>;
+            if constexpr (std::is_same_v<Part, client::Resumed>) {
+              response.mutable_resumed()->set_reason(part.reason);
+              response.mutable_resumed()->set_exact(part.exact);
+            } else if constexpr (std::is_same_v<Part, client::Continuation>) {
               // The page needs none: the client library resumes dances.
-            } else if constexpr (requires { DanceEvent(said); }) {
-              *response.mutable_dance() = ToProto(said, context_.model().fps);
+            } else if constexpr (requires { DanceEvent(part); }) {
+              *response.mutable_dance() = ToProto(part, context_.model().fps);
             } else {
-              *response.mutable_dance() = ToProto(said);
+              *response.mutable_dance() = ToProto(part);
             }
           },
           *message);
@@ -213,7 +213,7 @@ void PageSession::Work() {
     Request request;
     {
       std::unique_lock lock(mutex_);
-      asked_.wait(lock, [this] { return stop_ || !queue_.empty(); });
+      changed_.wait(lock, [this] { return stop_ || !queue_.empty(); });
       if (stop_) return;
       request = std::move(queue_.front());
       queue_.pop_front();

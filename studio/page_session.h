@@ -68,7 +68,7 @@ class PageSession {
 
   mutable std::mutex mutex_;
   std::mutex sending_;
-  std::condition_variable asked_;
+  std::condition_variable changed_;
   bool stop_ = false;
   std::deque<Request> queue_;
   std::shared_ptr<const Song> song_;

@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kAtOnce = 2;
-constexpr int kMaxAsked = 4;  // requests running or waiting
+constexpr int kMaxRequests = 4;  // requests running or waiting
 
 std::string FromBase64(const std::string& text, const std::string& field) {
   std::string out(text.size(), '\0');
@@ -103,8 +103,8 @@ ProjectCalls::~ProjectCalls() {
 
 ProjectCalls::Reply ProjectCalls::Refuse(unsigned status, const std::string& message) {
   // The client's text may be invalid UTF-8.
-  const json said = {{"error", message}};
-  return {.status = status, .body = said.dump(-1, ' ', false, json::error_handler_t::replace)};
+  const json body = {{"error", message}};
+  return {.status = status, .body = body.dump(-1, ' ', false, json::error_handler_t::replace)};
 }
 
 ProjectCalls::Reply ProjectCalls::Model() const {
@@ -121,11 +121,11 @@ ProjectCalls::Reply ProjectCalls::Model() const {
 }
 
 void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
-  if (asked_ >= kMaxAsked) {
-    return answer(Refuse(503, std::to_string(kMaxAsked) +
-                                  " dances are asked for already, the most; ask again later"));
+  if (requests_ >= kMaxRequests) {
+    return answer(Refuse(503, std::to_string(kMaxRequests) +
+                                  " dances are in progress or waiting, the most; try again later"));
   }
-  ++asked_;
+  ++requests_;
   boost::asio::post(threads_,
                     [this, project = std::move(project), as_bvh, answer = std::move(answer)] {
                       Reply reply;
@@ -136,7 +136,7 @@ void ProjectCalls::Dance(std::string project, bool as_bvh, Answer answer) {
                       } catch (const std::exception& error) {
                         reply = Refuse(500, error.what());
                       }
-                      --asked_;
+                      --requests_;
                       answer(std::move(reply));
                     });
 }
@@ -157,22 +157,22 @@ ProjectCalls::Reply ProjectCalls::Danced(const std::string& text, bool as_bvh) c
   double seconds = project.seconds.value_or(context_.most_seconds());
   if (song) seconds = std::min(seconds, song->heard.seconds());
 
-  const ProjectDance asked = DanceOf(context_, project, file, seconds, song ? &*song : nullptr);
-  project.controls.RequireBegun(asked.config.controls, {*asked.config.frames, model.fps});
-  authoring::RefuseHeldInAir(asked.keys, model.fps, model.skeleton);
+  const ProjectDance requested = DanceOf(context_, project, file, seconds, song ? &*song : nullptr);
+  project.controls.RequireBegun(requested.config.controls, {*requested.config.frames, model.fps});
+  authoring::RefuseHeldInAir(requested.keys, model.fps, model.skeleton);
   client::Audio audio;
   if (song && model.takes_music) audio = authoring::AudioFor(song->music.audio, seconds);
   client::DanceResult dance;
   try {
-    dance = context_.client().Dance(asked.config, asked.keys.poses, audio,
+    dance = context_.client().Dance(requested.config, requested.keys.poses, audio,
                                     [this](const client::Message&) {
                                       if (ends_)
                                         throw Error(ErrorCode::kCancelled, "", "the studio closes");
                                     });
   } catch (const Error& error) {
-    throw asked.InTermsOf(error);
+    throw requested.InTermsOf(error);
   }
-  for (client::Warning& fault : authoring::KeyFaults(asked.keys, model.fps, model.skeleton))
+  for (client::Warning& fault : authoring::KeyFaults(requested.keys, model.fps, model.skeleton))
     dance.warnings.push_back(std::move(fault));
   if (project.has_dancers)
     dance.warnings.push_back({.message = "dancers: this is the dance that they share"});

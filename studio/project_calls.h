@@ -40,7 +40,7 @@ class ProjectCalls {
   Reply Danced(const std::string& project, bool as_bvh) const;
 
   const StudioContext& context_;
-  std::atomic<int> asked_ = 0;
+  std::atomic<int> requests_ = 0;
   std::atomic<bool> ends_ = false;
   boost::asio::thread_pool threads_;
 };

@@ -172,9 +172,9 @@ void Change(const BeatOptions& options, double start, BeatTrack* track) {
 }  // namespace
 
 void RequireSong(const BeatOptions& options, const std::string& song) {
-  BeatOptions said = options;
-  if (said.FindsThem()) said.beats.reset();
-  if (song.empty() && said != BeatOptions())
+  BeatOptions others = options;
+  if (others.FindsThem()) others.beats.reset();
+  if (song.empty() && others != BeatOptions())
     throw InvalidArgument("beats", "and other options of beats need a song");
 }
 
@@ -220,10 +220,10 @@ void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* 
   if (beats->empty() || !changes) return;
   // No downbeat is known, or only downbeats are.
   BeatTrack track{.beats_in_bar = downbeats->empty() ? 0 : 1};
-  std::map<int64_t, double> told;  // exactly
+  std::map<int64_t, double> given;  // seconds by frame
   for (const double beat : *beats) {
     const int64_t frame = std::llround(beat * kOnsetRate);
-    told[frame] = beat;
+    given[frame] = beat;
     track.frames.push_back(frame);
     track.in_bar.push_back(std::ranges::binary_search(*downbeats, beat) ? 0 : -1);
     track.confidence.push_back(1);
@@ -233,9 +233,9 @@ void ChangeBeats(const BeatOptions& options, double start, std::vector<double>* 
   beats->clear();
   downbeats->clear();
   for (size_t i = 0; i < track.frames.size(); ++i) {
-    const auto exactly = told.find(track.frames[i]);
-    beats->push_back(exactly != told.end() ? exactly->second
-                                           : static_cast<double>(track.frames[i]) / kOnsetRate);
+    const auto exactly = given.find(track.frames[i]);
+    beats->push_back(exactly != given.end() ? exactly->second
+                                            : static_cast<double>(track.frames[i]) / kOnsetRate);
     if (track.in_bar[i] == 0) downbeats->push_back(beats->back());
   }
 }

@@ -66,27 +66,27 @@ bool ConvertByFfmpeg(const std::filesystem::path& path, const std::string& filte
 }
 
 /// ffmpeg's description of its input.
-struct FfmpegSays {
+struct FfmpegLog {
   int tracks = 0;          ///< of audio
   bool restarts = false;   ///< the seconds that it wrote
   std::string error = {};  ///< the first one, or empty
 };
 
-FfmpegSays Listen(const MemoryFile& log) {
+FfmpegLog ParseLog(const MemoryFile& log) {
   std::ifstream lines(log.path());
-  FfmpegSays says;
+  FfmpegLog report;
   bool of_input = true;
   for (std::string line; std::getline(lines, line);) {
     const auto has = [&](const char* words) { return line.find(words) != std::string::npos; };
     of_input = of_input && !has("] Output #");
-    says.restarts = says.restarts || has("Non-monoto");
-    if (of_input && has("Stream #0:") && has(": Audio: ")) ++says.tracks;
+    report.restarts = report.restarts || has("Non-monoto");
+    if (of_input && has("Stream #0:") && has(": Audio: ")) ++report.tracks;
     for (const std::string level : {"[error] ", "[fatal] "}) {
-      if (says.error.empty() && has(level.c_str()))
-        says.error = Printable(line.substr(line.find(level) + level.size()));
+      if (report.error.empty() && has(level.c_str()))
+        report.error = Printable(line.substr(line.find(level) + level.size()));
     }
   }
-  return says;
+  return report;
 }
 
 std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, double seconds,
@@ -95,30 +95,31 @@ std::optional<DecodedAudio> DecodeByFfmpeg(const std::filesystem::path& path, do
   const MemoryFile wav, log;
   // Starts at the container's second 0, as players do, even if the sound begins later.
   bool converted = ConvertByFfmpeg(path, "aresample=async=1:first_pts=0", wav, log);
-  FfmpegSays says = Listen(log);
-  if (converted && says.restarts) {
+  FfmpegLog report = ParseLog(log);
+  if (converted && report.restarts) {
     // The file's rate or channels change: ffmpeg begins again at second 0. A station's stream has
     // no times.
     wav.Clear();
     log.Clear();
     converted = ConvertByFfmpeg(path, "anull", wav, log);
-    says = Listen(log);
+    report = ParseLog(log);
   }
-  if (!converted && says.error.empty()) return std::nullopt;
+  if (!converted && report.error.empty()) return std::nullopt;
   if (!converted) {
-    throw InvalidArgument(
-        path.string(), std::string("not ") + kSoundFormats + " audio, and ffmpeg " +
-                           (says.tracks > 0 ? "fails: " : "finds no sound in it: ") + says.error);
+    throw InvalidArgument(path.string(),
+                          std::string("not ") + kSoundFormats + " audio, and ffmpeg " +
+                              (report.tracks > 0 ? "fails: " : "finds no sound in it: ") +
+                              report.error);
   }
   try {
     DecodedAudio audio = DecodeAudioFile(wav.path(), seconds, start, more);
     // ffmpeg cannot write the length into a pipe.
     audio.notes = {"read by ffmpeg"};
-    if (!says.error.empty()) {
-      audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + says.error);
+    if (!report.error.empty()) {
+      audio.notes.push_back("ffmpeg finds it damaged, what is read may be a part: " + report.error);
     }
-    if (says.tracks > 1) {
-      audio.notes.push_back("has " + std::to_string(says.tracks) +
+    if (report.tracks > 1) {
+      audio.notes.push_back("has " + std::to_string(report.tracks) +
                             " sound tracks, of which ffmpeg chose one; `ffmpeg -i FILE -map 0:a:1 "
                             "song.wav` takes the second");
     }

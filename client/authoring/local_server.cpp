@@ -89,12 +89,12 @@ void LocalServer::RequireRunning() {
 
 std::string LocalServer::ReadAddress(int from) {
   const Clock::time_point limit = Clock::now() + kStartLimit;
-  std::string said;
+  std::string output;
   for (;;) {
-    if (const size_t end = said.find('\n'); end != std::string::npos) {
-      if (said.starts_with(kListens))
-        return said.substr(std::strlen(kListens), end - std::strlen(kListens));
-      said.erase(0, end + 1);
+    if (const size_t end = output.find('\n'); end != std::string::npos) {
+      if (output.starts_with(kListens))
+        return output.substr(std::strlen(kListens), end - std::strlen(kListens));
+      output.erase(0, end + 1);
       continue;
     }
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(limit - Clock::now());
@@ -104,7 +104,7 @@ std::string LocalServer::ReadAddress(int from) {
     char buffer[256];
     const ssize_t count = ready > 0 ? read(from, buffer, sizeof buffer) : 0;
     if (count <= 0) return "";
-    said.append(buffer, static_cast<size_t>(count));
+    output.append(buffer, static_cast<size_t>(count));
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 void Say(const std::filesystem::path& path, const std::vector<std::string>& notes,
          bool of_convert) {
   static std::mutex mutex;  // the studio's pages read files at the same time
-  static std::set<std::string> said;
+  static std::set<std::string> shown;
   const std::lock_guard lock(mutex);
   for (const std::string& note : notes) {
     std::string line = "note: " + path.string() + ": " + note;
@@ -20,7 +20,7 @@ void Say(const std::filesystem::path& path, const std::vector<std::string>& note
     const size_t option =
         of_convert ? std::string::npos : line.find(" --", line.size() - note.size());
     if (option != std::string::npos) line.insert(option, " choreo convert");
-    if (said.insert(line).second) std::cerr << line << '\n';
+    if (shown.insert(line).second) std::cerr << line << '\n';
   }
 }
 

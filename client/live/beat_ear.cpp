@@ -23,14 +23,14 @@ int64_t CountAround(int64_t one, BeatTrack* track) {
 }  // namespace
 
 // Silence precedes the music.
-BeatEar::BeatEar(const LiveBeatHint& hint) : mono_(kOnsetWindow / 2) { Tell(hint); }
+BeatEar::BeatEar(const LiveBeatHint& hint) : mono_(kOnsetWindow / 2) { SetHint(hint); }
 
-void BeatEar::Tell(const LiveBeatHint& hint) {
+void BeatEar::SetHint(const LiveBeatHint& hint) {
   hint_ = hint;
   kept_.reset();
   one_.reset();
   if (hint.downbeat_s) kept_ = one_ = Onsets(*hint.downbeat_s - hint.later_s);
-  if (asked_ > 0) asked_ -= std::min(asked_ - 1, Onsets(kEverySeconds));
+  if (searched_ > 0) searched_ -= std::min(searched_ - 1, Onsets(kEverySeconds));
 }
 
 BeatsAhead BeatEar::Hear(std::span<const float> mono) {
@@ -56,8 +56,8 @@ BeatsAhead BeatEar::Hear(std::span<const float> mono) {
     }
     return ahead;
   }
-  if (heard - asked_ < Onsets(kEverySeconds)) return {};
-  asked_ = heard;
+  if (heard - searched_ < Onsets(kEverySeconds)) return {};
+  searched_ = heard;
   const int64_t old = std::ssize(onsets_) - Onsets(kMemorySeconds);
   if (old > 0) {
     onsets_.erase(onsets_.begin(), onsets_.begin() + old);

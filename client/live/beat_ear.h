@@ -12,7 +12,7 @@
 
 namespace choreo::live {
 
-/// What a listener says about the beats heard.
+/// A listener's hint about the beats heard.
 struct LiveBeatHint {
   BeatHint beats = {};
   std::optional<double> downbeat_s = {};  ///< second of the music at which a bar began
@@ -29,7 +29,7 @@ class BeatEar {
   explicit BeatEar(const LiveBeatHint& hint = {});
 
   /// Replaces the hint, and looks for beats anew.
-  void Tell(const LiveBeatHint& hint);
+  void SetHint(const LiveBeatHint& hint);
 
   /// Takes the next mono samples at 22 050 Hz. Returns beats ahead about every other second; none
   /// while no beat is clear.
@@ -45,7 +45,7 @@ class BeatEar {
   std::vector<float> mono_;    // from the next onset's window on
   std::vector<Onset> onsets_;  // of the last minutes
   int64_t first_ = 0;          // index of the first of onsets_ in the music
-  int64_t asked_ = 0;          // onsets received at the last search
+  int64_t searched_ = 0;       // onsets received at the last search
   std::future<BeatTrack> found_;
   LiveBeatHint hint_;
   std::optional<int64_t> kept_;  // a beat found last: half time stays on the same half

@@ -78,7 +78,7 @@ void LiveDance::RequireBegun() {
 
 void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, MidiClock* midi) {
   int64_t samples = 0;
-  double now = 0, told = 0;
+  double now = 0, shown = 0;
   bool clock_missed = midi == nullptr;
   MusicEar ear(sound.sample_rate(), sound.channels(), {.beats = options_.beats});
   while (!over_ && now < options_.seconds && observer_.go_on()) {
@@ -101,7 +101,7 @@ void LiveDance::Play(Sound& sound, std::span<const std::unique_ptr<Cues>> cues, 
     granted_ = FrameAt(now + options_.look_ahead_s);
     dance_->GenerateUntil(granted_);
     dance_->SendSamples(piece);
-    if (now >= told + 1) ShowFigures(told = std::floor(now));
+    if (now >= shown + 1) ShowFigures(shown = std::floor(now));
   }
   since_.seconds = now;
   // The dance ends with the music; later poses are not danced.
@@ -125,12 +125,12 @@ void LiveDance::Follow(const Cue& cue, double now) {
   }
   const auto pose = options_.poses.find(cue.pose);
   if (pose == options_.poses.end()) return Note("there is no pose \"" + cue.pose + "\"");
-  const double asked = cue.ahead_s.value_or(options_.ahead_s);
-  if (!(asked >= 0 && asked <= kMaxAheadSeconds)) {
-    return Note(cue.pose + ": " + std::to_string(asked) + " s ahead is not in [0, " +
+  const double wanted = cue.ahead_s.value_or(options_.ahead_s);
+  if (!(wanted >= 0 && wanted <= kMaxAheadSeconds)) {
+    return Note(cue.pose + ": " + std::to_string(wanted) + " s ahead is not in [0, " +
                 std::to_string(std::lround(kMaxAheadSeconds)) + "]");
   }
-  const double ahead = std::max(asked, options_.look_ahead_s + kMinAheadSeconds);
+  const double ahead = std::max(wanted, options_.look_ahead_s + kMinAheadSeconds);
   BeatClock clock;
   {
     const std::lock_guard lock(mutex_);
@@ -156,7 +156,7 @@ void LiveDance::Follow(const Cue& cue, double now) {
 void LiveDance::SendKey(const client::KeyPose& key, int64_t frame) {
   dance_->SendKey(key);
   keys_[frame] = key.id;
-  asked_.push_back(frame);
+  requested_.push_back(frame);
   sent_.push_back(key);
 }
 
@@ -190,9 +190,9 @@ std::optional<int64_t> LiveDance::KeyNear(int64_t frame) const {
 }
 
 void LiveDance::TakeBack() {
-  while (!asked_.empty()) {
-    const auto last = keys_.find(asked_.back());
-    asked_.pop_back();
+  while (!requested_.empty()) {
+    const auto last = keys_.find(requested_.back());
+    requested_.pop_back();
     if (last == keys_.end() || last->first < granted_) continue;  // settled, so it stays
     dance_->RemoveKey(last->second);
     keys_.erase(last);

@@ -78,7 +78,7 @@ class LiveDance {
   const std::vector<client::Beat>& beats() const { return beats_; }
   const std::vector<client::Warning>& warnings() const { return warnings_; }
   const std::optional<client::Report>& report() const { return report_; }
-  /// The keys that the server said were reached.
+  /// The keys that the server reported as reached.
   const std::vector<client::KeyReached>& reached() const { return reached_; }
   /// The keys that were danced, in order of time; of a dance that was cut off, those reached.
   /// Throws Error(kInternal) if the server names one that it was not sent.
@@ -111,7 +111,7 @@ class LiveDance {
   PosePlayer::Clock::time_point began_;
 
   std::map<int64_t, std::string> keys_;  // by frame: ids of keys sent and not taken back
-  std::vector<int64_t> asked_;           // their frames, in the order of requests
+  std::vector<int64_t> requested_;       // their frames, in the order of requests
   int64_t granted_ = 0;
   std::vector<client::KeyPose> sent_;  // including those taken back
 

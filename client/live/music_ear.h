@@ -10,7 +10,7 @@
 
 namespace choreo::live {
 
-/// Predicts beats and repeats from live music of any format, to tell a dance ahead.
+/// Predicts beats and repeats from live music of any format, ahead of a dance.
 class MusicEar {
  public:
   struct Ahead {
@@ -23,7 +23,7 @@ class MusicEar {
 
   /// Takes the next whole interleaved frames, all finite.
   Ahead Hear(std::span<const float> piece);
-  void Tell(const LiveBeatHint& hint) { beats_.Tell(hint); }
+  void SetHint(const LiveBeatHint& hint) { beats_.SetHint(hint); }
 
  private:
   Resampler resampler_;

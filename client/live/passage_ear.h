@@ -23,8 +23,8 @@ class PassageEar {
   PassageListener listener_;
   RepeatLag lags_;
   std::vector<float> mono_;  // from the listener's next moment on
-  std::optional<int64_t> told_lag_;
-  int64_t told_at_ = 0;  // in moments
+  std::optional<int64_t> sent_lag_;
+  int64_t sent_at_ = 0;  // in moments
 };
 
 }  // namespace choreo::live

@@ -102,7 +102,7 @@ function FileButton({ label, primary = false }: { label: string; primary?: boole
 
 function Bar() {
   const { shownSong: song, moments, present, message, isConnected, live } = studio;
-  const said = message.value;
+  const shown = message.value;
   return (
     <header>
       <strong class="name">Choreo <span>studio</span></strong>
@@ -133,9 +133,9 @@ function Bar() {
           </select>
         </label>
       </nav>
-      {said && (
-        <div class={said.isError ? 'message error' : 'message'} role={said.isError ? 'alert' : 'status'}>
-          {said.text}
+      {shown && (
+        <div class={shown.isError ? 'message error' : 'message'} role={shown.isError ? 'alert' : 'status'}>
+          {shown.text}
           <button class="icon" aria-label="Close this message" onClick={() => (message.value = null)}>×</button>
         </div>
       )}

@@ -87,23 +87,23 @@ export function tap() {
 
 function applyTaps() {
   clearTimeout(waiting);
-  const told = taps.value;
+  const times = taps.value;
   taps.value = [];
-  if (told.length > 0 && live.value) return tapLive(told);
-  if (told.length === 0 || !shownSong.value || !project.value) return;
-  const found = tapped(heardBeats.value, beats.value, told, length());
+  if (times.length > 0 && live.value) return tapLive(times);
+  if (times.length === 0 || !shownSong.value || !project.value) return;
+  const found = tapped(heardBeats.value, beats.value, times, length());
   if (!found) return tell(tooFew);
-  if (changeBeats(found)) tell(`${Math.round(tempo(found))} beats a minute, of ${told.length} taps.`);
+  if (changeBeats(found)) tell(`${Math.round(tempo(found))} beats a minute, of ${times.length} taps.`);
 }
 audio.addEventListener('pause', applyTaps);
 
 /// Beats of live music are looked for near the taps' tempo.
-function tapLive(told: number[]) {
-  const pulse = pulseOf(told);
+function tapLive(times: number[]) {
+  const pulse = pulseOf(times);
   if (!pulse) return tell(tooFew);
   const tapped = 60 / pulse.period;
   if (tapped < limits.slowestTempo || tapped > limits.fastestTempo)
     return tell(`${Math.round(tapped)} taps a minute, must be ${limits.slowestTempo} to ${limits.fastestTempo}.`);
   hintLive({ tempo: tapped, pace: null });
-  tell(`${Math.round(tapped)} beats a minute, of ${told.length} taps.`);
+  tell(`${Math.round(tapped)} beats a minute, of ${times.length} taps.`);
 }

@@ -25,7 +25,7 @@ const isSame = (a: Project, b: Project) => Object.entries(madeOf(a)).every(([nam
 const ownProject = (all: Project, { seed, style, keys }: Partner): Project => ({ ...all, seed: seed ?? all.seed, style: style || all.style, keys: keys ?? all.keys });
 
 /// The program's formation of the present dancers and their dances, with the index of each dancer's dance.
-export const formation = signal<{ of: Moment; said: Formation; dances: Motion[]; danceOf: number[] } | null>(null);
+export const formation = signal<{ of: Moment; reply: Formation; dances: Motion[]; danceOf: number[] } | null>(null);
 
 /// Makes each dance of a moment that differs from the project's, once.
 async function dancesOf(now: Moment, signal: AbortSignal) {
@@ -67,7 +67,7 @@ async function form(now: Moment, signal: AbortSignal) {
     if (!danced || signal.aborted || danced.dances[0].count === 0) return;
     const clips = danced.dances.map((dance) => dance.toClip());
     const answer = await wire.ask({ case: 'company', value: requestOf(now.project, { dances: clips, danceOf: danced.danceOf }) });
-    if (answer.case === 'formation' && !signal.aborted) formation.value = { of: now, said: answer.value, ...danced };
+    if (answer.case === 'formation' && !signal.aborted) formation.value = { of: now, reply: answer.value, ...danced };
   } catch (error) {
     if (!signal.aborted) complain(error);
   } finally {
@@ -95,7 +95,7 @@ export const cast = computed((): Cast[] => {
   if (partners.length === 0) return [];
   const formed = formation.value;
   const isKnown = formed?.danceOf.length === partners.length;
-  const widened = isKnown ? formed.said.widened : 1;
+  const widened = isKnown ? formed.reply.widened : 1;
   const middle = (axis: 'x' | 'z') => partners.reduce((sum, partner) => sum + partner[axis] / partners.length, 0);
   const [x, z] = [middle('x'), middle('z')];
   const place = (partner: Partner): Spot => ({ x: x + widened * (partner.x - x), z: z + widened * (partner.z - z) });

@@ -62,8 +62,8 @@ function sinceOne({ bar, list }: Beats): number[] {
   const places = [0];
   times.slice(1).forEach((_, i) => places.push(places[i] + beatsToNext(times, i)));
   const oneOf = (part: number[]) => {
-    const told = part.find((i) => isDownbeat(list[i], bar)) ?? part.find((i) => list[i].count > 0);
-    return told === undefined ? null : places[told] - list[told].count + 1;
+    const anchor = part.find((i) => isDownbeat(list[i], bar)) ?? part.find((i) => list[i].count > 0);
+    return anchor === undefined ? null : places[anchor] - list[anchor].count + 1;
   };
   const parts: number[][] = [];
   times.forEach((_, i) => (i > 0 && places[i] === places[i - 1] + 1 ? parts.at(-1)!.push(i) : parts.push([i])));

@@ -37,13 +37,13 @@ export class Dancer {
           heard: ({ response }) => {
             if (response.case === 'resumed') watch.noted('The server was lost; the dance goes on without a seam.');
             if (response.case !== 'dance') return;
-            const said = response.value.response;
-            if (said.case === 'frames') {
-              motion.append(said.value);
+            const part = response.value.response;
+            if (part.case === 'frames') {
+              motion.append(part.value);
               watch.grown(motion);
-            } else if (said.case === 'event' && said.value.event.case === 'warning') {
-              watch.noted(said.value.event.value.message, Number(said.value.frame));
-            } else if (said.case === 'summary') {
+            } else if (part.case === 'event' && part.value.event.case === 'warning') {
+              watch.noted(part.value.event.value.message, Number(part.value.frame));
+            } else if (part.case === 'summary') {
               this.wire.end(call);
               resolve(motion);
             }

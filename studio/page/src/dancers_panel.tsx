@@ -38,8 +38,8 @@ function PartnerFields({ partner, nth }: { partner: Partner; nth: number }) {
 /// How near the dancers come, and by how much the formation was widened.
 function Distance() {
   const formed = studio.formation.value;
-  if (!formed || formed.said.least === undefined) return null;
-  const { widened, least, one, other, at } = formed.said;
+  if (!formed || formed.reply.least === undefined) return null;
+  const { widened, least, one, other, at } = formed.reply;
   const { dancers } = formed.of.project;
   return (
     <p class="small" role="status">

@@ -16,7 +16,7 @@ import { begin, filming, kept, live, message, moment, opened, project, song, tak
 import { timeLeft } from './time_left';
 
 /// A file that is sent.
-type Asked = { name: string; data: Uint8Array };
+type SentFile = { name: string; data: Uint8Array };
 
 const motionExtensions = ['npz', 'npy', 'pkl', 'bvh', 'glb', 'gltf', 'vrma'];
 /// File types for the file chooser.
@@ -65,33 +65,33 @@ async function findProject(files: File[]) {
 
 async function openOther(file: File, keyFiles: File[]) {
   const bytes = await bytesOf(file);
-  const beside: Asked[] = [];
+  const beside: SentFile[] = [];
   for (const other of keyFiles) beside.push({ name: other.name, data: await bytesOf(other) });
   if (extensionOf(file) === 'json') await openProject(file.name, bytes, beside);
   else await openMotion(file.name, bytes);
 }
 
-async function openProject(name: string, bytes: Uint8Array, keyFiles: Asked[]) {
-  const said: string[] = [];
+async function openProject(name: string, bytes: Uint8Array, keyFiles: SentFile[]) {
+  const notes: string[] = [];
   const answer = await wire.ask({ case: 'read', value: { file: { name, data: bytes }, keyFiles, ...countsOf(beats.value) } });
   if (answer.case !== 'project') return;
   const read = readProject(answer.value, dancer.fps, skeleton.height);
   const { styles } = welcome.value!.model!;
   if (read.style && !styles.includes(read.style)) {
-    said.push(`The model has no style "${read.style}", only ${styles.join(', ') || 'none'}.`);
+    notes.push(`The model has no style "${read.style}", only ${styles.join(', ') || 'none'}.`);
     read.style = '';
   }
   if (song.value) read.seconds = song.value.heard.seconds;
   if (!read.seconds) read.seconds = ((read.keys.at(-1)?.frame ?? 60) + 30) / dancer.fps;
   const inside = read.keys.filter(({ frame }) => frame < dancer.frames(read));
   const outside = read.keys.length - inside.length;
-  if (outside > 0) said.push(`${outside} of its keys are after the end of the song, and are left out.`);
+  if (outside > 0) notes.push(`${outside} of its keys are after the end of the song, and are left out.`);
   const isOther = !!read.song && read.song !== song.value?.name;
   if (isOther && song.value) read.beats = null;
-  if (isOther) said.push(`It was made to ${read.song}: drop that song, too.`);
+  if (isOther) notes.push(`It was made to ${read.song}: drop that song, too.`);
   if (!song.value) playSilence(read.seconds);
   danceFrom({ ...read, keys: inside }, -1);
-  if (said.length) tell(`${name}: ${said.join(' ')}`);
+  if (notes.length) tell(`${name}: ${notes.join(' ')}`);
 }
 
 async function openMotion(name: string, bytes: Uint8Array) {
@@ -143,7 +143,7 @@ export const exportFilm = (kind: Kind, painter: Painter) => work(async () => {
       motion,
       song: played,
       draw: (time) => painter.picture(motion, time, 1 / fps, width, height),
-      told: (share) => {
+      progressed: (share) => {
         began ??= performance.now();
         filming.value = { share, left: timeLeft(share, (performance.now() - began) / 1000) };
       },

@@ -93,12 +93,12 @@ type Plan = {
   /// Draws a moment of the dance; returns the canvas.
   draw: (time: number) => HTMLCanvasElement;
   /// Receives the progress, 0 to 1.
-  told: (share: number) => void;
+  progressed: (share: number) => void;
   signal: AbortSignal;
 };
 
 /// Films a whole dance; returns the file's bytes.
-export async function film({ kind, motion, song, draw, told, signal }: Plan): Promise<Uint8Array> {
+export async function film({ kind, motion, song, draw, progressed, signal }: Plan): Promise<Uint8Array> {
   const chosen = await chooseCodecs(kind);
   const seconds = motion.count / motion.fps;
   const { file, bytes } = makeFile(kind, chosen.picture.codec, song && chosen.sound.codec);
@@ -117,7 +117,7 @@ export async function film({ kind, motion, song, draw, told, signal }: Plan): Pr
     const picture = new VideoFrame(draw(i / fps), { timestamp: Math.round((i * 1e6) / fps), duration: Math.round(1e6 / fps) });
     pictures.encode(picture, { keyFrame: i % keyEvery === 0 });
     picture.close();
-    told(i / count);
+    progressed(i / count);
     // Keeps the page responsive, and waits for the encoder.
     do await new Promise((resolve) => setTimeout(resolve));
     while (pictures.encodeQueueSize > mostWaiting && !failure);

@@ -34,11 +34,11 @@ export async function compose() {
   const named: Key[] = [];
   for (const key of keys) named.push({ ...key, id: freeId(named, key.id) });
   message.value = null;
-  const asked = emptyProject(song.value?.name ?? '', seconds);
-  const before = { ...(project.value ?? asked), ...following.value };
+  const empty = emptyProject(song.value?.name ?? '', seconds);
+  const before = { ...(project.value ?? empty), ...following.value };
   const markers = moment.value?.song === song.value ? before.markers : [];
   const wished = wishes(before);
-  danceFrom({ ...asked, ...wished, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
+  danceFrom({ ...empty, ...wished, dancers: before.dancers, apart: before.apart, beats, markers, seed, keys: named.map((key) => onPath(wished.path, key)) }, -1);
 }
 
 /// The nearest frame to a wanted one at which a key can stand; null if there is none near.
@@ -151,9 +151,9 @@ const isSame = (a: Triple, b: Triple) => a.every((value, i) => Math.abs(value - 
 export function poseKey(id: string, pose: Pose, asks?: number[] | null) {
   const key = keyOf(id);
   if (!key) return;
-  const asked = asks === undefined ? key.asks : asks;
-  const isMoved = !isSame(pose.root, shown(key).root) && (!asked || asked.includes(0));
-  const posed = { ...key, pose, hasPlace: key.hasPlace || isMoved, asks: asked };
+  const joints = asks === undefined ? key.asks : asks;
+  const isMoved = !isSame(pose.root, shown(key).root) && (!joints || joints.includes(0));
+  const posed = { ...key, pose, hasPlace: key.hasPlace || isMoved, asks: joints };
   edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? posed : other)) }, [key.frame]);
 }
 
@@ -221,6 +221,6 @@ export function askForParts(id: string, isPartial: boolean) {
 
 /// A key that leaves the hips free does not say where they are; the whole body stands where it was.
 function ask(key: Key, asks: number[] | null) {
-  const asked = { ...key, pose: shown(key), asks, hasPlace: !asks || (key.hasPlace && asks.includes(0)) };
-  edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? asked : other)) }, [key.frame]);
+  const changed = { ...key, pose: shown(key), asks, hasPlace: !asks || (key.hasPlace && asks.includes(0)) };
+  edit({ ...project.value, keys: project.value.keys.map((other) => (other === key ? changed : other)) }, [key.frame]);
 }

@@ -2,4 +2,4 @@
 import type { Limits } from './generated/studio/studio_pb';
 
 export let limits: Limits;
-export const setLimits = (told: Limits) => (limits = told);
+export const setLimits = (received: Limits) => (limits = received);

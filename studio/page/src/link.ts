@@ -9,7 +9,7 @@ import { Wire } from './wire';
 export let skeleton: Skeleton;
 export let dancer: Dancer;
 
-let greet: (said: Welcome, isFirst: boolean) => void = () => {};
+let greet: (received: Welcome, isFirst: boolean) => void = () => {};
 /// Registers what to do when the program connects or reconnects.
 export const whenThere = (does: typeof greet) => (greet = does);
 
@@ -25,7 +25,7 @@ export const wire = new Wire(
     greet(response.value, isFirst);
   },
   () => {
-    if (isConnected.value) complain(new Error('The studio program is gone. It is asked again each second.'));
+    if (isConnected.value) complain(new Error('The studio program is gone. Trying again each second.'));
     isConnected.value = false;
   },
 );

@@ -66,9 +66,9 @@ const asHeard: LiveHint = { tempo: null, pace: null, later: 0, one: null };
 export const isAsHeard = () => Object.entries(asHeard).every(([name, value]) => live.value?.hint[name as keyof LiveHint] === value);
 
 /// How beats are heard from now on; without anything as they come.
-export function hintLive(said?: Partial<LiveHint>) {
+export function hintLive(change?: Partial<LiveHint>) {
   if (!live.value) return;
-  const hint = said ? { ...live.value.hint, ...said } : asHeard;
+  const hint = change ? { ...live.value.hint, ...change } : asHeard;
   const { tempo, pace, later, one } = hint;
   update({ hint });
   wire.say(call, { case: 'liveBeats', value: { tempo: tempo ?? undefined, halfTime: pace === 'half', doubleTime: pace === 'double', later, downbeat: one ?? undefined } });
@@ -80,13 +80,13 @@ export const startLive = () => work(async () => {
   dropSketch();
   [message.value, selectedKey.value, chosen.value, takes.value] = [null, null, null, []];
   [pieces, samples, granted, latency, isLost, drawing.value] = [[], 0, 0, 0, false, false];
-  const asked = emptyProject(name, shownAhead);
-  const before = { ...(moment.value?.project ?? asked), ...following.value };
+  const empty = emptyProject(name, shownAhead);
+  const before = { ...(moment.value?.project ?? empty), ...following.value };
   const early: Float32Array[] = [];
   microphone = await listen((piece) => (live.value ? take(piece) : early.push(piece)), () => void stopLive());
   rate = microphone.rate;
   const motion = new Motion(skeleton.joints, dancer.fps);
-  live.value = { project: { ...asked, ...wishes(before), path: asked.path, seed: before.seed }, motion, beats: [], hint: asHeard };
+  live.value = { project: { ...empty, ...wishes(before), path: empty.path, seed: before.seed }, motion, beats: [], hint: asHeard };
   call = wire.open(
     { case: 'dance', value: { project: projectMessage(live.value.project, dancer.fps), liveMusic: { encoding: AudioEncoding.PCM_F32LE, sampleRate: rate, channels: 1 } } },
     { heard: ({ response }) => response.case === 'dance' && hearOf(response.value.response, motion), failed },
@@ -101,14 +101,14 @@ function failed(error: Error) {
   if (microphone) void stopLive();
 }
 
-type Said = Extract<Parameters<Parameters<typeof wire.open>[1]['heard']>[0]['response'], { case: 'dance' }>['value']['response'];
+type Part = Extract<Parameters<Parameters<typeof wire.open>[1]['heard']>[0]['response'], { case: 'dance' }>['value']['response'];
 
-function hearOf(said: Said, motion: Motion) {
-  if (said.case === 'header') latency = said.value.latencyFrames / said.value.frameRate;
-  else if (said.case === 'frames') motion.append(said.value);
-  else if (said.case === 'summary') ended?.();
-  else if (said.case === 'event') {
-    const { event, time } = said.value;
+function hearOf(part: Part, motion: Motion) {
+  if (part.case === 'header') latency = part.value.latencyFrames / part.value.frameRate;
+  else if (part.case === 'frames') motion.append(part.value);
+  else if (part.case === 'summary') ended?.();
+  else if (part.case === 'event') {
+    const { event, time } = part.value;
     if (event.case === 'beat') update({ beats: [...live.value!.beats, { time, isDown: event.value.downbeat, sure: event.value.confidence }] });
     else if (event.case === 'warning') tell(event.value.message);
     else if (event.case === 'keyframeRejected') {

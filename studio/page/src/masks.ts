@@ -11,8 +11,8 @@ const partOf = (joint: number) => welcome.value!.turns[joint].part - BodyPart.TR
 const joints = () => welcome.value!.turns.map((_, joint) => joint);
 
 /// Adds a part's joints to these or removes them; null: all.
-export function withPart(asked: number[], part: number, isOn: boolean): number[] | null {
-  const left = joints().filter((joint) => (partOf(joint) === part ? isOn : asked.includes(joint)));
+export function withPart(chosen: number[], part: number, isOn: boolean): number[] | null {
+  const left = joints().filter((joint) => (partOf(joint) === part ? isOn : chosen.includes(joint)));
   return left.length === joints().length ? null : left;
 }
 
@@ -21,13 +21,13 @@ export const jointsOf = (chosen: boolean[]): number[] | null =>
   chosen.every(Boolean) ? null : joints().filter((joint) => chosen[partOf(joint)]);
 
 /// Which parts have one of these joints.
-export const partsOf = (asked: number[] | null): boolean[] => parts.map((_, part) => !asked || asked.some((joint) => partOf(joint) === part));
+export const partsOf = (chosen: number[] | null): boolean[] => parts.map((_, part) => !chosen || chosen.some((joint) => partOf(joint) === part));
 
 /// Text: "left arm, right arm"; names joints of incomplete parts.
-export function inWords(asked: number[], names: string[]): string {
-  const isWhole = (part: number) => joints().every((joint) => partOf(joint) !== part || asked.includes(joint));
+export function inWords(chosen: number[], names: string[]): string {
+  const isWhole = (part: number) => joints().every((joint) => partOf(joint) !== part || chosen.includes(joint));
   const whole = parts.filter((_, part) => isWhole(part));
-  const others = asked.filter((joint) => !isWhole(partOf(joint))).map((joint) => spoken(names[joint]));
+  const others = chosen.filter((joint) => !isWhole(partOf(joint))).map((joint) => spoken(names[joint]));
   return [...whole, ...others].join(', ');
 }
 

@@ -18,13 +18,13 @@ type Props = {
 
 export function NumberField({ label, name, value, low, high, step, rule, set, focused }: Props) {
   /// The message for invalid input, until the number changes.
-  const told = useSignal({ text: '', at: value });
-  const slip = Math.abs(told.value.at - value) < 1e-3 ? told.value.text : '';
+  const hint = useSignal({ text: '', at: value });
+  const slip = Math.abs(hint.value.at - value) < 1e-3 ? hint.value.text : '';
   const id = useId();
   const take = (text: string) => {
     const wanted = text.trim() === '' ? NaN : Number(text);
     const isFine = wanted >= low && wanted <= high;
-    told.value = { text: isFine ? '' : `${rule}${text.trim() === '' ? ': a number is missing' : `, not ${text}`}.`, at: value };
+    hint.value = { text: isFine ? '' : `${rule}${text.trim() === '' ? ': a number is missing' : `, not ${text}`}.`, at: value };
     if (isFine && wanted !== value) set(wanted);
   };
   const press = (event: KeyboardEvent) => {
@@ -33,7 +33,7 @@ export function NumberField({ label, name, value, low, high, step, rule, set, fo
     event.preventDefault();
     const wanted = Math.round((value + way * step * (event.shiftKey ? 10 : 1)) / step) * step;
     const most = Math.min(Math.max(wanted, low), high);
-    told.value = { text: most === wanted ? '' : `${rule}.`, at: most };
+    hint.value = { text: most === wanted ? '' : `${rule}.`, at: most };
     if (most !== value) set(most);
   };
   return (

@@ -11,7 +11,7 @@ const onward = 0.5; // metres from the last point to a new one
 const rest = 600; // ms from the last change until dancing
 
 /// The corners being edited, and their frames.
-const asked = signal<{ spots: Spot[]; from: number; to: number; of: Moment } | null>(null);
+const draft = signal<{ spots: Spot[]; from: number; to: number; of: Moment } | null>(null);
 /// The corners as set, and the path made from them.
 const walked = signal<{ path: Step[]; spots: Spot[] } | null>(null);
 let resting: ReturnType<typeof setTimeout>;
@@ -40,24 +40,24 @@ function cornersOf(spots: Spot[]): Spot[] {
 }
 
 /// The corners, as edited.
-export const askedCorners = computed(() => (asked.value?.of === moment.value ? asked.value?.spots ?? null : null));
+export const draftCorners = computed(() => (draft.value?.of === moment.value ? draft.value?.spots ?? null : null));
 export const corners = computed((): Spot[] => {
   const path = project.value?.path ?? [];
-  return askedCorners.value ?? (walked.value?.path === path ? walked.value.spots : cornersOf(path));
+  return draftCorners.value ?? (walked.value?.path === path ? walked.value.spots : cornersOf(path));
 });
 
 /// Sets corners: shown at once, danced after a pause.
 export function setCorners(spots: Spot[]) {
   const { path } = project.value;
-  const [from, to] = asked.value?.of === moment.value ? [asked.value!.from, asked.value!.to] : path.length ? [path[0].frame, path.at(-1)!.frame] : stretch();
-  asked.value = { spots, from, to, of: moment.value };
+  const [from, to] = draft.value?.of === moment.value ? [draft.value!.from, draft.value!.to] : path.length ? [path[0].frame, path.at(-1)!.frame] : stretch();
+  draft.value = { spots, from, to, of: moment.value };
   clearTimeout(resting);
   resting = setTimeout(take, rest);
 }
 
 function take() {
-  const last = asked.value;
-  if (live.value || last?.of !== moment.value) return void (asked.value = null);
+  const last = draft.value;
+  if (live.value || last?.of !== moment.value) return void (draft.value = null);
   if (last.spots.length === 0 && project.value.path.length > 0) clearPath();
   // A single point waits for a second one.
   if (last.spots.length < 2) return;

@@ -32,9 +32,9 @@ export function PhotoCard() {
   const hidden = Object.entries(limbs).filter(([, ends]) => ends.some((end) => photo.marks[end].visibility < seen)).map(([limb]) => limb);
   const set = () => {
     const { x, y, z } = { x: pose.root[0], y: pose.root[1], z: pose.root[2] };
-    const asked = create(LibraryPoseSchema, { id, pose: { rootPosition: { x, y, z }, rotations: pose.rotations } });
+    const posed = create(LibraryPoseSchema, { id, pose: { rootPosition: { x, y, z }, rotations: pose.rotations } });
     studio.dropSketch();
-    studio.addKey(asked);
+    studio.addKey(posed);
   };
   return (
     <section class="photo" aria-label="Photo">

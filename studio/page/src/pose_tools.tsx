@@ -72,8 +72,8 @@ function Joints({ pose }: { pose: Pose }) {
   const { low, high } = turn;
   const degrees = degreesOf(turn, pose, at);
   const isHinge = turn.hinge.length > 0;
-  const field = (label: string, said: string, i: number) => (
-    <NumberField key={`${name} ${label}`} label={label} name={`${spoken(name)}, ${said}`} value={degrees[i]} low={low} high={high} step={1}
+  const field = (label: string, axis: string, i: number) => (
+    <NumberField key={`${name} ${label}`} label={label} name={`${spoken(name)}, ${axis}`} value={degrees[i]} low={low} high={high} step={1}
       rule={`The ${spoken(name)} ${isHinge ? `bends ${low} to ${high} degrees` : `turns ${low} to ${high} degrees about ${label}`}`}
       set={(value) => studio.bendSoon(withDegrees(turn, pose, at, degrees.map((old, axis) => (axis === i ? value : old))))} />
   );

@@ -189,7 +189,7 @@ export class Stage {
     this.drawGhost(time);
     this.onion.show(time, takes.length > 0);
     this.dots.show(this.posing);
-    const isSet = studio.areCornersShown.value || !!studio.askedCorners.value;
+    const isSet = studio.areCornersShown.value || !!studio.draftCorners.value;
     const path = this.line.show(studio.project.value?.path ?? [], studio.dancer.fps, isSet ? studio.corners.value : null, studio.heldCorner.value);
     const now = performance.now();
     this.look(this.middle, Math.min(longest, (now - this.looked) / 1000), width);

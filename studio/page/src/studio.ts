@@ -16,7 +16,7 @@ export { clearPath, drawPath, drawing, lengthOf, rush, stretch } from './floor_p
 export { change, motionAt, redo, total, undo } from './history';
 export * from './keys';
 export { addMarker, moveMarker, removeMarker, renameMarker } from './markers';
-export { addCorner, areCornersShown, askedCorners, corners, heldCorner, setCorners } from './path_corners';
+export { addCorner, areCornersShown, draftCorners, corners, heldCorner, setCorners } from './path_corners';
 export { addPose, forgetPose, ownPoses } from './own_poses';
 export { dropSketch } from './photos';
 export * from './phrases';
@@ -29,17 +29,17 @@ export { keepTake, tryTakes, tryTheRest } from './takes';
 
 let version = '';
 
-whenThere((said, isFirst) => {
+whenThere((received, isFirst) => {
   if (isFirst) {
-    version = said.version;
-    if (!said.song || !said.heard) return;
-    takeSong(said.song.name, said.song.data, said.heard);
+    version = received.version;
+    if (!received.song || !received.heard) return;
+    takeSong(received.song.name, received.song.data, received.heard);
     return void work(async () => {
       await begin(compose);
       tellOfSong();
     });
   }
-  if (said.version !== version) return complain(new Error(`The studio program is now ${said.version}: save the project and reload this page.`));
+  if (received.version !== version) return complain(new Error(`The studio program is now ${received.version}: save the project and reload this page.`));
   tell('The studio program is there again.');
   void work(async () => {
     const known = moment.value?.song ?? song.value;

@@ -44,14 +44,14 @@ export const tryTheRest = (count = 3) => work(async () => {
   const whole = await made(before);
   if (!interval || moment.value !== before) return;
   const [from, to] = interval;
-  const { project: asked } = before;
-  const first = asked.seed + moments.value.length * 100 + 50;
+  const { project: current } = before;
+  const first = current.seed + moments.value.length * 100 + 50;
   takes.value = [];
   for (let seed = first; seed < first + count; ++seed) {
-    const start = from > 0 ? (await dancer.between({ ...asked, seed }, whole, -1, from, 1, silent))[0] : whole;
-    const other = to < whole.count - 1 ? (await dancer.between({ ...asked, seed }, start, to, whole.count, 1, silent))[0] : start;
+    const start = from > 0 ? (await dancer.between({ ...current, seed }, whole, -1, from, 1, silent))[0] : whole;
+    const other = to < whole.count - 1 ? (await dancer.between({ ...current, seed }, start, to, whole.count, 1, silent))[0] : start;
     if (moment.value !== before || chosen.value !== interval || takes.value.length !== seed - first) return;
-    takes.value = [...takes.value, { seed: asked.seed, motion: other }];
+    takes.value = [...takes.value, { seed: current.seed, motion: other }];
   }
   if (to < whole.count - 1) goWhereTheyDiffer(to, to + near * dancer.fps);
   else goWhereTheyDiffer(0, from);

@@ -102,7 +102,7 @@ TEST(BeatEar, TakesHintsWhileItHears) {
   BeatEar ear;
   std::vector<double> last;
   for (size_t at = 0; at < song.mono.size(); at += 441) {
-    if (at == 441 * 600) ear.Tell({{.tempo_bpm = 110, .half_time = true}});
+    if (at == 441 * 600) ear.SetHint({{.tempo_bpm = 110, .half_time = true}});
     const BeatsAhead ahead =
         ear.Hear(std::span(song.mono).subspan(at, std::min<size_t>(441, song.mono.size() - at)));
     if (!ahead.beats.empty()) last = ahead.beats;
