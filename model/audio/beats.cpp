@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include "model/audio/bar_pointer.h"
 #include "model/audio/format.h"
 #include "model/audio/half_beats.h"
 #include "model/audio/harmony.h"
+#include "model/audio/intro.h"
 #include "model/audio/onset_sums.h"
 
 namespace choreo {
@@ -275,6 +277,7 @@ BeatTrack TrackBeats(std::span<const Onset> onsets, const TempoLimits& limits, M
     };
     if (std::ranges::none_of(part_onsets, begins)) continue;
     Path path = PathOf(part_onsets, extent, limits);
+    if (extent == MusicExtent::kWhole) path = CountIntro(part_onsets, std::move(path));
     if (!mono.empty())
       CountByHarmony(mono.subspan(static_cast<size_t>(part.begin * kOnsetHop)), &path);
     std::erase_if(path, [&](const BarPointer::Step& step) {

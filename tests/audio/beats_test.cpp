@@ -183,6 +183,20 @@ TEST(BeatsTest, BeatsAreAlikeButForTheFirstOfABar) {
   }
 }
 
+// A chord a bar was beaten at half or three quarters of the tempo of the drums that follow.
+TEST(BeatsTest, AnIntroOfOneChordABarHasTheDrumsTempo) {
+  for (const double bpm : {100, 128, 140}) {
+    const double period = 60 / bpm;
+    std::vector<float> song = ChordsAndDrums(period, "c...", ".");
+    const double bars = std::floor(19 / (4 * period));
+    song.resize(static_cast<size_t>(bars * 4 * period * 22050));
+    const std::vector<float> drums = Drums(0.2, period, "khsh");
+    song.insert(song.end(), drums.begin(), drums.end());
+    const double end = bars * 4 * period + 20;
+    EXPECT_GT(BeatFMeasure(FindBeats(song).Seconds(), Every(period, 0.2, end)), 0.9) << bpm;
+  }
+}
+
 TEST(BeatsTest, DcOffsetAndItsEndAreIgnored) {
   for (const uint64_t seed : {9'000'300, 9'000'301, 9'000'302}) {
     std::vector<float> song = MakeSong({.seed = seed, .seconds = 15}).mono;
