@@ -29,6 +29,8 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
+constexpr const char* kMethods[] = {"StreamDance", "GenerateTransition", Tally::kInfoMethod};
+
 /// The metric families of one scrape, in order.
 class Families {
  public:
@@ -91,7 +93,7 @@ class Figures {
     out.Begin("calls_total", "Calls that are over, by method and status.", MetricType::Counter);
     // Reports all series from the start: rates miss a step at which a series begins.
     const Tally::Calls counted = serving_.tally.calls();
-    for (const char* method : {"StreamDance", "GenerateTransition", Tally::kInfoMethod}) {
+    for (const char* method : kMethods) {
       for (int code = 0; code <= grpc::StatusCode::UNAUTHENTICATED; ++code) {
         const auto status = static_cast<grpc::StatusCode>(code);
         const auto found = counted.find({method, status});
@@ -99,6 +101,14 @@ class Figures {
                 {{"method", method}, {"status", NameOf(status)}});
       }
     }
+    out.Begin("call_seconds", "How long calls took, by method and status.", MetricType::Histogram);
+    // Those that ended well have a series from the start; others would be many.
+    auto durations = serving_.tally.seconds();
+    for (const char* method : kMethods)
+      durations.try_emplace({method, grpc::StatusCode::OK},
+                            Histogram(Histogram::CallSeconds()).snapshot());
+    for (const auto& [kind, seconds] : durations)
+      out.Add(seconds, {{"method", kind.first}, {"status", NameOf(kind.second)}});
     out.Begin("refused_calls_total",
               "Calls that were turned away, by what was lacking: room, a token, or a server that "
               "goes on.",

@@ -33,7 +33,9 @@ class Tally {
     frames += static_cast<uint64_t>(call.frames);
     if (call.frames > 0) first_frame_s.Add(call.first_frame_s);
     const std::lock_guard lock(mutex_);
-    ++calls_[{std::string(call.method), call.status.error_code()}];
+    const auto kind = std::pair(std::string(call.method), call.status.error_code());
+    ++calls_[kind];
+    seconds_.try_emplace(kind, Histogram::CallSeconds()).first->second.Add(call.seconds);
     if (call.refusal) ++refusals_[static_cast<size_t>(*call.refusal)];
     if (call.method == kInfoMethod) return;
     ++(call.refusal ? sum_.refused : sum_.served);
@@ -44,6 +46,13 @@ class Tally {
   Calls calls() const {
     const std::lock_guard lock(mutex_);
     return calls_;
+  }
+  /// How long calls took, by method and status: of those kinds that there were.
+  std::map<std::pair<std::string, grpc::StatusCode>, Histogram::Snapshot> seconds() const {
+    const std::lock_guard lock(mutex_);
+    std::map<std::pair<std::string, grpc::StatusCode>, Histogram::Snapshot> all;
+    for (const auto& [kind, histogram] : seconds_) all.emplace(kind, histogram.snapshot());
+    return all;
   }
   Refusals refusals() const {
     const std::lock_guard lock(mutex_);
@@ -79,10 +88,11 @@ class Tally {
 
  private:
   mutable std::mutex mutex_;
-  Calls calls_;                           // lock: mutex_
-  Refusals refusals_ = {};                // lock: mutex_
-  Sum sum_;                               // lock: mutex_
-  std::map<std::string, Sum> of_holder_;  // lock: mutex_
+  Calls calls_;                                                            // lock: mutex_
+  std::map<std::pair<std::string, grpc::StatusCode>, Histogram> seconds_;  // lock: mutex_
+  Refusals refusals_ = {};                                                 // lock: mutex_
+  Sum sum_;                                                                // lock: mutex_
+  std::map<std::string, Sum> of_holder_;                                   // lock: mutex_
 };
 
 }  // namespace choreo

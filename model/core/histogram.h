@@ -49,6 +49,11 @@ class Histogram {
             kFrame, 0.05,   0.1,  0.25, 0.5,    1,    2.5,  5};
   }
 
+  /// 1 ms to an hour, the longest dance.
+  static std::vector<double> CallSeconds() {
+    return {1e-3, 0.01, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 30, 60, 120, 300, 600, 1800, 3600};
+  }
+
  private:
   const std::vector<double> bounds_;
   std::vector<std::atomic<uint64_t>> counts_;

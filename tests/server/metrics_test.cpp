@@ -83,6 +83,12 @@ TEST_F(MetricsTest, CountFinishedWork) {
   const std::string refused =
       R"(choreo_calls_total{method="StreamDance",status="INVALID_ARGUMENT"})";
   ExpectEventually([&] { return Figure(refused) == 1; }, "the other call is counted, too");
+  EXPECT_EQ(Figure(R"(choreo_call_seconds_count{method="StreamDance",status="OK"})"), 1);
+  EXPECT_GT(Figure(R"(choreo_call_seconds_sum{method="StreamDance",status="OK"})"), 0);
+  EXPECT_THAT(
+      Metrics(),
+      HasSubstr(
+          R"(choreo_call_seconds_bucket{method="StreamDance",status="INVALID_ARGUMENT",le="60"} 1)"));
   EXPECT_EQ(Figure("choreo_sent_frames_total"), 21);
   EXPECT_EQ(Figure("choreo_frames_total" + of_fake), 21);
   EXPECT_EQ(Figure("choreo_key_error_metres_count"), 1);
