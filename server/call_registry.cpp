@@ -124,11 +124,21 @@ void CallRegistry::EndIdle() {
   }
 }
 
-std::vector<std::shared_ptr<Call>> CallRegistry::Calls(bool admitted) const {
+void CallRegistry::EndRevoked() {
+  std::vector<std::shared_ptr<Call>> calls;
+  {
+    const std::lock_guard lock(mutex_);
+    calls = Calls();
+  }
+  for (const auto& call : calls) call->EndIfRevoked();
+}
+
+std::vector<std::shared_ptr<Call>> CallRegistry::Calls(std::optional<bool> admitted) const {
   std::vector<std::shared_ptr<Call>> calls;
   for (const auto& [key, entry] : calls_) {
     auto call = entry.call.lock();
-    if (call && entry.admitted == admitted) calls.push_back(std::move(call));
+    if (call && entry.admitted == admitted.value_or(entry.admitted))
+      calls.push_back(std::move(call));
   }
   return calls;
 }

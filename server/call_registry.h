@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ class Call {
   virtual void Abort(const Error& error) = 0;
   /// Ends an aborted call even if its client reads nothing. Any thread may call it.
   virtual void Reset() = 0;
+  /// Ends the call after its queued answers if its token has been revoked. Any thread may call it.
+  virtual void EndIfRevoked() = 0;
   /// Logs the call as lost: the process ends at once. Any thread may call it.
   virtual void GiveUp() noexcept = 0;
   virtual CallProgress progress() const = 0;
@@ -68,6 +71,9 @@ class CallRegistry {
 
   /// Ends calls that were idle for too long. Call regularly.
   void EndIdle();
+
+  /// Ends calls whose tokens have been revoked. Call regularly.
+  void EndRevoked();
 
   /// Gives up each admitted call (Call::GiveUp).
   void GiveUpAll();
@@ -113,7 +119,7 @@ class CallRegistry {
   };
 
   // These require mutex_.
-  std::vector<std::shared_ptr<Call>> Calls(bool admitted) const;
+  std::vector<std::shared_ptr<Call>> Calls(std::optional<bool> admitted = std::nullopt) const;
   bool IsRivalled(const std::string& party) const;
   int MostOf(const std::string& party) const;
   double Spread(double seconds);

@@ -51,6 +51,20 @@ class CallSession : public Call {
   void Reset() override { outbox_.Reset(); }
   CallProgress progress() const override { return outbox_.progress(); }
 
+  // Answers that wait go out, the last continuation among them.
+  void EndIfRevoked() override {
+    if (!serving_.tokens.IsRevoked(token_)) {
+      revoked_since_.reset();
+      return;
+    }
+    if (!revoked_since_) revoked_since_ = Clock::now();
+    if (!outbox_.open() || Clock::now() - *revoked_since_ < kRevoking) return;
+    End(Unauthenticated(
+        "its token has been revoked; with another one the dance goes on from the last "
+        "continuation"));
+    CancelDance();
+  }
+
   /// Ends the call with this error after all queued answers.
   void Fail(const Error& error) {
     EndIn(error);
@@ -59,7 +73,7 @@ class CallSession : public Call {
 
   /// Identifies the caller; call first. False if the call ends because of its token.
   bool Authenticate(std::string_view authorization) {
-    const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder);
+    const grpc::Status status = serving_.tokens.FindHolder(authorization, &caller_.holder, &token_);
     if (status.ok()) return true;
     Note(Refusal::kToken);
     outbox_.Close(status);
@@ -256,11 +270,16 @@ class CallSession : public Call {
     if (current) current->Cancel();
   }
 
+  /// A file of tokens that is written in pieces lacks some meanwhile.
+  static constexpr std::chrono::seconds kRevoking{2};
+
   Outbox<Response> outbox_;
   const std::string method_;
-  Caller caller_;  // written before the call enters
+  Caller caller_;         // written before the call enters
+  Tokens::Hash token_{};  // the same
   const Clock::time_point start_ = Clock::now();
-  bool admitted_ = false;  // message thread
+  bool admitted_ = false;                           // message thread
+  std::optional<Clock::time_point> revoked_since_;  // the thread that rereads tokens
 
   mutable std::mutex mutex_;  // guards the seven below
   std::string model_;

@@ -53,7 +53,7 @@ constexpr milliseconds kAbortTime{2'000};
 constexpr milliseconds kShutdownTime{1'000};
 /// The interval at which limits and engines are checked.
 constexpr milliseconds kWatchInterval{100};
-/// The interval at which tokens and certificate are read: a removed token works that long at most.
+/// The interval at which tokens and certificate are read: a revoked token works that long at most.
 constexpr milliseconds kFileInterval{500};
 /// The interval at which free memory is looked for.
 constexpr milliseconds kMemoryInterval{10'000};
@@ -226,6 +226,7 @@ struct Server::Impl {
   void RereadFiles() {
     Reloads& reloads = serving.reloads;
     if (const auto good = serving.tokens.Refresh()) reloads.Note(Reloads::kTokens, *good);
+    serving.calls.EndRevoked();
     if (!certificate) return;
     if (const auto good = certificate->Refresh()) reloads.Note(Reloads::kCertificate, *good);
     NoteExpiry();

@@ -108,7 +108,8 @@ std::vector<std::string> Tokens::Names(size_t most) const {
   return names;
 }
 
-grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* holder) const {
+grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* holder,
+                                Hash* hash_of_it) const {
   if (!needed()) return grpc::Status::OK;
   if (authorization.empty()) return SendToken("a token is needed");
   const size_t scheme = authorization.find(' ');
@@ -131,13 +132,29 @@ grpc::Status Tokens::FindHolder(std::string_view authorization, std::string* hol
     return SendToken("nobody here has that token");
   }
   *holder = found->name;
+  if (hash_of_it != nullptr) *hash_of_it = hash;
   return grpc::Status::OK;
+}
+
+bool Tokens::IsRevoked(const Hash& hash) const {
+  if (!needed()) return false;
+  const std::lock_guard lock(mutex_);
+  return !closed_ && std::ranges::none_of(*holders_, [&](const Holder& one) {
+    return CRYPTO_memcmp(one.hash.data(), hash.data(), hash.size()) == 0;
+  });
 }
 
 void Tokens::Replace(Holders holders) {
   auto known = std::make_shared<const Holders>(std::move(holders));
   const std::lock_guard lock(mutex_);
   holders_ = std::move(known);
+  closed_ = false;
+}
+
+void Tokens::Close() {
+  const std::lock_guard lock(mutex_);
+  holders_ = std::make_shared<const Holders>();
+  closed_ = true;
 }
 
 std::optional<bool> Tokens::Refresh() {
@@ -148,7 +165,7 @@ std::optional<bool> Tokens::Refresh() {
   } catch (const Error& error) {
     if (!text_) return std::nullopt;  // logged before
     text_.reset();
-    Replace({});
+    Close();
     spdlog::error("{}; nobody is let in until it can be read", error.what());
     return false;
   }

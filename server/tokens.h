@@ -23,6 +23,9 @@ namespace choreo {
 /// former ones stay valid. A file that is empty or gone admits nobody. Thread-safe.
 class Tokens {
  public:
+  /// A token's SHA-256.
+  using Hash = std::array<unsigned char, 32>;
+
   /// An empty path: everybody may call. Throws Error(kInvalidArgument), field "--tokens", naming
   /// file and line, if it is unreadable, a line is bad, or it holds no token.
   explicit Tokens(std::filesystem::path file);
@@ -34,8 +37,13 @@ class Tokens {
 
   /// The holder of the token in `authorization`, that header's value or empty; nobody if no token
   /// is needed. Takes equally long for all invalid tokens. Returns OK, or UNAUTHENTICATED saying
-  /// what to send.
-  grpc::Status FindHolder(std::string_view authorization, std::string* holder) const;
+  /// what to send. `hash`: the token's, if that is wanted.
+  grpc::Status FindHolder(std::string_view authorization, std::string* holder,
+                          Hash* hash = nullptr) const;
+
+  /// Whether a token that FindHolder knew has been revoked since: the file was read and lacks it. A
+  /// file that cannot be read revokes none.
+  bool IsRevoked(const Hash& hash) const;
 
   /// Rereads the file; call regularly. Bad lines are skipped; while the file is unreadable, nobody
   /// is admitted; a file of bad lines alone changes nothing. Logs each once. Returns whether a
@@ -43,7 +51,6 @@ class Tokens {
   std::optional<bool> Refresh();
 
  private:
-  using Hash = std::array<unsigned char, 32>;
   struct Holder {
     Hash hash;
     std::string name;
@@ -62,6 +69,8 @@ class Tokens {
   Error NoTokens() const;
   std::shared_ptr<const Holders> holders() const;
   void Replace(Holders holders);
+  /// Nobody is admitted while the file cannot be read.
+  void Close();
   /// Warns if the file has this token itself where its hash belongs: both may look alike.
   void WarnOfRawToken(std::string_view token, const Holders& holders) const;
 
@@ -72,6 +81,7 @@ class Tokens {
   mutable std::mutex mutex_;
   mutable std::atomic<bool> warned_ = false;                              // of a raw token
   std::shared_ptr<const Holders> holders_ = std::make_shared<Holders>();  // lock: mutex_
+  bool closed_ = false;                                                   // lock: mutex_
 };
 
 }  // namespace choreo
