@@ -44,39 +44,25 @@ Eigen::MatrixXd LastVelocities(const MotionPrior& prior, const Eigen::MatrixXd& 
   return velocity;
 }
 
-// Rows from `row` on of the product of a lower triangle, whose columns follow each other, and `by`:
-// sums of its columns in their order, as many rows at once as registers hold. Above the diagonal
-// there are zeros.
-template <Eigen::Index kRegisters>
-[[gnu::always_inline]] inline void MultiplyRows(const float* triangle, const float* by,
-                                                Eigen::Index size, Eigen::Index row, float* out) {
-  typedef float Vector __attribute__((vector_size(32), aligned(4), may_alias));
-  constexpr Eigen::Index kLanes = 8;
-  Vector sums[kRegisters] = {};
-  const Eigen::Index columns = std::min(size, row + kRegisters * kLanes);
-  for (Eigen::Index i = 0; i < columns; ++i) {
-    const float* column = triangle + i * size + row;
-#pragma GCC unroll 4
-    for (Eigen::Index k = 0; k < kRegisters; ++k)
-      sums[k] += by[i] * *reinterpret_cast<const Vector*>(column + k * kLanes);
-  }
-  std::memcpy(out + row, sums, sizeof sums);
-}
-
+// The product of a lower triangle, whose columns follow each other with zeros above the diagonal,
+// and `by`: each row is a sum over its columns in their order.
 CHOREO_EACH_CPU void MultiplyTriangle(const float* triangle, const float* by, Eigen::Index size,
                                       float* out) {
-  // The last rows may overlap others: their sums are the same.
-  if (size >= 32) {
-    for (Eigen::Index row = 0; row < size; row += 32)
-      MultiplyRows<4>(triangle, by, size, std::min(row, size - 32), out);
-  } else if (size >= 8) {
-    for (Eigen::Index row = 0; row < size; row += 8)
-      MultiplyRows<1>(triangle, by, size, std::min(row, size - 8), out);
-  } else {
+  typedef float Rows __attribute__((vector_size(32), aligned(4), may_alias));
+  constexpr Eigen::Index kRows = 8;
+  if (size < kRows) {
     for (Eigen::Index row = 0; row < size; ++row) {
       out[row] = 0;
       for (Eigen::Index i = 0; i <= row; ++i) out[row] += by[i] * triangle[i * size + row];
     }
+    return;
+  }
+  for (Eigen::Index at = 0; at < size; at += kRows) {
+    const Eigen::Index row = std::min(at, size - kRows);  // the last may be computed twice
+    Rows sums = {};
+    for (Eigen::Index i = 0; i < row + kRows; ++i)
+      sums += by[i] * *reinterpret_cast<const Rows*>(triangle + i * size + row);
+    std::memcpy(out + row, &sums, sizeof sums);
   }
 }
 

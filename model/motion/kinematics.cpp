@@ -55,7 +55,9 @@ JointPlacement ForwardKinematics(const Skeleton& skeleton, const Pose& pose) {
 }
 
 Eigen::Matrix3Xd JointPositions(const Skeleton& skeleton, const Pose& pose) {
-  return ForwardKinematics(skeleton, pose).positions;
+  thread_local JointPlacement placement;  // keeps its memory
+  ForwardKinematics(skeleton, pose, placement);
+  return placement.positions;
 }
 
 namespace {

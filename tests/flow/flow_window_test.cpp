@@ -26,6 +26,21 @@ TEST(FlowWindow, DecodingInvertsEncoding) {
   }
 }
 
+// Sums in a fixed order have the same bits on every CPU, in windows of every length.
+TEST(FlowWindow, ColoursFrameByFrameInTheirOrder) {
+  for (const int frames : {1, 5, 8, 13, 40}) {
+    const FlowWindow window(Parts().prior, MakeScene(frames).request);
+    const Eigen::MatrixXd z = Eigen::MatrixXd::Random(75, frames);
+    Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(75, frames);
+    for (int i = 0; i < frames; ++i) {
+      Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(75, frames);
+      alone.col(i) = z.col(i);
+      sum += window.Colour(alone).cast<float>();
+    }
+    EXPECT_EQ(window.Colour(z).cast<float>(), sum) << frames << " frames";
+  }
+}
+
 TEST(FlowWindow, MeanEndsAtTheKeyExceptWhereItsMaskIsOpen) {
   const Scene scene = MakeScene(30);
   const FlowModelParts parts = Parts();
