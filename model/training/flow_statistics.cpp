@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/flow/flow_sampler.h"
 #include "model/flow/window_energy.h"
 #include "model/motion/rotation.h"
 
