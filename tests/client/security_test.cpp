@@ -488,6 +488,23 @@ TEST_F(TokensTest, AnEmptiedFileRevokesAll) {
                                     " holds no token, no line \"SHA256 NAME\"; nobody is let in"));
 }
 
+// It might come back in a moment: what cannot be read revokes nobody's dance.
+TEST_F(TokensTest, AnUnreadableFileEndsNoDance) {
+  Write("tokens", LineOf("a", "alice"));
+  Tokens tokens(folder_ / "tokens");
+  std::string holder;
+  Tokens::Hash hash;
+  ASSERT_TRUE(tokens.FindHolder("Bearer a", &holder, &hash).ok());
+  EXPECT_FALSE(tokens.IsRevoked(hash));
+  std::filesystem::remove(folder_ / "tokens");
+  EXPECT_EQ(tokens.Refresh(), false);
+  EXPECT_FALSE(tokens.FindHolder("Bearer a", &holder).ok());
+  EXPECT_FALSE(tokens.IsRevoked(hash));
+  Write("tokens", LineOf("b", "bob"));
+  EXPECT_EQ(tokens.Refresh(), true);
+  EXPECT_TRUE(tokens.IsRevoked(hash));
+}
+
 // It is another file, or its writer has failed half-way.
 TEST_F(TokensTest, AFileOfBadLinesKeepsTheFormerTokens) {
   const LogCapture log;
