@@ -22,8 +22,8 @@ void CallWithRetries(Replicas* replicas, const Call& call) {
     const Replicas::Server server = replicas->current();
     const grpc::Status status = call(server, &context);
     if (status.ok()) return;
-    const auto wait = patience.Next(status, replicas->Leave(server));
-    if (!wait) throw ToError(patience.Verdict(), server.address, replicas->options().tls);
+    const auto wait = patience.Next(status, server.address, replicas->Leave(server));
+    if (!wait) throw ToError(patience.Verdict(), patience.VerdictOf(), replicas->options().tls);
     replicas->TellOfRetry(server, status);
     replicas->Wait(*wait, [] { return false; });
   }

@@ -138,8 +138,8 @@ void RemoteDance::Impl::Recover(const grpc::Status& status) {
   const Replicas::Server failed = attempt_->server();
   attempt_.reset();
   if (cancelled_) throw Error(ErrorCode::kCancelled, "", "the dance was cancelled");
-  const auto wait = patience_.Next(status, replicas_->Leave(failed));
-  if (!wait) throw ToError(patience_.Verdict(), failed.address, replicas_->options().tls);
+  const auto wait = patience_.Next(status, failed.address, replicas_->Leave(failed));
+  if (!wait) throw ToError(patience_.Verdict(), patience_.VerdictOf(), replicas_->options().tls);
   lock.unlock();
   replicas_->TellOfRetry(failed, status);
   replicas_->Wait(*wait, [&] {

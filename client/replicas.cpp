@@ -220,25 +220,38 @@ void Patience::Reset() {
   failures_ = 0;
   refusals_ = 0;
   verdict_ = grpc::Status();
+  away_.clear();
+}
+
+std::string Patience::VerdictOf() const {
+  if (!IsAway(verdict_)) return verdict_of_;
+  std::string all;
+  for (const std::string& address : away_) all += (all.empty() ? "" : ", ") + address;
+  return all;
 }
 
 std::optional<std::chrono::duration<double>> Patience::Next(
-    const grpc::Status& failed, bool elsewhere, std::chrono::steady_clock::time_point now) {
+    const grpc::Status& failed, const std::string& address, bool elsewhere,
+    std::chrono::steady_clock::time_point now) {
   const RetryAdvice advice = AdviceFor(failed);
   if (failures_ == 0) failing_since_ = now;
-  if (!advice.here || verdict_.ok() || AdviceFor(verdict_).here) verdict_ = failed;
+  if (!advice.here || verdict_.ok() || AdviceFor(verdict_).here) {
+    verdict_ = failed;
+    verdict_of_ = address;
+  }
+  if (IsAway(failed) && std::ranges::find(away_, address) == away_.end()) away_.push_back(address);
   // Counts refusals until all replicas have refused.
   refusals_ = advice.here ? 0 : refusals_ + 1;
   const bool useful = advice.here || (advice.elsewhere && refusals_ < servers_);
-  const std::chrono::duration<double> spent = now - failing_since_;
-  if (!useful || spent.count() >= retry_s_) return std::nullopt;
+  const double left = retry_s_ - std::chrono::duration<double>(now - failing_since_).count();
+  // A server's retry delay concerns only that server.
+  const double asked = elsewhere ? 0 : advice.wait_s;
+  if (!useful || left <= 0 || asked > left) return std::nullopt;
   const double doubled = std::min(kMaxBackoffSeconds, first_backoff_s_ * std::exp2(failures_));
   ++failures_;
   // Clients that lost the same server should not all come back at once.
   const double spread = std::uniform_real_distribution<double>(0.5, 1.0)(jitter_);
-  // A server's retry delay concerns only that server.
-  const std::chrono::duration<double> wait(
-      std::max(elsewhere ? 0 : advice.wait_s, doubled * spread));
+  const std::chrono::duration<double> wait(std::max(asked, std::min(left, doubled * spread)));
   if (deadline_ && Clock::now() + std::chrono::duration_cast<Clock::duration>(wait) >= *deadline_) {
     return std::nullopt;
   }

@@ -60,15 +60,19 @@ class Patience {
   explicit Patience(const Options& options);
 
   std::optional<Clock::time_point> deadline() const { return deadline_; }
-  /// How long to wait after `failed` before trying again, on the same server or another one
-  /// (`elsewhere`); none if a retry is useless or no longer allowed. Throws what
-  /// Options::before_retry throws.
+  /// How long to wait after `failed`, of the server at `address`, before trying again, on the same
+  /// server or another one (`elsewhere`); none if a retry is useless or no longer allowed, or the
+  /// server asks to wait longer than is left of Options::retry_s. Throws what Options::before_retry
+  /// throws.
   std::optional<std::chrono::duration<double>> Next(
-      const grpc::Status& failed, bool elsewhere,
+      const grpc::Status& failed, const std::string& address, bool elsewhere,
       std::chrono::steady_clock::time_point now = std::chrono::steady_clock::now());
   /// The status for the caller after Next gave none. A reachable server's refusal says more than
   /// that another one is unreachable.
   const grpc::Status& Verdict() const { return verdict_; }
+  /// Whose it is: an address or, if no server was reached, all that were tried since the last
+  /// progress.
+  std::string VerdictOf() const;
   /// Notes progress: counting starts again.
   void Reset();
 
@@ -81,6 +85,9 @@ class Patience {
   int failures_ = 0;     // since the last progress
   size_t refusals_ = 0;  // consecutive servers that would refuse again
   grpc::Status verdict_;
+  std::string verdict_of_;
+  std::vector<std::string>
+      away_;  // addresses at which no server was reached, since the last progress
   std::chrono::steady_clock::time_point failing_since_;
   std::minstd_rand jitter_;
 };

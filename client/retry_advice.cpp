@@ -1,7 +1,9 @@
 #include "client/retry_advice.h"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
+#include <string_view>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -59,6 +61,25 @@ std::string FieldOf(const grpc::Status& status) {
   return bad_request.field_violations(0).field();
 }
 
+/// gRPC's words for a server that is not reached.
+constexpr const char* kAway[] = {"failed to connect to all addresses",
+                                 "connections to all backends failing"};
+
+/// What of them says why.
+std::string ReasonIn(const std::string& message) {
+  constexpr std::string_view kLast = "last error: ", kFailed = "Failed to connect to remote host: ";
+  const size_t last = message.find(kLast);
+  if (last == message.npos) return "nobody answers";
+  std::string_view reason = std::string_view(message).substr(last + kLast.size());
+  // A code and an address stand in front: "UNKNOWN: ipv4:127.0.0.1:50051: ".
+  for (size_t end; (end = reason.find(' ')) != reason.npos && end > 0 && reason[end - 1] == ':';)
+    reason.remove_prefix(end + 1);
+  if (reason.starts_with(kFailed)) reason.remove_prefix(kFailed.size());
+  std::string text(reason);
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(text[0]));
+  return text;
+}
+
 constexpr const char* kFingerprintField = "config.continuation.fingerprint";
 
 /// Whether another replica may have been started with another value.
@@ -80,6 +101,12 @@ Error ToError(const grpc::Status& status) {
   return {ToCode(status.error_code()), field, message};
 }
 
+bool IsAway(const grpc::Status& status) {
+  const std::string& message = status.error_message();
+  return status.error_code() == grpc::StatusCode::UNAVAILABLE &&
+         std::ranges::any_of(kAway, [&](const char* words) { return message.starts_with(words); });
+}
+
 Error ToError(const grpc::Status& status, const std::string& address, bool tls) {
   const Error error = ToError(status);
   google::rpc::RetryInfo info;
@@ -90,9 +117,10 @@ Error ToError(const grpc::Status& status, const std::string& address, bool tls) 
                 " s; another server may have room"};
   }
   if (error.code() != ErrorCode::kUnavailable) return error;
-  std::string message = error.what();
+  std::string message =
+      IsAway(status) ? "no server is reached: " + ReasonIn(error.what()) : error.what();
   // This is the symptom of plain text sent to a TLS port.
-  if (!tls && message.ends_with(": Socket closed")) message += "; it may want TLS, which is off";
+  if (!tls && message.ends_with("ocket closed")) message += "; it may want TLS, which is off";
   return {ErrorCode::kUnavailable, address, message};
 }
 

@@ -12,8 +12,11 @@ namespace choreo::client {
 /// field.
 Error ToError(const grpc::Status& status);
 
-/// The same for a server at this address, with TLS or without: names an unreachable server, one
-/// that may require TLS, and a full one, with when to come again.
+/// Whether no server was reached.
+bool IsAway(const grpc::Status& status);
+
+/// The same for a server at this address, or servers at several, with TLS or without: names
+/// unreachable servers, one that may require TLS, and a full one, with when to come again.
 Error ToError(const grpc::Status& status, const std::string& address, bool tls);
 
 /// The error for a restarted dance on a server of another fingerprint, which would make other

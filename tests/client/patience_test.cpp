@@ -3,6 +3,8 @@
 #include <chrono>
 
 #include "client/replicas.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
 
 namespace choreo::client::patience_test {
 
@@ -11,7 +13,7 @@ const grpc::Status kGone(grpc::StatusCode::UNAVAILABLE, "connection refused");
 TEST(PatienceTest, IsATimeNotACount) {
   Patience patience({.retry_s = 1e6, .first_backoff_s = 1e-6});
   for (int i = 0; i < 1000; ++i) {
-    const auto wait = patience.Next(kGone, false);
+    const auto wait = patience.Next(kGone, "a:1", false);
     ASSERT_TRUE(wait) << i;
     EXPECT_LE(wait->count(), 2);
   }
@@ -20,7 +22,7 @@ TEST(PatienceTest, IsATimeNotACount) {
 TEST(PatienceTest, EndsAfterItsTimeWithoutProgress) {
   Patience patience({.retry_s = 10});
   const auto failed_after = [&](int seconds) {
-    return patience.Next(kGone, false,
+    return patience.Next(kGone, "a:1", false,
                          std::chrono::steady_clock::time_point(std::chrono::seconds(seconds)));
   };
   EXPECT_TRUE(failed_after(50)) << "the time runs from the first failure";
@@ -30,27 +32,68 @@ TEST(PatienceTest, EndsAfterItsTimeWithoutProgress) {
   EXPECT_TRUE(failed_after(61)) << "progress makes patient again";
 }
 
-TEST(PatienceTest, NoTimeIsNoRetry) { EXPECT_FALSE(Patience({.retry_s = 0}).Next(kGone, true)); }
+grpc::Status FullFor(int seconds) {
+  google::rpc::RetryInfo retry;
+  retry.mutable_retry_delay()->set_seconds(seconds);
+  google::rpc::Status details;
+  details.add_details()->PackFrom(retry);
+  return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is full", details.SerializeAsString()};
+}
+
+TEST(PatienceTest, NoWaitIsLongerThanWhatIsLeft) {
+  using Time = std::chrono::steady_clock::time_point;
+  Patience patience({.retry_s = 10, .first_backoff_s = 2});
+  EXPECT_EQ(patience.Next(FullFor(9), "a:1", false, Time()), std::chrono::seconds(9));
+  EXPECT_FALSE(patience.Next(FullFor(2), "a:1", false, Time(std::chrono::seconds(9))))
+      << "one second is left";
+  EXPECT_TRUE(patience.Next(FullFor(60), "a:1", true, Time(std::chrono::seconds(9))))
+      << "another one may have room";
+  const auto last = patience.Next(kGone, "a:1", false, Time(std::chrono::milliseconds(9900)));
+  ASSERT_TRUE(last);
+  EXPECT_LE(last->count(), 0.1001);
+}
+
+TEST(PatienceTest, NoTimeIsNoRetry) {
+  EXPECT_FALSE(Patience({.retry_s = 0}).Next(kGone, "a:1", true));
+}
 
 TEST(PatienceTest, DoesNotRetryPermanentErrors) {
-  EXPECT_FALSE(Patience({.retry_s = 1e6}).Next({grpc::StatusCode::INVALID_ARGUMENT, "no"}, true));
+  EXPECT_FALSE(
+      Patience({.retry_s = 1e6}).Next({grpc::StatusCode::INVALID_ARGUMENT, "no"}, "a:1", true));
 }
 
 const grpc::Status kBroken(grpc::StatusCode::INTERNAL, "the device is gone");
 
 TEST(PatienceTest, BrokenReplicaIsRetriedElsewhereUntilAllAreBroken) {
-  EXPECT_FALSE(Patience({.retry_s = 1e6}).Next(kBroken, false));
+  EXPECT_FALSE(Patience({.retry_s = 1e6}).Next(kBroken, "a:1", false));
   Patience patience({.addresses = {"a:1", "b:1", "c:1"}, .retry_s = 1e6});
-  EXPECT_TRUE(patience.Next(kBroken, true));
-  EXPECT_TRUE(patience.Next(kBroken, true));
-  EXPECT_FALSE(patience.Next(kBroken, true));
+  EXPECT_TRUE(patience.Next(kBroken, "a:1", true));
+  EXPECT_TRUE(patience.Next(kBroken, "a:1", true));
+  EXPECT_FALSE(patience.Next(kBroken, "a:1", true));
+}
+
+TEST(PatienceTest, NamesAllAddressesThatWereTried) {
+  const grpc::Status away(
+      grpc::StatusCode::UNAVAILABLE,
+      "failed to connect to all addresses; last error: UNKNOWN: ipv4:127.0.0.1:1: Failed to "
+      "connect to remote host: Connection refused");
+  Patience patience({.addresses = {"a:1", "b:1"}, .retry_s = 1e6});
+  for (int i = 0; i < 2; ++i) {
+    for (const char* address : {"a:1", "b:1"}) ASSERT_TRUE(patience.Next(away, address, true));
+  }
+  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), false).what(),
+               "a:1, b:1: no server is reached: connection refused");
+  ASSERT_TRUE(patience.Next(kBroken, "b:1", true));
+  ASSERT_TRUE(patience.Next(away, "a:1", true));
+  EXPECT_STREQ(ToError(patience.Verdict(), patience.VerdictOf(), false).what(),
+               "the device is gone");
 }
 
 TEST(PatienceTest, RetriesAReplicaThatWasAway) {
   Patience patience({.addresses = {"a:1", "b:1"}, .retry_s = 1e6, .first_backoff_s = 1e-6});
   for (int i = 0; i < 20; ++i) {
-    ASSERT_TRUE(patience.Next(kBroken, true));
-    ASSERT_TRUE(patience.Next(kGone, true));
+    ASSERT_TRUE(patience.Next(kBroken, "a:1", true));
+    ASSERT_TRUE(patience.Next(kGone, "a:1", true));
   }
   EXPECT_EQ(patience.Verdict().error_message(), "the device is gone");
 }
