@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/core/error.h"
+#include "model/motion/body_limits.h"
 #include "model/motion/kinematics.h"
 #include "model/motion/rotation.h"
 #include "model/plan/plan_stages.h"
@@ -60,6 +61,8 @@ std::optional<Target> Placed(std::optional<Target> target, const Controls& contr
   target->mask.root_position = true;
   return target;
 }
+
+constexpr uint32_t kMaxRetakes = 4;
 
 constexpr std::ptrdiff_t kFootworkFrames = 300;  // that footwork processes in one slice, at most
 
@@ -154,7 +157,38 @@ void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
     spec.after = spec.target->pose;  // at rest
 }
 
+// Whether another sample may be slower: unless the straight way to the key is too fast already.
+bool TransitionRun::MayBeRetaken() const {
+  if (held_ || !spec_->footwork || model_->deterministic || spec_->temperature == 0) return false;
+  if (!spec_->target) return true;
+  const auto& [pose, mask, height] = *spec_->target;
+  const Pose key = Masked(pose, mask, spec_->history.back());
+  return FindFastestStep(model_->skeleton, spec_->history.back(), {&key, 1},
+                         model_->fps / spec_->frames)
+             .m_per_s <= kFastestJoint;
+}
+
+// The speed of the fastest joint in units of the fastest that bodies reach.
+double TransitionRun::Strain() const {
+  return FindFastestStep(model_->skeleton, spec_->history.back(), plan_, model_->fps).m_per_s /
+         kFastestJoint;
+}
+
 Slices<> TransitionRun::Dance(Sampler& sampler) {
+  const TransitionRun fresh = *this;
+  co_await DanceOnce(sampler);
+  if (!MayBeRetaken()) co_return;
+  for (uint32_t take = 1; take <= kMaxRetakes && Strain() > 1; ++take) {
+    TransitionRun other = fresh;
+    // Far from the numbers of other candidates and of a sampler's own retakes.
+    other.set_candidate(fresh.spec().candidate + (take << 16));
+    co_await other.DanceOnce(sampler);
+    other.set_candidate(fresh.spec().candidate);
+    if (other.Strain() < Strain()) *this = std::move(other);
+  }
+}
+
+Slices<> TransitionRun::DanceOnce(Sampler& sampler) {
   if (held_)
     Hold();
   else

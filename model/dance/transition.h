@@ -61,9 +61,10 @@ class TransitionRun {
     spec_.Change([candidate](TransitionSpec& spec) { spec.candidate = candidate; });
   }
 
-  /// Makes all frames. Sampler and this must outlive the slices, and this must not move meanwhile.
-  /// Throws Error(kInternal) for a plan of another length, and for a value that is not finite,
-  /// whoever made it.
+  /// Makes all frames. If a joint moves faster than bodies can, though no key demands that, samples
+  /// anew up to four times, and keeps the slowest. Sampler and this must outlive the slices,
+  /// and this must not move meanwhile. Throws Error(kInternal) for a plan of another length, and
+  /// for a value that is not finite, whoever made it.
   Slices<> Dance(Sampler& sampler);
 
   /// All frames, once they are made.
@@ -78,6 +79,9 @@ class TransitionRun {
 
  private:
   void MoveToCanonicalFrame(TransitionSpec& spec);
+  bool MayBeRetaken() const;
+  double Strain() const;
+  Slices<> DanceOnce(Sampler& sampler);
   void CheckLength() const;
   void Hold();
   void Steer();

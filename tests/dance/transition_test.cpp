@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/core/error.h"
+#include "model/motion/body_limits.h"
 #include "tests/dance/poses.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/fake_sampler.h"
@@ -77,6 +78,54 @@ TEST(Transition, AKeyHitOnAPathIsWhereThePathEnds) {
   const auto root = [&](size_t back) { return frames[frames.size() - back].pose.root_position; };
   EXPECT_LT((root(1) - path.rightCols<1>()).norm(), 1e-3);
   EXPECT_LT((root(1) - root(2)).norm(), 1e-3);
+}
+
+// Throws an arm in its first samples.
+class WildSampler : public FakeSampler {
+ public:
+  explicit WildSampler(int wild) : wild_(wild) {}
+  int samples() const { return samples_; }
+
+ private:
+  void OnFrame(const TransitionSpec& /*spec*/, Plan* plan) override {
+    if (plan->poses.size() == 1) ++samples_;
+    if (plan->poses.size() == 10 && samples_ <= wild_)
+      plan->poses.back().rotations.col(Skeleton::Smpl24().Find("left_shoulder")).z() += 2;
+  }
+
+  const int wild_;
+  int samples_ = 0;
+};
+
+double FastestJoint(const TransitionSpec& request, const TransitionRun& run) {
+  std::vector<Pose> poses;
+  for (const DanceFrame& frame : run.frames()) poses.push_back(frame.pose);
+  return FindFastestStep(Skeleton::Smpl24(), request.history.back(), poses, kModelFps).m_per_s;
+}
+
+TEST(Transition, WhatNoBodyCanDoIsSampledAgain) {
+  TransitionSpec request = RandomRequest(6);
+  request.frames = 60;
+  request.candidate = 3;
+  for (const int wild : {0, 1, 3}) {
+    WildSampler sampler(wild);
+    const TransitionRun run = DanceTransition(sampler, request);
+    EXPECT_EQ(sampler.samples(), wild + 1);
+    EXPECT_LT(FastestJoint(request, run), kFastestJoint);
+    EXPECT_EQ(run.spec().candidate, 3u);
+    EXPECT_LT(run.arrival()->final_error_m, 1e-5);
+  }
+  WildSampler always(100);
+  EXPECT_GT(FastestJoint(request, DanceTransition(always, request)), kFastestJoint);
+  EXPECT_EQ(always.samples(), 5);
+}
+
+TEST(Transition, AKeyThatDemandsTooMuchIsSampledOnce) {
+  TransitionSpec request = RandomRequest(6);
+  request.frames = 2;
+  WildSampler sampler(0);
+  EXPECT_GT(FastestJoint(request, DanceTransition(sampler, request)), kFastestJoint);
+  EXPECT_EQ(sampler.samples(), 1);
 }
 
 // Never keeps still.
