@@ -98,14 +98,15 @@ double ReadRate(const NpzArchive& npz, double otherwise, bool known, const Motio
       if (first == 0) first = CheckRate(name, rate);
       differ = differ || std::abs(rate - first) > 0.001 * first;
     } else if (!(reading.fps > 0)) {
-      throw InvalidArgument(name, Rounded(rate) + " frames a second are none; --fps says another");
+      throw InvalidArgument(name,
+                            Rounded(rate) + " frames a second are impossible; --fps sets another");
     }
   }
   if (first > 0 && !differ) return first;
   if (reading.fps > 0) return reading.fps;
   if (differ)
     reading.Note("states " + stated + ": " + Rounded(first) +
-                 " frames a second is taken, --fps says another");
+                 " frames a second is used, --fps sets another");
   if (first > 0) return first;
   if (!known) reading.NoteRate(otherwise);
   return otherwise;

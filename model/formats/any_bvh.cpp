@@ -110,12 +110,12 @@ SkeletonMotion ReadAnyBvh(const std::filesystem::path& path, const Skeleton* pre
     // backwards.
     if (ShareOfFaults(read.skeleton, read.motion) < 0.1) {
       reading.Note(
-          "its angles are taken as radians, as they are so small; --angles degrees says otherwise");
+          "its angles are read as radians, as they are so small; --angles degrees overrides that");
       for (const std::string& note : notes) reading.Note(note);
       return read;
     }
     reading.Note(
-        "its angles are taken as degrees, though they are small; --angles radians says otherwise");
+        "its angles are read as degrees, though they are small; --angles radians overrides that");
   }
   return ReadOwnOrFit(file, preferred, reading);
 }

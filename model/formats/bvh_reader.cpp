@@ -141,7 +141,7 @@ void FindAdding(BvhFile& file) {
   }
   if (adding > 0) {
     file.notes.push_back("the places of " + std::to_string(adding) +
-                         " joints are 0 or nearly so in all frames; their offsets are taken");
+                         " joints are 0 or nearly so in all frames; their offsets are used");
   }
 }
 
@@ -172,7 +172,7 @@ BvhFile ParseBvh(std::string_view text, const std::string& name) {
   if (const double seconds = file.frame_time / 1000;
       file.frame_time >= kMaxFrameTime && seconds < 1) {
     file.notes.push_back("its frame time is " + Rounded(file.frame_time) +
-                         ", which is taken as milliseconds");
+                         ", which is read as milliseconds");
     file.frame_time = seconds;
   }
   if (!(file.frame_time >= kMinFrameTime && file.frame_time <= kMaxFrameTime)) {

@@ -52,9 +52,9 @@ const Kind* FindKind(int64_t width) {
 
 double Rate(int64_t width, const char* of, double fps, const MotionReading& reading) {
   const double rate = reading.fps > 0 ? reading.fps : fps;
-  reading.Note(std::string("taken as ") + of + "'s " + std::to_string(width) +
+  reading.Note(std::string("read as ") + of + "'s " + std::to_string(width) +
                " numbers a frame, at " + Rounded(rate) + " frames a second" +
-               (reading.fps > 0 ? "" : "; --fps says another"));
+               (reading.fps > 0 ? "" : "; --fps sets another"));
   return rate;
 }
 

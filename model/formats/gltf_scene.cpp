@@ -203,7 +203,7 @@ void CorrectTimes(const MotionReading& reading, GltfScene* scene) {
       channel.arrives *= 1000, channel.leaves *= 1000;
   }
   reading.Note("its keys stand " + Rounded(apart) +
-               " s apart; their times are taken as milliseconds");
+               " s apart; their times are read as milliseconds");
 }
 
 void ChooseTimes(const tinygltf::Model& model, size_t number, const MotionReading& reading,

@@ -143,7 +143,8 @@ Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& r
   const Skeleton& body = PlacedBody();
   if (IsMirrored(frames)) {
     reading.Note(
-        "its left and right are exchanged, as in a mirror: limbs are taken by where toes point");
+        "its left and right are exchanged, as in a mirror: limbs are assigned by the direction of "
+        "toes");
     ExchangeSides(&frames);
   }
   PositionClip clip{.fps = fps, .joint_names = body.joint_names, .frames = {}};
@@ -157,7 +158,8 @@ Motion ReadJointPlaces(const NpyArray& array, double fps, const MotionReading& r
     }
   }
   Motion motion = FitClip(clip, IdentitySource(body, kHandWeight), body, {.ground = false}).motion;
-  reading.Note("joints alone do not say how head, hands and feet are turned: that is a guess");
+  reading.Note(
+      "joints alone do not determine the rotations of head, hands and feet, which are guesses");
   return CorrectMotion({.skeleton = body, .motion = std::move(motion), .has_floor = false},
                        reading);
 }

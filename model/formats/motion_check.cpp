@@ -114,8 +114,8 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
   if (file.rest_up && *file.rest_up != file.up &&
       (ShareStanding(trunks, *file.rest_up) >= ShareStanding(trunks, file.up) ||
        (IsOnFloor(file, *file.rest_up) && !IsOnFloor(file, file.up)))) {
-    reading.Note("taken as " + UpName(*file.rest_up) + " up, not " + UpName(file.up) +
-                 ", as its rest pose stands so; --up " + UpName(file.up) + " lets it lie");
+    reading.Note("read as " + UpName(*file.rest_up) + " up, not " + UpName(file.up) +
+                 ", as its rest pose then stands; --up " + UpName(file.up) + " makes it lie");
     return *file.rest_up;
   }
   if (trunks.empty() || ShareStanding(trunks, file.up) > 1 - kRuleShare) return file.up;
@@ -126,7 +126,7 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
     if (share < kRuleShare) continue;
     const auto beside = axis == -file.up ? FloorBeside(file, axis) : std::nullopt;
     if (beside && trunks.size() >= kFewFrames) {
-      reading.Note("taken as " + UpName(*beside) + " up, not " + UpName(file.up) +
+      reading.Note("read as " + UpName(*beside) + " up, not " + UpName(file.up) +
                    ", as its body lies on that floor; --up " + UpName(file.up) +
                    " stands it on its head");
       return *beside;
@@ -139,9 +139,9 @@ Eigen::Vector3d FindUp(const FileMotion& file, const MotionReading& reading) {
                    "; --up " + UpName(axis) + " stands it up, if it should stand");
       return file.up;
     }
-    reading.Note("taken as " + UpName(axis) + " up, not " + UpName(file.up) +
-                 ", as its body stands so in " + Share(share) + " of the frames; --up " +
-                 UpName(file.up) + " lets it lie");
+    reading.Note("read as " + UpName(axis) + " up, not " + UpName(file.up) +
+                 ", as its body then stands in " + Share(share) + " of the frames; --up " +
+                 UpName(file.up) + " makes it lie");
     return axis;
   }
   return file.up;
@@ -165,11 +165,11 @@ double Unit(const Motion& motion, const MotionReading& reading) {
   for (const auto& [unit, name] : {std::pair(0.01, "centimetres"), std::pair(0.001, "millimetres"),
                                    std::pair(0.0254, "inches")}) {
     if (height * unit < kLowPelvis || height * unit > kHighPelvis) continue;
-    reading.Note(std::string("its places are taken as ") + name + ", as the hips are " +
-                 Rounded(height) + " high; --scale says another unit");
+    reading.Note(std::string("its positions are read as ") + name + ", as the hips are " +
+                 Rounded(height) + " high; --scale sets another unit");
     return unit;
   }
-  reading.Note("the hips are " + Rounded(height) + " m high; --scale says what its unit is");
+  reading.Note("the hips are " + Rounded(height) + " m high; --scale sets its unit");
   return 1;
 }
 
@@ -190,8 +190,8 @@ void NoteBends(const FileMotion& file, const Motion& motion, const MotionReading
   const double share = ShareOfFaults(file.skeleton, motion, &example);
   if (share > 1 - kRuleShare) {
     reading.Note("in " + Share(share) + " of its frames a joint is bent as no body can, as in: " +
-                 example + "; are its bones taken for what they are?" +
-                 (file.has_angles ? " --angles says the unit of its angles" : ""));
+                 example + "; are its bones assigned correctly?" +
+                 (file.has_angles ? " --angles sets the unit of its angles" : ""));
   }
 }
 

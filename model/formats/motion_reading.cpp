@@ -11,7 +11,7 @@
 namespace choreo {
 
 void MotionReading::NoteRate(double taken) const {
-  Note("states no rate; taken as " + Rounded(taken) + " frames a second, --fps says another");
+  Note("states no rate; read as " + Rounded(taken) + " frames a second, --fps sets another");
 }
 
 void MotionReading::RefuseBody() const {

@@ -49,20 +49,20 @@ std::string Listed(const std::vector<std::string>& words) {
 void NoteFit(const RigFit& fit, const MotionReading& reading) {
   if (!fit.exchanged.empty()) {
     reading.Note((fit.exchanged == "body" ? "its" : "its " + fit.exchanged + "'") +
-                 " left and right are exchanged, as in a mirror: limbs are taken by where they "
-                 "stand, not by their names");
+                 " left and right are exchanged, as in a mirror: limbs are assigned by "
+                 "position, not by name");
   }
   if (!fit.turns) {
     reading.Note(
-        "its joints move, its rotations do not say how: read by the joints' places alone, "
-        "how head, hands and feet are turned is a guess");
+        "its joints move without its rotations: only the joints' positions are read, and the "
+        "rotations of head, hands and feet are guesses");
   } else if (!fit.rest) {
     reading.Note(
-        "its rest pose is no standing body: how head, hands and feet are turned at rest is "
-        "a guess");
+        "its rest pose is no standing body: the rotations of head, hands and feet at rest are "
+        "guesses");
   }
   if (!fit.missing.empty())
-    reading.Note("has no " + Listed(fit.missing) + ": our own go along with what carries them");
+    reading.Note("has no " + Listed(fit.missing) + ": our own move with the parts above them");
 }
 
 // Notes a mix of units: some files have bones in centimetres and the root's positions in metres.
@@ -94,7 +94,7 @@ void NoteUnits(const RigMotion& rig, const RigFit& fit, const MotionReading& rea
 HumanBones FindBody(const RigNodes& nodes, const MotionReading& reading) {
   HumanBones found = FindBones(nodes, reading.bones);
   if (!reading.bones.empty() && !reading.body.empty())
-    throw InvalidArgument("--body", "a map says which bones are read: give one of both");
+    throw InvalidArgument("--body", "--map already chooses the bones: give only one of both");
   if (!reading.bones.empty() || !MissingBone(found).empty()) return found;
   std::vector<HumanBones> bodies = MovingBodies(nodes, found);
   std::vector<std::string> names;

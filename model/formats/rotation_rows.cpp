@@ -212,10 +212,10 @@ void ToRadians(const std::string& key, const MotionReading& reading, RotationRow
   if (!reading.angles.empty()) return;
   if (found) {
     reading.Note("its " + key +
-                 " are taken as degrees, not radians; --angles radians says otherwise");
+                 " are read as degrees, not radians; --angles radians overrides that");
   } else if (!first.empty() && Median(std::move(first)) > kTwiceRound) {
     reading.Note("its root alone turns by more than two whole turns: its " + key +
-                 " are taken as radians, --angles degrees says otherwise");
+                 " are read as radians, --angles degrees overrides that");
   }
 }
 

@@ -29,7 +29,7 @@ TEST_F(ConvertCommandTest, NotesAWrongFileInOneLine) {
   WriteBvh(folder_ / "z.bvh", MakeBvh({.world = z_up}));
   const Outcome taken = Convert("z.bvh");
   EXPECT_EQ(taken.code, 0);
-  EXPECT_THAT(taken.said, HasSubstr("note: " + (folder_ / "z.bvh").string() + ": taken as z up"));
+  EXPECT_THAT(taken.said, HasSubstr("note: " + (folder_ / "z.bvh").string() + ": read as z up"));
   EXPECT_EQ(std::ranges::count(taken.said, '\n'), 2) << taken.said;
   EXPECT_TRUE(Convert("z.bvh", "--up z").said.ends_with(".npz\n"));
   EXPECT_THAT(Convert("z.bvh", "--up w").said, HasSubstr("--up: \"w\" is none of x, y, z"));
@@ -41,9 +41,9 @@ TEST_F(ConvertCommandTest, NotesAWrongFileInOneLine) {
 TEST_F(ConvertCommandTest, NotesNameTheCommandThatHasTheOption) {
   const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   WriteBvh(folder_ / "z.bvh", MakeBvh({.world = z_up}));
-  EXPECT_THAT(Convert("z.bvh").said, HasSubstr("; --up y lets it lie"));
+  EXPECT_THAT(Convert("z.bvh").said, HasSubstr("; --up y makes it lie"));
   EXPECT_THAT(Choreo("pose --from " + At("z.bvh@0.5")).said,
-              HasSubstr("; choreo convert --up y lets it lie"));
+              HasSubstr("; choreo convert --up y makes it lie"));
 }
 
 TEST_F(ConvertCommandTest, TakesAMapForMeaninglessNames) {

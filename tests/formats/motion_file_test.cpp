@@ -162,7 +162,7 @@ TEST(MotionFile, AnotherSkeletonGoesThereAndBackInEveryFormat) {
       const PoseError error = ComparePoses(native, motion.frames[i], back.frames[i]);
       EXPECT_LT(error.position_m, 1e-5);
       EXPECT_LT(error.angle_deg, tolerance_deg);
-      // On the file's own word: joints by name, whatever their order.
+      // Joints are matched by name, in any order.
       const Eigen::Matrix3Xd there = JointPositions(native, motion.frames[i]);
       const Eigen::Matrix3Xd here = JointPositions(skeleton, own.frames[i]);
       for (int joint = 0; joint < 23; ++joint) {

@@ -57,7 +57,7 @@ TEST(Npz, EqualContentGivesEqualBytesAndReplacesTheFile) {
   Example().Write(folder / "b.npz");
   EXPECT_GT(Bytes(folder / "a.npz").size(), 1000u);
   EXPECT_EQ(Bytes(folder / "a.npz"), Bytes(folder / "b.npz"));
-  // Whatever the clock says: every member is of 1 January 1980, 0:00 (as DOS writes it).
+  // Every member has the date 1 January 1980, 0:00 (in DOS format).
   EXPECT_EQ(Bytes(folder / "a.npz").substr(10, 4), std::string("\0\0\x21\0", 4));
 }
 
@@ -126,7 +126,7 @@ TEST(Npz, RefusesInvalidFiles) {
     ExpectError(ErrorCode::kInvalidArgument, "cut.npz",
                 [&] { NpzArchive::Read(folder / "cut.npz"); });
   }
-  // A bit of an array's values: the checksum tells.
+  // A changed bit of an array's values, which the checksum reveals.
   std::string flipped = whole;
   const double value = 6.5;
   const size_t at = whole.find(std::string(reinterpret_cast<const char*>(&value), sizeof(value)));

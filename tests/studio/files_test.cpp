@@ -205,7 +205,7 @@ TEST_F(StudioTest, NotesOdditiesOfAFile) {
   open.mutable_open()->set_data(BvhText(testing_support::MakeBvh({.world = z_up})));
   const Response clip = page.Ask(open);
   ASSERT_EQ(clip.clip().notes_size(), 1) << clip.failure().message();
-  EXPECT_THAT(clip.clip().notes(0), HasSubstr("taken as z up, not y"));
+  EXPECT_THAT(clip.clip().notes(0), HasSubstr("read as z up, not y"));
   std::string bytes = Clicks(5);
   for (size_t i = 40; i < 44; ++i) bytes[i] = '\0';  // the length of its samples
   const Response heard = page.Ask(SongRequest("piped.wav", bytes));

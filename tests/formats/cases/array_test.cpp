@@ -111,11 +111,11 @@ TEST_F(CasesTest, ArraysOfOtherAxesOrUnits) {
     return npz;
   };
   const Read y_up = ReadNpz(file(true, 1));
-  EXPECT_TRUE(y_up.Says("taken as y up, not z")) << Said(y_up);
+  EXPECT_TRUE(y_up.Says("read as y up, not z")) << Said(y_up);
   EXPECT_LT(WorstJoint(smpl.motion, y_up.motion), 1e-6);
   EXPECT_TRUE(ReadNpz(file(true, 1), {.up = "y"}).notes.empty());
   const Read centimetres = ReadNpz(file(false, 0.01));
-  EXPECT_TRUE(centimetres.Says("taken as centimetres")) << Said(centimetres);
+  EXPECT_TRUE(centimetres.Says("read as centimetres")) << Said(centimetres);
   EXPECT_LT(WorstJoint(smpl.motion, centimetres.motion), 1e-6);
   EXPECT_LT(WorstJoint(smpl.motion, ReadNpz(file(false, 0.5), {.scale = 0.5}).motion), 1e-6);
 }
@@ -148,7 +148,7 @@ TEST_F(CasesTest, ReadsCommonArrayNames) {
             0.03);
 }
 
-// Objects among arrays are read where they are numbers or dicts; what a file is, and has, is said.
+// Reads objects among arrays if they are numbers or dicts; errors name the file and its arrays.
 TEST_F(CasesTest, ObjectsAmongArrays) {
   using namespace std::string_literals;
   const SmplArrays smpl;
@@ -176,8 +176,8 @@ TEST_F(CasesTest, ObjectsAmongArrays) {
               [&] { ReadFile("b.pkl"); });
   other.SetArray("poses", poses);
   other.SetArray("fps", {{}, std::vector<double>{0}});
-  ExpectError(ErrorCode::kInvalidArgument, "a.npz: fps: 0 frames a second are none; --fps says",
-              [&] { ReadNpz(other); });
+  ExpectError(ErrorCode::kInvalidArgument,
+              "a.npz: fps: 0 frames a second are impossible; --fps sets", [&] { ReadNpz(other); });
   ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is compressed, as joblib.dump does",
               [&] { ReadBytes("c.pkl", "x\x5e\xed"); });
   ExpectError(ErrorCode::kInvalidArgument, "c.pkl: is compressed: gunzip it",
@@ -224,7 +224,7 @@ TEST_F(CasesTest, ClimbingIsNotLying) {
   npz.SetArray("trans", {{60, 3}, trans});
   npz.SetArray("fps", {{}, std::vector<double>{30}});
   const Read read = ReadNpz(npz);
-  EXPECT_TRUE(read.Says("taken as y up, not z")) << Said(read);
+  EXPECT_TRUE(read.Says("read as y up, not z")) << Said(read);
 }
 
 TEST_F(CasesTest, AnotherBodysFeetStandOnTheFloor) {

@@ -121,17 +121,17 @@ TEST_F(CasesTest, TheLogOfBodiesInBvh) {
             BvhText(Together(Still(names), Dancing(With("", names, ".001"))))},
            {"a prop first", BvhText(Together(Stick(), Dancing(names)))},
            {"names that all end alike", BvhText(Dancing(With("c_", names, "_bind_jnt")))},
-           {"radians", BvhText(InRadians(Dancing(names))), Expressive, "are taken as radians"},
+           {"radians", BvhText(InRadians(Dancing(names))), Expressive, "are read as radians"},
            {"radians of one who spins on", BvhText(InRadians(Spinning(names))), Spins,
-            "are taken as radians, as they are so small; --angles degrees"},
+            "are read as radians, as they are so small; --angles degrees"},
            {"the same, told", BvhText(InRadians(Spinning(names))), Spins, "", "radians"},
            {"degrees of one who spins on", BvhText(Spinning(names)), Spins},
            {"one who sways a little", BvhText(Dancing(names, Sways)), Sways,
-            "are taken as degrees, though they are small; --angles radians"},
+            "are read as degrees, though they are small; --angles radians"},
            {"the same, told", BvhText(Dancing(names, Sways)), Sways, "", "degrees"},
            {"arms that wave a little", BvhText(Dancing(names, Waves)), Waves, "", "degrees"},
-           {"milliseconds", slow, Expressive, "which is taken as milliseconds"},
-           {"on the floor of a Z-up file", BvhText(LyingZUp()), Lies, "taken as z up, not y"},
+           {"milliseconds", slow, Expressive, "which is read as milliseconds"},
+           {"on the floor of a Z-up file", BvhText(LyingZUp()), Lies, "read as z up, not y"},
        }) {
     SCOPED_TRACE(row.name);
     const Read read = ReadBytes("a.bvh", row.bytes, {.angles = row.angles});
@@ -247,7 +247,7 @@ TEST_F(CasesTest, TheLogOfBodiesInGltf) {
               for (auto& sampler : glb.document["animations"][0]["samplers"])
                 sampler["input"] = input;
             },
-            "their times are taken as milliseconds"},
+            "their times are read as milliseconds"},
        }) {
     SCOPED_TRACE(row.name);
     GlbRigs glb;
@@ -297,7 +297,7 @@ TEST_F(CasesTest, BodiesAreChosen) {
                   ReadFile("a.bvh", {.body = body});
                 });
   }
-  ExpectError(ErrorCode::kInvalidArgument, "--body: a map says which bones are read", [&] {
+  ExpectError(ErrorCode::kInvalidArgument, "--body: --map already chooses the bones", [&] {
     ReadFile("a.bvh", {.body = "1", .bones = {{.bone = "head", .node = 5, .field = "map"}}});
   });
   WriteFile(folder_ / "a.bvh", BvhText(Together(Dancing(names), Dancing(names, Walk))));

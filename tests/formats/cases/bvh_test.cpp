@@ -62,7 +62,7 @@ TEST_F(CasesTest, BvhAsOtherToolsWriteIt) {
   EXPECT_EQ(ReadBytes("a.bvh", slow, {.fps = 120}).motion.fps, 120);
 }
 
-// Our own files, which are read as they are, are not where somebody says how they lie.
+// Our own files are read unchanged, unless options state their axes or units.
 TEST_F(CasesTest, OwnFilesFollowTheOptions) {
   Motion motion;
   motion.fps = 30;
@@ -142,7 +142,7 @@ TEST_F(CasesTest, SixChannelsThatAreZeroLeaveTheOffsets) {
     row += count, from += count;
   }
   const Read read = ReadBytes("a.bvh", BvhText(six));
-  EXPECT_TRUE(read.Says("their offsets are taken")) << Said(read);
+  EXPECT_TRUE(read.Says("their offsets are used")) << Said(read);
   EXPECT_LT(WorstJoint(ReadFile("base.bvh").motion, read.motion), 1e-4);
   BvhFile flat = file;
   for (BvhJoint& joint : flat.joints) joint.offset.setZero();

@@ -115,7 +115,7 @@ inline Wrong Compare(const Motion& motion, const RigTurn& turn, int step = 1) {
   return wrong;
 }
 
-/// What these options of `choreo convert` ask for.
+/// The MotionReading of these options of `choreo convert`.
 inline MotionReading Options(const std::string& words) {
   MotionReading reading;
   std::istringstream stream(words);

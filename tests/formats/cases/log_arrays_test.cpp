@@ -85,11 +85,11 @@ TEST_F(CasesTest, TheLogOfArrays) {
                                                                   m(1, 1), m(2, 0), m(2, 1)};
                                                             })},
            {"degrees", smpl.Poses({72}, scaled(kDegrees, kDegrees)),
-            "its poses are taken as degrees, not radians; --angles radians"},
+            "its poses are read as degrees, not radians; --angles radians"},
            {"degrees, told", smpl.Poses({72}, scaled(kDegrees, kDegrees)), "", "--angles degrees"},
            {"radians of a root that spins on",
             smpl.Poses({72}, scaled(1, 1 + 8 * M_PI / (M_PI / 2))),
-            "its root alone turns by more than two whole turns: its poses are taken as radians"},
+            "its root alone turns by more than two whole turns: its poses are read as radians"},
            {"the same, told", smpl.Poses({72}, scaled(1, 1 + 8 * M_PI / (M_PI / 2))), "",
             "--angles radians"},
        }) {
@@ -112,18 +112,18 @@ TEST_F(CasesTest, TheLogOfArrays) {
   ExpectError(ErrorCode::kInvalidArgument, "fps: \"many\" is no number; --fps says one",
               [&] { ReadNpz(npz); });
   EXPECT_EQ(ReadNpz(npz, {.fps = 25}).motion.fps, 25);
-  // Two rates that differ are said, and --fps decides.
+  // A note names two rates that differ, and --fps decides.
   npz.SetArray("fps", rate);
   npz.SetArray("mocap_frame_rate", {{}, std::vector<double>{120}});
   const Read two = ReadNpz(npz);
   EXPECT_EQ(two.motion.fps, 120);
-  EXPECT_TRUE(two.Says("states mocap_frame_rate 120, fps 30: 120 frames a second is taken, --fps"))
+  EXPECT_TRUE(two.Says("states mocap_frame_rate 120, fps 30: 120 frames a second is used, --fps"))
       << Said(two);
   EXPECT_EQ(ReadNpz(npz, {.fps = 30}).motion.fps, 30);
   EXPECT_TRUE(ReadNpz(npz, {.fps = 30}).notes.empty());
   // Degrees so small that they may be radians bend knees as none can.
   npz.SetArray("poses", smpl.Poses({72}, scaled(20, 1)));
-  EXPECT_TRUE(ReadNpz(npz, {.fps = 30, .angles = "radians"}).Says("--angles says the unit"));
+  EXPECT_TRUE(ReadNpz(npz, {.fps = 30, .angles = "radians"}).Says("--angles sets the unit"));
   npz.SetArray("poses", smpl.Poses({24, 4}, [](const Eigen::Vector3d&) {
     return std::vector<double>{1, 1, 0, 0};
   }));
@@ -174,13 +174,13 @@ TEST_F(CasesTest, ReadsJointPositionsAlone) {
              bare = ReadBytes("a.npy", SerializeNpy(joints), {.fps = 20});
   for (const Read& read : {named, bare}) {
     EXPECT_EQ(read.motion.fps, 20);
-    EXPECT_TRUE(read.Says("joints alone do not say")) << Said(read);
+    EXPECT_TRUE(read.Says("joints alone do not determine")) << Said(read);
     ASSERT_EQ(read.motion.frames.size(), 20U);
     const Eigen::Matrix3Xd ours = JointPositions(kSmpl, read.motion.frames[10]),
                            theirs = JointPositions(kSmpl, smpl.motion.frames[10]);
     EXPECT_LT((ours - theirs).colwise().norm().head(22).maxCoeff(), 0.03);
   }
-  EXPECT_TRUE(ReadBytes("a.npy", SerializeNpy(joints)).Says("states no rate; taken as 30"));
+  EXPECT_TRUE(ReadBytes("a.npy", SerializeNpy(joints)).Says("states no rate; read as 30"));
 }
 
 }  // namespace choreo::log_arrays_test

@@ -85,7 +85,7 @@ std::string Dance(const std::function<void(GlbRigs&, int body)>& change,
   return glb.Bytes();
 }
 
-// All that hangs from a node of the whole, which is told.
+// All nodes below a node of the whole, which is in the note.
 GlbRigs::Json& Above(GlbRigs& glb, int body) {
   const int above = glb.AddNode({{"name", "Root"}, {"children", {body}}});
   return glb.document["nodes"][static_cast<size_t>(above)];
@@ -137,7 +137,7 @@ TEST_F(CasesTest, TheLogOfRigs) {
        "says 31 frames; all 30"},
       {"six channels, places as small changes of the offsets", "a.bvh",
        BvhText(WithChannels(base, positions, 0.02, {}, 0)), "", Expressive,
-       "0 or nearly so in all frames; their offsets are taken"},
+       "0 or nearly so in all frames; their offsets are used"},
       {"scale channels", "a.bvh", BvhText(WithChannels(base, {}, 0, scales, 1))},
       {"arms that hang at rest", "a.bvh",
        BvhText(MakeBvh({.turn = Expressive, .zero = HangingArms}))},

@@ -161,7 +161,7 @@ TEST_F(CasesTest, NotesZUp) {
   const Eigen::Matrix3d z_up{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   WriteBvh(folder_ / "z.bvh", MakeBvh({.turn = Expressive, .world = z_up}));
   const Read read = ReadFile("z.bvh");
-  EXPECT_TRUE(read.Says("taken as z up, not y")) << Said(read);
+  EXPECT_TRUE(read.Says("read as z up, not y")) << Said(read);
   EXPECT_LT(WorstJoint(base, read.motion), 0.01);
   // A dancer who lies for a while stands as the rest pose does.
   const RigTurn falls = [](const std::string& bone, int frame) -> Eigen::Matrix3d {
@@ -170,7 +170,7 @@ TEST_F(CasesTest, NotesZUp) {
   };
   WriteBvh(folder_ / "falls.bvh", MakeBvh({.turn = falls, .world = z_up}));
   const Read fallen = ReadFile("falls.bvh");
-  EXPECT_TRUE(fallen.Says("as its rest pose stands so")) << Said(fallen);
+  EXPECT_TRUE(fallen.Says("as its rest pose then stands")) << Said(fallen);
   EXPECT_LT(Compare(fallen.motion, falls).turns, kOpen);
   // Our names do not make a rig ours.
   const RigNames ours = [](const std::string& bone) { return bone == "pelvis" ? "root" : bone; };

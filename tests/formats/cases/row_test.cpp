@@ -46,12 +46,12 @@ TEST_F(CasesTest, ReadsCommonRowLayouts) {
     const Read read = ReadBytes("a.npy", SerializeNpy({{smpl.frames(), width}, rows}));
     EXPECT_LT(WorstJoint(smpl.motion, read.motion), 1e-6);
     EXPECT_EQ(read.notes.size(), 1U) << Said(read);
-    EXPECT_TRUE(read.Says(std::string("taken as ") + row.says)) << Said(read);
+    EXPECT_TRUE(read.Says(std::string("read as ") + row.says)) << Said(read);
     const Read batch =
         ReadBytes("a.npy", SerializeNpy({{1, smpl.frames(), width}, rows}), {.fps = 25});
     EXPECT_EQ(batch.motion.fps, 25);
     EXPECT_LT(WorstJoint(smpl.motion, batch.motion), 1e-6);
-    // As a network sees them: no rotations, nor read as some.
+    // As networks normalise them: no rotations, and not read as rotations.
     for (size_t i = 0; i < rows.size(); ++i) rows[i] = (rows[i] - 0.1) * 3;
     ExpectError(ErrorCode::kInvalidArgument, "a.npy: [:, ", [&] {
       ReadBytes("a.npy", SerializeNpy({{smpl.frames(), width}, rows}));
@@ -71,7 +71,7 @@ TEST_F(CasesTest, MotionXsRows) {
   }
   const Read read = ReadBytes("a.npy", SerializeNpy({{smpl.frames(), 322}, rows}));
   EXPECT_LT(WorstJoint(smpl.motion, read.motion), 1e-6);
-  EXPECT_TRUE(read.Says("taken as Motion-X's 322 numbers a frame, at 30")) << Said(read);
+  EXPECT_TRUE(read.Says("read as Motion-X's 322 numbers a frame, at 30")) << Said(read);
   for (size_t i = 312; i < rows.size(); i += 322) rows[i] = 2, rows[i - 2] -= 0.1;
   EXPECT_TRUE(ReadBytes("a.npy", SerializeNpy({{smpl.frames(), 322}, rows}))
                   .Says("its betas are another body's"));
@@ -99,8 +99,8 @@ TEST_F(CasesTest, HumanMl3dsRows) {
   const NpyArray array{{smpl.frames() - 1, 263}, rows};
   const Read read = ReadBytes("a.npy", SerializeNpy(array));
   EXPECT_EQ(read.motion.fps, 20);
-  EXPECT_TRUE(read.Says("taken as HumanML3D's 263 numbers a frame, at 20")) << Said(read);
-  EXPECT_TRUE(read.Says("joints alone do not say"));
+  EXPECT_TRUE(read.Says("read as HumanML3D's 263 numbers a frame, at 20")) << Said(read);
+  EXPECT_TRUE(read.Says("joints alone do not determine"));
   for (const size_t frame : {0U, 9U, 18U}) {
     const Eigen::Matrix3Xd off = JointPositions(kSmpl, read.motion.frames[frame]) -
                                  JointPositions(kSmpl, smpl.motion.frames[frame]);
