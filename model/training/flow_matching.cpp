@@ -88,7 +88,7 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
                        (1 - silent.to(torch::kFloat32));
   const Tensor a = t.square() + (1 - t).square();
   const Tensor z = (1 - t) * noise + t * batch.z;
-  const Tensor wanted = ((1 - t) * batch.z - t * noise) / a.sqrt();
+  const Tensor target = ((1 - t) * batch.z - t * noise) / a.sqrt();
   const auto motion = [&](const Tensor& white) { return colour(batch.scales * white); };
   const Tensor x = motion(z);
   const Tensor poses =
@@ -96,7 +96,7 @@ LossTerms FlowMatching::Losses(ContinuousFlow& model, const WindowBatch& batch) 
   const Tensor joints = torch::cat({batch.history_joints, body_.Place(batch, x)}, 1);
   const Tensor miss =
       model->forward(z, poses, joints, batch.mean, batch.features, batch.whole, t.flatten()) -
-      wanted;
+      target;
   // Variance of real windows' displacements by dimension.
   const Tensor variance =
       torch::where(batch.keyed > 0, spreads.to_key.square().sum(torch::IntArrayRef{1, 2}),

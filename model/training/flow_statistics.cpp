@@ -37,11 +37,11 @@ std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
   std::vector<LivelyWindow> windows;
   for (const WindowRequest& request : requests) {
     if (request.key.has_value() != keyed) continue;
-    const auto told = LevelsOf(request, model.config.median_factors);
-    if (!std::ranges::all_of(told, [](const auto& level) { return level.has_value(); })) continue;
+    const auto levels = LevelsOf(request, model.config.median_factors);
+    if (!std::ranges::all_of(levels, [](const auto& level) { return level.has_value(); })) continue;
     LivelyWindow& window = windows.emplace_back();
     window.known = KnownOfEnergy(model, request, FlowWindow(model.prior, request));
-    std::ranges::transform(told, window.levels.begin(), [](const auto& level) { return *level; });
+    std::ranges::transform(levels, window.levels.begin(), [](const auto& level) { return *level; });
   }
   return windows;
 }
@@ -221,12 +221,12 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
     if (keyed) measured.spread = left.llt().matrixL();
     // Averages factors, not their logarithms, because a still dancer's logarithm is unbounded.
     const EnergyPrior::Levels spread = measured.Variance();
-    EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), said = real;
+    EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), predicted = real;
     for (const LivelyWindow& window : windows) {
       real.array() += window.levels.array().exp();
-      said.array() += (weights * window.inputs + 0.5 * spread).array().exp();
+      predicted.array() += (weights * window.inputs + 0.5 * spread).array().exp();
     }
-    weights.col(0) += (real.array() / said.array()).log().matrix();
+    weights.col(0) += (real.array() / predicted.array()).log().matrix();
     if (keyed) MeasureRange(windows, &measured);
   }
   for (size_t i = 0; i < of_style.size(); ++i) measured.styles.col(i) /= of_style[i];
@@ -238,7 +238,7 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
   EnergyResponse response;
   if (requests.size() < kMinEnergyWindows) return response;
   using Row = Eigen::Array<double, kBodyParts, 1>;
-  Row told = Row::Zero(), danced = told, squares = told, products = told;
+  Row levels = Row::Zero(), danced = levels, squares = levels, products = levels;
   const auto count = static_cast<double>(requests.size());
   for (size_t i = 0; i < requests.size(); ++i) {
     WindowRequest request = requests[i];
@@ -246,21 +246,20 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
         SampleWindow(model, network, request, {.seed = i, .temperature = 1}).Finish();
     poses.insert(poses.begin(), request.history.back());
     const auto factors = MeanVelocityFactors(model.skeleton, poses);
-    Row wanted, came;
+    Row level, sampled;
     for (int part = 0; part < kBodyParts; ++part) {
       const auto at = static_cast<size_t>(part);
       const double median = model.config.median_factors[at];
-      wanted[part] =
-          EnergyLevel(request.controls[kVelocityFactors].values.row(part).mean(), median);
-      came[part] = EnergyLevel(factors[at], median);
+      level[part] = EnergyLevel(request.controls[kVelocityFactors].values.row(part).mean(), median);
+      sampled[part] = EnergyLevel(factors[at], median);
     }
-    told += wanted / count;
-    danced += came / count;
-    squares += wanted.square() / count;
-    products += wanted * came / count;
+    levels += level / count;
+    danced += sampled / count;
+    squares += level.square() / count;
+    products += level * sampled / count;
   }
-  response.slope = (products - told * danced) / (squares - told.square());
-  response.offset = danced - response.slope.array() * told;
+  response.slope = (products - levels * danced) / (squares - levels.square());
+  response.offset = danced - response.slope.array() * levels;
   return response;
 }
 
