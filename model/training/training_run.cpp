@@ -45,13 +45,13 @@ std::map<std::string, std::string> OptionsOf(const std::string& text) {
 // Whether a run with the options `before` may be resumed with `now`. Earlier versions also wrote
 // unused options at their defaults.
 bool IsSameRun(const std::string& before, const std::string& now) {
-  const auto started = OptionsOf(before), asked = OptionsOf(now);
-  for (const auto& [option, value] : asked) {
+  const auto started = OptionsOf(before), requested = OptionsOf(now);
+  for (const auto& [option, value] : requested) {
     const auto found = started.find(option);
     if (found == started.end() || found->second != value) return false;
   }
   return std::ranges::all_of(started, [&](const auto& item) {
-    return !item.second.empty() || asked.contains(item.first);
+    return !item.second.empty() || requested.contains(item.first);
   });
 }
 
