@@ -61,7 +61,7 @@ PlotSeries SpeedOf(BodyPart part, const SkeletonMotion& dance) {
   for (const Pose& pose : motion.frames) {
     Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
     if (before.cols() > 0) {
-      const auto factors = VelocityFactors(weights, before, now);
+      const auto factors = PartSpeeds(weights, before, now);
       speeds.push_back(kCentimetre * factors[static_cast<size_t>(part)]);
       line.x.push_back(static_cast<double>(speeds.size()) / motion.fps);
     }

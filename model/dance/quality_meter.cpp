@@ -61,7 +61,7 @@ void QualityMeter::Add(const DanceFrame& frame) {
 void QualityMeter::AddSpeeds(const std::array<float, kBodyParts>& asked,
                              const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& now) {
   if (!weights_) weights_ = WeighBodyParts(skeleton_);
-  const std::array<double, kBodyParts> danced = VelocityFactors(*weights_, before, now);
+  const std::array<double, kBodyParts> danced = PartSpeeds(*weights_, before, now);
   for (size_t part = 0; part < kBodyParts; ++part) {
     speed_sums_[part].asked += asked[part];
     speed_sums_[part].danced += danced[part];

@@ -33,10 +33,10 @@ std::vector<Pose> WithStart(const Pose& before, const std::vector<Pose>& danced)
 
 }  // namespace
 
-FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
-                          const std::vector<Pose>& danced) {
-  return TrackVelocityFactors(WeighBodyParts(skeleton),
-                              TrackJoints(skeleton, WithStart(before, danced)));
+SpeedTrack SpeedTrackOf(const Skeleton& skeleton, const Pose& before,
+                        const std::vector<Pose>& danced) {
+  return TrackPartSpeeds(WeighBodyParts(skeleton),
+                         TrackJoints(skeleton, WithStart(before, danced)));
 }
 
 double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
@@ -54,7 +54,7 @@ ControlCourse::ControlCourse(const Evaluation& evaluation, int frames)
     one.key = one.real.back();
     one.path.resize(3, frames);
     for (int t = 0; t < frames; ++t) one.path.col(t) = one.real[t].root_position;
-    one.factors = FactorTrackOf(model_.skeleton, one.before, one.real);
+    one.factors = SpeedTrackOf(model_.skeleton, one.before, one.real);
     windows_.push_back(std::move(one));
   }
 }

@@ -16,8 +16,8 @@ namespace choreo {
 std::vector<Method> WaysOf(const std::vector<Method>& methods);
 
 /// The velocity factors of each pose of `danced`, which follows `before`.
-FactorTrack FactorTrackOf(const Skeleton& skeleton, const Pose& before,
-                          const std::vector<Pose>& danced);
+SpeedTrack SpeedTrackOf(const Skeleton& skeleton, const Pose& before,
+                        const std::vector<Pose>& danced);
 
 /// The share of steps in which a foot skates (QualityReport::skate_ratio).
 double SkateRatioOf(const Skeleton& skeleton, double fps, const Pose& before,
@@ -29,7 +29,7 @@ struct ControlledWindow : EvalWindow {
   std::vector<Pose> real = {};
   Pose key = {};  ///< the last pose of `real`, unless moved
   Eigen::Matrix3Xd path = {};
-  FactorTrack factors = {};  ///< requested; no columns: none
+  SpeedTrack factors = {};  ///< requested; no columns: none
 };
 
 /// The windows of one length and their requests, which any method can dance. The evaluation must

@@ -48,7 +48,7 @@ Table FactorTable(Table table, const std::string& note, const Evaluation& evalua
       table.Begin({way.name, times});
       for (int part = 0; part < kBodyParts; ++part) {
         const auto danced = course.FiguresOf(dances, [&](const auto& window, const auto& poses) {
-          return FactorTrackOf(evaluation.model().skeleton, window.before, poses).row(part).mean();
+          return SpeedTrackOf(evaluation.model().skeleton, window.before, poses).row(part).mean();
         });
         const auto unit = course.FiguresOf(dances, [&](const auto& window, const auto&) {
           return window.factors.row(part).mean();
@@ -85,7 +85,7 @@ std::vector<ControlFigure> ControlFigures(const Skeleton& skeleton, double fps) 
        }},
       {"avf", "AVF", "Paper C, Table 3: share that keeps within 1 cm/frame.", 2, true,
        [&skeleton](const auto& window, const auto& danced) {
-         const auto factors = FactorTrackOf(skeleton, window.before, danced);
+         const auto factors = SpeedTrackOf(skeleton, window.before, danced);
          return VelocityDeviation(factors, window.factors) < kVelocityTolerance ? 1.0 : 0.0;
        }},
       {"art", "ART", "Paper C, Table 4: share whose root keeps within 7 cm.", 2, true,

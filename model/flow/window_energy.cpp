@@ -47,7 +47,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
   const Eigen::Matrix3Xd from = JointPositions(model.skeleton, request.history.back());
   const Pose key = Masked(*request.key, request.mask, request.history.back());
   const Eigen::Matrix3Xd to = JointPositions(model.skeleton, key);
-  const auto way = VelocityFactors(weights, from, to);
+  const auto way = PartSpeeds(weights, from, to);
   const Eigen::VectorXd in_world = weights * (to - from).colwise().norm().transpose();
   known.way.emplace();
   if (request.mask.root_position) known.way_in_world.emplace();

@@ -18,17 +18,17 @@ double RootRelativeDistance(const JointTrack& danced, const JointTrack& real) {
   return sum / danced.size();
 }
 
-FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrack& track) {
+SpeedTrack TrackPartSpeeds(const BodyPartWeights& weights, const JointTrack& track) {
   if (track.size() < 2) throw InvalidArgument("track", "has no step from frame to frame");
-  FactorTrack factors(kBodyParts, track.size() - 1);
+  SpeedTrack factors(kBodyParts, track.size() - 1);
   for (size_t i = 1; i < track.size(); ++i) {
-    const auto of_step = VelocityFactors(weights, track[i - 1], track[i]);
+    const auto of_step = PartSpeeds(weights, track[i - 1], track[i]);
     factors.col(i - 1) = Eigen::Map<const Eigen::Matrix<double, kBodyParts, 1>>(of_step.data());
   }
   return factors;
 }
 
-double VelocityDeviation(const FactorTrack& danced, const FactorTrack& requested) {
+double VelocityDeviation(const SpeedTrack& danced, const SpeedTrack& requested) {
   CheckSameFrames(danced.cols(), requested.cols());
   return (danced - requested).cwiseAbs().mean();
 }

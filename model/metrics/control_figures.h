@@ -16,14 +16,14 @@ namespace choreo {
 double RootRelativeDistance(const JointTrack& danced, const JointTrack& real);
 
 /// Velocity factors, metres a frame: [kBodyParts, frames].
-using FactorTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
+using SpeedTrack = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
 
 /// The velocity factors of each step of a track that begins with the frame before the transition.
-FactorTrack TrackVelocityFactors(const BodyPartWeights& weights, const JointTrack& track);
+SpeedTrack TrackPartSpeeds(const BodyPartWeights& weights, const JointTrack& track);
 
 /// g_v of one transition, Eq. 14: the absolute difference of measured and requested velocity
 /// factors, mean over frames and parts; metres a frame.
-double VelocityDeviation(const FactorTrack& danced, const FactorTrack& requested);
+double VelocityDeviation(const SpeedTrack& danced, const SpeedTrack& requested);
 
 /// g_r of one transition, Eq. 16: the distance of the root (joint 0) from its requested position,
 /// mean over frames, metres. `requested` is [3, frames].

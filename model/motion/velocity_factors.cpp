@@ -80,9 +80,9 @@ BodyPartWeights WeighBodyParts(const Skeleton& skeleton) {
   return weights;
 }
 
-std::array<double, kBodyParts> VelocityFactors(const BodyPartWeights& weights,
-                                               const Eigen::Matrix3Xd& positions_before,
-                                               const Eigen::Matrix3Xd& positions) {
+std::array<double, kBodyParts> PartSpeeds(const BodyPartWeights& weights,
+                                          const Eigen::Matrix3Xd& positions_before,
+                                          const Eigen::Matrix3Xd& positions) {
   const Eigen::Vector3d root_step = positions.col(0) - positions_before.col(0);
   std::array<double, kBodyParts> factors = {};
   for (int joint = 0; joint < positions.cols(); ++joint) {
@@ -100,7 +100,7 @@ std::array<double, kBodyParts> MeanVelocityFactors(const Skeleton& skeleton,
   Eigen::Matrix3Xd before = JointPositions(skeleton, poses.front());
   for (const Pose& pose : poses.subspan(1)) {
     const Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
-    const std::array<double, kBodyParts> factors = VelocityFactors(weights, before, now);
+    const std::array<double, kBodyParts> factors = PartSpeeds(weights, before, now);
     for (size_t part = 0; part < mean.size(); ++part)
       mean[part] += factors[part] / static_cast<double>(poses.size() - 1);
     before = now;

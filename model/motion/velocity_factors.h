@@ -62,9 +62,9 @@ BodyPartWeights WeighBodyParts(const Skeleton& skeleton);
 /// other joints' speeds are of their positions relative to the root, along world axes (the paper's
 /// p_t^r, p_t^b). Positions are [3, joints], metres, joint 0 the root. Thread-safe; moving or
 /// turning the scene does not change them.
-std::array<double, kBodyParts> VelocityFactors(const BodyPartWeights& weights,
-                                               const Eigen::Matrix3Xd& positions_before,
-                                               const Eigen::Matrix3Xd& positions);
+std::array<double, kBodyParts> PartSpeeds(const BodyPartWeights& weights,
+                                          const Eigen::Matrix3Xd& positions_before,
+                                          const Eigen::Matrix3Xd& positions);
 
 /// Their mean over the steps of a motion of at least two poses.
 std::array<double, kBodyParts> MeanVelocityFactors(const Skeleton& skeleton,

@@ -62,7 +62,7 @@ ClipTrack MakeTrack(const PreparedClip& clip, double tempo,
   for (size_t i = 0; i < track.poses.size(); ++i) {
     const Eigen::Matrix3Xd positions = JointPositions(skeleton, track.poses[i]);
     if (i > 0) {
-      const auto factors = VelocityFactors(weights, before, positions);
+      const auto factors = PartSpeeds(weights, before, positions);
       energy.col(i) = Eigen::Map<const Eigen::VectorXd>(factors.data(), kBodyParts);
       speed.push_back(static_cast<float>((positions - before).colwise().norm().mean()));
     }

@@ -65,7 +65,7 @@ TEST(ControlFigures, VelocityDeviationIsTheMeanOverPartsAndFrames) {
   // The left hand has 4 of its arm's 11 shares: 11 mm a step make a factor of 4 mm a frame.
   for (size_t frame = 0; frame < track.size(); ++frame)
     track[frame].col(Body().Find("left_hand")).y() += 0.011 * static_cast<double>(frame);
-  const auto danced = TrackVelocityFactors(weights, track);
+  const auto danced = TrackPartSpeeds(weights, track);
   ASSERT_EQ(danced.cols(), 4);
   EXPECT_NEAR(danced(static_cast<int>(BodyPart::kLeftArm), 3), 0.004, 1e-12);
   Eigen::Matrix<double, kBodyParts, Eigen::Dynamic> asked(kBodyParts, 4);
@@ -94,7 +94,7 @@ TEST(ControlFigures, RefuseIncomparableInput) {
   refused("3 frames against 4", [&] { RootRelativeDistance(three, four); });
   refused("3 frames against 4", [&] { RootDeviation(three, Eigen::Matrix3Xd::Zero(3, 4)); });
   refused("0 frames against 0", [] { RootRelativeDistance({}, {}); });
-  refused("no step", [&] { TrackVelocityFactors(WeighBodyParts(Body()), Standing(1)); });
+  refused("no step", [&] { TrackPartSpeeds(WeighBodyParts(Body()), Standing(1)); });
 }
 
 /// Both arms swing, `turns` times a second at first and `sweep` a second faster each second, while

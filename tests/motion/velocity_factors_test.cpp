@@ -12,7 +12,7 @@ namespace choreo::velocity_factors_test {
 class VelocityFactorsTest : public testing::Test {
  protected:
   std::array<double, kBodyParts> Factors(const Eigen::Matrix3Xd& later) const {
-    return VelocityFactors(weights_, rest_, later);
+    return PartSpeeds(weights_, rest_, later);
   }
 
   const Skeleton& body_ = Skeleton::Smpl24();
@@ -55,9 +55,9 @@ TEST_F(VelocityFactorsTest, DoNotDependOnWhereTheSceneStands) {
   const Eigen::Matrix3Xd after = JointPositions(body_, fixtures::RandomPose(body_, generator));
   const Eigen::Matrix3d turn = HeadingRotation(1.1);
   const Eigen::Vector3d shift(3, 0, -2);
-  const auto here = VelocityFactors(weights_, before, after);
-  const auto there = VelocityFactors(weights_, (turn * before).colwise() + shift,
-                                     (turn * after).colwise() + shift);
+  const auto here = PartSpeeds(weights_, before, after);
+  const auto there =
+      PartSpeeds(weights_, (turn * before).colwise() + shift, (turn * after).colwise() + shift);
   for (int part = 0; part < kBodyParts; ++part) EXPECT_NEAR(here[part], there[part], 1e-12);
 }
 

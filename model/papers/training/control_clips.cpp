@@ -82,7 +82,7 @@ ControlClips::Track ControlClips::MakeTrack(const PreparedClip& clip, double tem
     heading = facing.heading;
     const Eigen::Matrix3Xd positions = PositionsOf(facing);
     if (track.frames == 0) before = positions;
-    const auto factors = VelocityFactors(weights, before, positions);
+    const auto factors = PartSpeeds(weights, before, positions);
     before = positions;
     const auto append = [](std::vector<float>* to, const auto& values) {
       std::transform(values.begin(), values.end(), std::back_inserter(*to),
