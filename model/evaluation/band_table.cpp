@@ -10,11 +10,11 @@ namespace choreo {
 namespace {
 
 // [kBands, joints], mean over windows, floor and height together.
-Eigen::MatrixXd MeanPower(const LivelyDances& dances, double fps) {
+Eigen::MatrixXd MeanPower(const LivelinessDances& dances, double fps) {
   Eigen::MatrixXd sum;
   int windows = 0;
   const auto length = static_cast<std::ptrdiff_t>(std::lround(2 * fps));
-  for (const LivelyFigures& dance : dances) {
+  for (const LivelinessFigures& dance : dances) {
     const JointTrack& track = dance.track;
     for (auto from = track.begin(); track.end() - from >= length; from += length, ++windows) {
       const Eigen::MatrixXd power = SpeedSpectrum(JointTrack(from, from + length), fps);
@@ -34,8 +34,8 @@ std::string WithoutSide(const std::string& joint) {
 
 }  // namespace
 
-Table BandTable(const Evaluation& evaluation, const Method& method, const LivelyDances& real,
-                const LivelyDances& danced) {
+Table BandTable(const Evaluation& evaluation, const Method& method, const LivelinessDances& real,
+                const LivelinessDances& danced) {
   const ModelInfo& model = method.sampler->model();
   Table table =
       evaluation.NewTable("liveliness_bands", "How fast in which band", {"joint"}, &method);

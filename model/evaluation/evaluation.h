@@ -108,7 +108,7 @@ std::vector<Table> EvaluateNearness(const Evaluation& evaluation);
 /// The liveliness of every judged method beside real motion, as served:
 ///
 ///   liveliness_SET      one figure per row. Through the clips' own poses every 2 s:
-///                       lively_figures.h, spread over seeds and songs, hits on requested
+///                       liveliness_figures.h, spread over seeds and songs, hits on requested
 ///                       beats, Frechet distances, the critic. Without keys: long_figures.h.
 ///   weight_SET          weight_table.h, with keys and without
 ///   liveliness_bands_SET  how fast joints move in each frequency band

@@ -5,7 +5,7 @@
 #include "model/core/rounded.h"
 #include "model/evaluation/band_table.h"
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/lively_figures.h"
+#include "model/evaluation/liveliness_figures.h"
 #include "model/evaluation/long_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/evaluation/transition_judge.h"
@@ -37,10 +37,10 @@ constexpr Song kSongs[] = {{90, 0}, {110, 0}, {130, 0}, {110, 0.5}, {110, 0, tru
 
 // All dances through keys, and recorded ones for comparison.
 struct KeyedDances {
-  LivelyDances real, locked;
-  LivelyDances sparse;  // few keys, seed 0
-  std::vector<LivelyDances> seeds = std::vector<LivelyDances>(kSeeds);
-  std::vector<LivelyDances> songs = std::vector<LivelyDances>(std::size(kSongs));  // seed 0
+  LivelinessDances real, locked;
+  LivelinessDances sparse;  // few keys, seed 0
+  std::vector<LivelinessDances> seeds = std::vector<LivelinessDances>(kSeeds);
+  std::vector<LivelinessDances> songs = std::vector<LivelinessDances>(std::size(kSongs));  // seed 0
 };
 
 void Add(const std::string& figure, Cell real, Cell locked, Cell danced, Cell ratio, Table* table) {
@@ -87,34 +87,34 @@ KeyedDances DanceKeyed(const Evaluation& evaluation, const Method& method) {
   const std::vector<LongDance> chains = evaluation.runner.DanceLong(*method.sampler, all);
   for (size_t i = 0; i < all.size(); ++i) {
     const size_t repeat = i / plans.size();
-    LivelyDances& of = repeat < kSeeds                       ? dances.seeds[repeat]
-                       : repeat < kSeeds + std::size(kSongs) ? dances.songs[repeat - kSeeds]
-                                                             : dances.sparse;
+    LivelinessDances& of = repeat < kSeeds                       ? dances.seeds[repeat]
+                           : repeat < kSeeds + std::size(kSongs) ? dances.songs[repeat - kSeeds]
+                                                                 : dances.sparse;
     of.push_back(MeasureLiveliness(model, all[i], chains[i].poses));
   }
   return dances;
 }
 
 // Flattens seed after seed, repeating the real dances beside them.
-LivelyDances Flat(const std::vector<LivelyDances>& seeds) {
-  LivelyDances all;
-  for (const LivelyDances& dances : seeds) all.insert(all.end(), dances.begin(), dances.end());
+LivelinessDances Flat(const std::vector<LivelinessDances>& seeds) {
+  LivelinessDances all;
+  for (const LivelinessDances& dances : seeds) all.insert(all.end(), dances.begin(), dances.end());
   return all;
 }
 
 void AddMovement(const KeyedDances& dances, Table* table) {
-  const LivelyDances danced = Flat(dances.seeds);
-  const LivelyDances real = Flat(std::vector<LivelyDances>(kSeeds, dances.real));
-  const auto add = [&](const std::string& name, double LivelyFigures::*figure, double unit) {
-    const auto mean = [&](const LivelyDances& some) { return Mean(some, figure, unit); };
+  const LivelinessDances danced = Flat(dances.seeds);
+  const LivelinessDances real = Flat(std::vector<LivelinessDances>(kSeeds, dances.real));
+  const auto add = [&](const std::string& name, double LivelinessFigures::*figure, double unit) {
+    const auto mean = [&](const LivelinessDances& some) { return Mean(some, figure, unit); };
     Add(name, mean(dances.real), mean(dances.locked), mean(danced),
         Ratio(FiguresOf(danced, figure), FiguresOf(real, figure)), table);
   };
-  add("median speed cm/s", &LivelyFigures::median_speed, 100);
+  add("median speed cm/s", &LivelinessFigures::median_speed, 100);
   Add("median speed, keys each 8 s cm/s", {}, {},
-      Mean(dances.sparse, &LivelyFigures::median_speed, 100),
-      Ratio(FiguresOf(dances.sparse, &LivelyFigures::median_speed),
-            FiguresOf(dances.real, &LivelyFigures::median_speed)),
+      Mean(dances.sparse, &LivelinessFigures::median_speed, 100),
+      Ratio(FiguresOf(dances.sparse, &LivelinessFigures::median_speed),
+            FiguresOf(dances.real, &LivelinessFigures::median_speed)),
       table);
   std::vector<ClipFigure> within;
   for (size_t i = 0; i < danced.size(); ++i) {
@@ -123,31 +123,32 @@ void AddMovement(const KeyedDances& dances, Table* table) {
   }
   Add("dances at " + Rounded(kMinRatio) + " to " + Rounded(kMaxRatio) + " of it %", 100, {},
       Mean(within), {}, table);
-  const auto path = [](const LivelyFigures& one) { return one.limbs.path; };
-  const auto chord = [](const LivelyFigures& one) { return one.limbs.chord; };
-  const auto wandering = [&](const LivelyDances& some) {
+  const auto path = [](const LivelinessFigures& one) { return one.limbs.path; };
+  const auto chord = [](const LivelinessFigures& one) { return one.limbs.chord; };
+  const auto wandering = [&](const LivelinessDances& some) {
     return Ratio(FiguresOf(some, path), FiguresOf(some, chord));
   };
   Add("limbs' path over chord m/m", wandering(dances.real), wandering(dances.locked),
       wandering(danced), Ratio(FiguresOf(danced, path), FiguresOf(real, path)), table);
-  add("pelvis bounce above 1 Hz mm", &LivelyFigures::bounce, 1000);
-  add("jerk below 8 Hz m/s³", &LivelyFigures::jerk, 1);
-  add("jerk, unfiltered m/s³", &LivelyFigures::raw_jerk, 1);
+  add("pelvis bounce above 1 Hz mm", &LivelinessFigures::bounce, 1000);
+  add("jerk below 8 Hz m/s³", &LivelinessFigures::jerk, 1);
+  add("jerk, unfiltered m/s³", &LivelinessFigures::raw_jerk, 1);
   // Shows whether timing to beats adds jerk.
   const Song& song = kSongs[kTimedSong];
-  const LivelyDances& timed = dances.songs[kTimedSong];
+  const LivelinessDances& timed = dances.songs[kTimedSong];
   Add("jerk below 8 Hz, " + std::to_string(std::lround(song.bpm)) + " bpm m/s³", {}, {},
-      Mean(timed, &LivelyFigures::jerk, 1),
-      Ratio(FiguresOf(timed, &LivelyFigures::jerk), FiguresOf(dances.real, &LivelyFigures::jerk)),
+      Mean(timed, &LivelinessFigures::jerk, 1),
+      Ratio(FiguresOf(timed, &LivelinessFigures::jerk),
+            FiguresOf(dances.real, &LivelinessFigures::jerk)),
       table);
-  add("skating %", &LivelyFigures::skate_ratio, 100);
-  add("knee snaps a minute", &LivelyFigures::knee_snaps, 1);
-  add("elbow snaps a minute", &LivelyFigures::elbow_snaps, 1);
-  add("kinematic beats a minute", &LivelyFigures::kinematic_beats, 1);
+  add("skating %", &LivelinessFigures::skate_ratio, 100);
+  add("knee snaps a minute", &LivelinessFigures::knee_snaps, 1);
+  add("elbow snaps a minute", &LivelinessFigures::elbow_snaps, 1);
+  add("kinematic beats a minute", &LivelinessFigures::kinematic_beats, 1);
 }
 
 // The mean distance of all joints between the same frames of two dances of each plan, cm.
-std::vector<ClipFigure> DistancesCm(const LivelyDances& a, const LivelyDances& b) {
+std::vector<ClipFigure> DistancesCm(const LivelinessDances& a, const LivelinessDances& b) {
   std::vector<ClipFigure> figures;
   for (size_t i = 0; i < a.size(); ++i)
     figures.push_back({a[i].clip, 100 * L2P(a[i].track, b[i].track)});
@@ -160,7 +161,7 @@ void AddDifferences(const KeyedDances& dances, Table* table) {
     for (size_t b = a + 1; b < kSeeds; ++b)
       std::ranges::copy(DistancesCm(dances.seeds[a], dances.seeds[b]), std::back_inserter(seeds));
   }
-  const std::vector<LivelyDances>& songs = dances.songs;
+  const std::vector<LivelinessDances>& songs = dances.songs;
   AddDanced("seeds differ cm", Mean(seeds), table);
   AddDanced("songs differ, 90 and 130 bpm cm", Mean(DistancesCm(songs[0], songs[2])), table);
   AddDanced("songs differ, half a beat apart cm", Mean(DistancesCm(songs[1], songs[3])), table);
@@ -169,7 +170,7 @@ void AddDifferences(const KeyedDances& dances, Table* table) {
 void AddHits(const KeyedDances& dances, double fps, Table* table) {
   for (size_t i = 0; i < std::size(kSongs); ++i) {
     const Song& song = kSongs[i];
-    const auto hits = [&](const LivelyDances& some) {
+    const auto hits = [&](const LivelinessDances& some) {
       return HitsOverChance(some, song.bpm, song.phase, fps);
     };
     std::string name = "hits over chance, " + std::to_string(std::lround(song.bpm)) + " bpm";
@@ -201,9 +202,9 @@ void AddFrechet(const Evaluation& evaluation, const Method& method, Table* table
 }
 
 void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double fps, Table* table) {
-  const auto windows = [&](const LivelyDances& some) {
+  const auto windows = [&](const LivelinessDances& some) {
     CriticWindows all;
-    for (const LivelyFigures& dance : some) all.Add(dance.track, fps, dance.clip);
+    for (const LivelinessFigures& dance : some) all.Add(dance.track, fps, dance.clip);
     return all;
   };
   const CriticWindows locked = windows(dances.locked);
@@ -222,7 +223,7 @@ void AddCritic(const Evaluation& evaluation, const KeyedDances& dances, double f
 // The dances without keys.
 struct FreeDances {
   std::vector<LongFigures> whole;
-  LivelyDances lively;
+  LivelinessDances lively;
 };
 
 FreeDances DanceFree(const Evaluation& evaluation, const Method& method) {
@@ -275,7 +276,8 @@ void AddFree(const Evaluation& evaluation, const ModelInfo& model, const FreeDan
     const std::vector<Pose>& poses = clip.motion.frames;
     real_away += FacesAway(poses, MeanFacing(poses)) / std::ssize(evaluation.set.clips);
   }
-  for (const LivelyFigures& dance : free.lively) away += dance.faces_away / std::ssize(free.lively);
+  for (const LivelinessFigures& dance : free.lively)
+    away += dance.faces_away / std::ssize(free.lively);
   Add("free: faces away %", 100 * real_away, {}, 100 * away, away / real_away, table);
 }
 

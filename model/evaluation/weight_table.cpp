@@ -15,9 +15,9 @@ namespace {
 constexpr double kTurn = 60;  // degrees
 
 // The share of windows with a real turn in which dances turn the same way by as many half turns.
-Cell SameWayRound(const LivelyDances& real, const std::vector<LivelyDances>& keyed) {
+Cell SameWayRound(const LivelinessDances& real, const std::vector<LivelinessDances>& keyed) {
   std::vector<ClipFigure> windows;
-  for (const LivelyDances& seed : keyed) {
+  for (const LivelinessDances& seed : keyed) {
     for (size_t i = 0; i < seed.size(); ++i) {
       for (size_t w = 0; w < std::min(real[i].turns.size(), seed[i].turns.size()); ++w) {
         if (std::abs(real[i].turns[w]) * kDegrees <= kTurn) continue;
@@ -46,17 +46,17 @@ struct Weighed {
   WeighedDances real, others, footwork, keyed, free;
 };
 
-Weighed WeighAll(const Evaluation& evaluation, const ModelInfo& model, const LivelyDances& real,
-                 const LivelyDances& footwork, const std::vector<LivelyDances>& keyed,
-                 const LivelyDances& free) {
-  const auto weigh = [&](const LivelyDances& dances, WeighedDances* to) {
-    for (const LivelyFigures& one : dances)
+Weighed WeighAll(const Evaluation& evaluation, const ModelInfo& model, const LivelinessDances& real,
+                 const LivelinessDances& footwork, const std::vector<LivelinessDances>& keyed,
+                 const LivelinessDances& free) {
+  const auto weigh = [&](const LivelinessDances& dances, WeighedDances* to) {
+    for (const LivelinessFigures& one : dances)
       to->push_back(Weigh(model.skeleton, model.fps, one.clip, one.track, one.turns));
   };
   Weighed all;
   weigh(real, &all.real);
   weigh(footwork, &all.footwork);
-  for (const LivelyDances& seed : keyed) weigh(seed, &all.keyed);
+  for (const LivelinessDances& seed : keyed) weigh(seed, &all.keyed);
   weigh(free, &all.free);
   if (evaluation.training == nullptr) return all;
   for (size_t i = 0; i < evaluation.training->clips.size(); ++i) {
@@ -104,8 +104,9 @@ void AddCritics(const Weighed& all, Table* table) {
 }  // namespace
 
 std::vector<Table> WeightTable(const Evaluation& evaluation, const Method& method,
-                               const LivelyDances& real, const LivelyDances& footwork,
-                               const std::vector<LivelyDances>& keyed, const LivelyDances& free) {
+                               const LivelinessDances& real, const LivelinessDances& footwork,
+                               const std::vector<LivelinessDances>& keyed,
+                               const LivelinessDances& free) {
   const ModelInfo& model = method.sampler->model();
   if (real.empty() || !BalanceGauge::Fits(model.skeleton)) return {};
   const Weighed all = WeighAll(evaluation, model, real, footwork, keyed, free);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/evaluation/evaluation.h"
-#include "model/evaluation/lively_figures.h"
+#include "model/evaluation/liveliness_figures.h"
 
 namespace choreo {
 
@@ -13,7 +13,8 @@ namespace choreo {
 /// dances of `real`, seed after seed. No table without real motion or for a skeleton of unknown
 /// mass.
 std::vector<Table> WeightTable(const Evaluation& evaluation, const Method& method,
-                               const LivelyDances& real, const LivelyDances& footwork,
-                               const std::vector<LivelyDances>& keyed, const LivelyDances& free);
+                               const LivelinessDances& real, const LivelinessDances& footwork,
+                               const std::vector<LivelinessDances>& keyed,
+                               const LivelinessDances& free);
 
 }  // namespace choreo

@@ -42,7 +42,7 @@ EnergyPrior::Levels EnergyPrior::Sample(const Known& known, const Levels& normal
 }
 
 Eigen::MatrixXd EnergyPrior::Bound(const Eigen::MatrixXd& levels) const {
-  const Levels floor = least.segment<kBodyParts>(kHistoryInput), ceiling = MostLively();
+  const Levels floor = least.segment<kBodyParts>(kHistoryInput), ceiling = MostEnergy();
   return levels.cwiseMax(floor.replicate(1, levels.cols()))
       .cwiseMin(ceiling.replicate(1, levels.cols()));
 }

@@ -61,7 +61,7 @@ class EnergyPrior {
   /// Levels, one per column, clipped to their range in training.
   Eigen::MatrixXd Bound(const Eigen::MatrixXd& levels) const;
   /// The highest levels of training.
-  Levels MostLively() const { return most.segment<kBodyParts>(kHistoryInput); }
+  Levels MostEnergy() const { return most.segment<kBodyParts>(kHistoryInput); }
   /// The remaining variance with a key, by part.
   Levels Variance() const { return spread.rowwise().squaredNorm(); }
 

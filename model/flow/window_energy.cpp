@@ -81,7 +81,7 @@ void FillInEnergy(const FlowModelParts& model, const EnergyPrior::Levels& level_
   if (lingers) ways = model.energy.Bound(ways);
   levels.array() += request->energy_shift.now;
   ways.array() += request->energy_shift.now;
-  const EnergyPrior::Levels most = model.energy.MostLively();
+  const EnergyPrior::Levels most = model.energy.MostEnergy();
   levels = levels.cwiseMin(most);
   for (int part = 0; part < kBodyParts; ++part) {
     if (energy_control.IsRequested(part)) continue;
@@ -106,7 +106,7 @@ void CorrectLevels(const FlowModelParts& model, double temperature, WindowReques
     const double level = EnergyLevel(wanted, median);
     const double input = level + temperature * (model.response.InputFor(part, level) - level);
     // Stays within the range of training, unless the request itself leaves it.
-    const double most = EnergyFactor(model.energy.MostLively()[part], median);
+    const double most = EnergyFactor(model.energy.MostEnergy()[part], median);
     for (double& energy : factors.row(part))
       energy = std::min(energy * (EnergyFactor(input, median) / wanted), std::max(energy, most));
   }

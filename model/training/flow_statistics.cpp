@@ -26,20 +26,20 @@ constexpr int kNewtonRounds = 12;
 constexpr double kStill = 1e-3;  // metres or radians: less spread means absent from the recordings
 
 // A window with known energy.
-struct LivelyWindow {
+struct EnergyWindow {
   EnergyPrior::Known known;
   EnergyPrior::Levels levels;
   EnergyPrior::Inputs inputs;  // what `known` describes
 };
 
-std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
-                                       const std::vector<WindowRequest>& requests, bool keyed) {
-  std::vector<LivelyWindow> windows;
+std::vector<EnergyWindow> GatherEnergies(const FlowModelParts& model,
+                                         const std::vector<WindowRequest>& requests, bool keyed) {
+  std::vector<EnergyWindow> windows;
   for (const WindowRequest& request : requests) {
     if (request.key.has_value() != keyed) continue;
     const auto levels = LevelsOf(request, model.config.median_factors);
     if (!std::ranges::all_of(levels, [](const auto& level) { return level.has_value(); })) continue;
-    LivelyWindow& window = windows.emplace_back();
+    EnergyWindow& window = windows.emplace_back();
     window.known = KnownOfEnergy(model, request, FlowWindow(model.prior, request));
     std::ranges::transform(levels, window.levels.begin(), [](const auto& level) { return *level; });
   }
@@ -47,10 +47,10 @@ std::vector<LivelyWindow> GatherLively(const FlowModelParts& model,
 }
 
 // The range of each input in training, except rare values.
-void MeasureRange(const std::vector<LivelyWindow>& windows, EnergyPrior* measured) {
+void MeasureRange(const std::vector<EnergyWindow>& windows, EnergyPrior* measured) {
   for (int input = 0; input < EnergyPrior::kInputs; ++input) {
     std::vector<double> values;
-    for (const LivelyWindow& window : windows) values.push_back(window.inputs[input]);
+    for (const EnergyWindow& window : windows) values.push_back(window.inputs[input]);
     std::ranges::sort(values);
     const auto rank = static_cast<size_t>(kRare * static_cast<double>(values.size()));
     measured->least[input] = values[rank];
@@ -59,16 +59,16 @@ void MeasureRange(const std::vector<LivelyWindow>& windows, EnergyPrior* measure
 }
 
 // A frame of a body part with known energy: 1, log surprise, level; and its mean square.
-struct LivelyFrame {
+struct EnergyFrame {
   Eigen::Vector3d inputs;
   double square;
 };
 
 // Fits the logarithm of the variance to its inputs by maximum likelihood of Gaussians, with
 // Newton's method.
-Eigen::Vector3d FitLogVariance(const std::vector<LivelyFrame>& frames) {
+Eigen::Vector3d FitLogVariance(const std::vector<EnergyFrame>& frames) {
   double mean = 0;
-  for (const LivelyFrame& frame : frames) mean += frame.square / static_cast<double>(frames.size());
+  for (const EnergyFrame& frame : frames) mean += frame.square / static_cast<double>(frames.size());
   Eigen::Vector3d powers(std::log(mean), 0, 1);
   for (int round = 0; round < kNewtonRounds; ++round) {
     Eigen::Matrix3d curvature = 1e-6 * Eigen::Matrix3d::Identity();
@@ -89,7 +89,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
                                      const std::vector<WindowBatch>& batches) {
   VariancePowers measured = prior.powers();
   std::vector<Eigen::Vector2d> whole;  // logarithms of surprise and of the mean square
-  std::vector<LivelyFrame> frames;
+  std::vector<EnergyFrame> frames;
   for (const WindowBatch& batch : batches) {
     const Tensor squares = batch.z.square().to(torch::kFloat64).contiguous();
     const int64_t dimensions = squares.size(2);
@@ -132,7 +132,7 @@ VariancePowers MeasureVariancePowers(const MotionPrior& prior,
   measured.known_surprise = powers[1];
   measured.level = powers[2];
   std::vector<double> logs;
-  for (const LivelyFrame& frame : frames) logs.push_back(powers.dot(frame.inputs));
+  for (const EnergyFrame& frame : frames) logs.push_back(powers.dot(frame.inputs));
   const auto calm = logs.begin() + static_cast<int64_t>(kRare * static_cast<double>(logs.size()));
   std::ranges::nth_element(logs, calm);
   measured.least_scale = std::exp(0.5 * *calm);
@@ -191,26 +191,26 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
   EnergyPrior measured(model.config.styles.size());
   std::vector<double> of_style(model.config.styles.size(), kPriorStyleWindows);
   for (const bool keyed : {true, false}) {
-    std::vector<LivelyWindow> windows = GatherLively(model, requests, keyed);
+    std::vector<EnergyWindow> windows = GatherEnergies(model, requests, keyed);
     if (windows.size() < kMinEnergyWindows) continue;
     const auto count = static_cast<double>(windows.size());
-    for (const LivelyWindow& window : windows) {
+    for (const EnergyWindow& window : windows) {
       if (!keyed) break;
       measured.usual_way += *window.known.way / count;
       measured.usual_way_in_world += *window.known.way_in_world / count;
     }
-    for (LivelyWindow& window : windows) window.inputs = measured.Describe(window.known);
+    for (EnergyWindow& window : windows) window.inputs = measured.Describe(window.known);
     using Square = Eigen::Matrix<double, EnergyPrior::kInputs, EnergyPrior::kInputs>;
     Square normal = Square::Identity();  // slight shrinkage towards zero
     EnergyPrior::Weights right = EnergyPrior::Weights::Zero();
-    for (const LivelyWindow& window : windows) {
+    for (const EnergyWindow& window : windows) {
       normal += window.inputs * window.inputs.transpose();
       right += window.levels * window.inputs.transpose();
     }
     EnergyPrior::Weights& weights = keyed ? measured.keyed : measured.free;
     weights = normal.ldlt().solve(right.transpose()).transpose();
     Eigen::Matrix<double, kBodyParts, kBodyParts> left = 1e-6 * decltype(left)::Identity();
-    for (const LivelyWindow& window : windows) {
+    for (const EnergyWindow& window : windows) {
       const EnergyPrior::Levels off = window.levels - weights * window.inputs;
       left += off * off.transpose() / count;
       const int style = window.known.style;
@@ -222,7 +222,7 @@ EnergyPrior MeasureEnergy(const FlowModelParts& model, const std::vector<WindowR
     // Averages factors, not their logarithms, because a still dancer's logarithm is unbounded.
     const EnergyPrior::Levels spread = measured.Variance();
     EnergyPrior::Levels real = EnergyPrior::Levels::Zero(), predicted = real;
-    for (const LivelyWindow& window : windows) {
+    for (const EnergyWindow& window : windows) {
       real.array() += window.levels.array().exp();
       predicted.array() += (weights * window.inputs + 0.5 * spread).array().exp();
     }

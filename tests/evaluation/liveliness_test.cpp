@@ -7,7 +7,7 @@
 
 #include "model/dance/quality_meter.h"
 #include "model/evaluation/interpolation_sampler.h"
-#include "model/evaluation/lively_figures.h"
+#include "model/evaluation/liveliness_figures.h"
 #include "model/evaluation/long_plans.h"
 #include "model/motion/kinematics.h"
 #include "tests/support/fake_sampler.h"
@@ -91,8 +91,8 @@ TEST(KeyedDances, FootworkKeepsKeysOfRealMotionAndReducesSkating) {
 }
 
 // A dance whose mean joint speed peaks every `period` frames from `first` on.
-LivelyFigures Nodding(double period, double first) {
-  LivelyFigures figures;
+LivelinessFigures Nodding(double period, double first) {
+  LivelinessFigures figures;
   for (int step = 0; step < 600; ++step) {
     // speeds[i] belongs to frame i + 1 of the track, which is frame i of the dance.
     figures.speeds.push_back(static_cast<float>(1 + std::cos(2 * M_PI * (step - first) / period)));

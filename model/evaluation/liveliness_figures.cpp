@@ -1,4 +1,4 @@
-#include "model/evaluation/lively_figures.h"
+#include "model/evaluation/liveliness_figures.h"
 
 #include <cmath>
 
@@ -10,9 +10,9 @@
 
 namespace choreo {
 
-LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
-                                const std::vector<Pose>& poses) {
-  LivelyFigures figures;
+LivelinessFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
+                                    const std::vector<Pose>& poses) {
+  LivelinessFigures figures;
   figures.clip = plan.clip;
   std::vector<Pose> whole = {plan.history.back()};
   whole.insert(whole.end(), poses.begin(), poses.end());
@@ -37,10 +37,10 @@ LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
   return figures;
 }
 
-Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps) {
+Cell HitsOverChance(const LivelinessDances& dances, double bpm, double phase, double fps) {
   const auto shifts = static_cast<int>(std::lround(60 * fps / bpm));
   std::vector<ClipFigure> figures;
-  for (const LivelyFigures& dance : dances) {
+  for (const LivelinessFigures& dance : dances) {
     const auto hits = [&](double at) {
       const auto frames = static_cast<int>(dance.speeds.size()) + 1;
       // The track begins a frame before the dance.

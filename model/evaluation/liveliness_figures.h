@@ -9,7 +9,7 @@
 namespace choreo {
 
 /// The liveliness of a dance through keys.
-struct LivelyFigures {
+struct LivelinessFigures {
   size_t clip = 0;          ///< index in its set
   double median_speed = 0;  ///< median over frames of the mean joint speed, m/s
   LimbTravel limbs;
@@ -25,13 +25,13 @@ struct LivelyFigures {
 };
 
 /// Measures a dance. `poses`: the plan's dance, or a replacement.
-LivelyFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
-                                const std::vector<Pose>& poses);
+LivelinessFigures MeasureLiveliness(const ModelInfo& model, const LongPlan& plan,
+                                    const std::vector<Pose>& poses);
 
-using LivelyDances = std::vector<LivelyFigures>;
+using LivelinessDances = std::vector<LivelinessFigures>;
 
 /// The hit rate (ScoreBeats) minus the hit rate by chance, in percentage points. Chance is the same
 /// dance's mean hit rate when the beats are shifted by 1, 2, ... frames, up to their distance.
-Cell HitsOverChance(const LivelyDances& dances, double bpm, double phase, double fps);
+Cell HitsOverChance(const LivelinessDances& dances, double bpm, double phase, double fps);
 
 }  // namespace choreo
