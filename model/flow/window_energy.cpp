@@ -36,7 +36,7 @@ EnergyPrior::Known KnownOfEnergy(const FlowModelParts& model, const WindowReques
                            .surprise = window.surprise(),
                            .frames = request.frames,
                            .style = request.style};
-  const auto factors = MeanVelocityFactors(model.skeleton, request.history);
+  const auto factors = MeanPartSpeeds(model.skeleton, request.history);
   for (size_t part = 0; part < factors.size(); ++part) {
     const auto row = static_cast<Eigen::Index>(part);
     known.history[row] = factors[part] > 0 ? level(part, factors[part])
@@ -117,7 +117,7 @@ double CorrectEnergy(const Skeleton& skeleton, const Pose& before, const std::ve
                      ControlCurve& energy) {
   std::vector<Pose> seen = {before};
   seen.insert(seen.end(), poses.begin(), poses.end());
-  const auto danced = MeanVelocityFactors(skeleton, seen);
+  const auto danced = MeanPartSpeeds(skeleton, seen);
   const Eigen::VectorXd means = wanted.rowwise().mean();
   double most = 0;
   for (int part = 0; part < means.size(); ++part) {

@@ -93,8 +93,8 @@ std::array<double, kBodyParts> PartSpeeds(const BodyPartWeights& weights,
   return factors;
 }
 
-std::array<double, kBodyParts> MeanVelocityFactors(const Skeleton& skeleton,
-                                                   std::span<const Pose> poses) {
+std::array<double, kBodyParts> MeanPartSpeeds(const Skeleton& skeleton,
+                                              std::span<const Pose> poses) {
   const BodyPartWeights weights = WeighBodyParts(skeleton);
   std::array<double, kBodyParts> mean = {};
   Eigen::Matrix3Xd before = JointPositions(skeleton, poses.front());

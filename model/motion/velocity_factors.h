@@ -57,17 +57,17 @@ using BodyPartWeights = Eigen::Matrix<double, kBodyParts, Eigen::Dynamic>;
 /// fits none of these, or a part without joints.
 BodyPartWeights WeighBodyParts(const Skeleton& skeleton);
 
-/// Velocity factors of one frame, metres a frame, each at least 0: for each part the weighted mean
-/// of its joints' speeds since the frame before. The root's speed is that of its world position;
-/// other joints' speeds are of their positions relative to the root, along world axes (the paper's
-/// p_t^r, p_t^b). Positions are [3, joints], metres, joint 0 the root. Thread-safe; moving or
-/// turning the scene does not change them.
+/// The speeds of one frame (paper C's velocity factors), metres a frame, each at least 0: for each
+/// part the weighted mean of its joints' speeds since the frame before. The root's speed is that of
+/// its world position; other joints' speeds are of their positions relative to the root, along
+/// world axes (the paper's p_t^r, p_t^b). Positions are [3, joints], metres, joint 0 the root.
+/// Thread-safe; moving or turning the scene does not change them.
 std::array<double, kBodyParts> PartSpeeds(const BodyPartWeights& weights,
                                           const Eigen::Matrix3Xd& positions_before,
                                           const Eigen::Matrix3Xd& positions);
 
 /// Their mean over the steps of a motion of at least two poses.
-std::array<double, kBodyParts> MeanVelocityFactors(const Skeleton& skeleton,
-                                                   std::span<const Pose> poses);
+std::array<double, kBodyParts> MeanPartSpeeds(const Skeleton& skeleton,
+                                              std::span<const Pose> poses);
 
 }  // namespace choreo

@@ -245,7 +245,7 @@ EnergyResponse MeasureResponse(const FlowModelParts& model, const FlowNetwork& n
     std::vector<Pose> poses =
         SampleWindow(model, network, request, {.seed = i, .temperature = 1}).Finish();
     poses.insert(poses.begin(), request.history.back());
-    const auto factors = MeanVelocityFactors(model.skeleton, poses);
+    const auto factors = MeanPartSpeeds(model.skeleton, poses);
     Row level, sampled;
     for (int part = 0; part < kBodyParts; ++part) {
       const auto at = static_cast<size_t>(part);

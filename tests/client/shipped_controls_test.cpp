@@ -62,7 +62,7 @@ class ShippedControlsTest : public testing::Test {
   }
   /// Mean velocity factors, metres a frame.
   static std::array<double, kBodyParts> Liveliness(const Motion& motion) {
-    return MeanVelocityFactors(Body(), motion.frames);
+    return MeanPartSpeeds(Body(), motion.frames);
   }
 
   /// No joint flips, which is 94 radians a second; no pose is that of the frame before.
