@@ -157,21 +157,19 @@ void TransitionRun::MoveToCanonicalFrame(TransitionSpec& spec) {
     spec.after = spec.target->pose;  // at rest
 }
 
-// Whether another sample may be slower: unless the straight way to the key is too fast already.
+// Whether another sample may be slower, as the straight way to the key is slow enough.
 bool TransitionRun::MayBeRetaken() const {
   if (held_ || !spec_->footwork || model_->deterministic || spec_->temperature == 0) return false;
   if (!spec_->target) return true;
   const auto& [pose, mask, height] = *spec_->target;
   const Pose key = Masked(pose, mask, spec_->history.back());
-  return FindFastestStep(model_->skeleton, spec_->history.back(), {&key, 1},
-                         model_->fps / spec_->frames)
-             .m_per_s <= kFastestJoint;
+  return SpeedExcess(model_->skeleton, spec_->history.back(), {&key, 1},
+                     model_->fps / spec_->frames) <= 1;
 }
 
-// The speed of the fastest joint in units of the fastest that bodies reach.
+// Above 1 it moves faster than bodies do.
 double TransitionRun::Strain() const {
-  return FindFastestStep(model_->skeleton, spec_->history.back(), plan_, model_->fps).m_per_s /
-         kFastestJoint;
+  return SpeedExcess(model_->skeleton, spec_->history.back(), plan_, model_->fps);
 }
 
 Slices<> TransitionRun::Dance(Sampler& sampler) {

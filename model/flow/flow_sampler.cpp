@@ -208,8 +208,7 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
       std::vector<Pose> poses = co_await SampleWindow(model, network, own_part, own);
       double beyond = 0;
       if (noise.temperature > 0) {
-        beyond = FindFastestStep(model.skeleton, part.history.back(), poses, kModelFps).m_per_s /
-                 kFastestJoint;
+        beyond = SpeedExcess(model.skeleton, part.history.back(), poses, kModelFps);
         if (may_stray)
           beyond = std::max(beyond, usual.Deviation(ground.ToWorld(poses.back())) / most);
       }

@@ -25,4 +25,16 @@ double SpeedExcess(const Eigen::RowVectorXd& speeds) {
   return std::max(speeds.maxCoeff() / kFastestJoint, speeds.mean() / kFastestBody);
 }
 
+double SpeedExcess(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
+                   double fps) {
+  double most = 0;
+  Eigen::Matrix3Xd last = JointPositions(skeleton, before);
+  for (const Pose& pose : poses) {
+    Eigen::Matrix3Xd now = JointPositions(skeleton, pose);
+    most = std::max(most, SpeedExcess((now - last).colwise().norm() * fps));
+    last = std::move(now);
+  }
+  return most;
+}
+
 }  // namespace choreo

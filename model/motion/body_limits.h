@@ -32,5 +32,8 @@ FastStep FindFastestStep(const Skeleton& skeleton, const Pose& before, std::span
 /// The larger of two ratios: the fastest joint's speed over kFastestJoint, and the mean speed over
 /// kFastestBody. `speeds`: of all joints, metres per second.
 double SpeedExcess(const Eigen::RowVectorXd& speeds);
+/// The largest SpeedExcess of the steps to each of `poses`, the first of which follows `before`.
+double SpeedExcess(const Skeleton& skeleton, const Pose& before, std::span<const Pose> poses,
+                   double fps);
 
 }  // namespace choreo
