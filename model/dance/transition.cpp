@@ -214,7 +214,7 @@ void TransitionRun::Steer() {
     HitKey({.skeleton = model_->skeleton,
             .history = spec_->history,
             .has_path = path.IsGiven(),
-            .has_heights = path.requested[kPathHeight],
+            .has_heights = path.IsRequested(kPathHeight),
             .fps = model_->fps},
            *spec_->hit, &drawn_.poses);
   }

@@ -268,7 +268,7 @@ Slices<Plan> ContinuousFlowSampler::Begin(const ValidSpec& valid) {
                             .beats = spec.beats,
                             .keyed = Keyed(spec),
                             .has_path = spec.controls[kRootPath].IsGiven(),
-                            .has_heights = spec.controls[kRootPath].requested[kPathHeight],
+                            .has_heights = spec.controls[kRootPath].IsRequested(kPathHeight),
                             .fps = model_.fps,
                             .options = parts_->config.plan};
   for (const auto stage : kPlanStages) stage(context, &plan.poses);

@@ -251,6 +251,27 @@ TEST(Transition, AHitComesToRestInTheKeyLateOrGently) {
   EXPECT_LT(left(dance(1), 8), left(dance(3), 8));
 }
 
+// Rises steadily.
+class RisingSampler : public FakeSampler {
+  void OnFrame(const TransitionSpec& spec, Plan* plan) override {
+    plan->poses.back().root_position.y() =
+        spec.history.back().root_position.y() + 0.01 * static_cast<double>(plan->poses.size());
+  }
+};
+
+// The pelvis kept its height's own time where no path sets it: knees bent before the body sank.
+TEST(Transition, AHitMovesHeightsInTimeToo) {
+  RisingSampler sampler;
+  TransitionSpec request = RandomRequest(3);
+  request.footwork = false;
+  const auto height = [&](double hit) {
+    request.hit = hit;
+    return DanceTransition(sampler, request).frames()[22].pose.root_position.y();
+  };
+  EXPECT_GT(height(0), height(1) + 0.005);
+  EXPECT_LT(height(3), height(1) - 0.005);
+}
+
 TEST(Transition, WithArrivalOffTheRawErrorIsTheErrorOfTheFrames) {
   FakeSampler sampler;
   TransitionSpec request = RandomRequest(4);
