@@ -10,11 +10,17 @@ namespace choreo::styles_test {
 using testing::HasSubstr;
 using testing::Not;
 
+/// A fake model that claims these weights.
+class WeighedSampler final : public FakeSampler {
+ public:
+  explicit WeighedSampler(std::string weights) { model_.weights = std::move(weights); }
+};
+
 class StylesTest : public CommandTest {
  protected:
-  /// What `info`, and a dance in a style, say of a model with this fingerprint.
-  std::string Said(const std::string& fingerprint) {
-    const TestServer server(fingerprint);
+  /// What `info`, and a dance in a style, say of a model with these weights.
+  std::string Said(const std::string& weights) {
+    const TestServer server(std::make_unique<WeighedSampler>(weights));
     const std::string there = " --server " + server.address() + " ";
     const Outcome danced =
         Choreo("dance --seconds 1 --style calm -k none" + there + "-o " + At("dance.npz"));
@@ -24,13 +30,13 @@ class StylesTest : public CommandTest {
 };
 
 TEST_F(StylesTest, ThoseThatDoNotShowStandApart) {
-  const std::string hidden = Said("default/26bfadad19dc69d0590692f89aafbedb/choreo 1.0.0");
+  const std::string hidden = Said("26bfadad19dc69d0590692f89aafbedb");
   EXPECT_THAT(hidden, HasSubstr("styles (--style) that do not show: calm, wild"));
   EXPECT_THAT(hidden, HasSubstr("note: --style calm hardly shows"));
-  const std::string shown = Said("free/7286cdc80932bef860a65c06cf4d9667/choreo 1.0.0");
+  const std::string shown = Said("7286cdc80932bef860a65c06cf4d9667");
   EXPECT_THAT(shown, HasSubstr("styles (--style) that show: calm, wild"));
   EXPECT_THAT(shown, Not(HasSubstr("note: --style")));
-  const std::string unknown = Said("fake-1");
+  const std::string unknown = Said("");
   EXPECT_THAT(unknown, HasSubstr("styles (--style): calm, wild"));
   EXPECT_THAT(unknown, Not(HasSubstr("note: --style")));
 }
