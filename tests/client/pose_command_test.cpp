@@ -137,7 +137,7 @@ TEST_F(PoseCommandTest, WarnsOfImpossiblePoses) {
   const Outcome outcome = Choreo("pose --from " + At("low.json") +
                                  " --set left_knee=0 --set right_knee=0 --set left_hip=0,0,0 "
                                  "--set right_hip=0,0,0");
-  EXPECT_THAT(outcome.said, HasSubstr("warning: left_"));
+  EXPECT_THAT(outcome.said, HasSubstr("warning: right_"));
   EXPECT_THAT(outcome.said, HasSubstr("cm under the floor"));
 }
 

@@ -350,7 +350,7 @@ class Sinking : public Silent {
                            const Eigen::MatrixXf&, const Eigen::MatrixXf&,
                            const Eigen::VectorXf&) const override {
     Eigen::MatrixXf f = Eigen::MatrixXf::Zero(z.rows(), z.cols());
-    if (evaluations++ < steps_) f.row(1).setConstant(-4);
+    if (evaluations++ < steps_) f.row(1).setConstant(-2.5);
     return f;
   }
 
