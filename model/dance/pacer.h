@@ -45,12 +45,12 @@ class Pacer {
   bool runs_ = false, looks_again_ = false;
 };
 
-/// Has a worker go on with what `Owner::HandOut` leaves. One job at a time. Thread-safe.
+/// A worker calls `Owner::HandOut` until nothing is left. There is one job at a time. Thread-safe.
 template <class Owner>
 class HandOver {
  public:
-  /// Lets `submit` submit a job that hands out, unless one is on its way. If the queue takes no
-  /// more jobs, hands out all that is left here.
+  /// Calls `submit` with a job that hands out, unless one waits already. If the queue refuses it,
+  /// this thread hands out the rest.
   void ToWorker(std::shared_ptr<Owner> owner, double deadline, const auto& submit) {
     if (is_asked_.exchange(true)) return;
     Owner& here = *owner;
