@@ -26,7 +26,7 @@ namespace {
 // window without a key may end, unless it began farther off. One in 200 of the training clips'
 // frames is farther. A dance that goes there knows no way back: it falls or floats.
 constexpr double kMaxDeviation = 7;
-constexpr int kMaxRetakes = 4;
+constexpr int kMaxWindowRetakes = 4;
 constexpr int kRounds = 3;  // of requesting energy
 
 // The random numbers of a window, [.., w]: of the motion's dimensions, then of the energy's levels
@@ -196,7 +196,7 @@ Slices<std::vector<Pose>> SampleTransition(const FlowModelParts& model, const Fl
     const double most = std::max(kMaxDeviation, usual.Deviation(danced.back()));
     std::vector<Pose> nearest;
     double least = 0;  // how far it is beyond what dancers do: at most 1 if it is not
-    for (int take = 0; take <= kMaxRetakes; ++take) {
+    for (int take = 0; take <= kMaxWindowRetakes; ++take) {
       FlowNoise own = noise;
       own.first_frame += from;
       own.candidate += static_cast<uint32_t>(kMaxCandidates * take);

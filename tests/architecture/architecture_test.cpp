@@ -344,7 +344,6 @@ TEST(Architecture, WhatServersSayNamesNoOptions) {
   EXPECT_GT(read, 100);
 }
 
-// Programs that use the installed client find all that its headers include.
 // As the page says; toy_control_test adds one without more than these.
 TEST(Architecture, AControlIsAddedInFewFiles) {
   const std::string& text = TextOf("docs/extending.md");
@@ -366,6 +365,7 @@ TEST(Architecture, NobodyReadsAFingerprint) {
     EXPECT_FALSE(std::regex_search(TextOf(file), parsed)) << file;
 }
 
+// Programs that use the installed client find all that its headers include.
 TEST(Architecture, HeadersOfTheInstalledClientAreComplete) {
   std::ifstream rules(std::filesystem::path(CHOREO_SOURCE_DIR) / "cmake/ChoreoInstall.cmake");
   const std::string text{std::istreambuf_iterator<char>(rules), {}};
