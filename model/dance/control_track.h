@@ -5,7 +5,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "model/core/error.h"
@@ -22,7 +24,8 @@ namespace choreo {
 inline constexpr size_t kMaxControls = 1000;
 inline constexpr size_t kMaxControlValues = 1'000'000;
 
-/// The class that follows a control's requests over a dance.
+/// The class that follows a control's requests over a dance: Validate, Set and Fill as HeldTrack
+/// has them. Stance, BehindEnd and Missed are for those that need them.
 template <typename Request>
 struct TrackFor {
   using Track = HeldTrack<Request>;
@@ -69,6 +72,12 @@ struct ValueCount {
   }
 };
 
+/// The frames that a request of a control changes.
+struct ControlChange {
+  std::string_view label;  ///< the control's
+  ChangedFrames frames;
+};
+
 /// The controls of one dance, `Tracks`: a track for each row of `Request`. Later controls override
 /// earlier ones, as their tracks say. Cheap to copy. Not thread-safe.
 template <typename Request, typename Tracks>
@@ -77,10 +86,11 @@ class ControlTrackOf {
   /// The model must outlive the track.
   explicit ControlTrackOf(const ModelInfo& model) : model_(&model) {}
 
-  /// Applies to transitions that begin at `from` or later. The request must be valid; `from` never
-  /// decreases between calls. Throws Error(kInvalidArgument) beyond kMaxControls or
-  /// kMaxControlValues.
-  void Set(const Request& request, int64_t from, const std::string& field) {
+  /// Applies to transitions that begin at `from` or later, and returns what changes. The request
+  /// must be valid; `from` never decreases between calls. Throws Error(kInvalidArgument) beyond
+  /// kMaxControls or kMaxControlValues.
+  std::vector<ControlChange> Set(const Request& request, int64_t from, const std::string& field,
+                                 std::span<const ControlRow> rows = kControls) {
     if (requests_ >= kMaxControls) {
       throw InvalidArgument(field, "is one more than the limit of " + std::to_string(kMaxControls));
     }
@@ -99,17 +109,27 @@ class ControlTrackOf {
     }
     ++requests_;
     values_ = values;
+    std::vector<ControlChange> changes;
     Request::VisitControls(
-        [from](size_t /*row*/, const auto& control, auto& track) {
-          if (control) track.Set(*control, from);
+        [&](size_t row, const auto& control, auto& track) {
+          if (control) changes.push_back({rows[row].label, track.Set(*control, from)});
         },
         request, tracks_);
+    return changes;
   }
 
   /// The pose before `first_frame` of a dancer without a history: at rest, facing +Z, on the path
-  /// if one covers this frame, or else at the origin. A key on that very frame sets the pose.
+  /// if one covers this frame, or else at the origin. A key on that very frame sets the pose. The
+  /// tracks' Stance say so; one of them must have it.
   Pose Stance(int64_t first_frame, const std::optional<Target>& key_on_it) const {
-    return tracks_.root_path.Stance(model_->skeleton, first_frame, key_on_it);
+    Pose stance;
+    Request::VisitControls(
+        [&](size_t /*row*/, const auto& track) {
+          if constexpr (requires { track.Stance(model_->skeleton, first_frame, key_on_it); })
+            stance = track.Stance(model_->skeleton, first_frame, key_on_it);
+        },
+        tracks_);
+    return stance;
   }
 
   /// Fills in the spec's controls from its first frame, length, history (at least one pose) and
@@ -124,13 +144,33 @@ class ControlTrackOf {
         tracks_);
   }
 
-  /// As the tracks say.
-  std::optional<Warning> BehindEnd(int64_t end) const { return tracks_.root_path.BehindEnd(end); }
-  std::optional<Warning> SpeedsMissed(const QualityReport& report) const {
-    return tracks_.velocity_factors.Missed(report);
+  /// What the tracks warn of when the dance ends before `end`.
+  std::vector<Warning> BehindEnd(int64_t end) const {
+    return Asked([&](const auto& track) -> std::optional<Warning> {
+      if constexpr (requires { track.BehindEnd(end); }) return track.BehindEnd(end);
+      return std::nullopt;
+    });
+  }
+  /// What of the tracks' requests the dance of this report missed.
+  std::vector<Warning> Missed(const QualityReport& report) const {
+    return Asked([&](const auto& track) -> std::optional<Warning> {
+      if constexpr (requires { track.Missed(report); }) return track.Missed(report);
+      return std::nullopt;
+    });
   }
 
  private:
+  // The warnings that `ask` returns of the tracks.
+  std::vector<Warning> Asked(const auto& ask) const {
+    std::vector<Warning> warnings;
+    Request::VisitControls(
+        [&](size_t /*row*/, const auto& track) {
+          if (auto warning = ask(track)) warnings.push_back(std::move(*warning));
+        },
+        tracks_);
+    return warnings;
+  }
+
   const ModelInfo* model_;
   Tracks tracks_;
   size_t requests_ = 0;

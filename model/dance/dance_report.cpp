@@ -57,9 +57,9 @@ void DanceReport::End(int64_t frame, const DancedState& danced) {
 }
 
 void DanceReport::Summarise(int64_t frame, const ControlTrack& controls) {
-  if (const auto warning = controls.BehindEnd(frame)) Post(*warning);
+  for (const Warning& warning : controls.BehindEnd(frame)) Post(warning);
   const QualityReport report = meter_.Report(beats_.reported());
-  if (const auto warning = controls.SpeedsMissed(report)) Post(*warning);
+  for (const Warning& warning : controls.Missed(report)) Post(warning);
   mailbox_.PostLast([report](DanceSink& sink) { sink.OnSummary(report); });
 }
 

@@ -134,18 +134,23 @@ DanceEvents DanceScore::RemoveKey(const std::string& id) {
   return {};
 }
 
+DanceEvents NoteChanges(const std::vector<ControlChange>& changes, int64_t first_frame,
+                        int64_t from, Timeline* timeline) {
+  DanceEvents events;
+  for (const auto& [label, changed] : changes) {
+    timeline->NoteChange(changed.first, changed.last);
+    // What lies before the first frame was danced before the resume: it is not late.
+    if (changed.last < from && changed.last >= first_frame)
+      events.push_back(ControlsTooLate(label, changed.last, from));
+  }
+  return events;
+}
+
 DanceEvents DanceScore::SetControls(const ControlRequest& request) {
   const std::string field = "controls";
   ValidateControls(request, model_, field);
   const int64_t from = timeline_.Frontier(field);
-  controls_.Set(request, from, field);
-  if (request.velocity_factors) timeline_.NoteChange();
-  if (!request.root_path) return {};
-  const int64_t last = request.root_path->frames.back();
-  timeline_.NoteChange(request.root_path->frames.front(), last);
-  // A path that lies before the first frame was danced before the resume: it is not late.
-  if (last < from && last >= first_frame_) return {ControlsTooLate(last, from)};
-  return {};
+  return NoteChanges(controls_.Set(request, from, field), first_frame_, from, &timeline_);
 }
 
 DanceEvents DanceScore::GiveBeats(const std::vector<double>& seconds,

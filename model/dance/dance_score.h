@@ -122,4 +122,9 @@ class DanceScore {
   std::vector<KeyReached> reached_before_;  // the dance resumed, and not yet reported again
 };
 
+/// Has the timeline of a dance from `first_frame` on end transitions where controls change, and
+/// warns of controls that come too late. `from`: the first frame that is not frozen.
+DanceEvents NoteChanges(const std::vector<ControlChange>& changes, int64_t first_frame,
+                        int64_t from, Timeline* timeline);
+
 }  // namespace choreo

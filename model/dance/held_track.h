@@ -31,8 +31,10 @@ class HeldTrack {
         throw InvalidArgument(At(field + ".values", i), "is not finite");
     }
   }
-  void Set(const Request& request, int64_t from) {
+  /// Changes all frames: outside the rows the nearest one holds.
+  ChangedFrames Set(const Request& request, int64_t from) {
     requests_.push_back({from, std::make_shared<Request>(request)});
+    return {};
   }
 
   /// Fills in the curve of the spec's controls.

@@ -25,8 +25,10 @@ class PathTrack {
   static void Validate(const RootPath& path, const ModelInfo& /*model*/, const std::string& field) {
     ValidatePath(path, field);
   }
-  void Set(const RootPath& path, int64_t from) {
+  /// Changes the frames that the path covers.
+  ChangedFrames Set(const RootPath& path, int64_t from) {
     paths_.push_back({from, std::make_shared<PathCurve>(path)});
+    return {path.frames.front(), path.frames.back()};
   }
 
   /// As ControlTrack::Stance.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -13,6 +14,12 @@ template <typename What>
 struct SaidSince {
   int64_t from;
   std::shared_ptr<const What> what;
+};
+
+/// The frames that a control's request may change.
+struct ChangedFrames {
+  int64_t first = 0;
+  int64_t last = std::numeric_limits<int64_t>::max();
 };
 
 /// Where a frame lies among the rows of a control, which ascend: the row at or before it, and how

@@ -227,7 +227,7 @@ TransitionGroup::Impl::Impl(SampleQueue& queue, GroupRequest request,
 }
 
 void TransitionGroup::Impl::Begin() {
-  controls_.Set(request_.controls, first_frame_, "controls");
+  const auto changes = controls_.Set(request_.controls, first_frame_, "controls");
   const int64_t end = first_frame_ + request_.frames;
   Segment segment{first_frame_, end, std::nullopt};
   if (const auto& target = request_.target)
@@ -248,10 +248,11 @@ void TransitionGroup::Impl::Begin() {
        .audio = audio_.get(),
        .song_energy = SongEnergy(request_.music_energies, segment),
        .rows_end = end});
-  if (const auto warning = controls_.BehindEnd(end)) warnings.push_back(*warning);
-  const auto& path = request_.controls.root_path;
-  if (path && path->frames.back() < first_frame_)
-    warnings.push_back(ControlsTooLate(path->frames.back(), first_frame_));
+  for (const Warning& warning : controls_.BehindEnd(end)) warnings.push_back(warning);
+  for (const auto& [label, changed] : changes) {
+    if (changed.last < first_frame_)
+      warnings.push_back(ControlsTooLate(label, changed.last, first_frame_));
+  }
   for (const Warning& warning : request_.Warnings(model_)) Warn(warning);
   for (const Warning& warning : warnings) Warn(warning);
   std::vector<std::shared_ptr<Job>> jobs;
@@ -308,7 +309,7 @@ void TransitionGroup::Impl::Done(CandidateReport report) {
   if (std::ssize(reports_) < request_.candidates) return;
   done.swap(jobs_);
   RankCandidates(reports_, request_.rank_by);
-  if (const auto warning = controls_.SpeedsMissed(reports_.front().quality)) Warn(*warning);
+  for (const Warning& warning : controls_.Missed(reports_.front().quality)) Warn(warning);
   mailbox_.PostLast([ranked = reports_](GroupSink& sink) { sink.OnDone(ranked); });
 }
 

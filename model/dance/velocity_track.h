@@ -23,8 +23,10 @@ class VelocityTrack {
   /// the model lacks.
   static void Validate(const VelocityRequest& request, const ModelInfo& model,
                        const std::string& field);
-  void Set(const VelocityRequest& request, int64_t from) {
+  /// Changes all frames: outside the rows the nearest one holds.
+  ChangedFrames Set(const VelocityRequest& request, int64_t from) {
     requests_.push_back({from, std::make_shared<VelocityRequest>(request)});
+    return {};
   }
 
   /// Fills in the curve of the spec's controls.

@@ -66,10 +66,10 @@ Warning KeyOffPath(const std::string& id, int64_t frame, double metres) {
           Warning::Code::kKeyOffPath, id};
 }
 
-Warning ControlsTooLate(int64_t last_frame, int64_t earliest) {
+Warning ControlsTooLate(std::string_view control, int64_t last_frame, int64_t earliest) {
   return {last_frame,
-          "the root path ends at " + Seconds(last_frame) + ", and all before " + Seconds(earliest) +
-              " is frozen: nothing comes of it",
+          "the " + std::string(control) + " ends at " + Seconds(last_frame) + ", and all before " +
+              Seconds(earliest) + " is frozen: nothing comes of it",
           Warning::Code::kControlsTooLate};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/dance/transition.h"
@@ -25,8 +26,8 @@ Warning KeyOffPath(const std::string& id, int64_t frame, double metres);
 Warning KeyOffHeight(const std::string& id, int64_t frame, double standing, double height);
 /// `fault`: one of PoseFaults (pose_faults.h).
 Warning KeyImpossible(const std::string& id, int64_t frame, const std::string& fault);
-/// `earliest`: the first frame that is not frozen.
-Warning ControlsTooLate(int64_t last_frame, int64_t earliest);
+/// `control`: its label. `earliest`: the first frame that is not frozen.
+Warning ControlsTooLate(std::string_view control, int64_t last_frame, int64_t earliest);
 Warning BeatsTooLate(int64_t frame, int64_t count, int64_t earliest);
 Warning PathBehindEnd(int64_t first_frame, int64_t end);
 /// `seconds`: what could be read of the music. `notes`: at least one (decode.h).

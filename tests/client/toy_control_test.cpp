@@ -11,6 +11,7 @@
 #include "client/cli/asked_controls.h"
 #include "client/cli/authoring_options.h"
 #include "model/dance/control_track.h"
+#include "model/dance/dance_score.h"
 #include "model/flow/window_features.h"
 #include "proto/wire/control_messages.h"
 #include "tests/flow/flow_scene.h"
@@ -109,6 +110,20 @@ TEST_F(ToyControl, GoesFromAProjectToTheNetworkAndTheReport) {
   const auto later = cli::Delayed(known, -10);
   EXPECT_EQ(later.gaze->frames, (std::vector<int64_t>{0, 10}));
   EXPECT_EQ(later.gaze->values, (std::vector<double>{3, 2, 3, 5, 2, 3}));
+}
+
+// As any control does, it ends the transition under way where the frames are no longer frozen.
+TEST_F(ToyControl, TakesEffectInTheMidstOfADance) {
+  Timeline timeline({.granted = 30});
+  ASSERT_TRUE(timeline.Planned());
+  ASSERT_GT(timeline.Planned()->to, 30);
+  ModelInfo model;
+  Track track(model);
+  const int64_t from = timeline.Frontier("controls");
+  const auto changes = track.Set(Read(InProject(kGaze)), from, "controls", toy::kRows);
+  EXPECT_TRUE(NoteChanges(changes, 0, from, &timeline).empty()) << "its last row still holds";
+  timeline.GenerateUntil(60);
+  EXPECT_EQ(timeline.Planned()->stop, 30);
 }
 
 TEST_F(ToyControl, HasAnOption) {

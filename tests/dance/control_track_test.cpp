@@ -104,20 +104,20 @@ TEST_F(ControlTrackTest, NamesPartsThatMissedTheirSpeed) {
   QualityReport report;
   report.measured_from = 10;
   report.frames = 90;
-  EXPECT_FALSE(track_.SpeedsMissed(report)) << "nothing was asked";
+  EXPECT_TRUE(track_.Missed(report).empty()) << "nothing was asked";
   report.part_speeds = {{0.02, 0.01}, {0.02, 0.0222}, {0.01, 0.0118}, {0, 0.002}, {0, 0.0009}};
   VelocityRequest velocity;
   velocity.factors = {1};
   velocity.parts = {"left_arm"};
   track_.Set(Velocity(velocity), 0, "controls");
-  EXPECT_FALSE(track_.SpeedsMissed(report)) << "of the arm alone something was asked";
+  EXPECT_TRUE(track_.Missed(report).empty()) << "of the arm alone something was asked";
   velocity.parts.clear();
   track_.Set(Velocity(velocity), 0, "controls");
-  const auto warning = track_.SpeedsMissed(report);
-  ASSERT_TRUE(warning);
-  EXPECT_EQ(warning->code, Warning::Code::kVelocityNotMet);
-  EXPECT_EQ(warning->frame, 99);
-  EXPECT_EQ(warning->message,
+  const std::vector<Warning> warnings = track_.Missed(report);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].code, Warning::Code::kVelocityNotMet);
+  EXPECT_EQ(warnings[0].frame, 99);
+  EXPECT_EQ(warnings[0].message,
             "parts are not as fast as their velocity factors ask, cm a frame on average: trunk 1 "
             "instead of 2, right_arm 1.18 instead of 1, left_leg 0.2 instead of 0");
 }
@@ -201,16 +201,16 @@ TEST_F(ControlTrackTest, WithoutHistoryStartsOnThePath) {
 }
 
 TEST_F(ControlTrackTest, NamesAPathThatBeginsAfterTheEnd) {
-  EXPECT_FALSE(track_.BehindEnd(60));
+  EXPECT_TRUE(track_.BehindEnd(60).empty());
   track_.Set(PathRequest({100, 200}, {0, 1}), 0, "controls");
-  EXPECT_FALSE(track_.BehindEnd(101));
-  const auto warning = track_.BehindEnd(100);
-  ASSERT_TRUE(warning);
-  EXPECT_EQ(warning->code, Warning::Code::kPathBehindEnd);
-  EXPECT_EQ(warning->message,
+  EXPECT_TRUE(track_.BehindEnd(101).empty());
+  const std::vector<Warning> warnings = track_.BehindEnd(100);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].code, Warning::Code::kPathBehindEnd);
+  EXPECT_EQ(warnings[0].message,
             "the root path begins at 3.33 s, after the last frame at 3.3 s: nothing comes of it");
   track_.Set(PathRequest({0, 200}, {0, 1}), 0, "controls");  // what replaces it is danced
-  EXPECT_FALSE(track_.BehindEnd(100));
+  EXPECT_TRUE(track_.BehindEnd(100).empty());
 }
 
 TEST_F(ControlTrackTest, KeyOverridesThePathWithAWarning) {
