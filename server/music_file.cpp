@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/audio/decode.h"
+#include "model/audio/format.h"
 #include "model/core/error.h"
 #include "server/refusal.h"
 
@@ -48,6 +50,19 @@ void MusicFile::Clear() {
   bytes_ = {};
   budget_.GiveBack(reserved_);
   reserved_ = 0;
+}
+
+DecodedMusic DecodedMusic::Of(std::span<const std::byte> file,
+                              const std::function<void()>& between) {
+  DecodedMusic music;
+  music.mono = DecodeMono(file, between, &music.notes);
+  return music;
+}
+
+double DecodedMusic::seconds() const { return static_cast<double>(mono.size()) / kModelSampleRate; }
+
+MusicAnalysis DecodedMusic::Analyse(const std::vector<double>& beats) const {
+  return beats.empty() ? AnalyseMusic(mono) : AnalyseMusic(mono, beats);
 }
 
 }  // namespace choreo

@@ -2,10 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "model/audio/music_analysis.h"
 
 namespace choreo {
 
@@ -49,6 +53,18 @@ class MusicFile {
   MusicBudget& budget_;
   std::string bytes_;
   int64_t reserved_ = 0;  // from the budget; at least the size of bytes_
+};
+
+/// The music of a whole file.
+struct DecodedMusic {
+  std::vector<float> mono;         ///< at kModelSampleRate
+  std::vector<std::string> notes;  ///< DecodeMono's, about what is damaged
+
+  /// Throws what DecodeMono throws, and what `between` throws.
+  static DecodedMusic Of(std::span<const std::byte> file, const std::function<void()>& between);
+  double seconds() const;
+  /// `beats`: those that the client knows; none: finds them.
+  MusicAnalysis Analyse(const std::vector<double>& beats) const;
 };
 
 }  // namespace choreo

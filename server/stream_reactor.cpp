@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
 #include "model/dance/dance_stream.h"
 #include "proto/wire/continuation_message.h"
@@ -214,14 +213,11 @@ class DanceSession final : public CallSession<DanceResponse, DanceStream>,
   void DecodeFile(DanceStream& stream) {
     if (!SendsFile() || file_decoded_) return;
     file_decoded_ = true;
-    std::vector<std::string> notes;
-    const std::vector<float> mono = DecodeMono(
-        file_.bytes(), [this] { RequireOpen(); }, &notes);
+    const auto music = DecodedMusic::Of(file_.bytes(), [this] { RequireOpen(); });
     file_.Clear();
-    if (!notes.empty())
-      stream.NoteMusicDamaged(notes, static_cast<double>(mono.size()) / kModelSampleRate);
-    stream.SetMusic(music_beats_.empty() ? AnalyseMusic(mono) : AnalyseMusic(mono, music_beats_));
-    stream.PushAudio(mono, 0);
+    if (!music.notes.empty()) stream.NoteMusicDamaged(music.notes, music.seconds());
+    stream.SetMusic(music.Analyse(music_beats_));
+    stream.PushAudio(music.mono, 0);
   }
 
   static void GiveBeats(DanceStream& stream, const v1::MusicBeats& beats) {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "model/audio/decode.h"
 #include "model/audio/music_analysis.h"
 #include "model/dance/transition_group.h"
 #include "proto/wire/continuation_message.h"
 #include "proto/wire/convert.h"
 #include "server/call_session.h"
+#include "server/music_file.h"
 #include "server/read_message.h"
 #include "server/read_request.h"
 #include "server/session_reactor.h"
@@ -103,17 +103,12 @@ class TransitionSession final : public CallSession<v1::GenerateTransitionRespons
   // Adds a file's samples, and beats and passages that the client has not given.
   void AddMusic(const v1::Audio& audio, ValidGroup* request) {
     RequireOpen();
-    std::vector<std::string> notes;
-    std::vector<float> samples = DecodeMono(
-        std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); }, &notes);
-    if (!notes.empty()) {
-      const double seconds = static_cast<double>(samples.size()) / kModelSampleRate;
-      music_damaged_ = MusicDamaged(notes, seconds, queue_->model().fps);
-    }
-    const std::vector<double>& beats = (*request)->music_beats;
-    MusicAnalysis music = beats.empty() ? AnalyseMusic(samples) : AnalyseMusic(samples, beats);
+    auto file = DecodedMusic::Of(std::as_bytes(std::span(audio.data())), [this] { RequireOpen(); });
+    if (!file.notes.empty())
+      music_damaged_ = MusicDamaged(file.notes, file.seconds(), queue_->model().fps);
+    MusicAnalysis music = file.Analyse((*request)->music_beats);
     request->Change([&](GroupRequest& known) {
-      known.samples = std::move(samples);
+      known.samples = std::move(file.mono);
       known.music_beats = std::move(music.beats);
       if (known.music_id == 0) known.music_id = music.id;
       if (known.music_passages.empty()) known.music_passages = std::move(music.passages);
