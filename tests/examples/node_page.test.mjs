@@ -1,9 +1,15 @@
 // client/node/serve and client/node/page: a back end and a page out of the package alone. $CHOREO_SERVER names a choreod, $CHOREOD the program of it.
 import assert from 'node:assert/strict';
 import { EventEmitter, once } from 'node:events';
+import { spawn } from 'node:child_process';
+import { mkdir, mkdtemp, readFile, rm, symlink, writeFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
+import { connect } from 'node:net';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
+import { fileURLToPath } from 'node:url';
 import { clicks, pcm, song, wav } from '../../examples/node/music.js';
 import { connectDance } from '../../client/node/page/index.js';
 import { serveDance } from '../../client/node/serve/index.js';
@@ -224,4 +230,38 @@ test('what cannot be served is said at once', () => {
   assert.throws(() => serveDance(client), /^ChoreoError: begin: undefined is no function/);
   assert.throws(() => serveDance(client, () => silent, { pathh: '/x' }), /^ChoreoError: pathh: no option; did you mean path/);
   client.close();
+});
+
+/** The status that a server answers a path with, of which a browser would make another one. */
+function statusOf(port, path) {
+  return new Promise((resolve, reject) => {
+    const socket = connect(port, '127.0.0.1', () => socket.write(`GET ${path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n`));
+    socket.once('data', (data) => (resolve(Number(/^HTTP\/1.1 (\d+)/.exec(data)[1])), socket.destroy()));
+    socket.once('error', reject);
+  });
+}
+
+test('the back end of docs/web.md answers 404 for what is not there, and shows nothing else', async () => {
+  const root = fileURLToPath(new URL('../../', import.meta.url));
+  const [, program] = /^```js\n([^]*?)^```/m.exec(await readFile(join(root, 'docs/web.md'), 'utf8'));
+  const folder = await mkdtemp(join(tmpdir(), 'choreo-'));
+  let backEnd;
+  try {
+    await mkdir(join(folder, 'node_modules/three/build'), { recursive: true });
+    await writeFile(join(folder, 'node_modules/three/build/three.module.js'), '');
+    await symlink(join(root, 'client/node'), join(folder, 'node_modules/choreo-client'));
+    await writeFile(join(folder, 'package.json'), '{ "type": "module" }');
+    await writeFile(join(folder, 'index.html'), '<p>');
+    const telling = "listen(0, '127.0.0.1', function () { process.send(this.address().port); });";
+    await writeFile(join(folder, 'serve.js'), program.replace("listen(8080, '127.0.0.1');", telling));
+    backEnd = spawn(process.execPath, ['serve.js'], { cwd: folder, stdio: ['ignore', 'inherit', 'inherit', 'ipc'] });
+    const [port] = await once(backEnd, 'message');
+    const paths = ['/three/missing.js', '/hero.glb', '/three/../../serve.js', '/three/build/three.module.js', '/choreo-client/page/index.js', '/?a=b'];
+    const statuses = [];
+    for (const path of paths) statuses.push(await statusOf(port, path).catch((error) => error.message));
+    assert.deepEqual(statuses, [404, 404, 404, 200, 200, 200]);
+  } finally {
+    backEnd?.kill();
+    await rm(folder, { recursive: true });
+  }
 });
