@@ -165,6 +165,42 @@ test('a dance waits for a page that takes nothing', () =>
     { behind: 2 },
   ));
 
+test('the back end hears of its wrong orders, and by default so does its console', async () => {
+  const wrong = {
+    musik: [{ ...silent, musik: [] }, 'musik: no field of an order; did you mean music?'],
+    none: [undefined, 'order: undefined is no {seconds, music, config, keys, speed}'],
+    endless: [{}, 'seconds: undefined is no number above 0'],
+    past: [{ seconds: -3 }, 'seconds: -3 is no number above 0'],
+    still: [{ ...silent, speed: 0 }, 'speed: 0 is no number above 0'],
+    path: [{ ...silent, music: 'song.mp3' }, "music: 'song.mp3' is text; give the file's bytes, as readFile() does"],
+    seed: [{ ...silent, config: { seed: 'abc' } }, "config.seed: 'abc' is no whole number from 0 to 18446744073709551615"],
+  };
+  const begin = ({ searchParams }) => {
+    const name = searchParams.get('wrong');
+    if (name === 'broken') throw new TypeError('ours');
+    if (name === 'stranger') throw Object.assign(new Error('log in first'), { status: 401 });
+    return wrong[name][0];
+  };
+  const heard = [];
+  const ask = async ({ url }) => {
+    for (const [name, [, words]] of Object.entries(wrong)) {
+      const answer = await fetch(`${url}?wrong=${name}`);
+      assert.deepEqual([answer.status, (await answer.text()).trim(), heard.pop()], [400, words, words]);
+    }
+    assert.equal((await fetch(`${url}?wrong=broken`)).status, 500);
+    assert.equal((await fetch(`${url}?wrong=stranger`)).status, 401);
+    assert.deepEqual(heard.splice(0), ['ours']);
+  };
+  await withBackEnd(begin, ask, { onFailed: (error) => heard.push(error.message) });
+  const { error } = console;
+  console.error = (_, failure) => heard.push(failure.message);
+  try {
+    await withBackEnd(begin, ask);
+  } finally {
+    console.error = error;
+  }
+});
+
 test('what a page may not have is refused, with a status', () =>
   withBackEnd(
     ({ searchParams }) => {

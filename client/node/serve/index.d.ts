@@ -30,8 +30,8 @@ export interface ServeOptions {
   behind?: number;
   /** A dance went on at another server. Pages hear no addresses. */
   onResume?: (resumed: Resumed) => void;
-  /** A dance failed; its page has been told. */
-  onFailed?: (error: ChoreoError) => void;
+  /** A dance failed or, by a wrong order, did not begin; its page has been told. By default console.error says so. */
+  onFailed?(error: Error & Partial<Pick<ChoreoError, 'code' | 'violations' | 'retryAfter'>>): void;
 }
 
 export interface DanceHandler {

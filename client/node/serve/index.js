@@ -1,8 +1,8 @@
 // The routes by which pages watch dances and change them. index.d.ts says what each answers.
-import { checked } from '../src/check.js';
 import { invalid } from '../src/error.js';
 import { hint } from '../src/words.js';
 import { editsOf } from './edits.js';
+import { requireOrder } from './order.js';
 import { Refusal, refusalOf } from './refusal.js';
 import { ServedDance } from './served_dance.js';
 
@@ -10,13 +10,14 @@ const mostBytes = 65536; // of what a page may send
 const untilBack = 0.5; // seconds after which a browser asks for the rest
 const silence = 5; // seconds without news after which a page is told that there are none, so that both see a lost connection
 
-const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed: undefined };
+const onFailed = (error) => console.error('serveDance:', error);
+const defaults = { path: '/dance', away: 5, keep: 8 << 20, behind: 10, onResume: undefined, onFailed };
 
 /** index.d.ts explains it. */
 export function serveDance(client, begin, given = {}) {
   for (const name of Object.keys(given)) if (!Object.hasOwn(defaults, name)) throw invalid(name, `no option; ${hint(name, Object.keys(defaults))}`);
   if (typeof begin !== 'function') throw invalid('begin', `${begin} is no function that says what to dance`);
-  const server = new DanceServer(client, begin, { ...defaults, ...given });
+  const server = new DanceServer(client, begin, { ...defaults, ...given, onFailed: given.onFailed ?? onFailed });
   return Object.assign((request, response) => server.answer(request, response), { close: () => server.close() });
 }
 
@@ -45,7 +46,7 @@ class DanceServer {
     try {
       return await this.#route(url, request, response);
     } catch (error) {
-      const { status, message } = refusalOf(error);
+      const { status, message } = this.#told(error, (refusal) => refusal.status >= 500);
       if (response.headersSent) response.destroy();
       else response.writeHead(status, { 'Content-Type': 'text/plain; charset=utf-8' }).end(`${message}\n`);
       return true;
@@ -101,12 +102,22 @@ class DanceServer {
   }
 
   async #start(url, request) {
-    const order = await this.#begin(url, request);
-    // What can be known to be wrong is told before anything is promised.
-    checked('StreamDanceRequest', { config: order.config ?? {} }, 'order');
-    const dance = new ServedDance(this.#client, order, this.#options);
-    this.#dances.set(dance.id, dance);
-    return dance;
+    try {
+      const order = await this.#begin(url, request);
+      requireOrder(order); // what can be known to be wrong is told before anything is promised
+      const dance = new ServedDance(this.#client, order, this.#options);
+      this.#dances.set(dance.id, dance);
+      return dance;
+    } catch (error) {
+      throw this.#told(error, () => true);
+    }
+  }
+
+  /** What a page is told of an error. The back end hears of one that is its own, and `concerns` it. */
+  #told(error, concerns) {
+    const refusal = refusalOf(error);
+    if (refusal !== error && concerns(refusal)) this.#options.onFailed(error);
+    return refusal;
   }
 
   #end(dance) {

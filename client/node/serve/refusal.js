@@ -14,6 +14,5 @@ export function refusalOf(error) {
   if (error.status >= 400 && error.status < 600) return error;
   const status = statuses[error.code];
   if (status === 400 || error instanceof URIError) return new Refusal(400, error.message);
-  if (!status) process.emitWarning(error);
   return new Refusal(status ?? 500, status ? 'no server is free now; try again' : 'this went wrong here');
 }

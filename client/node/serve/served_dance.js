@@ -2,7 +2,6 @@
 import { randomUUID } from 'node:crypto';
 import { EventEmitter, once } from 'node:events';
 import { setTimeout as sleep } from 'node:timers/promises';
-import { invalid } from '../src/error.js';
 import { Refusal } from './refusal.js';
 
 const settled = 0.5; // seconds: what is nearer than this is settled, and on its way to the page
@@ -33,7 +32,6 @@ export class ServedDance {
 
   /** Dances what `order` says: index.d.ts, DanceOrder. */
   constructor(client, order, options) {
-    if (!(order.seconds > 0 && Number.isFinite(order.seconds))) throw invalid('seconds', `${order.seconds} is no number above 0`);
     this.#client = client;
     this.#order = order;
     this.#options = options;
@@ -105,7 +103,7 @@ export class ServedDance {
       if (!signal.aborted) {
         const message = error.code === 'UNAVAILABLE' ? 'no server dances now' : error.message; // that one names servers
         this.#tell('failed', { code: error.code, message, retry_after: error.retryAfter });
-        this.#options.onFailed?.(error);
+        this.#options.onFailed(error);
       }
     } finally {
       this.over = true;
