@@ -3,7 +3,13 @@
 const untilBack = 500; // milliseconds until the rest is asked for
 const silence = 15000; // milliseconds; a back end says something every five seconds
 
-class Refused extends Error {}
+/** What a back end says that refuses: `status` of HTTP and, where there is one, gRPC's `code`. */
+export class Refused extends Error {
+  static async by(response) {
+    const error = new Refused((await response.text()).trim() || `status ${response.status}`);
+    return Object.assign(error, { status: response.status, code: response.headers.get('choreo-code') ?? undefined });
+  }
+}
 
 /**
  * Yields [event, data] of a URL's server-sent events, the rest by the header Last-Event-ID where a connection was lost, of which `onLost(error)`
@@ -27,7 +33,7 @@ export async function* eventsOf(url, { headers, signal, patience, onLost, fetch 
       const again = last === undefined ? {} : { 'Last-Event-ID': last };
       const response = await fetch(url, { headers: { ...headers, ...again }, signal: cut.signal, cache: 'no-store' });
       if (response.status === 204) return;
-      if (!response.ok) throw new Refused((await response.text()).trim() || `status ${response.status}`);
+      if (!response.ok) throw await Refused.by(response);
       for await (const [id, event, data] of linesOf(response.body, wait)) {
         since = undefined;
         last = id;

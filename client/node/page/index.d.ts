@@ -20,6 +20,14 @@ export interface KeyNews {
   refused?: string;
 }
 
+/** Of a back end that refuses, also a key: its HTTP `status`, 401 say. Of that, and of a dance that fails: gRPC's `code`, where there is one. */
+export interface DanceError extends Error {
+  status?: number;
+  code?: string;
+  /** Try again after so many seconds, where that may help. */
+  retryAfter?: number;
+}
+
 export interface ConnectOptions {
   /** Sent with each request: of a login, say. */
   headers?: Record<string, string>;
@@ -33,12 +41,12 @@ export interface ConnectOptions {
   onMoved?: (moved: { frame: number }) => void;
   /** The connection is lost; the rest is asked for. */
   onLost?: (error: Error) => void;
-  /** All has come, or nothing more will, because of `error`. A failed dance's has `code` and `retryAfter`. */
-  onEnd?: (error?: Error & { code?: string; retryAfter?: number }) => void;
+  /** All has come, or nothing more will, because of `error`. */
+  onEnd?: (error?: DanceError) => void;
 }
 
 export interface PageDance {
-  /** Rejects where the dance does not begin. */
+  /** Rejects with a DanceError where the dance does not begin. */
   readonly begun: Promise<DanceHeader>;
   /** No more frames will come. */
   readonly over: boolean;
@@ -57,7 +65,7 @@ export interface PageDance {
   /** The earliest time that a new key can surely have. */
   soon(): number;
   /**
-   * Asks for a key, `soon()` where it says no time, and tells what was asked for. The same id again moves it. Rejects what makes no key; onKey hears
+   * Asks for a key, `soon()` where it says no time, and tells what was asked for. The same id again moves it. Rejects, with a DanceError, what makes no key; onKey hears
    * of one that comes too late.
    */
   setKey<K extends KeyPose & { id?: string; time?: number }>(key: K): Promise<K & { id: string; time: number }>;

@@ -2,7 +2,7 @@
 import { requireOptions } from '../character/given.js';
 import { Player, smplPoses } from '../character/index.js';
 import { Clock } from './clock.js';
-import { eventsOf } from './events.js';
+import { eventsOf, Refused } from './events.js';
 
 const before = 0.7; // seconds of poses that must be there before music goes on
 const soonest = 2; // seconds from asking for a pose to it, at least
@@ -89,7 +89,7 @@ class PageDance {
     const { id } = await this.begun;
     const [place] = this.#url.split(/[?#]/);
     const answer = await fetch(`${place}/${id}${path}`, { method, body, headers: { ...headers, 'Content-Type': 'application/json' } });
-    if (!answer.ok) throw new Error((await answer.text()).trim() || `status ${answer.status}`);
+    if (!answer.ok) throw await Refused.by(answer);
   }
 
   async #listen(begin, fail) {

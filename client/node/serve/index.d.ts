@@ -36,7 +36,8 @@ export interface ServeOptions {
 
 export interface DanceHandler {
   /**
-   * Answers requests below `path`; false, with the response untouched, for all others. It never rejects. A body that a framework has parsed is taken
+   * Answers requests below `path`; false, with the response untouched, for all others. It never rejects: what it refuses has a status, its words as
+   * text, and the header Choreo-Code where gRPC has a code for it. A body that a framework has parsed is taken
    * from request.body. Who may ask is for you to say, before this is called.
    *
    * - `GET /dance`: a new dance, as events; with the header Last-Event-ID the rest of that one, or 204 where it is gone.

@@ -46,9 +46,12 @@ class DanceServer {
     try {
       return await this.#route(url, request, response);
     } catch (error) {
-      const { status, message } = this.#told(error, (refusal) => refusal.status >= 500);
+      const { status, message, code } = this.#told(error, (refusal) => refusal.status >= 500);
       if (response.headersSent) response.destroy();
-      else response.writeHead(status, { 'Content-Type': 'text/plain; charset=utf-8' }).end(`${message}\n`);
+      else {
+        const named = /^[A-Z_]+$/.test(code) ? { 'Choreo-Code': code } : {};
+        response.writeHead(status, { 'Content-Type': 'text/plain; charset=utf-8', ...named }).end(`${message}\n`);
+      }
       return true;
     }
   }

@@ -1,9 +1,10 @@
 // What a page asked for that it does not get, and why, as HTTP has it.
 
 export class Refusal extends Error {
-  constructor(status, message) {
+  constructor(status, message, code) {
     super(message);
     this.status = status;
+    this.code = code; // of gRPC, where there is one
   }
 }
 
@@ -13,6 +14,6 @@ const statuses = { INVALID_ARGUMENT: 400, RESOURCE_EXHAUSTED: 503, UNAVAILABLE: 
 export function refusalOf(error) {
   if (error.status >= 400 && error.status < 600) return error;
   const status = statuses[error.code];
-  if (status === 400 || error instanceof URIError) return new Refusal(400, error.message);
-  return new Refusal(status ?? 500, status ? 'no server is free now; try again' : 'this went wrong here');
+  if (status === 400 || error instanceof URIError) return new Refusal(400, error.message, status && error.code);
+  return new Refusal(status ?? 500, status ? 'no server is free now; try again' : 'this went wrong here', status && error.code);
 }
